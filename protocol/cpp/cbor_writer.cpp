@@ -1,0 +1,106 @@
+// RFC 8949, with the typed arrays of RFC 8746 for all that is long.
+
+#include <bit>
+
+#include "protocol/cpp/writer.hpp"
+
+namespace oval4d::protocol {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "typed arrays are copied as they lie in memory");
+
+constexpr std::uint8_t kUnsigned = 0, kNegative = 1, kBytes = 2, kText = 3;
+constexpr std::uint8_t kUint32Array = 70, kFloat32Array = 85;  // both little endian
+
+}  // namespace
+
+void CborWriter::head(std::uint8_t major, std::uint64_t argument) {
+    buffer_.room(9);
+    char* at = buffer_.at();
+    const int bytes = argument < 24            ? 0
+                      : argument <= 0xFF       ? 1
+                      : argument <= 0xFFFF     ? 2
+                      : argument <= 0xFFFFFFFF ? 4
+                                               : 8;
+    const std::uint64_t info = bytes == 0 ? argument : bytes == 1 ? 24 : bytes == 2 ? 25 : bytes == 4 ? 26 : 27;
+    *at++ = static_cast<char>((std::uint64_t{major} << 5U) | info);
+    for (int i = bytes - 1; i >= 0; --i) *at++ = static_cast<char>(argument >> (8U * static_cast<unsigned>(i)));
+    buffer_.moveTo(at);
+}
+
+void CborWriter::value(double number) {
+    const auto bits = std::bit_cast<std::uint64_t>(number);
+    buffer_.put('\xFB');
+    for (int shift = 56; shift >= 0; shift -= 8) buffer_.put(static_cast<char>(bits >> static_cast<unsigned>(shift)));
+}
+
+void CborWriter::value(std::int64_t number) {
+    if (number < 0) {
+        head(kNegative, ~static_cast<std::uint64_t>(number));
+    } else {
+        head(kUnsigned, static_cast<std::uint64_t>(number));
+    }
+}
+
+void CborWriter::value(std::string_view text) {
+    head(kText, text.size());
+    buffer_.put(text);
+}
+
+void CborWriter::typedArray(std::uint8_t tag, std::size_t bytes) {
+    buffer_.put('\xD8');
+    buffer_.put(static_cast<char>(tag));
+    head(kBytes, bytes);
+    buffer_.room(bytes);
+}
+
+template <typename V>
+void CborWriter::floats(std::span<const V> list) {
+    typedArray(kFloat32Array, list.size() * V::length() * sizeof(float));
+    char* at = buffer_.at();
+    for (const V& v : list) {
+        for (int i = 0; i < V::length(); ++i) {
+            const auto coordinate = static_cast<float>(v[i]);
+            std::memcpy(at, &coordinate, sizeof coordinate);
+            at += sizeof coordinate;
+        }
+    }
+    buffer_.moveTo(at);
+}
+
+void CborWriter::vector(const glm::dvec3& v) {
+    head(4, 3);  // a plain array, as short ones are
+    for (int i = 0; i < 3; ++i) value(v[i]);
+}
+
+void CborWriter::vectors(std::span<const glm::dvec3> list) { floats(list); }
+void CborWriter::vectors(std::span<const glm::dvec4> list) { floats(list); }
+
+void CborWriter::pairs(std::span<const Pair> list) {
+    typedArray(kUint32Array, list.size_bytes());
+    if (!list.empty()) buffer_.put({reinterpret_cast<const char*>(list.data()), list.size_bytes()});
+}
+
+void CborWriter::numbers(std::span<const std::uint32_t> list) {
+    typedArray(kUint32Array, list.size_bytes());
+    if (!list.empty()) buffer_.put({reinterpret_cast<const char*>(list.data()), list.size_bytes()});
+}
+
+void CborWriter::lists(ListsView view) {
+    beginObject();
+    key("begin");
+    typedArray(kUint32Array, view.begin.size_bytes());
+    char* at = buffer_.at();
+    for (const std::uint32_t begin : view.begin) {
+        const std::uint32_t own = begin - view.begin[0];
+        std::memcpy(at, &own, sizeof own);
+        at += sizeof own;
+    }
+    buffer_.moveTo(at);
+    key("corners");
+    numbers(view.items);
+    endObject();
+}
+
+}  // namespace oval4d::protocol

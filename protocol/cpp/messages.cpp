@@ -1,0 +1,186 @@
+// Messages to the client, but for slices.
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/catalogue.hpp"
+#include "protocol/cpp/codec.hpp"
+#include "protocol/cpp/embedded.hpp"
+#include "protocol/cpp/writer.hpp"
+
+namespace oval4d::protocol {
+
+namespace {
+
+void begin(JsonWriter& w, std::string_view type, std::optional<double> id) {
+    w.beginObject();
+    w.member("type", type);
+    if (id) w.member("id", *id);
+}
+
+void writePolytope(JsonWriter& w, const geometry::Polytope& polytope) {
+    w.key("polytope");
+    w.beginObject();
+    w.member("name", std::string_view(polytope.name));
+    w.member("vertices", std::uint64_t{polytope.vertices.size()});
+    w.member("edges", std::uint64_t{polytope.edges.size()});
+    w.member("faces", std::uint64_t{polytope.faces.size()});
+    w.member("cells", std::uint64_t{polytope.cells.size()});
+    w.endObject();
+}
+
+void writeMatrix(JsonWriter& w, const glm::dmat4& matrix) {
+    w.key("orientation");
+    w.beginArray();
+    for (int row = 0; row < 4; ++row) {
+        w.beginArray();
+        for (int column = 0; column < 4; ++column) w.value(matrix[column][row]);
+        w.endArray();
+    }
+    w.endArray();
+}
+
+void writeLast(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
+    w.key("last");
+    if (!turn) return w.null();
+    w.beginObject();
+    w.key("planes");
+    w.beginArray();
+    w.value(geometry::name(turn->plane));
+    if (turn->beta) w.value(geometry::name(geometry::perpendicular(turn->plane)));
+    w.endArray();
+    w.key("angles");
+    w.beginArray();
+    w.value(turn->alpha);
+    if (turn->beta) w.value(*turn->beta);
+    w.endArray();
+    w.endObject();
+}
+
+}  // namespace
+
+std::string stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id) {
+    constexpr std::size_t kUsual = 1024;
+    std::string out;
+    out.reserve(kUsual);
+    {
+        JsonWriter w(out);
+        begin(w, "state", id);
+        w.member("revision", revision);
+        writePolytope(w, *state.polytope);
+        writeMatrix(w, state.orientation.matrix());
+        w.member("alpha", state.alpha);
+        w.member("beta", state.beta);
+        w.member("step", state.step);
+        w.key("slices");
+        w.beginObject();
+        w.member("count", state.slices.count);
+        w.member("spacing", state.slices.spacing);
+        w.member("focus", state.slices.focus);
+        w.endObject();
+        w.member("view", state.look.view == scene::View::single ? "single" : "oval");
+        w.member("turning", state.turning);
+        w.key("shown");
+        w.beginObject();
+        w.member("faces", state.look.parts.faces);
+        w.member("bars", state.look.parts.bars);
+        w.member("balls", state.look.parts.balls);
+        w.member("coordinates", state.look.parts.coordinates);
+        w.endObject();
+        w.key("camera");
+        w.beginObject();
+        w.member("azimuth", state.look.orbit.azimuth);
+        w.member("elevation", state.look.orbit.elevation);
+        w.member("zoom", state.look.orbit.zoom);
+        w.endObject();
+        writeLast(w, state.last);
+        w.endObject();
+    }
+    return out;
+}
+
+std::string errorMessage(const Error& error, std::optional<double> id) {
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "error", id);
+        w.member("code", wireName(error.code));
+        w.member("message", std::string_view(error.message));
+        w.endObject();
+    }
+    return out;
+}
+
+std::string doneMessage(std::optional<double> id, std::uint64_t revision) {
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "done", id);
+        w.member("revision", revision);
+        w.endObject();
+    }
+    return out;
+}
+
+std::string welcomeMessage(std::string_view session, std::string_view token, std::string_view limits,
+                           std::optional<double> id) {
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "welcome", id);
+        w.member("session", session);
+        w.member("token", token);
+        w.member("protocol", 1);
+        w.member("server", "oval4d " OVAL4D_VERSION);
+        w.key("limits");
+        w.json(limits);
+        w.endObject();
+    }
+    return out;
+}
+
+std::string catalogueMessage(std::optional<double> id) {
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "catalogue", id);
+        w.key("polytopes");
+        w.beginArray();
+        for (const geometry::CatalogueEntry& entry : geometry::catalogue()) {
+            w.beginObject();
+            w.member("name", entry.name);
+            w.key("aliases");
+            w.beginArray();
+            for (const std::string_view alias : entry.aliases) w.value(alias);
+            w.endArray();
+            w.member("schlaefli", entry.schlaefli);
+            w.member("vertices", entry.vertices);
+            w.member("edges", entry.edges);
+            w.member("faces", entry.faces);
+            w.member("cells", entry.cells);
+            w.member("symmetry_order", entry.symmetryOrder);
+            w.endObject();
+        }
+        w.endArray();
+        w.endObject();
+    }
+    return out;
+}
+
+std::string keymapMessage(std::optional<double> id) {
+    static const nlohmann::ordered_json table = nlohmann::ordered_json::parse(embedded("keymap.json"));
+    static const std::string groups = table.at("groups").dump();
+    static const std::string keys = table.at("keys").dump();
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "keymap", id);
+        w.key("groups");
+        w.json(groups);
+        w.key("keys");
+        w.json(keys);
+        w.endObject();
+    }
+    return out;
+}
+
+}  // namespace oval4d::protocol

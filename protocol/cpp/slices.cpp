@@ -1,0 +1,207 @@
+// The `slices` message: what a client needs to draw the picture, and nothing to compute.
+
+#include <algorithm>
+
+#include "protocol/cpp/codec.hpp"
+#include "protocol/cpp/writer.hpp"
+
+namespace oval4d::protocol {
+
+namespace {
+
+using geometry::Polytope;
+using geometry::SliceSet;
+using scene::Scene;
+
+template <typename W>
+void writeNumbers(W& w, std::string_view name, std::initializer_list<double> list) {
+    w.key(name);
+    w.beginArray();
+    for (const double number : list) w.value(number);
+    w.endArray();
+}
+
+template <typename W>
+void writeVector(W& w, std::string_view name, const glm::dvec3& v) {
+    w.key(name);
+    w.vector(v);
+}
+
+template <typename W>
+void writeCamera(W& w, const scene::Camera& camera) {
+    w.key("camera");
+    w.beginObject();
+    writeNumbers(w, "eye", {camera.eye.x, camera.eye.y, camera.eye.z});
+    writeNumbers(w, "target", {camera.target.x, camera.target.y, camera.target.z});
+    writeNumbers(w, "up", {camera.up.x, camera.up.y, camera.up.z});
+    w.member("fov", camera.fieldOfView);
+    w.member("near", camera.near);
+    w.member("far", camera.far);
+    writeNumbers(w, "shift", {camera.shiftX, camera.shiftY});
+    w.endObject();
+}
+
+template <typename W>
+void writeColours(W& w, const scene::Style& style, const std::vector<scene::Colour>& cells) {
+    w.key("colors");
+    w.beginObject();
+    w.member("background", style.background);
+    w.member("text", style.text);
+    w.member("focus", style.focusText);
+    w.member("ball", style.ball);
+    w.member("bar", style.bar);
+    w.member("zero", style.zeroLine);
+    w.key("axes");
+    w.beginArray();
+    for (const scene::Colour colour : {style.axisX, style.axisY, style.axisZ, style.axisW}) w.value(colour);
+    w.endArray();
+    w.key("cells");
+    w.numbers(cells);
+    w.endObject();
+}
+
+template <typename W>
+void writeCoordinatesLayout(W& w, const scene::CoordinatesLayout& layout) {
+    w.key("coordinates");
+    w.beginObject();
+    w.member("rows", layout.rows);
+    w.member("per_row", layout.perRow);
+    w.member("left", layout.left);
+    w.member("zero", layout.zero);
+    w.member("row_step", layout.rowStep);
+    w.member("column_step", layout.columnStep);
+    w.member("line_step", layout.lineStep);
+    w.member("line_width", layout.lineWidth);
+    w.member("amplitude", layout.amplitude);
+    w.member("named", layout.named);
+    w.endObject();
+}
+
+template <typename W>
+void writeScene(W& w, const Scene& scene) {
+    const scene::Style& style = scene::style();
+    w.key("scene");
+    w.beginObject();
+    w.member("view", scene.look.view == scene::View::single ? "single" : "oval");
+    w.key("shown");
+    w.beginObject();
+    w.member("faces", scene.look.parts.faces);
+    w.member("bars", scene.look.parts.bars);
+    w.member("balls", scene.look.parts.balls);
+    w.member("coordinates", scene.look.parts.coordinates);
+    w.endObject();
+    w.key("viewport");
+    w.beginObject();
+    w.member("width", scene.viewport.width);
+    w.member("height", scene.viewport.height);
+    w.endObject();
+    writeCamera(w, scene.camera);
+    w.member("scale", scene.scale);
+    w.member("circumradius", scene.circumradius);
+    w.member("ball", scene.ballRadius);
+    w.member("bar", scene.barRadius);
+    w.member("opacity", style.faceOpacity);
+    w.key("light");
+    w.beginObject();
+    writeNumbers(w, "direction", {style.light.x, style.light.y, style.light.z});
+    w.member("ambient", style.ambient);
+    w.member("diffuse", style.diffuse);
+    w.member("specular", style.specular);
+    w.member("shininess", style.shininess);
+    w.endObject();
+    writeColours(w, style, *scene.cellColours);
+    w.key("axes");
+    w.beginObject();
+    w.member("x", scene.axes.x);
+    w.member("y", scene.axes.y);
+    w.member("length", scene.axes.length);
+    w.endObject();
+    writeCoordinatesLayout(w, scene.coordinates);
+    w.member("text", style.textHeight);
+    w.endObject();
+}
+
+template <typename T>
+std::span<const T> part(const std::vector<T>& all, std::uint32_t begin, std::uint32_t end) {
+    return std::span<const T>(all).subspan(begin, end - begin);
+}
+
+// The cell that gives each face its colour, where "of" does not say it: a 2-face in the hyperplane takes the first of
+// its cells.
+template <typename W>
+void writeTints(W& w, const Polytope& polytope, std::span<const std::uint32_t> faceOf) {
+    const auto cells = static_cast<std::uint32_t>(polytope.cellCount());
+    if (std::all_of(faceOf.begin(), faceOf.end(), [cells](std::uint32_t of) { return of < cells; })) return;
+    std::vector<std::uint32_t> tints(faceOf.begin(), faceOf.end());
+    for (std::uint32_t& tint : tints) {
+        if (tint >= cells) tint = polytope.faceCells[tint - cells][0];
+    }
+    w.key("tints");
+    w.numbers(tints);
+}
+
+template <typename W>
+void writeSlice(W& w, const Polytope& polytope, const SliceSet& slices, std::size_t i, const scene::Stand& stand) {
+    const std::uint32_t v0 = slices.vertexBegin[i], v1 = slices.vertexBegin[i + 1];
+    const std::uint32_t e0 = slices.edgeBegin[i], e1 = slices.edgeBegin[i + 1];
+    const std::uint32_t f0 = slices.faceBegin[i], f1 = slices.faceBegin[i + 1];
+    w.beginObject();
+    w.member("index", stand.index);
+    w.member("w", stand.w);
+    writeVector(w, "position", stand.position);
+    w.member("label", std::string_view(stand.label));
+    writeVector(w, "label_at", stand.labelAt);
+    w.member("label_size", stand.labelSize);
+    w.member("focus", stand.focus);
+    w.member("drawn", stand.drawn);
+    w.key("vertices");
+    w.vectors(part(slices.vertices, v0, v1));
+    w.key("edges");
+    w.pairs(part(slices.edges, e0, e1));
+    w.key("faces");
+    w.lists(
+        {part(slices.cornerBegin, f0, f1 + 1), part(slices.corners, slices.cornerBegin[f0], slices.cornerBegin[f1])});
+    w.key("of");
+    w.beginObject();
+    w.key("vertices");
+    w.numbers(part(slices.vertexOf, v0, v1));
+    w.key("edges");
+    w.numbers(part(slices.edgeOf, e0, e1));
+    w.key("faces");
+    w.numbers(part(slices.faceOf, f0, f1));
+    w.endObject();
+    writeTints(w, polytope, part(slices.faceOf, f0, f1));
+    w.endObject();
+}
+
+template <typename W>
+void writeMessage(W&& w, const Polytope& polytope, const SliceSet& slices, const Scene& scene, std::uint64_t revision,
+                  std::optional<double> id) {
+    w.beginObject();
+    w.member("type", "slices");
+    if (id) w.member("id", *id);
+    w.member("revision", revision);
+    writeScene(w, scene);
+    if (scene.look.parts.coordinates) {
+        w.key("coordinates");
+        w.vectors(std::span<const glm::dvec4>(slices.turned));
+    }
+    w.key("slices");
+    w.beginArray();
+    for (std::size_t i = 0; i < scene.stands.size(); ++i) writeSlice(w, polytope, slices, i, scene.stands[i]);
+    w.endArray();
+    w.endObject();
+}
+
+}  // namespace
+
+void slicesMessage(const Polytope& polytope, const SliceSet& slices, const Scene& scene, std::uint64_t revision,
+                   std::optional<double> id, Encoding encoding, std::string& out) {
+    if (encoding == Encoding::cbor) {
+        writeMessage(CborWriter(out), polytope, slices, scene, revision, id);
+    } else {
+        writeMessage(JsonWriter(out), polytope, slices, scene, revision, id);
+    }
+}
+
+}  // namespace oval4d::protocol

@@ -1,0 +1,290 @@
+"""A client of oval4d: talks to a server over a WebSocket, one call a message.
+
+    with connect("http://127.0.0.1:8080/") as oval:
+        oval.hello()
+        oval.set(polytope="24-cell")
+        oval.rotate("xw,yz", 0.39, 1.42)
+        open("24-cell.png", "wb").write(oval.frame(1280, 720))
+
+The messages and their members are specified in ../README.md. Needs python3-websockets (10 or later), and
+python3-cbor2 for slices in CBOR. The socket is served by a thread of its own, so calls may come from any thread, and
+a script that pauses stays connected.
+"""
+
+import array
+import asyncio
+import itertools
+import json
+import struct
+import threading
+import time
+from urllib.parse import urlsplit, urlunsplit
+
+import websockets
+
+try:
+    import cbor2
+except ImportError:
+    cbor2 = None
+
+SUBPROTOCOL = "oval4d.v1"
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+class Refused(Exception):
+    """The server answered with an error; `code` is one of ../errors.json."""
+
+    def __init__(self, code, message):
+        super().__init__(f"{code}: {message}")
+        self.code = code
+        self.message = message
+
+
+class Closed(Exception):
+    """The connection has ended; `code` is a close code, or None where it just broke."""
+
+    def __init__(self, code, reason):
+        super().__init__(f"the connection is closed ({code} {reason})".rstrip())
+        self.code = code
+        self.reason = reason
+
+
+def connect(url="http://127.0.0.1:8080/", session=None, **options):
+    """Opens a connection to the server at `url` (http, https, ws or wss), to a new session or to an earlier one."""
+    return Client(socket_url(url, session), **options)
+
+
+def socket_url(url, session=None):
+    """The WebSocket's address for that of the page: http://host/prefix/?query → ws://host/prefix/ws?query."""
+    parts = urlsplit(url)
+    scheme = {"http": "ws", "https": "wss"}.get(parts.scheme, parts.scheme)
+    path = parts.path.rstrip("/") + "/ws" + (f"/{session}" if session else "")
+    return urlunsplit((scheme, parts.netloc, path, parts.query, ""))
+
+
+class Client:
+    """One connection. `timeout` (seconds) is for every call; `show` says whether pictures that arrive are
+    acknowledged at once, as a client does that presents them."""
+
+    def __init__(self, url, timeout=30, show=True, headers=None):
+        self.timeout = timeout
+        self.show = show
+        self.welcome = None  # the newest message of each kind
+        self.newest_state = None
+        self.newest_slices = None
+        self.newest_frame = None
+        self.errors = []  # errors that answer no call
+        self.closed = None  # (code, reason) once it is over
+        self._ids = itertools.count(1)
+        self._waiting = {}  # id → None, then the answer
+        self._wants_frame = set()  # ids whose answer is the frame before their done
+        self._binary = None
+        self._change = threading.Condition()
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
+        self._thread.start()
+        try:
+            self._socket = self._run(self._open(url, headers))
+        except BaseException:
+            self._stop()
+            raise
+        self._reader = asyncio.run_coroutine_threadsafe(self._read(), self._loop)
+
+    # The messages.
+
+    def hello(self, stream="none", **members):
+        """Opens the conversation: stream "geometry", "frames" or "none"; width, height, encoding, token."""
+        return self.request("hello", stream=stream, **members)
+
+    def key(self, key, shift=False, ctrl=False):
+        return self.request("key", key=key, shift=shift, ctrl=ctrl)
+
+    def rotate(self, planes, *angles):
+        """rotate("xw", 0.1) or rotate("xw,yz", 0.1, 0.2); radians."""
+        return self.request("rotate", planes=planes.split(","), angles=list(angles))
+
+    def set(self, **settings):
+        return self.request("set", **settings)
+
+    def command(self, line):
+        return self.request("command", line=line)
+
+    def load(self, name, data, format="off"):
+        return self.request("load", name=name, data=data, format=format)
+
+    def undo(self):
+        return self.request("undo")
+
+    def redo(self):
+        return self.request("redo")
+
+    def reset(self):
+        return self.request("reset")
+
+    def get(self, what, width=None, height=None):
+        size = {} if width is None else {"width": width, "height": height}
+        return self.request("get", what=what, **size)
+
+    def state(self):
+        return self.get("state")
+
+    def slices(self, width=None, height=None):
+        return self.get("slices", width, height)
+
+    def frame(self, width=None, height=None):
+        """A picture: the bytes of a PNG file."""
+        return self.get("frame", width, height)
+
+    def catalogue(self):
+        return self.get("catalogue")["polytopes"]
+
+    def keymap(self):
+        return self.get("keymap")["keys"]
+
+    def shown(self, revision):
+        """Says that the picture of this revision has been presented."""
+        self.send({"type": "shown", "revision": revision})
+
+    def wait(self, revision, timeout=None):
+        """Waits until the picture of this revision or a later one is here (without a stream: the state)."""
+
+        def here():
+            newest = {"geometry": self.newest_slices, "frames": self.newest_frame and png_state(self.newest_frame)}
+            message = newest.get(self._stream, self.newest_state)
+            return message is not None and message["revision"] >= revision
+
+        self._wait_for(here, timeout, f"revision {revision}")
+        return self.newest_state
+
+    # How they travel.
+
+    def request(self, type, **members):
+        """Sends a message with an id and returns its answer; raises Refused if that is an error."""
+        if type == "hello":
+            self._stream = members.get("stream", "none")
+        number = next(self._ids)
+        with self._change:
+            self._waiting[number] = None
+            if members.get("what") == "frame":
+                self._wants_frame.add(number)
+        try:
+            self.send({"type": type, "id": number, **members})
+            self._wait_for(lambda: self._waiting[number] is not None, None, f"the answer to {type}")
+            answer = self._waiting[number]
+        finally:
+            with self._change:
+                del self._waiting[number]
+                self._wants_frame.discard(number)
+        if isinstance(answer, dict) and answer["type"] == "error":
+            raise Refused(answer["code"], answer["message"])
+        return answer
+
+    def send(self, message):
+        """Sends a message as it is: an object, text, or bytes."""
+        if isinstance(message, dict):
+            message = json.dumps(message)
+        try:
+            self._run(self._socket.send(message))
+        except websockets.ConnectionClosed:
+            self._wait_for(lambda: False, None, "")  # raises Closed, with the code
+
+    def close(self):
+        if self._loop.is_running():
+            self._run(self._socket.close())
+            self._reader.result(self.timeout)
+            self._stop()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    _stream = "none"
+
+    async def _open(self, url, headers):
+        options = {"subprotocols": [SUBPROTOCOL], "max_size": None, "compression": None}
+        version = int(websockets.__version__.split(".")[0])
+        if version >= 15:
+            options["proxy"] = None
+        if headers:
+            options["additional_headers" if version >= 14 else "extra_headers"] = headers
+        return await websockets.connect(url, **options)
+
+    async def _read(self):
+        try:
+            async for message in self._socket:
+                picture = self._receive(message)
+                if picture is not None and self.show:
+                    await self._socket.send(json.dumps({"type": "shown", "revision": picture}))
+        except websockets.ConnectionClosed:
+            pass
+        with self._change:
+            self.closed = (self._socket.close_code, self._socket.close_reason or "")
+            self._change.notify_all()
+
+    def _receive(self, data):
+        """Takes a message in; returns its revision if it is a picture of the stream."""
+        picture = None
+        with self._change:
+            if isinstance(data, bytes) and data.startswith(PNG):
+                self._binary = self.newest_frame = data
+                picture = png_state(data)["revision"]
+                self._change.notify_all()
+                return picture
+            message = json.loads(data) if isinstance(data, str) else from_cbor(data)
+            kind, number = message["type"], message.get("id")
+            if kind == "slices" and number is None:
+                picture = message["revision"]
+            if kind in ("welcome", "state", "slices"):
+                setattr(self, "welcome" if kind == "welcome" else "newest_" + kind, message)
+            if number in self._waiting:
+                framed = kind == "done" and number in self._wants_frame
+                self._waiting[number] = self._binary if framed else message
+            elif kind == "error":
+                self.errors.append(message)
+            self._change.notify_all()
+        return picture
+
+    def _wait_for(self, happened, timeout, what):
+        end = time.monotonic() + (self.timeout if timeout is None else timeout)
+        with self._change:
+            while not happened():
+                if self.closed:
+                    raise Closed(*self.closed)
+                left = end - time.monotonic()
+                if left <= 0:
+                    raise TimeoutError(f"no sign of {what}")
+                self._change.wait(left)
+
+    def _run(self, coroutine):
+        return asyncio.run_coroutine_threadsafe(coroutine, self._loop).result(self.timeout)
+
+    def _stop(self):
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join(self.timeout)
+        self._loop.close()
+
+
+def png_state(png):
+    """The state that a frame carries in its iTXt chunk; as a `set` it brings the picture about again."""
+    at = len(PNG)
+    while at < len(png):
+        size, kind = struct.unpack_from(">I4s", png, at)
+        text = png[at + 8 : at + 8 + size]
+        if kind == b"iTXt" and text.startswith(b"oval4d\0"):
+            return json.loads(text.split(b"\0", 5)[-1])  # keyword, flag, method, language, keyword again: text
+        at += size + 12
+    raise ValueError("not a frame of oval4d: no state inside")
+
+
+def from_cbor(data):
+    """A slices message in CBOR; its typed arrays become array.array of floats or integers."""
+    if cbor2 is None:
+        raise ImportError("slices in CBOR need python3-cbor2")
+
+    def typed(_, tag):
+        kind = {85: "f", 70: "I"}.get(tag.tag)
+        return tag if kind is None else array.array(kind, tag.value)
+
+    return cbor2.loads(data, tag_hook=typed)

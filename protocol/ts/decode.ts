@@ -1,0 +1,94 @@
+// Bytes and text from the server → messages. JSON and CBOR slices come out alike, in flat typed arrays.
+
+import { Decoder } from "cbor-x/decode-no-eval";
+
+import type { Message, Slice, Slices } from "./messages";
+
+const cbor = new Decoder({ mapsAsObjects: true, useRecords: false });
+
+const kPngSignature = [0x89, 0x50, 0x4e, 0x47];
+
+export function isPng(bytes: Uint8Array): boolean {
+    return kPngSignature.every((byte, i) => bytes[i] === byte);
+}
+
+export function decodeText(text: string): Message {
+    return flattened(JSON.parse(text) as Message);
+}
+
+export function decodeCbor(bytes: Uint8Array): Message {
+    return flattened(cbor.decode(bytes) as Message);
+}
+
+/** The text of a PNG file's iTXt chunk with this keyword. */
+export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined {
+    const view = new DataView(png.buffer, png.byteOffset, png.byteLength);
+    const utf8 = new TextDecoder();
+    for (let at = 8; at + 12 <= png.length; ) {
+        const length = view.getUint32(at);
+        const data = png.subarray(at + 8, at + 8 + length);
+        if (utf8.decode(png.subarray(at + 4, at + 8)) === "iTXt") {
+            const nameEnd = data.indexOf(0);
+            if (utf8.decode(data.subarray(0, nameEnd)) === keyword && data[nameEnd + 1] === 0) {
+                const languageEnd = data.indexOf(0, nameEnd + 3);
+                return utf8.decode(data.subarray(data.indexOf(0, languageEnd + 1) + 1));
+            }
+        }
+        at += length + 12;
+    }
+    return undefined;
+}
+
+type Loose<T> = T | number[] | number[][];
+
+/** The same slice as JSON has it: nested arrays. */
+interface LooseSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" | "tints"> {
+    vertices: Loose<Float32Array>;
+    edges: Loose<Uint32Array>;
+    faces: number[][] | { begin: ArrayLike<number>; corners: ArrayLike<number> };
+    of: Record<"vertices" | "edges" | "faces", Loose<Uint32Array>>;
+    tints?: Loose<Uint32Array>;
+}
+
+function flattened(message: Message): Message {
+    if (message.type !== "slices") return message;
+    const loose = message as unknown as Omit<Slices, "slices" | "coordinates"> & {
+        coordinates?: Loose<Float32Array>;
+        slices: LooseSlice[];
+    };
+    const { scene } = loose;
+    return {
+        ...loose,
+        scene: { ...scene, colors: { ...scene.colors, cells: indices(scene.colors.cells) } },
+        coordinates: floats(loose.coordinates ?? []),
+        slices: loose.slices.map(({ tints, ...slice }) => ({
+            ...slice,
+            vertices: floats(slice.vertices),
+            edges: indices(slice.edges),
+            faces: loops(slice.faces),
+            of: {
+                vertices: indices(slice.of.vertices),
+                edges: indices(slice.of.edges),
+                faces: indices(slice.of.faces),
+            },
+            ...(tints && { tints: indices(tints) }),
+        })),
+    };
+}
+
+function floats(values: Loose<Float32Array>): Float32Array {
+    return values instanceof Float32Array ? values : Float32Array.from((values as number[]).flat());
+}
+
+function indices(values: Loose<Uint32Array>): Uint32Array {
+    return values instanceof Uint32Array ? values : Uint32Array.from((values as number[]).flat());
+}
+
+function loops(faces: LooseSlice["faces"]): Slice["faces"] {
+    if (!Array.isArray(faces)) {
+        return { begin: Uint32Array.from(faces.begin), corners: Uint32Array.from(faces.corners) };
+    }
+    const begin = new Uint32Array(faces.length + 1);
+    faces.forEach((face, i) => (begin[i + 1] = begin[i]! + face.length));
+    return { begin, corners: Uint32Array.from(faces.flat()) };
+}

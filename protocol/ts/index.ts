@@ -1,0 +1,18 @@
+// A small client of oval4d for pages and for scripts.
+//
+//     import WebSocket from "ws"; // Node before 22; browsers bring their own
+//     const client = new Client({
+//         url: "http://localhost:8080/",
+//         webSocket: WebSocket,
+//         stream: "geometry",
+//         onSlices: (picture) => { console.log(picture.slices.length); client.shown(picture.revision); },
+//         onStatus: ({ kind }) => kind === "open" && client.request({ type: "key", key: "y" }),
+//     });
+//     client.connect();
+//
+// It needs cbor-x from npm, and a bundler or a runtime that reads TypeScript.
+
+export * from "./messages";
+export { Client, RequestError } from "./client";
+export type { Credentials, Options, Status } from "./client";
+export { pngText } from "./decode";

@@ -1,0 +1,287 @@
+#include "geometry/coxeter.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <unordered_map>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+namespace oval4d::geometry {
+
+namespace {
+
+constexpr double kPhi = std::numbers::phi;
+constexpr int kMirrors = 4;
+using Subset = unsigned;  // of mirrors, one bit each
+
+bool holds(Subset set, int mirror) { return (set >> static_cast<unsigned>(mirror) & 1U) != 0; }
+
+// Linear diagrams whose mirrors are placed by hand, as {p, q, r}.
+struct Placed {
+    std::array<Branch, 3> branches;
+    Mirrors mirrors;
+};
+
+Mirrors normalised(Mirrors mirrors) {
+    for (auto& m : mirrors) m = glm::normalize(m);
+    return mirrors;
+}
+
+const std::array<Placed, 4>& placedFamilies() {
+    static const std::array<Placed, 4> kPlaced = [] {
+        // The simplex of the paper: mirror i swaps its vertices i and i + 1.
+        const double y = 1 / std::sqrt(3.0);
+        const double z = -1 / std::sqrt(6.0);
+        const double w = -1 / std::sqrt(10.0);
+        const std::array<glm::dvec4, 5> simplex{
+            {{-1, -y, z, w}, {1, -y, z, w}, {0, 2 * y, z, w}, {0, 0, std::sqrt(1.5), w}, {0, 0, 0, -4 * w}}};
+        Mirrors a4;
+        for (std::size_t i = 0; i < 4; ++i) a4[i] = simplex[i] - simplex[i + 1];
+        const Branch three{3, 1};
+        const Branch four{4, 1};
+        const Branch five{5, 1};
+        return std::array<Placed, 4>{{
+            {{three, three, three}, normalised(a4)},
+            {{four, three, three}, normalised({{{0, 0, 0, 1}, {0, 0, 1, -1}, {0, 1, -1, 0}, {1, -1, 0, 0}}})},
+            {{three, four, three}, normalised({{{1, -1, -1, -1}, {0, 0, 0, 1}, {0, 0, 1, -1}, {0, 1, -1, 0}}})},
+            {{five, three, three},
+             normalised({{{1, 0, 0, 0}, {-kPhi, 1, -1 / kPhi, 0}, {0, -1, 0, 0}, {0, 1, kPhi, -1 / kPhi}}})},
+        }};
+    }();
+    return kPlaced;
+}
+
+// Normals with the right angles between them, from the Cholesky factor of their Gram matrix.
+Mirrors placedByAngles(const Diagram& diagram) {
+    Mirrors mirrors{};
+    for (int i = 0; i < kMirrors; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            const Branch b = diagram.branches[i][j];
+            double rest = i == j ? 1 : -std::cos(std::numbers::pi * b.denominator / b.numerator);
+            for (int k = 0; k < j; ++k) rest -= mirrors[i][k] * mirrors[j][k];
+            if (i != j) {
+                mirrors[i][j] = rest / mirrors[j][j];
+            } else if (rest > 1e-9) {
+                mirrors[i][i] = std::sqrt(rest);
+            } else {
+                throw std::invalid_argument(
+                    "the mirrors of this diagram do not generate a finite group in four dimensions");
+            }
+        }
+    }
+    return mirrors;
+}
+
+// The point at distance 1 from the ringed mirrors and on the others.
+glm::dvec4 generatingVertex(const Mirrors& mirrors, const std::array<bool, 4>& ringed) {
+    const glm::dmat4 rows = glm::transpose(glm::dmat4(mirrors[0], mirrors[1], mirrors[2], mirrors[3]));
+    glm::dvec4 distances;
+    for (int i = 0; i < kMirrors; ++i) distances[i] = ringed.at(i) ? 1 : 0;
+    return glm::inverse(rows) * distances;
+}
+
+// What each mirror does to the numbered members of an orbit: image[4 · member + mirror].
+using Images = std::vector<std::uint32_t>;
+
+// Points by their place, found again despite rounding: keyed by a grid cell, its neighbours looked at too.
+class PointIndex {
+  public:
+    explicit PointIndex(double grid) : grid_(grid) {}
+
+    // The number of the point, or of the nearest known one within the tolerance.
+    std::pair<std::uint32_t, bool> add(const glm::dvec4& p, std::vector<glm::dvec4>& points) {
+        for (unsigned corner = 0; corner < 16; ++corner) {
+            const auto known = cells_.find(key(p, corner));
+            if (known != cells_.end() && glm::distance(points[known->second], p) < grid_ / 4)
+                return {known->second, false};
+        }
+        const auto number = static_cast<std::uint32_t>(points.size());
+        points.push_back(p);
+        cells_.emplace(key(p, 0xffU), number);
+        return {number, true};
+    }
+
+  private:
+    // With corner = 0xff the cell that holds p; else one of the sixteen that p moved by ± grid / 4 may lie in.
+    std::uint64_t key(const glm::dvec4& p, unsigned corner) const {
+        std::uint64_t hash = 0;
+        for (int i = 0; i < 4; ++i) {
+            const double nudge = corner == 0xffU ? 0 : (corner >> static_cast<unsigned>(i) & 1U) != 0 ? 0.25 : -0.25;
+            const auto cell = static_cast<std::int64_t>(std::floor(p[i] / grid_ + nudge));
+            hash = (hash ^ static_cast<std::uint64_t>(cell)) * 0x9e3779b97f4a7c15ULL;
+            hash ^= hash >> 29U;
+        }
+        return hash;
+    }
+
+    double grid_;
+    std::unordered_map<std::uint64_t, std::uint32_t> cells_;
+};
+
+struct Orbit {
+    std::vector<glm::dvec4> points;
+    Images images;
+};
+
+Orbit orbitOf(const glm::dvec4& seed, const Mirrors& mirrors, std::size_t most) {
+    Orbit orbit;
+    PointIndex index(1e-5 * glm::length(seed));
+    index.add(seed, orbit.points);
+    for (std::size_t i = 0; i < orbit.points.size(); ++i) {
+        for (const auto& mirror : mirrors) {
+            const glm::dvec4 p = orbit.points[i];
+            orbit.images.push_back(index.add(p - 2 * glm::dot(p, mirror) * mirror, orbit.points).first);
+        }
+        if (orbit.points.size() > most)
+            throw std::invalid_argument("the polytope has more than " + std::to_string(most) + " vertices");
+    }
+    return orbit;
+}
+
+// The orbits of sets of elements under the mirrors, each set a list whose order moves along with it.
+class SetOrbit {
+  public:
+    Lists lists;
+    Images images;
+
+    void addOrbit(const std::vector<std::uint32_t>& seed, const Images& memberImages) {
+        add(seed);
+        std::vector<std::uint32_t> moved;
+        for (std::size_t i = images.size() / kMirrors; i < lists.size(); ++i) {
+            for (std::size_t mirror = 0; mirror < kMirrors; ++mirror) {
+                moved.assign(lists[i].begin(), lists[i].end());
+                for (auto& member : moved) member = memberImages[kMirrors * member + mirror];
+                images.push_back(add(moved));
+            }
+        }
+    }
+
+  private:
+    std::uint32_t add(const std::vector<std::uint32_t>& list) {
+        std::vector<std::uint32_t> sorted(list);
+        std::sort(sorted.begin(), sorted.end());
+        std::uint64_t hash = sorted.size();
+        for (const auto member : sorted) hash = (hash ^ member) * 0x100000001b3ULL ^ hash >> 31U;
+        auto& bucket = known_[hash];
+        std::vector<std::uint32_t> other;
+        for (const auto number : bucket) {
+            other.assign(lists[number].begin(), lists[number].end());
+            std::sort(other.begin(), other.end());
+            if (other == sorted) return number;
+        }
+        bucket.push_back(static_cast<std::uint32_t>(lists.size()));
+        lists.add(list);
+        return bucket.back();
+    }
+
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> known_;
+};
+
+// Every connected part of the set holds a ring: only then do its mirrors sweep out an element of full dimension.
+bool spansAnElement(const Diagram& diagram, Subset set) {
+    Subset reached = 0;
+    for (int i = 0; i < kMirrors; ++i) {
+        if (holds(set, i) && diagram.ringed.at(i)) reached |= 1U << static_cast<unsigned>(i);
+    }
+    for (int sweep = 0; sweep < kMirrors; ++sweep) {
+        for (int i = 0; i < kMirrors; ++i) {
+            for (int j = 0; j < kMirrors; ++j) {
+                if (i != j && holds(reached, i) && holds(set, j) && diagram.branches[i][j] != Branch{}) {
+                    reached |= 1U << static_cast<unsigned>(j);
+                }
+            }
+        }
+    }
+    return reached == set;
+}
+
+// The loop of the polygon that mirrors a and b sweep out from the generating vertex p: p, a·p, then both turned on and
+// on by the rotation ab.
+std::vector<std::uint32_t> polygon(const Images& images, std::uint32_t a, std::uint32_t b) {
+    const auto image = [&](std::uint32_t vertex, std::uint32_t mirror) { return images[kMirrors * vertex + mirror]; };
+    if (image(0, a) == 0) std::swap(a, b);
+    const std::uint32_t beside = image(0, a);
+    const bool bothRinged = image(0, b) != 0;
+    std::vector<std::uint32_t> loop;
+    std::uint32_t first = 0;
+    std::uint32_t second = beside;
+    do {
+        loop.push_back(first);
+        if (bothRinged) loop.push_back(second);
+        first = image(image(first, b), a);
+        second = image(image(second, b), a);
+    } while (first != 0);
+    return loop;
+}
+
+// The 2-faces of the cell that the mirrors of `set` sweep out, from those of its 2-faces at the generating vertex.
+std::vector<std::uint32_t> cellFaces(Subset set, const std::vector<std::uint32_t>& seeds, const Images& faceImages) {
+    std::vector<std::uint32_t> faces(seeds);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        for (int mirror = 0; mirror < kMirrors; ++mirror) {
+            if (!holds(set, mirror)) continue;
+            const auto image = faceImages[kMirrors * faces[i] + mirror];
+            if (std::find(faces.begin(), faces.end(), image) == faces.end()) faces.push_back(image);
+        }
+    }
+    return faces;
+}
+
+}  // namespace
+
+Diagram Diagram::linear(Branch p, Branch q, Branch r, std::array<bool, 4> ringed) {
+    Diagram diagram;
+    diagram.ringed = ringed;
+    const auto join = [&](int i, Branch b) { diagram.branches[i][i + 1] = diagram.branches[i + 1][i] = b; };
+    join(0, p);
+    join(1, q);
+    join(2, r);
+    return diagram;
+}
+
+Mirrors mirrorsOf(const Diagram& diagram) {
+    for (const auto& family : placedFamilies()) {
+        const auto& [p, q, r] = family.branches;
+        if (Diagram::linear(p, q, r, diagram.ringed).branches == diagram.branches) return family.mirrors;
+        if (Diagram::linear(r, q, p, diagram.ringed).branches == diagram.branches) {
+            Mirrors reversed = family.mirrors;
+            std::reverse(reversed.begin(), reversed.end());
+            return reversed;
+        }
+    }
+    return placedByAngles(diagram);
+}
+
+Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirrors, std::size_t maxVertices) {
+    if (!spansAnElement(diagram, 0xfU)) throw std::invalid_argument("every part of the diagram needs a ring");
+    Orbit vertices = orbitOf(generatingVertex(mirrors, diagram.ringed), mirrors, maxVertices);
+    SetOrbit faces;
+    std::array<std::uint32_t, 16> faceOf{};  // by pair of mirrors: its 2-face at the generating vertex
+    for (unsigned a = 0; a < kMirrors; ++a) {
+        for (unsigned b = a + 1; b < kMirrors; ++b) {
+            const Subset pair = 1U << a | 1U << b;
+            if (!spansAnElement(diagram, pair)) continue;
+            faceOf.at(pair) = static_cast<std::uint32_t>(faces.lists.size());
+            faces.addOrbit(polygon(vertices.images, a, b), vertices.images);
+        }
+    }
+    SetOrbit cells;
+    for (int left = 0; left < kMirrors; ++left) {
+        const Subset three = 0xfU & ~(1U << static_cast<unsigned>(left));
+        if (!spansAnElement(diagram, three)) continue;
+        std::vector<std::uint32_t> seeds;
+        for (Subset pair = 3; pair < 16; ++pair) {
+            if ((pair & ~three) == 0 && std::popcount(pair) == 2 && spansAnElement(diagram, pair))
+                seeds.push_back(faceOf.at(pair));
+        }
+        cells.addOrbit(cellFaces(three, seeds, faces.images), faces.images);
+    }
+    return makePolytope(std::move(name), std::move(vertices.points), std::move(faces.lists), std::move(cells.lists));
+}
+
+}  // namespace oval4d::geometry

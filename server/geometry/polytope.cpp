@@ -1,0 +1,254 @@
+#include "geometry/polytope.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+namespace oval4d::geometry {
+
+void Lists::add(std::span<const std::uint32_t> list) {
+    items.insert(items.end(), list.begin(), list.end());
+    begin.push_back(static_cast<std::uint32_t>(items.size()));
+}
+
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffU;
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+void findEdges(Polytope& p) {
+    std::unordered_map<std::uint64_t, std::uint32_t> known;
+    known.reserve(p.faces.items.size());
+    for (std::size_t f = 0; f < p.faces.size(); ++f) {
+        const auto loop = p.faces[f];
+        std::vector<std::uint32_t> edges;
+        edges.reserve(loop.size());
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const auto [a, b] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
+            if (a == b) refuse("2-face " + std::to_string(f) + " repeats vertex " + std::to_string(a));
+            const auto [at, fresh] =
+                known.try_emplace((std::uint64_t{a} << 32) | b, static_cast<std::uint32_t>(p.edges.size()));
+            if (fresh) p.edges.push_back({a, b});
+            edges.push_back(at->second);
+        }
+        p.faceEdges.add(edges);
+    }
+}
+
+// +1 where the loop of the face runs along edge i from its smaller to its larger vertex.
+int directionOf(const Polytope& p, std::uint32_t face, std::size_t i) {
+    return p.edges[p.faceEdges[face][i]][0] == p.faces[face][i] ? 1 : -1;
+}
+
+// Gives every (cell, 2-face) a sign so that the loops of a cell, each times its sign, pass every edge of the cell
+// once each way, and the two cells of a 2-face have opposite signs: a coherent orientation of the whole surface.
+class Orienter {
+  public:
+    explicit Orienter(Polytope& p) : p_(p), slotsOfFace_(p.faces.size(), {kNone, kNone}), done_(p.cells.size()) {
+        p_.cellSigns.assign(p_.cells.items.size(), 0);
+        cellOfSlot_.resize(p_.cells.items.size());
+        for (std::uint32_t c = 0; c < p_.cells.size(); ++c) {
+            for (std::uint32_t slot = p_.cells.begin[c]; slot < p_.cells.begin[c + 1]; ++slot) note(c, slot);
+        }
+        for (std::size_t f = 0; f < slotsOfFace_.size(); ++f) {
+            if (slotsOfFace_[f][1] == kNone) refuse("2-face " + std::to_string(f) + " does not lie in two cells");
+            p_.faceCells.push_back({cellOfSlot_[slotsOfFace_[f][0]], cellOfSlot_[slotsOfFace_[f][1]]});
+        }
+        for (std::uint32_t slot = 0; slot < p_.cellSigns.size(); ++slot) {
+            if (p_.cellSigns[slot] == 0) orientPart(slot);
+        }
+    }
+
+  private:
+    // An edge of a 2-face of the cell at hand, and which way the 2-face's loop runs along it.
+    struct Side {
+        std::uint32_t edge, slot;
+        int direction;
+    };
+
+    void note(std::uint32_t cell, std::uint32_t slot) {
+        cellOfSlot_[slot] = cell;
+        const std::uint32_t face = p_.cells.items[slot];
+        auto& slots = slotsOfFace_[face];
+        if (slots[1] != kNone) refuse("2-face " + std::to_string(face) + " lies in more than two cells");
+        slots[slots[0] == kNone ? 0 : 1] = slot;
+    }
+
+    // One connected part of the surface. The outward orientation is the one of negative signed hypervolume: with it
+    // the sections that the slicer links up come out counter-clockwise.
+    void orientPart(std::uint32_t first) {
+        std::vector<std::uint32_t> cells;
+        std::vector<std::uint32_t> waiting{first};
+        p_.cellSigns[first] = 1;
+        double hypervolume = 0;
+        while (!waiting.empty()) {
+            const std::uint32_t slot = waiting.back();
+            waiting.pop_back();
+            const std::uint32_t cell = cellOfSlot_[slot];
+            if (orientCell(cell)) {
+                cells.push_back(cell);
+                hypervolume += coneOver(cell);
+            }
+            for (std::uint32_t s = p_.cells.begin[cell]; s < p_.cells.begin[cell + 1]; ++s) {
+                const auto& pair = slotsOfFace_[p_.cells.items[s]];
+                const std::uint32_t other = pair[0] == s ? pair[1] : pair[0];
+                if (p_.cellSigns[other] == 0) {
+                    p_.cellSigns[other] = static_cast<std::int8_t>(-p_.cellSigns[s]);
+                    waiting.push_back(other);
+                } else if (p_.cellSigns[other] == p_.cellSigns[s]) {
+                    refuse("the surface cannot be oriented at 2-face " + std::to_string(p_.cells.items[s]));
+                }
+            }
+        }
+        if (hypervolume < 0) return;
+        for (const std::uint32_t cell : cells) {
+            for (std::uint32_t s = p_.cells.begin[cell]; s < p_.cells.begin[cell + 1]; ++s) {
+                p_.cellSigns[s] = static_cast<std::int8_t>(-p_.cellSigns[s]);
+            }
+        }
+    }
+
+    // Spreads the sign of one 2-face over its cell; false where the cell had been done already.
+    bool orientCell(std::uint32_t cell) {
+        if (done_[cell]) return false;
+        done_[cell] = true;
+        const std::uint32_t begin = p_.cells.begin[cell];
+        const std::uint32_t end = p_.cells.begin[cell + 1];
+        const auto signs = std::span(p_.cellSigns).subspan(begin, end - begin);
+        std::vector<Side> sides;
+        for (std::uint32_t slot = begin; slot < end; ++slot) {
+            const std::uint32_t face = p_.cells.items[slot];
+            for (std::size_t i = 0; i < p_.faces[face].size(); ++i) {
+                sides.push_back({p_.faceEdges[face][i], slot, directionOf(p_, face, i)});
+            }
+        }
+        std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.edge < b.edge; });
+        for (std::size_t i = 0; i < sides.size(); i += 2) {
+            if (i + 1 == sides.size() || sides[i].edge != sides[i + 1].edge ||
+                (i + 2 < sides.size() && sides[i + 2].edge == sides[i].edge)) {
+                refuse("cell " + std::to_string(cell) +
+                       " is not closed: an edge of it does not lie in two of its 2-faces");
+            }
+        }
+        spreadSigns(sides, begin, end);
+        if (std::count(signs.begin(), signs.end(), 0) != 0) {
+            refuse("cell " + std::to_string(cell) + " falls apart into pieces");
+        }
+        for (std::size_t i = 0; i < sides.size(); i += 2) {
+            if (p_.cellSigns[sides[i].slot] * sides[i].direction +
+                    p_.cellSigns[sides[i + 1].slot] * sides[i + 1].direction !=
+                0) {
+                refuse("cell " + std::to_string(cell) + " cannot be oriented");
+            }
+        }
+        return true;
+    }
+
+    // Gives every 2-face of the cell that can be reached from one with a sign, from neighbour to neighbour, its own.
+    // Sides 2i and 2i + 1 are the two of one edge.
+    void spreadSigns(const std::vector<Side>& sides, std::uint32_t begin, std::uint32_t end) {
+        auto& signs = p_.cellSigns;
+        std::vector<std::vector<std::size_t>> sidesOf(end - begin);
+        for (std::size_t i = 0; i < sides.size(); ++i) sidesOf[sides[i].slot - begin].push_back(i);
+        std::vector<std::uint32_t> waiting;
+        for (std::uint32_t slot = begin; slot < end; ++slot) {
+            if (signs[slot] != 0) waiting.push_back(slot);
+        }
+        while (!waiting.empty()) {
+            const std::uint32_t slot = waiting.back();
+            waiting.pop_back();
+            for (const std::size_t i : sidesOf[slot - begin]) {
+                const Side& other = sides[i ^ 1U];
+                if (signs[other.slot] != 0) continue;
+                signs[other.slot] = static_cast<std::int8_t>(-signs[slot] * sides[i].direction * other.direction);
+                waiting.push_back(other.slot);
+            }
+        }
+    }
+
+    // 24 times the signed hypervolume of the cone from the origin over the cell, by fans of simplices.
+    double coneOver(std::uint32_t cell) const {
+        double sum = 0;
+        const glm::dvec4 apex = p_.vertices[p_.faces[p_.cells[cell][0]][0]];
+        for (std::uint32_t slot = p_.cells.begin[cell]; slot < p_.cells.begin[cell + 1]; ++slot) {
+            const auto loop = p_.faces[p_.cells.items[slot]];
+            for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+                sum +=
+                    p_.cellSigns[slot] * glm::determinant(glm::dmat4(apex, p_.vertices[loop[0]], p_.vertices[loop[i]],
+                                                                     p_.vertices[loop[i + 1]]));
+            }
+        }
+        return sum;
+    }
+
+    Polytope& p_;
+    std::vector<std::array<std::uint32_t, 2>> slotsOfFace_;
+    std::vector<std::uint32_t> cellOfSlot_;
+    std::vector<bool> done_;
+};
+
+// A loop is convex where it turns the same way at every corner and once around in all.
+bool isConvex(const Polytope& p, std::span<const std::uint32_t> loop) {
+    if (loop.size() == 3) return true;
+    const std::size_t n = loop.size();
+    const auto side = [&](std::size_t i) { return p.vertices[loop[(i + 1) % n]] - p.vertices[loop[i % n]]; };
+    double turning = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const glm::dvec4 a = side(i);
+        const glm::dvec4 b = side(i + 1);
+        const double inner = glm::dot(a, b);
+        turning += std::acos(std::clamp(inner / (glm::length(a) * glm::length(b)), -1.0, 1.0));
+    }
+    // Exterior angles, each counted as positive, add up to 2π for convex loops only.
+    return turning < 2 * std::numbers::pi + 1e-6;
+}
+
+void checkIndices(const Lists& lists, std::size_t below, const char* owner, const char* member, std::size_t least) {
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+        if (lists[i].size() < least) {
+            refuse(std::string(owner) + ' ' + std::to_string(i) + " has fewer than " + std::to_string(least) + ' ' +
+                   member);
+        }
+        for (const std::uint32_t item : lists[i]) {
+            if (item >= below) {
+                refuse(std::string(owner) + ' ' + std::to_string(i) + " names " + member + " number " +
+                       std::to_string(item) + ", but there are only " + std::to_string(below));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists faces, Lists cells) {
+    static std::atomic<std::uint64_t> serial{0};
+    Polytope p;
+    p.serial = ++serial;
+    p.name = std::move(name);
+    p.vertices = std::move(vertices);
+    p.faces = std::move(faces);
+    p.cells = std::move(cells);
+    if (p.cells.size() == 0) refuse("there are no cells");
+    for (const auto& v : p.vertices) {
+        const double r = glm::length(v);
+        if (!std::isfinite(r)) refuse("a vertex is not finite");
+        p.circumradius = std::max(p.circumradius, r);
+    }
+    if (!(p.circumradius > 0)) refuse("all vertices are at the origin");
+    checkIndices(p.faces, p.vertices.size(), "2-face", "vertices", 3);
+    checkIndices(p.cells, p.faces.size(), "cell", "2-faces", 4);
+    findEdges(p);
+    for (std::size_t f = 0; f < p.faces.size() && p.convexFaces; ++f) p.convexFaces = isConvex(p, p.faces[f]);
+    Orienter orient(p);
+    return p;
+}
+
+}  // namespace oval4d::geometry

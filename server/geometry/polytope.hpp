@@ -1,0 +1,52 @@
+#pragma once
+// A 4-D polytope with all its elements and their incidences.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+namespace oval4d::geometry {
+
+/// Lists of varying length, one after the other: list i is items[begin[i]] … items[begin[i + 1] - 1].
+struct Lists {
+    std::vector<std::uint32_t> begin{0};
+    std::vector<std::uint32_t> items;
+
+    std::size_t size() const { return begin.size() - 1; }
+    std::span<const std::uint32_t> operator[](std::size_t i) const {
+        return {items.data() + begin[i], begin[i + 1] - begin[i]};
+    }
+    void add(std::span<const std::uint32_t> list);
+    bool operator==(const Lists&) const = default;
+};
+
+/// Vertices, edges, 2-faces and cells, immutable once built. Indices are 0-based and 32 bits wide.
+struct Polytope {
+    std::string name;
+    std::vector<glm::dvec4> vertices;                     ///< centred at the origin
+    std::vector<std::array<std::uint32_t, 2>> edges;      ///< pairs of vertices
+    Lists faces;                                          ///< each 2-face as a loop of vertices
+    Lists faceEdges;                                      ///< edge i of a 2-face joins its vertices i and i + 1
+    Lists cells;                                          ///< each cell as its 2-faces
+    std::vector<std::int8_t> cellSigns;                   ///< beside cells.items: +1 where the 2-face's loop runs
+                                                          ///< counter-clockwise seen from outside the cell, else −1;
+                                                          ///< a 2-face has opposite signs in its two cells
+    std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face, the smaller number first
+    std::uint64_t serial = 0;                             ///< no two built in one process share it: what caches go by
+    bool convexFaces = true;                              ///< no 2-face is dented or a star
+    double circumradius = 0;                              ///< the largest distance of a vertex from the origin
+
+    std::size_t cellCount() const { return cells.size(); }
+};
+
+/// Builds edges, incidences and orientation from vertices, 2-faces (vertex loops) and cells (2-faces).
+/// Throws std::invalid_argument, saying what is wrong, unless every cell is a closed orientable surface and
+/// every 2-face lies in exactly two cells.
+Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists faces, Lists cells);
+
+}  // namespace oval4d::geometry

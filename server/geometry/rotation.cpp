@@ -1,0 +1,127 @@
+#include "geometry/rotation.hpp"
+
+#include <cmath>
+
+namespace oval4d::geometry {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> kNames{"xy", "xz", "xw", "yz", "yw", "zw"};
+
+// v = x i + y j + z k + w; GLM keeps quaternions as (w, x, y, z).
+glm::dquat asQuaternion(const glm::dvec4& v) { return {v.w, v.x, v.y, v.z}; }
+glm::dvec4 asVector(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
+
+// The imaginary unit that spans the two planes of a pair: i for yz·xw, j for xz·yw, k for xy·zw.
+glm::dquat exponential(Plane plane, double angle) {
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    switch (plane) {
+        case Plane::xw:
+        case Plane::yz:
+            return {c, s, 0, 0};
+        case Plane::xz:
+        case Plane::yw:
+            return {c, 0, s, 0};
+        case Plane::xy:
+        case Plane::zw:
+            break;
+    }
+    return {c, 0, 0, s};
+}
+
+bool holdsW(Plane plane) { return plane == Plane::xw || plane == Plane::yw || plane == Plane::zw; }
+
+}  // namespace
+
+std::string_view name(Plane plane) { return kNames[static_cast<std::size_t>(plane)]; }
+
+std::optional<Plane> planeNamed(std::string_view text) {
+    for (const Plane plane : kPlanes) {
+        if (name(plane) == text) return plane;
+    }
+    return std::nullopt;
+}
+
+Turn Turn::inverse() const { return scaled(-1); }
+
+Turn Turn::scaled(double factor) const {
+    Turn result{plane, alpha * factor, std::nullopt};
+    if (beta) result.beta = *beta * factor;
+    return result;
+}
+
+Rotation::Rotation(const glm::dquat& left, const glm::dquat& right)
+    : left_(glm::normalize(left)), right_(glm::normalize(right)) {}
+
+// Multiplying by exp(uθ) from the left turns the plane of u's two companions by θ and the plane (w, u) from w
+// toward u by θ; from the right, the first one backwards. So with A the angle in the plane without w (counted i→j,
+// j→k, k→i) and B the angle from u's axis toward w: left angle (A − B) / 2, right angle −(A + B) / 2.
+Rotation::Rotation(const Turn& turn) {
+    double a = turn.alpha;
+    double b = turn.beta.value_or(0);
+    if (holdsW(turn.plane)) std::swap(a, b);
+    const Plane spatial = holdsW(turn.plane) ? perpendicular(turn.plane) : turn.plane;
+    if (spatial == Plane::xz) a = -a;  // R_xz goes x → z, the cycle goes z → x
+    left_ = exponential(spatial, (a - b) / 2);
+    right_ = exponential(spatial, -(a + b) / 2);
+}
+
+Rotation Rotation::inverse() const { return {glm::conjugate(left_), glm::conjugate(right_)}; }
+
+glm::dvec4 Rotation::operator()(const glm::dvec4& v) const { return asVector(left_ * asQuaternion(v) * right_); }
+
+glm::dmat4 Rotation::matrix() const {
+    glm::dmat4 m;
+    for (int axis = 0; axis < 4; ++axis) {
+        glm::dvec4 unit(0);
+        unit[axis] = 1;
+        m[axis] = (*this)(unit);
+    }
+    return m;
+}
+
+// The sixteen maps v ↦ e_i·v·e_j are an orthogonal basis of the 4×4 matrices, each of squared norm 4, and M has the
+// coordinates l_i r_j in it: a rotation's coordinates form a matrix of rank one.
+std::optional<Rotation> Rotation::fromMatrix(const glm::dmat4& matrix, double tolerance) {
+    const std::array<glm::dquat, 4> units{glm::dquat(1, 0, 0, 0), glm::dquat(0, 1, 0, 0), glm::dquat(0, 0, 1, 0),
+                                          glm::dquat(0, 0, 0, 1)};
+    std::array<std::array<double, 4>, 4> product{};
+    std::size_t row = 0;
+    std::size_t column = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = 0; j < 4; ++j) {
+            const glm::dmat4 basis = Rotation(units[i], units[j]).matrix();
+            for (int k = 0; k < 4; ++k) product[i][j] += glm::dot(matrix[k], basis[k]) / 4;
+            if (std::abs(product[i][j]) > std::abs(product[row][column])) {
+                row = i;
+                column = j;
+            }
+        }
+    }
+    const auto quaternion = [](double w, double x, double y, double z) { return glm::dquat(w, x, y, z); };
+    const glm::dquat left = quaternion(product[0][column], product[1][column], product[2][column], product[3][column]);
+    const glm::dquat right = quaternion(product[row][0], product[row][1], product[row][2], product[row][3]);
+    if (!(glm::length(left) > 0.1 && glm::length(right) > 0.1)) return std::nullopt;
+    Rotation result(left, right);
+    // l and r were each known up to a sign; the sign of their product decides.
+    const auto component = [](const glm::dquat& q, std::size_t i) {
+        return std::array<double, 4>{q.w, q.x, q.y, q.z}.at(i);
+    };
+    if (component(result.left_, row) * component(result.right_, column) * product[row][column] < 0) {
+        result.right_ = -result.right_;
+    }
+    const glm::dmat4 made = result.matrix();
+    for (int k = 0; k < 4; ++k) {
+        for (int i = 0; i < 4; ++i) {
+            if (!(std::abs(made[k][i] - matrix[k][i]) <= tolerance)) return std::nullopt;
+        }
+    }
+    return result;
+}
+
+Rotation operator*(const Rotation& second, const Rotation& first) {
+    return {second.left_ * first.left_, first.right_ * second.right_};
+}
+
+}  // namespace oval4d::geometry

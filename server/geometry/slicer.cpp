@@ -1,0 +1,402 @@
+#include "geometry/slicer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+// Everything is cut just above each hyperplane, where no vertex lies in the way, and then let down onto it: a point
+// cut from an edge that starts in the hyperplane falls onto that vertex, a line cut from a 2-face that stands on an
+// edge falls onto that edge, and what shrinks to nothing is left out. So the degenerate positions need no cases of
+// their own, and sections come out as closed loops even where 2-faces are stars.
+
+namespace oval4d::geometry {
+
+namespace {
+
+// Counts one more element in hyperplanes from … to − 1, as differences that `accumulate` sums up.
+void countSpan(std::vector<std::uint32_t>& counts, std::int32_t from, std::int32_t to) {
+    if (to <= from) return;
+    counts[from] += 1;
+    counts[to] -= 1;  // wraps below zero for a while; the sums do not
+}
+
+// Turns the differences into the begin of each slice's range, the total last.
+std::uint32_t accumulate(std::vector<std::uint32_t>& begin) {
+    std::uint32_t total = 0;
+    std::uint32_t here = 0;
+    for (auto& entry : begin) {
+        here += entry;
+        entry = total;
+        total += here;
+    }
+    return begin.back();
+}
+
+}  // namespace
+
+void Slicer::slice(const Polytope& polytope, const Rotation& orientation, const Hyperplanes& planes, SliceSet& out) {
+    out.planes = planes;
+    locateVertices(polytope, orientation, out);
+    cutEdges(polytope, out);
+    cutFaces(polytope, out);
+    cutCells(polytope, out);
+}
+
+void Slicer::locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out) {
+    const auto count = static_cast<double>(out.planes.count);
+    const double inverse = 1 / out.planes.spacing;
+    const double tolerance = kOnPlane * polytope.circumradius * inverse;
+    const glm::dmat4 m = orientation.matrix();
+    const std::size_t n = polytope.vertices.size();
+    out.turned.resize(n);
+    below_.resize(n);
+    upTo_.resize(n);
+    for (std::size_t v = 0; v < n; ++v) {
+        out.turned[v] = m * polytope.vertices[v];
+        const double level = out.turned[v].w * inverse - out.planes.first;
+        below_[v] = static_cast<std::int32_t>(std::clamp(std::ceil(level - tolerance), 0.0, count));
+        upTo_[v] = static_cast<std::int32_t>(std::clamp(std::floor(level + tolerance) + 1, 0.0, count));
+    }
+}
+
+// Slice vertices: the polytope's vertices in the hyperplane, and the crossed edges.
+void Slicer::cutEdges(const Polytope& polytope, SliceSet& out) {
+    const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
+    const auto vertices = static_cast<std::uint32_t>(polytope.vertices.size());
+    out.vertexBegin.assign(out.planes.count + 1, 0);
+    for (std::uint32_t v = 0; v < vertices; ++v) countSpan(out.vertexBegin, below_[v], upTo_[v]);
+    slotBegin_.resize(edges);
+    std::uint32_t slots = 0;
+    for (std::uint32_t e = 0; e < edges; ++e) {
+        const auto [a, b] = polytope.edges[e];
+        slotBegin_[e] = slots;
+        slots += std::abs(below_[a] - below_[b]);
+        countSpan(out.vertexBegin, std::min(upTo_[a], upTo_[b]), std::max(below_[a], below_[b]));
+    }
+    const std::uint32_t total = accumulate(out.vertexBegin);
+    out.vertices.resize(total);
+    out.vertexOf.resize(total);
+    vertexPoint_.resize(vertices);
+    slotPoint_.resize(slots);
+    cursor_.assign(out.vertexBegin.begin(), out.vertexBegin.end());
+
+    for (std::uint32_t v = 0; v < vertices; ++v) {
+        if (below_[v] == upTo_[v]) continue;
+        const std::uint32_t point = cursor_[below_[v]]++;
+        vertexPoint_[v] = point;
+        out.vertices[point] = out.turned[v];
+        out.vertexOf[point] = edges + v;
+    }
+    std::uint32_t* slot = slotPoint_.data();
+    for (std::uint32_t e = 0; e < edges; ++e) {
+        auto [lower, upper] = polytope.edges[e];
+        if (below_[lower] == below_[upper]) continue;
+        if (below_[lower] > below_[upper]) std::swap(lower, upper);
+        std::int32_t k = below_[lower];
+        if (k < upTo_[lower]) {
+            *slot++ = vertexPoint_[lower];
+            ++k;
+        }
+        const glm::dvec4& a = out.turned[lower];
+        const glm::dvec4 along = out.turned[upper] - a;
+        const double perRise = 1 / along.w;
+        for (; k < below_[upper]; ++k) {
+            const std::uint32_t point = cursor_[k]++;
+            *slot++ = point;
+            out.vertices[point] = glm::dvec3(a) + (out.planes.w(k) - a.w) * perRise * glm::dvec3(along);
+            out.vertexOf[point] = e;
+        }
+    }
+}
+
+// Slice edges: the polytope's edges in the hyperplane, and the crossed 2-faces.
+void Slicer::cutFaces(const Polytope& polytope, SliceSet& out) {
+    const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
+    up_.resize(out.planes.count);
+    down_.resize(out.planes.count);
+    faceSpan_.resize(faces);
+    lyingIn_.resize(faces);
+    lineBegin_.resize(faces + 1);
+    lines_.clear();
+    for (std::uint32_t f = 0; f < faces; ++f) {
+        const auto loop = polytope.faces[f];
+        Span above{below_[loop[0]], below_[loop[0]]};
+        std::int32_t leastUpTo = upTo_[loop[0]];
+        std::int32_t mostUpTo = leastUpTo;
+        for (const std::uint32_t v : loop) {
+            above = {std::min(above.from, below_[v]), std::max(above.to, below_[v])};
+            leastUpTo = std::min(leastUpTo, upTo_[v]);
+            mostUpTo = std::max(mostUpTo, upTo_[v]);
+        }
+        faceSpan_[f] = {leastUpTo, above.to};
+        lyingIn_[f] = above.from == above.to && leastUpTo == mostUpTo && leastUpTo > above.to ? above.to : kNoPlane;
+        lineBegin_[f] = static_cast<std::uint32_t>(lines_.size());
+        if (above.from == above.to) continue;
+        if (polytope.convexFaces) {
+            cutConvexFace(polytope, f, above);
+        } else {
+            cutAnyFace(polytope, f, above, out);
+        }
+    }
+    lineBegin_[faces] = static_cast<std::uint32_t>(lines_.size());
+    numberEdges(polytope, out);
+}
+
+// The loop of a convex 2-face goes up through a hyperplane once and comes down once.
+void Slicer::cutConvexFace(const Polytope& polytope, std::uint32_t face, Span above) {
+    const auto loop = polytope.faces[face];
+    const auto loopEdges = polytope.faceEdges[face];
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const std::int32_t from = below_[loop[i]];
+        const std::int32_t to = below_[loop[i + 1 == loop.size() ? 0 : i + 1]];
+        std::uint32_t slot = slotBegin_[loopEdges[i]];
+        if (from < to) {
+            for (std::int32_t k = from; k < to; ++k) up_[k] = slot++;
+        } else {
+            for (std::int32_t k = to; k < from; ++k) down_[k] = slot++;
+        }
+    }
+    for (std::int32_t k = above.from; k < above.to; ++k) addLine(polytope, face, k, up_[k], down_[k]);
+}
+
+// Any other loop crosses several times: along the line in which the hyperplane cuts the 2-face's plane, the i-th way
+// up belongs to the i-th way down. Where pieces overlap the 2-face covers the line more than once.
+void Slicer::cutAnyFace(const Polytope& polytope, std::uint32_t face, Span above, const SliceSet& out) {
+    const auto loop = polytope.faces[face];
+    const auto loopEdges = polytope.faceEdges[face];
+    for (std::int32_t k = above.from; k < above.to; ++k) {
+        ups_.clear();
+        downs_.clear();
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const std::int32_t from = below_[loop[i]];
+            const std::int32_t to = below_[loop[i + 1 == loop.size() ? 0 : i + 1]];
+            if (std::min(from, to) > k || std::max(from, to) <= k) continue;
+            (from < to ? ups_ : downs_).push_back({slotBegin_[loopEdges[i]] + k - std::min(from, to), 0});
+        }
+        const glm::dvec3 origin = out.vertices[slotPoint_[ups_[0].slot]];
+        glm::dvec3 direction(0);
+        for (const auto* crossings : {&ups_, &downs_}) {
+            for (const Crossing& c : *crossings) {
+                const glm::dvec3 d = out.vertices[slotPoint_[c.slot]] - origin;
+                if (glm::dot(d, d) > glm::dot(direction, direction)) direction = d;
+            }
+        }
+        for (auto* crossings : {&ups_, &downs_}) {
+            for (Crossing& c : *crossings) c.along = glm::dot(out.vertices[slotPoint_[c.slot]] - origin, direction);
+            std::sort(crossings->begin(), crossings->end(),
+                      [](const Crossing& a, const Crossing& b) { return a.along < b.along; });
+        }
+        for (std::size_t i = 0; i < ups_.size(); ++i) addLine(polytope, face, k, ups_[i].slot, downs_[i].slot);
+    }
+}
+
+void Slicer::addLine(const Polytope& polytope, std::uint32_t face, std::int32_t plane, std::uint32_t up,
+                     std::uint32_t down) {
+    std::uint32_t edge = kFresh;
+    const std::uint32_t a = slotPoint_[up];
+    const std::uint32_t b = slotPoint_[down];
+    if (a == b) {
+        edge = kNone;
+    } else if (plane < faceSpan_[face].from) {
+        // The 2-face only stands in this hyperplane: both points are vertices of it, and its edge between them lies
+        // there.
+        for (const std::uint32_t e : polytope.faceEdges[face]) {
+            const auto [v, u] = polytope.edges[e];
+            if (!liesInOne({v, u}) || below_[v] != plane) continue;
+            if (std::minmax(vertexPoint_[v], vertexPoint_[u]) == std::minmax(a, b)) edge = e;
+        }
+    }
+    lines_.push_back({plane, up, down, edge});
+}
+
+void Slicer::numberEdges(const Polytope& polytope, SliceSet& out) {
+    const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
+    const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
+    out.edgeBegin.assign(out.planes.count + 1, 0);
+    for (const auto& edge : polytope.edges) {
+        if (liesInOne(edge)) countSpan(out.edgeBegin, below_[edge[0]], below_[edge[0]] + 1);
+    }
+    for (const Line& line : lines_) {
+        if (line.edge == kFresh) countSpan(out.edgeBegin, line.plane, line.plane + 1);
+    }
+    const std::uint32_t total = accumulate(out.edgeBegin);
+    out.edges.resize(total);
+    out.edgeOf.resize(total);
+    edgeLine_.resize(edges);
+    cursor_.assign(out.edgeBegin.begin(), out.edgeBegin.end());
+    const auto add = [&](std::int32_t plane, std::uint32_t a, std::uint32_t b, std::uint32_t of) {
+        const std::uint32_t number = cursor_[plane]++;
+        out.edges[number] = {a - out.vertexBegin[plane], b - out.vertexBegin[plane]};
+        out.edgeOf[number] = of;
+        return number;
+    };
+    for (std::uint32_t e = 0; e < edges; ++e) {
+        const auto [a, b] = polytope.edges[e];
+        if (liesInOne({a, b})) edgeLine_[e] = add(below_[a], vertexPoint_[a], vertexPoint_[b], faces + e);
+    }
+    for (std::uint32_t f = 0; f < faces; ++f) {
+        for (std::uint32_t i = lineBegin_[f]; i < lineBegin_[f + 1]; ++i) {
+            Line& line = lines_[i];
+            if (line.edge == kNone) continue;
+            line.edge = line.edge == kFresh ? add(line.plane, slotPoint_[line.up], slotPoint_[line.down], f)
+                                            : edgeLine_[line.edge];
+        }
+    }
+}
+
+// Slice faces: the 2-faces in the hyperplane, and the crossed cells.
+void Slicer::cutCells(const Polytope& polytope, SliceSet& out) {
+    const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
+    cellSpan_.resize(cells);
+    for (std::uint32_t c = 0; c < cells; ++c) {
+        const auto faces = polytope.cells[c];
+        Span span = faceSpan_[faces[0]];
+        for (const std::uint32_t f : faces) {
+            span = {std::min(span.from, faceSpan_[f].from), std::max(span.to, faceSpan_[f].to)};
+        }
+        cellSpan_[c] = span;
+    }
+    loops_.clear();
+    loopCorners_.clear();
+    next_.assign(slotPoint_.size(), kNone);
+    nextEdge_.resize(slotPoint_.size());
+    addLyingFaces(polytope, out);
+    for (std::uint32_t c = 0; c < cells; ++c) {
+        if (cellSpan_[c].from < cellSpan_[c].to) traceCell(polytope, c);
+    }
+    placeLoops(out);
+}
+
+// Links the lines cut from the cell's 2-faces end to start, each in the direction that the 2-face has in this cell,
+// and walks around.
+void Slicer::traceCell(const Polytope& polytope, std::uint32_t cell) {
+    const Span span = cellSpan_[cell];
+    starts_.clear();
+    for (std::uint32_t at = polytope.cells.begin[cell]; at < polytope.cells.begin[cell + 1]; ++at) {
+        const std::uint32_t f = polytope.cells.items[at];
+        const bool outward = polytope.cellSigns[at] > 0;
+        for (std::uint32_t i = lineBegin_[f]; i < lineBegin_[f + 1]; ++i) {
+            const Line& line = lines_[i];
+            if (line.plane < span.from) continue;
+            const std::uint32_t from = outward ? line.up : line.down;
+            next_[from] = outward ? line.down : line.up;
+            nextEdge_[from] = line.edge;
+            starts_.emplace_back(line.plane, from);
+        }
+    }
+    for (const auto& [plane, start] : starts_) {
+        if (next_[start] == kNone) continue;
+        Loop loop{plane, cell, static_cast<std::uint32_t>(loopCorners_.size()), 0};
+        for (std::uint32_t slot = start; next_[slot] != kNone;) {
+            if (nextEdge_[slot] != kNone) loopCorners_.push_back({slotPoint_[slot], nextEdge_[slot]});
+            slot = std::exchange(next_[slot], kNone);
+        }
+        loop.size = static_cast<std::uint32_t>(loopCorners_.size()) - loop.begin;
+        if (loop.size >= 3) {
+            loops_.push_back(loop);
+        } else {
+            loopCorners_.resize(loop.begin);
+        }
+    }
+}
+
+// A 2-face in the hyperplane bounds the slice where a cell stands on it, or where it bounds a cell that lies in the
+// hyperplane with the polytope under it: its loop runs as in that cell. One that the polytope merely touches is the
+// whole slice.
+void Slicer::addLyingFaces(const Polytope& polytope, const SliceSet& out) {
+    touching_.clear();
+    bounded_.assign(out.planes.count, false);
+    for (std::uint32_t f = 0; f < polytope.faces.size(); ++f) {
+        const std::int32_t plane = lyingIn_[f];
+        if (plane == kNoPlane) continue;
+        std::array<bool, 2> stands{};
+        std::array<bool, 2> bounds{};
+        std::array<bool, 2> outward{};
+        for (std::size_t i = 0; i < 2; ++i) {
+            const std::uint32_t cell = polytope.faceCells[f].at(i);
+            const auto faces = polytope.cells[cell];
+            const auto place = std::find(faces.begin(), faces.end(), f) - faces.begin();
+            outward.at(i) = polytope.cellSigns[polytope.cells.begin[cell] + place] > 0;
+            const Span span = cellSpan_[cell];
+            stands.at(i) = span.from > plane && span.to > plane;
+            bounds.at(i) = stands.at(i) || (span.from > plane && span.to <= plane && liesOnTop(polytope, cell, out));
+        }
+        if ((stands[0] && stands[1]) || (!bounds[0] && !bounds[1])) {
+            touching_.push_back(f);
+            continue;
+        }
+        for (std::size_t i = 0; i < 2; ++i) {
+            if (bounds.at(i)) addLyingFace(polytope, f, outward.at(i));
+        }
+    }
+    for (const std::uint32_t f : touching_) {
+        bool alone = true;
+        for (const std::uint32_t cell : polytope.faceCells[f]) {
+            alone = alone && (cellSpan_[cell].from > lyingIn_[f] || cellSpan_[cell].to <= lyingIn_[f]);
+        }
+        if (alone && !bounded_[lyingIn_[f]]) addLyingFace(polytope, f, true);
+    }
+}
+
+void Slicer::addLyingFace(const Polytope& polytope, std::uint32_t face, bool forward) {
+    const auto loop = polytope.faces[face];
+    const std::size_t n = loop.size();
+    bounded_[lyingIn_[face]] = true;
+    loops_.push_back({lyingIn_[face], static_cast<std::uint32_t>(polytope.cells.size()) + face,
+                      static_cast<std::uint32_t>(loopCorners_.size()), static_cast<std::uint32_t>(n)});
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t corner = forward ? i : (n - i) % n;
+        const std::size_t edge = forward ? i : n - 1 - i;
+        loopCorners_.push_back({vertexPoint_[loop[corner]], edgeLine_[polytope.faceEdges[face][edge]]});
+    }
+}
+
+// Of a cell in a hyperplane: the polytope is under it, and it looks out to larger w. Then its 2-faces, each in the
+// direction that it has in this cell, enclose a positive volume.
+bool Slicer::liesOnTop(const Polytope& polytope, std::uint32_t cell, const SliceSet& out) const {
+    double volume = 0;
+    for (std::uint32_t at = polytope.cells.begin[cell]; at < polytope.cells.begin[cell + 1]; ++at) {
+        const auto loop = polytope.faces[polytope.cells.items[at]];
+        const glm::dvec3 first(out.turned[loop[0]]);
+        for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+            const glm::dvec3 normal = glm::cross(glm::dvec3(out.turned[loop[i]]), glm::dvec3(out.turned[loop[i + 1]]));
+            volume += polytope.cellSigns[at] * glm::dot(first, normal);
+        }
+    }
+    return volume > 0;
+}
+
+// Sorts the loops by hyperplane into the slice set.
+void Slicer::placeLoops(SliceSet& out) {
+    out.faceBegin.assign(out.planes.count + 1, 0);
+    cornerCursor_.assign(out.planes.count + 1, 0);
+    for (const Loop& loop : loops_) {
+        countSpan(out.faceBegin, loop.plane, loop.plane + 1);
+        cornerCursor_[loop.plane] += loop.size;
+        cornerCursor_[loop.plane + 1] -= loop.size;
+    }
+    const std::uint32_t total = accumulate(out.faceBegin);
+    const std::uint32_t corners = accumulate(cornerCursor_);
+    out.faceOf.resize(total);
+    out.cornerBegin.resize(total + 1);
+    out.cornerBegin[total] = corners;
+    out.corners.resize(corners);
+    out.cornerEdges.resize(corners);
+    cursor_.assign(out.faceBegin.begin(), out.faceBegin.end());
+    for (const Loop& loop : loops_) {
+        const std::uint32_t face = cursor_[loop.plane]++;
+        std::uint32_t& corner = cornerCursor_[loop.plane];
+        const std::uint32_t firstVertex = out.vertexBegin[loop.plane];
+        const std::uint32_t firstEdge = out.edgeBegin[loop.plane];
+        out.faceOf[face] = loop.of;
+        out.cornerBegin[face] = corner;
+        for (std::uint32_t i = loop.begin; i < loop.begin + loop.size; ++i, ++corner) {
+            out.corners[corner] = loopCorners_[i][0] - firstVertex;
+            out.cornerEdges[corner] = loopCorners_[i][1] - firstEdge;
+        }
+    }
+}
+
+}  // namespace oval4d::geometry

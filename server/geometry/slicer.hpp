@@ -1,0 +1,132 @@
+#pragma once
+// Cuts a polytope by parallel hyperplanes w = const.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "geometry/polytope.hpp"
+#include "geometry/rotation.hpp"
+
+namespace oval4d::geometry {
+
+/// The hyperplanes w = n · spacing for n = first … first + count − 1.
+struct Hyperplanes {
+    int first = -10;
+    int count = 21;
+    double spacing = 0.1;
+
+    double w(int i) const { return (first + i) * spacing; }
+    bool operator==(const Hyperplanes&) const = default;
+};
+
+/// Many slices in one set of arrays. Slice i owns the half-open ranges [xBegin[i], xBegin[i+1]) of vertices, edges
+/// and faces; vertex indices in `edges` and `corners` count from the slice's own first vertex, edge indices in
+/// `cornerEdges` from its first edge.
+///
+/// "Of" numbers: vertexOf is the 4-D edge that was cut, or edges + v where polytope vertex v lies in the hyperplane;
+/// edgeOf is the 2-face that was cut, or faces + e where edge e lies in it; faceOf is the cell that was cut, or
+/// cells + f where 2-face f lies in it.
+struct SliceSet {
+    Hyperplanes planes;
+    std::vector<glm::dvec4> turned;  ///< the polytope's vertices as turned
+
+    std::vector<std::uint32_t> vertexBegin, edgeBegin, faceBegin;  ///< planes.count + 1 each
+    std::vector<glm::dvec3> vertices;
+    std::vector<std::uint32_t> vertexOf;
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    std::vector<std::uint32_t> edgeOf;
+    std::vector<std::uint32_t> cornerBegin;  ///< faces + 1; face f is the loop corners[cornerBegin[f]] …
+    std::vector<std::uint32_t> corners;      ///< counter-clockwise seen from outside
+    std::vector<std::uint32_t> cornerEdges;  ///< the slice edge from corner i to the next corner of the loop
+    std::vector<std::uint32_t> faceOf;
+
+    std::size_t vertexCount(int slice) const { return vertexBegin[slice + 1] - vertexBegin[slice]; }
+    std::size_t edgeCount(int slice) const { return edgeBegin[slice + 1] - edgeBegin[slice]; }
+    std::size_t faceCount(int slice) const { return faceBegin[slice + 1] - faceBegin[slice]; }
+};
+
+/// Cuts polytopes; keeps its scratch memory between calls, so that a steady stream of slices allocates nothing.
+/// One slicer serves one thread at a time.
+class Slicer {
+  public:
+    /// A vertex within this fraction of the circumradius of a hyperplane lies in it.
+    static constexpr double kOnPlane = 1e-9;
+
+    /// Turns `polytope` and cuts it. `out` is overwritten and its memory reused.
+    void slice(const Polytope& polytope, const Rotation& orientation, const Hyperplanes& planes, SliceSet& out);
+
+  private:
+    static constexpr std::int32_t kNoPlane = -1;
+    static constexpr std::uint32_t kNone = 0xffffffffU;
+    static constexpr std::uint32_t kFresh = 0xfffffffeU;
+
+    // Hyperplanes from … to − 1; none where to ≤ from.
+    struct Span {
+        std::int32_t from, to;
+    };
+    // A piece of a 2-face's section just above hyperplane `plane`, from where the loop goes up through it to where it
+    // comes down. `edge` is its slice edge, or kNone where it shrinks to a point in the hyperplane itself; until slice
+    // edges are numbered, kFresh, or the 4-D edge in the hyperplane that it falls onto.
+    struct Line {
+        std::int32_t plane;
+        std::uint32_t up, down;  // slots
+        std::uint32_t edge;
+    };
+    // A closed loop of a cell's section, its corners in loopCorners_.
+    struct Loop {
+        std::int32_t plane;
+        std::uint32_t of, begin, size;
+    };
+    struct Crossing {
+        std::uint32_t slot;
+        double along;
+    };
+
+    void locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out);
+    void cutEdges(const Polytope& polytope, SliceSet& out);
+    void cutFaces(const Polytope& polytope, SliceSet& out);
+    void cutConvexFace(const Polytope& polytope, std::uint32_t face, Span above);
+    void cutAnyFace(const Polytope& polytope, std::uint32_t face, Span above, const SliceSet& out);
+    void addLine(const Polytope& polytope, std::uint32_t face, std::int32_t plane, std::uint32_t up,
+                 std::uint32_t down);
+    void numberEdges(const Polytope& polytope, SliceSet& out);
+    bool liesInOne(const std::array<std::uint32_t, 2>& edge) const {
+        return below_[edge[0]] == below_[edge[1]] && below_[edge[0]] < upTo_[edge[0]] &&
+               below_[edge[1]] < upTo_[edge[1]];
+    }
+    void cutCells(const Polytope& polytope, SliceSet& out);
+    void addLyingFaces(const Polytope& polytope, const SliceSet& out);
+    void addLyingFace(const Polytope& polytope, std::uint32_t face, bool forward);
+    bool liesOnTop(const Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
+    void traceCell(const Polytope& polytope, std::uint32_t cell);
+    void placeLoops(SliceSet& out);
+
+    // Of each vertex: the number of hyperplanes strictly below it, and of those below it or through it. They differ
+    // where it lies in a hyperplane: in number below_.
+    std::vector<std::int32_t> below_, upTo_;
+    std::vector<std::uint32_t> vertexPoint_;  // the slice vertex of a vertex that lies in a hyperplane
+    // A slot is an edge just above a hyperplane: of edge e above k, slotBegin_[e] + k − below_[lower end].
+    std::vector<std::uint32_t> slotBegin_, slotPoint_;
+    std::vector<std::uint32_t> edgeLine_;  // the slice edge of an edge that lies in a hyperplane
+    std::vector<Line> lines_;              // of 2-face f: from lineBegin_[f]
+    std::vector<std::uint32_t> lineBegin_;
+    std::vector<Span> faceSpan_, cellSpan_;                       // strictly crossed
+    std::vector<std::int32_t> lyingIn_;                           // the hyperplane that a whole 2-face lies in
+    std::vector<std::uint32_t> next_, nextEdge_;                  // by slot: the way around a cell's section
+    std::vector<std::pair<std::int32_t, std::uint32_t>> starts_;  // hyperplane and slot: links of the cell at hand
+    std::vector<std::uint32_t> touching_;                         // 2-faces that the polytope touches a hyperplane with
+    std::vector<bool> bounded_;                                   // by hyperplane: a 2-face in it bounds its slice
+    std::vector<Loop> loops_;
+    std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // slice vertex, slice edge to the next corner
+    std::vector<std::uint32_t> cursor_, cornerCursor_;
+    std::vector<std::uint32_t> up_, down_;  // by hyperplane: the crossings of a convex 2-face
+    std::vector<Crossing> ups_, downs_;     // in one hyperplane: those of any other
+};
+
+}  // namespace oval4d::geometry

@@ -1,0 +1,150 @@
+#include "net/live_session.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/dispatch.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/use_awaitable.hpp>
+
+#include "net/on_pool.hpp"
+#include "protocol/cpp/codec.hpp"
+
+namespace oval4d::net {
+
+namespace asio = boost::asio;
+using protocol::Error;
+using protocol::ErrorCode;
+using protocol::Stream;
+
+namespace {
+
+const Error kFault{ErrorCode::internal, "the server failed to do this; the session is as it was"};
+
+Message doneMessage(LiveSession::Id id, std::uint64_t revision) {
+    return textMessage(protocol::doneMessage(id, revision));
+}
+
+}  // namespace
+
+LiveSession::LiveSession(Services services, store::Ticket ticket, session::Session value)
+    : services_(services),
+      ticket_(std::move(ticket)),
+      strand_(asio::make_strand(services.io)),
+      session_(std::move(value)),
+      changed_(Clock::now()),
+      turnTimer_(strand_),
+      paceTimer_(strand_) {}
+
+asio::awaitable<void> LiveSession::greet(std::shared_ptr<Peer> peer, protocol::Hello hello, Id id) {
+    return asio::co_spawn(strand_, greetHere(std::move(peer), std::move(hello), id), asio::use_awaitable);
+}
+
+asio::awaitable<void> LiveSession::carryOut(std::shared_ptr<Peer> peer, protocol::Request request) {
+    return asio::co_spawn(strand_, carryOutHere(std::move(peer), std::move(request)), asio::use_awaitable);
+}
+
+void LiveSession::leave(std::shared_ptr<Peer> peer, std::function<void(const session::Session&)> left) {
+    asio::post(strand_, [self = shared_from_this(), peer = std::move(peer), left = std::move(left)] {
+        self->clients_.erase(peer.get());
+        left(self->session_);
+    });
+}
+
+asio::awaitable<void> LiveSession::greetHere(std::shared_ptr<Peer> peer, protocol::Hello hello, Id id) {
+    clients_[peer.get()] = Client{peer, {hello.stream, hello.encoding, hello.viewport}, {}, false};
+    peer->send(textMessage(protocol::welcomeMessage(ticket_.id, ticket_.token, limitsText(services_.options), id)));
+    update();
+    co_return;
+}
+
+asio::awaitable<void> LiveSession::carryOutHere(std::shared_ptr<Peer> peer, protocol::Request request) {
+    if (const auto* command = std::get_if<protocol::Command>(&request.body)) {
+        obey(*peer, *command, request.id);
+    } else if (const auto* shown = std::get_if<protocol::ShownRevision>(&request.body)) {
+        if (request.id) peer->send(doneMessage(request.id, revision()));
+        if (const auto client = clients_.find(peer.get()); client != clients_.end()) {
+            client->second.pacing.shown(shown->revision);
+            update();
+        }
+    } else if (const auto* get = std::get_if<protocol::Get>(&request.body)) {
+        co_await answer(peer, *get, request.id);
+    }
+}
+
+void LiveSession::obey(Peer& peer, const protocol::Command& command, Id id) {
+    const std::uint64_t before = revision();
+    try {
+        if (const auto done = session::apply(session_, command, services_.options.session); !done) {
+            tell(peer, done.error(), id);
+            return;
+        }
+    } catch (const std::exception& fault) {
+        spdlog::error("command failed session={} fault=\"{}\"", ticket_.id, fault.what());
+        tell(peer, kFault, id);
+        return;
+    }
+    if (id) peer.send(doneMessage(id, revision()));
+    if (revision() != before) changed_ = Clock::now();
+    update();
+}
+
+asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, protocol::Get get, Id id) {
+    const auto client = clients_.find(peer.get());
+    if (client == clients_.end()) co_return;
+    Want want = client->second.want;
+    if (get.viewport) want.viewport = *get.viewport;
+    switch (get.what) {
+        case protocol::What::state:
+            peer->send(textMessage(protocol::stateMessage(session_.now, revision(), id)));
+            break;
+        case protocol::What::catalogue:
+            peer->send(textMessage(protocol::catalogueMessage(id)));
+            break;
+        case protocol::What::keymap:
+            peer->send(textMessage(protocol::keymapMessage(id)));
+            break;
+        case protocol::What::slices:
+            want.stream = Stream::geometry;
+            co_await answerWithPicture(peer, want, id);
+            break;
+        case protocol::What::frame:
+            want.stream = Stream::frames;
+            co_await answerWithPicture(peer, want, id);
+            break;
+    }
+}
+
+asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer, Want want, Id id) {
+    const std::uint64_t asked = revision();
+    bool failed = false;
+    try {
+        Message picture = co_await onPool(services_.pool, pictureJob(want, id));
+        peer->send(std::move(picture));
+        if (want.stream == Stream::frames) peer->send(doneMessage(id, asked));
+    } catch (const std::exception& fault) {
+        spdlog::error("picture failed session={} revision={} fault=\"{}\"", ticket_.id, asked, fault.what());
+        failed = true;
+    }
+    if (failed) tell(*peer, kFault, id);
+}
+
+/// Makes the picture of the session as it is now.
+std::function<Message(picture::Painter&)> LiveSession::pictureJob(const Want& want, Id id) const {
+    const CutPtr known = cut_ && cut_->revision == revision() ? cut_ : nullptr;
+    return [known, state = session_.now, asked = revision(), changed = changed_, want, id,
+            &metrics = services_.metrics](picture::Painter& painter) {
+        const CutPtr whole = known ? known : cut(painter, state, asked, changed);
+        Message drawn = draw(painter, *whole, want, id);
+        metrics.observe(painter.times());
+        return drawn;
+    };
+}
+
+void LiveSession::tell(Peer& peer, const Error& error, Id id) {
+    services_.metrics.countError(error.code);
+    peer.send(textMessage(protocol::errorMessage(error, id)));
+}
+
+}  // namespace oval4d::net

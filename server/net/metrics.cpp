@@ -1,0 +1,82 @@
+#include "net/metrics.hpp"
+
+#include <prometheus/text_serializer.h>
+
+#include <sstream>
+
+namespace oval4d::net {
+
+namespace {
+
+using prometheus::Histogram;
+
+// From 100 µs to 3 s, each bucket about twice the one before.
+const Histogram::BucketBoundaries kBuckets{1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.3, 1, 3};
+
+prometheus::Gauge& gauge(prometheus::Registry& registry, const char* name, const char* help) {
+    return prometheus::BuildGauge().Name(name).Help(help).Register(registry).Add({});
+}
+
+prometheus::Family<prometheus::Counter>& counters(prometheus::Registry& registry, const char* name, const char* help) {
+    return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
+}
+
+prometheus::Family<Histogram>& histograms(prometheus::Registry& registry, const char* name, const char* help) {
+    return prometheus::BuildHistogram().Name(name).Help(help).Register(registry);
+}
+
+}  // namespace
+
+Metrics::Metrics()
+    : connections(gauge(registry_, "oval4d_connections", "Sockets open")),
+      webSockets(gauge(registry_, "oval4d_websockets", "WebSocket connections open")),
+      sessions(gauge(registry_, "oval4d_sessions", "Sessions kept, with or without a client")),
+      openSessions(gauge(registry_, "oval4d_open_sessions", "Sessions with a client")),
+      jobsWaiting(gauge(registry_, "oval4d_jobs_waiting", "Jobs waiting for a worker")),
+      memory(gauge(registry_, "process_resident_memory_bytes", "Memory of this process that is resident")),
+      messagesReceived(
+          counters(registry_, "oval4d_messages_received_total", "Messages received over WebSockets").Add({})),
+      bytesSent(counters(registry_, "oval4d_bytes_sent_total", "Bytes of messages sent over WebSockets").Add({})),
+      slowReaders(
+          counters(registry_, "oval4d_slow_readers_total", "Clients dropped because they did not read").Add({})),
+      latency(histograms(registry_, "oval4d_change_to_picture_seconds",
+                         "Time from a session's change to its picture written to a client's socket")
+                  .Add({}, kBuckets)),
+      errors_(counters(registry_, "oval4d_errors_total", "Errors told to clients, by code")),
+      requests_(counters(registry_, "oval4d_http_requests_total", "HTTP requests answered, by status")),
+      pictures_(counters(registry_, "oval4d_pictures_total", "Pictures sent to clients, by stream")),
+      steps_(histograms(registry_, "oval4d_picture_step_seconds", "Time spent on a picture, by step")),
+      slice_(steps_.Add({{"step", "slice"}}, kBuckets)),
+      compose_(steps_.Add({{"step", "compose"}}, kBuckets)),
+      write_(steps_.Add({{"step", "write"}}, kBuckets)),
+      draw_(steps_.Add({{"step", "draw"}}, kBuckets)),
+      encode_(steps_.Add({{"step", "encode"}}, kBuckets)) {}
+
+void Metrics::countError(protocol::ErrorCode code) {
+    errors_.Add({{"code", std::string(protocol::wireName(code))}}).Increment();
+}
+
+void Metrics::countRequest(unsigned httpStatus) { requests_.Add({{"status", std::to_string(httpStatus)}}).Increment(); }
+
+void Metrics::countPicture(protocol::Stream stream) {
+    pictures_.Add({{"stream", stream == protocol::Stream::frames ? "frames" : "geometry"}}).Increment();
+}
+
+void Metrics::observe(const picture::Times& times) {
+    const auto put = [](Histogram& histogram, double seconds) {
+        if (seconds > 0) histogram.Observe(seconds);
+    };
+    put(slice_, times.slice);
+    put(compose_, times.compose);
+    put(write_, times.write);
+    put(draw_, times.draw);
+    put(encode_, times.encode);
+}
+
+std::string Metrics::text() const {
+    std::ostringstream out;
+    prometheus::TextSerializer().Serialize(out, registry_.Collect());
+    return out.str();
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,24 @@
+#include "net/readiness.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "geometry/catalogue.hpp"
+#include "session/session.hpp"
+
+namespace oval4d::net {
+
+void Readiness::warmUp(picture::Painter& painter) {
+    try {
+        const session::State state = session::initialState();
+        geometry::SliceSet slices;
+        std::vector<std::uint8_t> png;
+        painter.cut(state, slices);
+        painter.frame(state, slices, "", {}, png);
+        for (const geometry::CatalogueEntry& entry : geometry::catalogue()) geometry::polytopeOf(entry);
+        if (--missing_ == 0) spdlog::info("ready");
+    } catch (const std::exception& fault) {
+        spdlog::error("frames cannot be drawn fault=\"{}\"", fault.what());
+    }
+}
+
+}  // namespace oval4d::net

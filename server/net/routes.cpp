@@ -1,0 +1,156 @@
+#include "net/routes.hpp"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <fstream>
+
+#include "net/on_pool.hpp"
+#include "protocol/cpp/codec.hpp"
+
+namespace oval4d::net {
+
+namespace asio = boost::asio;
+using protocol::Error;
+using protocol::ErrorCode;
+using protocol::Result;
+
+namespace {
+
+constexpr const char* kJson = "application/json";
+
+const Error kNoSuchMethod{ErrorCode::bad_message, "only GET and HEAD are understood here"};
+const Error kFault{ErrorCode::internal, "the server failed to draw this picture"};
+
+Error nothingAt(const std::string& path) { return {ErrorCode::not_found, "there is nothing at " + path}; }
+
+Reply reply(std::string type, Bytes body, unsigned status = 200) {
+    return {status, std::move(type), std::move(body), {{"Cache-Control", "no-cache"}}};
+}
+
+Reply textReply(std::string type, std::string body, unsigned status = 200) {
+    return reply(std::move(type), Bytes(std::move(body)), status);
+}
+
+unsigned statusFor(ErrorCode code) {
+    switch (code) {
+        case ErrorCode::not_found:
+            return 404;
+        case ErrorCode::bad_token:
+            return 401;
+        case ErrorCode::too_large:
+            return 413;
+        case ErrorCode::too_many:
+            return 503;
+        case ErrorCode::internal:
+            return 500;
+        default:
+            return 400;
+    }
+}
+
+Result<int> pixels(const std::string& name, const std::string& text) {
+    int value = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (fault != std::errc{} || end != text.data() + text.size()) {
+        return Error{ErrorCode::out_of_range, name + " must be a whole number of pixels, not '" + text + "'"};
+    }
+    return value;
+}
+
+double residentBytes() {
+    double whole = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> whole >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+struct Wish {
+    session::State state;
+    scene::Viewport viewport;
+};
+
+/// What a query asks a picture of, and its size.
+Result<Wish> parseWish(session::Query query, const Options& options) {
+    scene::Viewport viewport;
+    session::Query settings;
+    for (auto& [name, value] : query) {
+        if (name == "width" || name == "height") {
+            const auto parsed = pixels(name, value);
+            if (!parsed) return parsed.error();
+            (name == "width" ? viewport.width : viewport.height) = *parsed;
+        } else if (name != "token") {
+            settings.emplace_back(std::move(name), std::move(value));
+        }
+    }
+    if (const auto fits = picture::checked(viewport, options.frame); !fits) return fits.error();
+    auto state = session::stateFromQuery(settings, options.session);
+    if (!state) return state.error();
+    return Wish{std::move(*state), viewport};
+}
+
+std::function<Bytes(picture::Painter&)> frameJob(const Wish& wish, Metrics& metrics) {
+    return [wish, &metrics](picture::Painter& painter) {
+        geometry::SliceSet slices;
+        std::vector<std::uint8_t> png;
+        painter.cut(wish.state, slices);
+        painter.frame(wish.state, slices, protocol::stateMessage(wish.state, 0), wish.viewport, png);
+        metrics.observe(painter.times());
+        return Bytes(std::move(png));
+    };
+}
+
+Reply fileReply(const WebFile& file, const std::string& known) {
+    const std::vector<std::pair<std::string, std::string>> headers{{"ETag", file.etag}, {"Cache-Control", "no-cache"}};
+    if (known.find(file.etag) != std::string::npos) return {304, "", {}, headers};
+    return {200, file.type, file.bytes, headers};
+}
+
+}  // namespace
+
+Reply errorReply(const Error& error, unsigned status) {
+    return textReply(kJson, protocol::errorMessage(error, {}), status != 0 ? status : statusFor(error.code));
+}
+
+asio::awaitable<Reply> Routes::answer(Inquiry inquiry) {
+    if (inquiry.method != "GET" && inquiry.method != "HEAD") {
+        Reply refused = errorReply(kNoSuchMethod, 405);
+        refused.headers.emplace_back("Allow", "GET, HEAD");
+        co_return refused;
+    }
+    const std::string& path = inquiry.target.path;
+    if (path == "/healthz") co_return textReply("text/plain", "ok\n");
+    if (path == "/readyz") {
+        co_return readiness_.ready() ? textReply("text/plain", "ready\n")
+                                     : textReply("text/plain", "not yet: workers are warming up\n", 503);
+    }
+    if (path == "/metrics") co_return metrics();
+    if (path == "/api/v1/catalogue") co_return textReply(kJson, protocol::catalogueMessage({}));
+    if (path == "/api/v1/keymap") co_return textReply(kJson, protocol::keymapMessage({}));
+    if (path == "/api/v1/frame.png") co_return co_await frame(std::move(inquiry.target.query));
+    if (const WebFile* file = files_.find(path)) co_return fileReply(*file, inquiry.ifNoneMatch);
+    co_return errorReply(nothingAt(path));
+}
+
+asio::awaitable<Reply> Routes::frame(session::Query query) {
+    const auto wish = parseWish(std::move(query), services_.options);
+    if (!wish) {
+        services_.metrics.countError(wish.error().code);
+        co_return errorReply(wish.error());
+    }
+    try {
+        Bytes png = co_await onPool(services_.pool, frameJob(*wish, services_.metrics));
+        co_return reply("image/png", std::move(png));
+    } catch (const std::exception& fault) {
+        spdlog::error("picture failed fault=\"{}\"", fault.what());
+        co_return errorReply(kFault);
+    }
+}
+
+Reply Routes::metrics() {
+    services_.metrics.jobsWaiting.Set(static_cast<double>(services_.pool.waiting()));
+    services_.metrics.memory.Set(residentBytes());
+    return textReply("text/plain; version=0.0.4; charset=utf-8", services_.metrics.text());
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,180 @@
+#include "net/server.hpp"
+
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/strand.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <csignal>
+#include <thread>
+
+#include "net/http_session.hpp"
+#include "net/readiness.hpp"
+#include "store/memory_store.hpp"
+#include "store/secret.hpp"
+
+namespace oval4d::net {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr auto kQuietly = asio::as_tuple(asio::use_awaitable);
+constexpr std::size_t kTokenBytes = 20;
+
+template <typename Duration>
+auto steady(Duration duration) {
+    return std::chrono::duration_cast<std::chrono::steady_clock::duration>(duration);
+}
+
+/// As many files as the system lets one process have: each connection is one.
+void raiseFileLimit() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+    limit.rlim_cur = limit.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+std::string addressFor(const tcp::endpoint& endpoint) {
+    const std::string address = endpoint.address().to_string();
+    const std::string host = endpoint.address().is_v6() ? "[" + address + "]" : address;
+    return "http://" + host + ":" + std::to_string(endpoint.port()) + "/";
+}
+
+class Server {
+  public:
+    explicit Server(Options options);
+    void run();
+
+  private:
+    static tcp::acceptor bound(asio::io_context& io, const Options& options);
+    std::string tokenNeeded() const;
+    asio::awaitable<void> listen();
+    asio::awaitable<void> tidy();
+    asio::awaitable<void> stopOnSignal();
+
+    Options options_;
+    Registry registry_;  // before the context, for coroutines that end with it have their places here
+    asio::io_context io_;
+    tcp::acceptor acceptor_;
+    Metrics metrics_;
+    WebFiles files_;
+    std::size_t workers_;
+    Readiness readiness_;
+    WorkerPool pool_;
+    Services services_;
+    std::shared_ptr<Hub> hub_;
+    std::string token_;
+    Access access_;
+    Routes routes_;
+    asio::steady_timer tidyTimer_;
+};
+
+Server::Server(Options options)
+    : options_(std::move(options)),
+      acceptor_(bound(io_, options_)),
+      files_(options_.webRoot),
+      workers_(options_.workers > 0 ? static_cast<std::size_t>(options_.workers)
+                                    : std::max(1U, std::thread::hardware_concurrency())),
+      readiness_(workers_),
+      pool_(static_cast<int>(workers_), [this](picture::Painter& painter) { readiness_.warmUp(painter); }),
+      services_{options_, io_, pool_, metrics_},
+      hub_(std::make_shared<Hub>(services_, std::make_unique<store::MemoryStore>(options_.maxSessions))),
+      token_(tokenNeeded()),
+      access_(options_.allowedHosts, options_.allowedOrigins, token_,
+              acceptor_.local_endpoint().address().is_loopback()),
+      routes_(services_, files_, readiness_),
+      tidyTimer_(io_) {}
+
+tcp::acceptor Server::bound(asio::io_context& io, const Options& options) {
+    const std::string port = std::to_string(options.port);
+    try {
+        const auto found = tcp::resolver(io).resolve(options.host, port, tcp::resolver::passive);
+        return {asio::make_strand(io), found.begin()->endpoint()};
+    } catch (const boost::system::system_error& fault) {
+        throw std::runtime_error("cannot listen at " + options.host + ", port " + port + ": " + fault.code().message());
+    }
+}
+
+/// Who can reach a loopback address is on this machine; anybody else has to know a secret.
+std::string Server::tokenNeeded() const {
+    if (options_.open || !options_.token.empty()) return options_.open ? std::string() : options_.token;
+    return acceptor_.local_endpoint().address().is_loopback() ? std::string() : store::randomName(kTokenBytes);
+}
+
+void Server::run() {
+    const std::string query = token_.empty() ? "" : "?token=" + token_;
+    spdlog::info("listening url={}{}", addressFor(acceptor_.local_endpoint()), query);
+    asio::co_spawn(acceptor_.get_executor(), listen(), asio::detached);
+    asio::co_spawn(acceptor_.get_executor(), tidy(), asio::detached);
+    asio::co_spawn(acceptor_.get_executor(), stopOnSignal(), asio::detached);
+    std::vector<std::thread> others;
+    for (int i = 1; i < options_.ioThreads; ++i) others.emplace_back([this] { io_.run(); });
+    io_.run();
+    for (std::thread& thread : others) thread.join();
+    pool_.stop();
+    spdlog::info("stopped");
+}
+
+asio::awaitable<void> Server::listen() {
+    const Front front{services_, access_, routes_, hub_, registry_};
+    for (;;) {
+        tcp::socket socket(asio::make_strand(io_));
+        const auto [fault] = co_await acceptor_.async_accept(socket, kQuietly);
+        if (fault == asio::error::operation_aborted) co_return;
+        if (fault) {
+            // Out of files, most likely: it passes when a connection ends.
+            spdlog::warn("cannot accept fault=\"{}\"", fault.message());
+            asio::steady_timer pause(io_, 100ms);
+            co_await pause.async_wait(kQuietly);
+            continue;
+        }
+        const bool full = registry_.size() >= options_.maxConnections;
+        const auto executor = socket.get_executor();
+        asio::co_spawn(executor, serve(std::move(socket), front, full), asio::detached);
+    }
+}
+
+asio::awaitable<void> Server::tidy() {
+    const auto interval = std::min<std::chrono::steady_clock::duration>(steady(options_.sessionExpiry) / 4, 60s);
+    for (;;) {
+        tidyTimer_.expires_after(interval);
+        if (const auto [cancelled] = co_await tidyTimer_.async_wait(kQuietly); cancelled) co_return;
+        hub_->tidy(options_.sessionExpiry);
+    }
+}
+
+asio::awaitable<void> Server::stopOnSignal() {
+    asio::signal_set signals(acceptor_.get_executor(), SIGINT, SIGTERM);
+    const auto [fault, number] = co_await signals.async_wait(kQuietly);
+    spdlog::info("stopping signal={} connections={}", number, registry_.size());
+    signals.clear();  // a second signal ends the program at once
+    acceptor_.close();
+    tidyTimer_.cancel();
+    registry_.stopAll();
+    const auto limit = std::chrono::steady_clock::now() + steady(options_.stopTimeout);
+    asio::steady_timer poll(acceptor_.get_executor());
+    while (registry_.size() > 0 && std::chrono::steady_clock::now() < limit) {
+        poll.expires_after(10ms);
+        co_await poll.async_wait(kQuietly);
+    }
+    if (registry_.size() > 0) spdlog::warn("clients left behind count={}", registry_.size());
+    io_.stop();
+}
+
+}  // namespace
+
+void runServer(Options options) {
+    raiseFileLimit();
+    Server(std::move(options)).run();
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,20 @@
+#pragma once
+// What the parts of the server share.
+
+#include <boost/asio/io_context.hpp>
+
+#include "net/metrics.hpp"
+#include "net/options.hpp"
+#include "net/worker_pool.hpp"
+
+namespace oval4d::net {
+
+/// All of it outlives every connection and session.
+struct Services {
+    const Options& options;
+    boost::asio::io_context& io;
+    WorkerPool& pool;
+    Metrics& metrics;
+};
+
+}  // namespace oval4d::net

@@ -1,0 +1,150 @@
+#include "render/annotations.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "render/lens.hpp"
+
+namespace oval4d::render {
+
+namespace {
+
+/// As many whole pixels as `fraction` of the picture's height, at least one.
+int wholePixels(double fraction, const scene::Scene& scene) {
+    return std::max(1, static_cast<int>(std::lround(fraction * scene.viewport.height)));
+}
+
+void paintLabel(const scene::Stand& stand, const glm::dmat4& toView, const Lens& lens, const scene::Scene& scene,
+                Overlay& overlay) {
+    const scene::Style& style = scene::style();
+    const glm::vec3 at(toView * glm::dvec4(stand.labelAt, 1));
+    if (at.z >= 0 || stand.label.empty()) return;
+    const glm::vec2 pixel = lens.pixel(at);
+    const int size = wholePixels(style.textHeight * stand.labelSize, scene);
+    const auto digits = static_cast<float>(overlay.font().digitHeight(size));
+    const auto width = static_cast<float>(overlay.font().width(size, stand.label));
+    const float x = std::round(pixel.x), baseline = std::round(pixel.y - digits);
+    // A plate keeps the label legible where it lies over another slice.
+    const float marginX = std::round((stand.focus ? 0.9f : 0.45f) * digits);
+    const float marginY = std::round((stand.focus ? 0.6f : 0.35f) * digits), half = std::round(0.5f * width) + marginX;
+    const Box plate{x - half, baseline - marginY, x + half, baseline + digits + marginY};
+    const float corner = 0.5f * (plate.top - plate.bottom);
+    overlay.box(plate, style.background, stand.focus ? 0.8f : 0.6f, corner);
+    if (stand.focus) overlay.box(plate, style.focusText, 0.16f, corner);
+    overlay.text(x, baseline, size, stand.label, stand.focus ? style.focusText : style.text);
+}
+
+}  // namespace
+
+void paintAxes(const scene::Scene& scene, Solids& solids, Overlay& overlay) {
+    // The axes stand in a picture of their own, whose middle is their origin: seen from so far that parallels stay so.
+    constexpr float kFar = 16, kBar = 0.045f, kBall = 0.10f, kTip = 0.065f, kName = 1.28f;
+    const scene::Style& style = scene::style();
+    const auto width = static_cast<float>(scene.viewport.width), height = static_cast<float>(scene.viewport.height);
+    const float length = static_cast<float>(scene.axes.length) * height;
+    if (length < 1) return;
+    const glm::vec2 centre{static_cast<float>(scene.axes.x) * height, (1 - static_cast<float>(scene.axes.y)) * height};
+    const Lens lens{width,
+                    height,
+                    2 * length * kFar / width,
+                    2 * length * kFar / height,
+                    2 * centre.x / width - 1,
+                    2 * centre.y / height - 1};
+    const glm::vec3 origin{0, 0, -kFar};
+    const glm::mat3 turn(glm::dmat3(scene.camera.view()));
+
+    struct Axis {
+        glm::vec3 direction;
+        scene::Colour colour;
+        char name;
+    };
+    std::array axes{Axis{turn[0], style.axisX, 'x'}, Axis{turn[1], style.axisY, 'y'}, Axis{turn[2], style.axisZ, 'z'}};
+    std::stable_sort(axes.begin(), axes.end(),
+                     [](const Axis& a, const Axis& b) { return a.direction.z < b.direction.z; });
+    solids.lookThrough(lens);
+    bool originPainted = false;
+    const auto paintOrigin = [&] {
+        if (!originPainted) solids.ball(origin, kBall, style.text);
+        originPainted = true;
+    };
+    const int size = wholePixels(style.textHeight, scene);
+    const auto digits = static_cast<float>(overlay.font().digitHeight(size));
+    for (const Axis& axis : axes) {
+        const bool towards = axis.direction.z > 0;
+        if (towards) {
+            paintOrigin();
+            solids.bar(origin + axis.direction * kBall, origin + axis.direction, kBar, axis.colour);
+            solids.ball(origin + axis.direction, kTip, axis.colour);
+        } else {
+            solids.ball(origin + axis.direction, kTip, axis.colour);
+            solids.bar(origin + axis.direction, origin + axis.direction * kBall, kBar, axis.colour);
+        }
+        // An axis that points at the viewer has its name beside it.
+        glm::vec2 name = glm::vec2(axis.direction) * kName;
+        if (glm::length(name) < 0.3f) name = {0.3f, -0.3f};
+        const glm::vec2 at = centre + name * length;
+        overlay.text(at.x, at.y - 0.4f * digits, size, {&axis.name, 1}, axis.colour);
+    }
+    paintOrigin();
+}
+
+void paintLabels(const scene::Scene& scene, Overlay& overlay) {
+    const glm::dmat4 toView = scene.camera.view();
+    const Lens lens = Lens::of(scene.camera, scene.viewport);
+    for (const bool focus : {false, true})
+        for (const scene::Stand& stand : scene.stands)
+            if (stand.drawn && stand.focus == focus) paintLabel(stand, toView, lens, scene, overlay);
+}
+
+void paintCoordinates(const geometry::SliceSet& slices, const scene::Scene& scene, Overlay& overlay) {
+    if (!scene.look.parts.coordinates) return;
+    const scene::CoordinatesLayout& layout = scene.coordinates;
+    const scene::Style& style = scene::style();
+    const auto height = static_cast<double>(scene.viewport.height);
+    const std::array colours{style.axisX, style.axisY, style.axisZ, style.axisW};
+    const auto count = static_cast<int>(slices.turned.size());
+    // Lines of a pixel or more are sharpest on whole pixels.
+    const double lineWidth = layout.lineWidth * height;
+    const auto snap = [&](double x) { return static_cast<float>(lineWidth >= 1 ? std::round(x) : x); };
+    const auto lineThickness = snap(lineWidth);
+    const auto zeroOf = [&](int row) { return std::round((layout.zero - row * layout.rowStep) * height); };
+
+    for (int row = 0; row * layout.perRow < count; ++row) {
+        const int columns = std::min(layout.perRow, count - row * layout.perRow);
+        const double left = layout.left * height,
+                     right = left + ((columns - 1) * layout.columnStep + 3 * layout.lineStep) * height + lineWidth;
+        const auto zero = static_cast<float>(zeroOf(row));
+        overlay.box({snap(left), zero - 0.5f, snap(right), zero + 0.5f}, style.zeroLine);
+    }
+    for (int i = 0; i < count; ++i) {
+        const double zero = zeroOf(i / layout.perRow);
+        const double column = (layout.left + (i % layout.perRow) * layout.columnStep) * height;
+        for (int k = 0; k < 4; ++k) {
+            const float x = snap(column + k * layout.lineStep * height);
+            const double value = slices.turned[static_cast<std::size_t>(i)][k] / scene.circumradius;
+            const auto end = static_cast<float>(zero + value * layout.amplitude * height);
+            const auto start = static_cast<float>(zero);
+            overlay.box({x, std::min(start, end), x + lineThickness, std::max(start, end)},
+                        colours[static_cast<std::size_t>(k)]);
+        }
+    }
+    if (!layout.named) return;
+    const int size = wholePixels(style.textHeight * 0.85, scene);
+    const auto digits = static_cast<float>(overlay.font().digitHeight(size));
+    for (int i = 0; i < count; ++i) {
+        char name[16] = {'P'};
+        const auto end = std::to_chars(name + 1, name + sizeof name, i).ptr;
+        const double middle =
+            layout.left + (i % layout.perRow) * layout.columnStep + 0.5 * (3 * layout.lineStep + layout.lineWidth);
+        const double below = zeroOf(i / layout.perRow) - layout.amplitude * height;
+        overlay.text(static_cast<float>(middle * height), static_cast<float>(below) - 1.4f * digits, size,
+                     {name, static_cast<std::size_t>(end - name)}, style.text);
+    }
+}
+
+}  // namespace oval4d::render

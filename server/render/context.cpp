@@ -1,0 +1,56 @@
+#include "render/context.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#include "render/gl.hpp"
+// gl.hpp first: it asks for the prototypes of the core profile.
+#include <GL/osmesa.h>
+
+namespace oval4d::render {
+
+struct Context::Native {
+    OSMesaContext context = nullptr;
+
+    ~Native() {
+        if (context != nullptr) OSMesaDestroyContext(context);
+    }
+};
+
+Context::Context() : native_(std::make_unique<Native>()) {
+    // No depth buffer: everything is drawn from far to near, and clearing depth costs more than clearing colour.
+    const int attributes[] = {OSMESA_FORMAT,
+                              OSMESA_RGBA,
+                              OSMESA_DEPTH_BITS,
+                              0,
+                              OSMESA_PROFILE,
+                              OSMESA_CORE_PROFILE,
+                              OSMESA_CONTEXT_MAJOR_VERSION,
+                              3,
+                              OSMESA_CONTEXT_MINOR_VERSION,
+                              3,
+                              0};
+    native_->context = OSMesaCreateContextAttribs(attributes, nullptr);
+    if (native_->context == nullptr) throw std::runtime_error("OSMesa gives no OpenGL 3.3 core context");
+    std::uint8_t pixel[4];
+    begin(1, 1, pixel);
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &maxSize_);
+    finish();
+}
+
+Context::~Context() = default;
+
+void Context::begin(int width, int height, std::uint8_t* pixels) {
+    if (maxSize_ > 0 && (width > maxSize_ || height > maxSize_))
+        throw std::runtime_error("a picture of " + std::to_string(width) + " × " + std::to_string(height) +
+                                 " pixels is larger than the driver draws (" + std::to_string(maxSize_) + ")");
+    if (OSMesaMakeCurrent(native_->context, pixels, GL_UNSIGNED_BYTE, width, height) == GL_FALSE)
+        throw std::runtime_error("OSMesa cannot draw a picture of " + std::to_string(width) + " × " +
+                                 std::to_string(height) + " pixels");
+    OSMesaPixelStore(OSMESA_Y_UP, 1);
+    glViewport(0, 0, width, height);
+}
+
+void Context::finish() { glFinish(); }
+
+}  // namespace oval4d::render

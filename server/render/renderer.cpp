@@ -1,0 +1,67 @@
+#include "render/renderer.hpp"
+
+#include <cstdlib>
+
+#include "render/annotations.hpp"
+#include "render/context.hpp"
+#include "render/overlay.hpp"
+#include "render/slices.hpp"
+#include "render/solids.hpp"
+
+namespace oval4d::render {
+
+std::string fontFile() {
+    const char* file = std::getenv("OVAL4D_FONT");
+    return file != nullptr && *file != '\0' ? file : OVAL4D_FONT;
+}
+
+struct Renderer::Impl {
+    explicit Impl(const std::string& font) : solidProgram(scene::style()), overlay(font) {}
+
+    Context context;  // first: all else lives in it
+    SolidProgram solidProgram;
+    Overlay overlay;
+    Solids solids;
+    SlicePainter slicePainter;
+};
+
+Renderer::Renderer(const std::string& font) : impl_(std::make_unique<Impl>(font)) {
+    // Mesa compiles a shader when it first draws with it.
+    Image image;
+    scene::Scene scene;
+    scene.viewport = {64, 64};
+    scene.axes = {0.5, 0.5, 0.4};
+    draw({}, {}, scene, image);
+}
+
+Renderer::~Renderer() = default;
+
+void Renderer::draw(const geometry::Polytope& polytope, const geometry::SliceSet& slices, const scene::Scene& scene,
+                    Image& out) {
+    Solids& solids = impl_->solids;
+    Overlay& overlay = impl_->overlay;
+    out.width = scene.viewport.width;
+    out.height = scene.viewport.height;
+    out.pixels.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 4);
+    impl_->context.begin(out.width, out.height, out.pixels.data());
+
+    const scene::Colour background = scene::style().background;
+    const auto channel = [&](int shift) { return static_cast<float>(background >> shift & 255) / 255; };
+    glClearColor(channel(16), channel(8), channel(0), 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+
+    solids.begin(scene::style());
+    overlay.begin(scene.viewport);
+    impl_->slicePainter.paint(polytope, slices, scene, solids);
+    paintAxes(scene, solids, overlay);
+    paintCoordinates(slices, scene, overlay);
+    paintLabels(scene, overlay);
+
+    impl_->solidProgram.draw(solids);
+    overlay.draw();
+    impl_->context.finish();
+}
+
+}  // namespace oval4d::render

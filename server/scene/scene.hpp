@@ -1,0 +1,132 @@
+#pragma once
+// What is to be seen: where the slices stand, from where they are looked at, in which colours, with which labels.
+// Both streams draw from this, so that a page and a frame can be laid over each other.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "geometry/polytope.hpp"
+#include "geometry/slicer.hpp"
+
+namespace oval4d::scene {
+
+enum class View : std::uint8_t { oval, single };
+
+/// Which parts are drawn.
+struct Parts {
+    bool faces = true, bars = true, balls = true, coordinates = true;
+    bool operator==(const Parts&) const = default;
+};
+
+/// How the viewer has moved the camera from its place: orbit angles in radians about the point looked at, and
+/// magnification (1 = as designed).
+struct Orbit {
+    double azimuth = 0, elevation = 0, zoom = 1;
+    bool operator==(const Orbit&) const = default;
+};
+
+/// All that a user chooses about the picture.
+struct Look {
+    View view = View::oval;
+    Parts parts;
+    Orbit orbit;
+    bool operator==(const Look&) const = default;
+};
+
+/// In pixels.
+struct Viewport {
+    int width = 1280, height = 720;
+    bool operator==(const Viewport&) const = default;
+};
+
+/// Red, green, blue in sRGB: 0xRRGGBB.
+using Colour = std::uint32_t;
+
+/// A perspective camera: right-handed, looks from `eye` to `target`. `shift` moves the picture by this part of the
+/// viewport (x right, y up; 1 = its whole width, height), so that the slices stand clear of the coordinates.
+struct Camera {
+    glm::dvec3 eye{0, 0, 1}, target{0}, up{0, 1, 0};
+    double fieldOfView = 0.7;  ///< vertical, radians
+    double near = 0.1, far = 100;
+    double shiftX = 0, shiftY = 0;
+
+    glm::dmat4 view() const;
+    /// OpenGL clip space, the shift included.
+    glm::dmat4 projection(double aspect) const;
+};
+
+/// One slice in the world.
+struct Stand {
+    int index = 0;           ///< n
+    double w = 0;            ///< of the hyperplane, in the polytope's units
+    glm::dvec3 position{0};  ///< where the slice's origin stands
+    std::string label;       ///< "w = −0.25" at the focus, "−0.25" elsewhere
+    glm::dvec3 labelAt{0};   ///< the label is centred horizontally under this point
+    double labelSize = 1;    ///< of the label, as a part of Style::textHeight
+    bool focus = false;
+    bool drawn = true;  ///< false in the single view for all but the focus
+};
+
+/// The parallel coordinates: vertex i stands in row i / perRow, column i % perRow; its four lines x, y, z, w run
+/// from the row's zero line up or down by value · amplitude / circumradius. All lengths are fractions of the
+/// viewport's height, from its lower left corner.
+struct CoordinatesLayout {
+    int rows = 1, perRow = 1;
+    double left = 0;        ///< the left edge of the first column
+    double zero = 0;        ///< the first (top) row's zero line above the bottom
+    double rowStep = 0;     ///< from one row's zero line down to the next one's
+    double columnStep = 0;  ///< from one vertex to the next
+    double lineStep = 0;    ///< from one of the four lines to the next
+    double lineWidth = 0;
+    double amplitude = 0;
+    bool named = true;  ///< P0, P1, … are written under the columns
+};
+
+/// The axes in the upper left corner: centre from the upper left corner and length of an axis, in fractions of the
+/// viewport's height.
+struct AxesLayout {
+    double x = 0, y = 0, length = 0;
+};
+
+/// Colours and sizes that do not depend on the state.
+struct Style {
+    Colour background, text, focusText, ball, bar, zeroLine;
+    Colour axisX, axisY, axisZ, axisW;
+    double faceOpacity;  ///< 0 … 1
+    glm::dvec3 light;    ///< unit vector toward the light, in camera axes
+    double ambient, diffuse, specular,
+        shininess;      ///< colour · (ambient + diffuse · max(n·l, 0)) + specular · max(n·h, 0)^shininess
+    double textHeight;  ///< of labels, as a fraction of the viewport's height
+};
+const Style& style();
+
+struct Scene {
+    Look look;
+    Viewport viewport;
+    Camera camera;
+    double scale = 1;                      ///< world units per polytope unit
+    double ballRadius = 0, barRadius = 0;  ///< in world units
+    double circumradius = 1;
+    std::vector<Stand> stands;  ///< as many as slices, in their order
+    std::shared_ptr<const std::vector<Colour>> cellColours;
+    double thickness = 0;           ///< ball radius per slice radius, for this polytope
+    std::uint64_t composedFor = 0;  ///< the serial of the polytope that cellColours and thickness belong to
+    CoordinatesLayout coordinates;
+    AxesLayout axes;
+};
+
+/// Composes the picture of slices that were cut from `polytope`; `focus` is the index n of the focus slice.
+/// `out` is overwritten and its memory reused.
+void compose(const geometry::Polytope& polytope, const geometry::Hyperplanes& planes, int focus, const Look& look,
+             Viewport viewport, Scene& out);
+
+/// One colour a cell, the same at every call: neighbours differ, and cells along one Hopf fibre share a hue where
+/// there are many.
+std::shared_ptr<const std::vector<Colour>> cellColours(const geometry::Polytope& polytope);
+
+}  // namespace oval4d::scene

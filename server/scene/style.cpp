@@ -1,0 +1,30 @@
+#include <glm/geometric.hpp>
+
+#include "scene/scene.hpp"
+
+namespace oval4d::scene {
+
+const Style& style() {
+    static const Style kStyle{
+        .background = 0x10141c,
+        .text = 0x9fabbd,
+        .focusText = 0xffffff,
+        .ball = 0xf3ede0,
+        .bar = 0xb9c4d6,
+        .zeroLine = 0x3a4456,
+        .axisX = 0xff5f5f,
+        .axisY = 0x5fd37a,
+        .axisZ = 0x5c9dff,
+        .axisW = 0xffd84d,
+        .faceOpacity = 0.46,
+        .light = glm::normalize(glm::dvec3(-0.35, 0.6, 0.72)),
+        .ambient = 0.45,
+        .diffuse = 0.6,
+        .specular = 0.35,
+        .shininess = 32,
+        .textHeight = 0.0215,
+    };
+    return kStyle;
+}
+
+}  // namespace oval4d::scene

@@ -1,0 +1,226 @@
+#include "session/expression.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "protocol/cpp/suggest.hpp"
+
+namespace oval4d::session {
+
+namespace {
+
+using protocol::Error;
+using protocol::ErrorCode;
+using protocol::Result;
+
+struct Function {
+    std::string_view name;
+    double (*call)(double);
+};
+constexpr auto kFunctions = std::to_array<Function>({{"sqrt", [](double x) { return std::sqrt(x); }},
+                                                     {"sin", [](double x) { return std::sin(x); }},
+                                                     {"cos", [](double x) { return std::cos(x); }},
+                                                     {"tan", [](double x) { return std::tan(x); }},
+                                                     {"asin", [](double x) { return std::asin(x); }},
+                                                     {"acos", [](double x) { return std::acos(x); }},
+                                                     {"atan", [](double x) { return std::atan(x); }},
+                                                     {"deg", [](double x) { return x * std::numbers::pi / 180; }}});
+constexpr auto kNames =
+    std::to_array<std::string_view>({"pi", "phi", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "deg"});
+// As people write and copy them.
+constexpr std::string_view kPiLetter = "π", kPhiLetter = "φ", kMinusSign = "−";
+
+constexpr std::size_t kMaxLength = 1000;
+constexpr int kMaxDepth = 64;
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+// Recursive descent; a fault ends it by an exception that does not leave this file.
+//   sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power   power = atom [^ signed]
+class Reader {
+  public:
+    explicit Reader(std::string_view text) : text_(text) {}
+
+    struct Fault {
+        std::size_t position;
+        std::string what;
+    };
+
+    double whole() {
+        const double value = sum();
+        if (at_ != text_.size()) fail("an operator is expected" + hint());
+        return value;
+    }
+
+  private:
+    double sum() {
+        const Depth deeper(*this);
+        double value = product();
+        while (true) {
+            if (take("+")) {
+                value += product();
+            } else if (take("-") || take(kMinusSign)) {
+                value -= product();
+            } else {
+                return value;
+            }
+        }
+    }
+    double product() {
+        double value = signedPower();
+        while (true) {
+            if (take("*")) {
+                value *= signedPower();
+            } else if (take("/")) {
+                value /= signedPower();
+            } else {
+                return value;
+            }
+        }
+    }
+    double signedPower() {
+        const Depth deeper(*this);
+        if (take("-") || take(kMinusSign)) return -signedPower();
+        if (take("+")) return signedPower();
+        const double base = atom();
+        return take("^") ? std::pow(base, signedPower()) : base;
+    }
+    double atom() {
+        if (take("(")) {
+            const double value = sum();
+            if (!take(")")) fail("a ')' is missing");
+            return value;
+        }
+        if (take(kPiLetter)) return std::numbers::pi;
+        if (take(kPhiLetter)) return std::numbers::phi;
+        skipBlanks();
+        if (at_ < text_.size() && (isDigit(text_[at_]) || text_[at_] == '.')) return number();
+        if (at_ < text_.size() && isLetter(text_[at_])) return named();
+        fail("a number, a name or '(' is expected");
+    }
+    double number() {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+        if (error == std::errc::result_out_of_range) fail("the number is too large or too small");
+        if (error != std::errc{}) fail("a number is expected");
+        at_ = static_cast<std::size_t>(end - text_.data());
+        return value;
+    }
+    double named() {
+        const std::size_t start = at_;
+        while (at_ < text_.size() && isLetter(text_[at_])) ++at_;
+        const std::string_view name = text_.substr(start, at_ - start);
+        if (name == "pi") return std::numbers::pi;
+        if (name == "phi") return std::numbers::phi;
+        for (const Function& function : kFunctions) {
+            if (function.name != name) continue;
+            if (!take("(")) fail("'(' is expected after " + std::string(name));
+            const double value = function.call(sum());
+            if (!take(")")) fail("a ')' is missing");
+            return value;
+        }
+        at_ = start;
+        fail("nothing is called " + protocol::inQuotes(name) + protocol::didYouMean(name, kNames) + "; known are " +
+             protocol::listed(kNames));
+    }
+
+    bool take(std::string_view token) {
+        skipBlanks();
+        if (!text_.substr(at_).starts_with(token)) return false;
+        at_ += token.size();
+        return true;
+    }
+    void skipBlanks() {
+        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+    }
+    std::string hint() const { return isLetter(text_[at_]) || text_[at_] == '(' ? " (a product is written 2*pi)" : ""; }
+    [[noreturn]] void fail(std::string what) const { throw Fault{at_, std::move(what)}; }
+
+    struct Depth {
+        explicit Depth(Reader& owner) : reader(owner) {
+            if (++reader.depth_ > kMaxDepth) reader.fail("it nests too deeply");
+        }
+        ~Depth() { --reader.depth_; }
+        Depth(const Depth&) = delete;
+        Depth& operator=(const Depth&) = delete;
+        Reader& reader;
+    };
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    int depth_ = 0;
+};
+
+Error bad(std::string message) { return {ErrorCode::bad_expression, std::move(message)}; }
+
+}  // namespace
+
+Result<double> evaluate(std::string_view text) {
+    if (text.find_first_not_of(" \t") == std::string_view::npos)
+        return bad("a number is expected, such as 0.2 or pi/8");
+    if (text.size() > kMaxLength)
+        return bad("an expression may have at most " + std::to_string(kMaxLength) + " characters");
+    try {
+        const double value = Reader(text).whole();
+        if (!std::isfinite(value)) return bad(protocol::inQuotes(text) + " is not a finite number");
+        return value;
+    } catch (const Reader::Fault& fault) {
+        return bad(protocol::inQuotes(text) + ", position " + std::to_string(fault.position + 1) + ": " + fault.what);
+    }
+}
+
+Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles) {
+    const std::size_t comma = planes.find(',');
+    const bool doubled = comma != std::string_view::npos;
+    const auto planeAt = [](std::string_view name) -> Result<geometry::Plane> {
+        if (const auto plane = geometry::planeNamed(name)) return *plane;
+        return bad("no plane is called " + protocol::inQuotes(name) + "; the planes are xy, xz, xw, yz, yw, zw");
+    };
+    const Result<geometry::Plane> first = planeAt(planes.substr(0, comma));
+    if (!first) return first.error();
+    if (doubled) {
+        const Result<geometry::Plane> second = planeAt(planes.substr(comma + 1));
+        if (!second) return second.error();
+        if (*second != geometry::perpendicular(*first)) {
+            return bad(std::string(name(*first)) + " and " + std::string(name(*second)) + " are not perpendicular; " +
+                       std::string(name(*first)) + " goes with " + std::string(name(perpendicular(*first))));
+        }
+    }
+    if (angles.size() != (doubled ? 2U : 1U)) {
+        return bad((doubled ? std::string("two planes need two angles") : std::string("one plane needs one angle")) +
+                   ", not " + std::to_string(angles.size()) + "; write xw pi/8 or xw,yz pi/8 pi/5");
+    }
+    geometry::Turn turn{*first, 0, {}};
+    const Result<double> alpha = evaluate(angles[0]);
+    if (!alpha) return alpha.error();
+    turn.alpha = *alpha;
+    if (doubled) {
+        const Result<double> beta = evaluate(angles[1]);
+        if (!beta) return beta.error();
+        turn.beta = *beta;
+    }
+    return turn;
+}
+
+Result<geometry::Turn> parseTurn(std::string_view text) {
+    const std::size_t colon = text.find(':');
+    if (colon == std::string_view::npos) {
+        return bad(protocol::inQuotes(text) + " is not a rotation; write xw:pi/8 or xw,yz:pi/8,pi/5");
+    }
+    std::vector<std::string_view> angles;
+    std::string_view rest = text.substr(colon + 1);
+    while (true) {
+        const std::size_t comma = rest.find(',');
+        angles.push_back(rest.substr(0, comma));
+        if (comma == std::string_view::npos) break;
+        rest.remove_prefix(comma + 1);
+    }
+    return makeTurn(text.substr(0, colon), angles);
+}
+
+}  // namespace oval4d::session

@@ -1,0 +1,11 @@
+#pragma once
+// Bringing polytopes of the user's own into a session.
+
+#include "session/session.hpp"
+
+namespace oval4d::session {
+
+/// Reads the polytope that `load` holds. Errors: `unsupported_format`, `bad_polytope` (with the line), `too_large`.
+protocol::Result<PolytopePtr> readPolytope(const protocol::Load& load, const Limits& limits);
+
+}  // namespace oval4d::session

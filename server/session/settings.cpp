@@ -1,0 +1,157 @@
+#include "session/settings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "geometry/catalogue.hpp"
+#include "protocol/cpp/suggest.hpp"
+
+namespace oval4d::session {
+
+namespace {
+
+using protocol::Error;
+using protocol::ErrorCode;
+using protocol::Result;
+using protocol::shortest;
+
+constexpr double kTwoPi = 2 * std::numbers::pi;
+
+struct Range {
+    double least, most;
+    std::string_view unit;
+};
+
+// A value into its place, if it lies within its bounds.
+Result<std::monostate> put(std::string_view name, std::optional<double> value, Range range, double& into) {
+    if (!value) return std::monostate{};
+    if (!(*value >= range.least && *value <= range.most)) {
+        return Error{ErrorCode::out_of_range, std::string(name) + " must be from " + shortest(range.least) + " to " +
+                                                  shortest(range.most) + std::string(range.unit) + ", not " +
+                                                  shortest(*value)};
+    }
+    into = *value;
+    return std::monostate{};
+}
+
+void put(std::optional<bool> value, bool& into) { into = value.value_or(into); }
+
+Result<std::monostate> setSlices(State& state, const protocol::Set& set, const Limits& limits) {
+    if (set.count) {
+        if (*set.count < 1 || *set.count > limits.maxSlices || *set.count % 2 == 0) {
+            return Error{ErrorCode::out_of_range, "the number of slices must be odd and from 1 to " +
+                                                      std::to_string(limits.maxSlices) + ", not " +
+                                                      std::to_string(*set.count)};
+        }
+        setCount(state, *set.count);
+    }
+    const double radius = state.polytope->circumradius;
+    if (auto done =
+            put("the spacing", set.spacing, {kMinSpacing * radius, kMaxSpacing * radius, ""}, state.slices.spacing);
+        !done) {
+        return done;
+    }
+    if (set.focus) {
+        if (*set.focus < -kMaxFocus || *set.focus > kMaxFocus) {
+            return Error{ErrorCode::out_of_range, "the focus must be from -" + std::to_string(kMaxFocus) + " to " +
+                                                      std::to_string(kMaxFocus) + ", not " +
+                                                      std::to_string(*set.focus)};
+        }
+        state.slices.focus = *set.focus;
+    }
+    return std::monostate{};
+}
+
+}  // namespace
+
+Result<PolytopePtr> findPolytope(std::string_view name, const Loaded& loaded) {
+    if (const auto own = loaded.find(name); own != loaded.end()) return own->second;
+    if (const auto* entry = geometry::findEntry(name)) return geometry::polytopeOf(*entry);
+
+    std::vector<std::string_view> known;
+    for (const auto& [own, ignored] : loaded) known.emplace_back(own);
+    for (const auto& entry : geometry::catalogue()) {
+        known.push_back(entry.name);
+        known.insert(known.end(), entry.aliases.begin(), entry.aliases.end());
+    }
+    std::string_view near = protocol::nearest(name, known);
+    if (near.empty()) near = geometry::nearestName(name);
+    return Error{ErrorCode::unknown_polytope, "no polytope is called " + protocol::inQuotes(name) + "; did you mean " +
+                                                  protocol::inQuotes(near) + "?"};
+}
+
+void show(State& state, PolytopePtr polytope) {
+    if (polytope == state.polytope) return;
+    state.slices.spacing *= polytope->circumradius / state.polytope->circumradius;
+    state.slices.focus = 0;
+    state.polytope = std::move(polytope);
+}
+
+void setCount(State& state, int count) {
+    if (count > 1 && state.slices.count > 1) {
+        const double spacing = state.slices.spacing * (state.slices.count - 1) / (count - 1);
+        const double radius = state.polytope->circumradius;
+        state.slices.spacing = std::clamp(spacing, kMinSpacing * radius, kMaxSpacing * radius);
+    }
+    state.slices.count = count;
+}
+
+Result<std::monostate> applySet(State& state, const protocol::Set& set, const Loaded& loaded, const Limits& limits) {
+    if (set.polytope) {
+        auto polytope = findPolytope(*set.polytope, loaded);
+        if (!polytope) return polytope.error();
+        show(state, std::move(*polytope));
+    }
+    if (set.orientation && *set.orientation != state.orientation.matrix()) {
+        const auto orientation = geometry::Rotation::fromMatrix(*set.orientation);
+        if (!orientation) {
+            return Error{ErrorCode::not_a_rotation,
+                         "the orientation must be an orthogonal 4×4 matrix with determinant 1, to within 1e-6"};
+        }
+        state.orientation = *orientation;
+    }
+    if (set.last) {
+        if (auto sound = checkTurn(*set.last); !sound) return sound;
+        state.last = set.last;
+    }
+    constexpr double kLeastStep = 1e-9;
+    for (auto&& done :
+         {put("alpha", set.alpha, {-kTwoPi, kTwoPi, " radians"}, state.alpha),
+          put("beta", set.beta, {-kTwoPi, kTwoPi, " radians"}, state.beta),
+          put("the step", set.step, {kLeastStep, kTwoPi, " radians"}, state.step), setSlices(state, set, limits),
+          put("the camera's azimuth", set.azimuth, {-kMaxOrbit, kMaxOrbit, " radians"}, state.look.orbit.azimuth),
+          put("the camera's elevation", set.elevation, {-kMaxOrbit, kMaxOrbit, " radians"}, state.look.orbit.elevation),
+          put("the camera's zoom", set.zoom, {kMinZoom, kMaxZoom, ""}, state.look.orbit.zoom)}) {
+        if (!done) return done;
+    }
+    state.look.view = set.view.value_or(state.look.view);
+    put(set.faces, state.look.parts.faces);
+    put(set.bars, state.look.parts.bars);
+    put(set.balls, state.look.parts.balls);
+    put(set.coordinates, state.look.parts.coordinates);
+    put(set.turning, state.turning);
+    if (state.turning && !state.last) {
+        return Error{ErrorCode::nothing_to_undo, "nothing to turn with: no rotation has been made yet"};
+    }
+    return std::monostate{};
+}
+
+Result<std::monostate> checkTurn(const geometry::Turn& turn) {
+    for (const double angle : {turn.alpha, turn.beta.value_or(0)}) {
+        if (!(std::abs(angle) <= kMaxAngle)) {
+            return Error{ErrorCode::out_of_range, "an angle must be from " + shortest(-kMaxAngle) + " to " +
+                                                      shortest(kMaxAngle) + " radians, not " + shortest(angle)};
+        }
+    }
+    return std::monostate{};
+}
+
+void rotate(State& state, const geometry::Turn& turn) {
+    state.orientation = geometry::Rotation(turn) * state.orientation;
+    state.last = turn;
+}
+
+}  // namespace oval4d::session

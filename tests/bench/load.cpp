@@ -1,0 +1,208 @@
+// How a running server bears up: key-to-picture latency, many sessions, a flood of keys, a client that never reads.
+//   oval4d --port 8080 &  load [port] [seconds]
+
+#include <algorithm>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <thread>
+
+#include "load_client.hpp"
+
+namespace {
+
+namespace asio = boost::asio;
+using asio::use_awaitable;
+using load::Client;
+using load::Clock;
+using load::Endpoint;
+using load::Latencies;
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Runs coroutines until all have ended; the first exception is passed on.
+class Stage {
+  public:
+    asio::io_context io;
+
+    void spawn(asio::awaitable<void> act) {
+        asio::co_spawn(io, std::move(act), [this](std::exception_ptr fault) {
+            if (fault && !fault_) fault_ = fault;
+        });
+    }
+    void run() {
+        io.restart();
+        io.run();
+        if (fault_) std::rethrow_exception(std::exchange(fault_, nullptr));
+    }
+
+  private:
+    std::exception_ptr fault_;
+};
+
+void head() { std::printf("%-58s %9s %9s %9s %9s\n", "", "pictures", "median ms", "p99 ms", "worst ms"); }
+
+void row(const std::string& what, Latencies latencies) {
+    std::ranges::sort(latencies);
+    const auto at = [&latencies](double part) {
+        return latencies.empty() ? 0 : 1e3 * latencies[static_cast<std::size_t>(part * double(latencies.size() - 1))];
+    };
+    std::printf("%-58s %9zu %9.2f %9.2f %9.2f\n", what.c_str(), latencies.size(), at(0.5), at(0.99), at(1));
+    std::fflush(stdout);
+}
+
+std::string setPolytope(const std::string& name) { return R"({"type":"set","polytope":")" + name + "\"}"; }
+
+/// One client presses a key, waits for the picture, and presses the next.
+asio::awaitable<void> pressing(Stage& stage, Endpoint server, std::string hello, std::string polytope, double seconds,
+                               Latencies& latencies) {
+    Client client(stage.io, server);
+    co_await client.open(hello, true);
+    if (polytope != "5-cell") {
+        co_await client.send(setPolytope(polytope));
+        co_await client.picture(1);
+    }
+    for (int i = 0; i < 20; ++i) co_await client.key('r');  // warm
+    for (const auto start = Clock::now(); since(start) < seconds;) {
+        const auto pressed = Clock::now();
+        co_await client.key(latencies.size() % 3 == 0 ? 'y' : latencies.size() % 3 == 1 ? 'r' : 't');
+        latencies.push_back(since(pressed));
+    }
+    co_await client.close();
+}
+
+/// One of many clients, at ten keys a second by the clock: a late picture makes the next key late, and that counts.
+asio::awaitable<void> typing(Stage& stage, Endpoint server, int number, double seconds, Latencies& latencies) {
+    Client client(stage.io, server);
+    co_await client.open(R"({"type":"hello","stream":"geometry"})", true);
+    asio::steady_timer timer(stage.io);
+    auto due = Clock::now() + std::chrono::milliseconds(500 + number * 37 % 100);
+    for (int i = 0; i < int(seconds * 10); ++i, due += std::chrono::milliseconds(100)) {
+        timer.expires_at(due);
+        co_await timer.async_wait(use_awaitable);
+        co_await client.key('r');
+        latencies.push_back(since(due));
+    }
+    co_await client.close();
+}
+
+asio::awaitable<void> flooding(Stage& stage, Endpoint server, std::string hello, int keys) {
+    Client client(stage.io, server);
+    co_await client.open(hello, true);
+    const std::uint64_t before = client.pictures();
+    const auto start = Clock::now();
+    for (int i = 0; i < keys; ++i) co_await client.send(R"({"type":"key","key":"y"})");
+    const double sent = since(start);
+    co_await client.picture(static_cast<std::uint64_t>(keys));
+    std::printf("%-58s %9llu   sent in %.0f ms, the newest seen after %.0f ms\n",
+                ("flood of " + std::to_string(keys) + " keys").c_str(),
+                static_cast<unsigned long long>(client.pictures() - before), 1e3 * sent, 1e3 * since(start));
+    co_await client.close();
+}
+
+/// Asks for much and never reads, until the server is through with it.
+asio::awaitable<void> neverReading(Stage& stage, Endpoint server, double seconds) {
+    Client client(stage.io, server);
+    co_await client.open(R"({"type":"hello","stream":"frames"})", false);
+    co_await client.send(setPolytope("600-cell"));
+    for (int i = 0; i < 50; ++i) co_await client.send(R"({"type":"get","what":"slices"})");
+    asio::steady_timer timer(stage.io,
+                             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)));
+    co_await timer.async_wait(use_awaitable);
+}
+
+asio::awaitable<void> memory(Stage& stage, Endpoint server, double& megabytes) {
+    constexpr const char* kName = "\nprocess_resident_memory_bytes ";
+    const std::string text = co_await load::get(stage.io, server, "/metrics");
+    const std::size_t at = text.find(kName);
+    megabytes = at == std::string::npos ? 0 : std::atof(text.c_str() + at + std::string(kName).size()) / 1e6;
+}
+
+asio::awaitable<void> opening(Client& client) { co_await client.open(R"({"type":"hello","stream":"geometry"})", true); }
+
+double memoryOf(Stage& stage, Endpoint server) {
+    double megabytes = 0;
+    stage.spawn(memory(stage, server, megabytes));
+    stage.run();
+    return megabytes;
+}
+
+void pressKeys(Endpoint server, const std::string& what, const std::string& hello, const std::string& polytope,
+               double seconds) {
+    Stage stage;
+    Latencies latencies;
+    stage.spawn(pressing(stage, server, hello, polytope, seconds, latencies));
+    stage.run();
+    row(what, latencies);
+}
+
+void manySessions(Endpoint server, int count, double seconds) {
+    Stage stage;
+    std::vector<Latencies> each(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) stage.spawn(typing(stage, server, i, seconds, each[static_cast<std::size_t>(i)]));
+    stage.run();
+    Latencies all;
+    for (const Latencies& latencies : each) all.insert(all.end(), latencies.begin(), latencies.end());
+    row(std::to_string(count) + " sessions at 10 keys/s, slices of the 5-cell", all);
+}
+
+void besideOneThatNeverReads(Endpoint server, double seconds) {
+    Stage stage;
+    Latencies latencies;
+    stage.spawn(neverReading(stage, server, seconds));
+    stage.spawn(pressing(stage, server, R"({"type":"hello","stream":"geometry"})", "5-cell", seconds, latencies));
+    stage.run();
+    row("slices of the 5-cell, beside a client that never reads", latencies);
+}
+
+void idle(Endpoint server, int count) {
+    Stage stage;
+    const double before = memoryOf(stage, server);
+    std::vector<std::unique_ptr<Client>> clients;
+    for (int i = 0; i < count; ++i) {
+        clients.push_back(std::make_unique<Client>(stage.io, server));
+        stage.spawn(opening(*clients.back()));
+        if (i % 50 == 49) stage.run();
+    }
+    stage.run();
+    const double with = memoryOf(stage, server);
+    std::printf("%d idle sessions: %.0f MB more than the %.0f MB before\n", count, with - before, before);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const auto port = static_cast<std::uint16_t>(argc > 1 ? std::atoi(argv[1]) : 8080);
+    const double seconds = argc > 2 ? std::atof(argv[2]) : 5;
+    const Endpoint server(asio::ip::make_address("127.0.0.1"), port);
+    const std::string frames = R"({"type":"hello","stream":"frames"})",
+                      json = R"({"type":"hello","stream":"geometry"})",
+                      cbor = R"({"type":"hello","stream":"geometry","encoding":"cbor"})";
+    std::printf("%u cores, 1280×720, 21 slices\n", std::thread::hardware_concurrency());
+    head();
+    try {
+        for (const char* polytope : {"5-cell", "600-cell"}) {
+            const std::string name = polytope;
+            pressKeys(server, "key to frame, " + name, frames, name, seconds);
+            pressKeys(server, "key to slices as JSON, " + name, json, name, seconds);
+            pressKeys(server, "key to slices as CBOR, " + name, cbor, name, seconds);
+        }
+        manySessions(server, 200, seconds);
+        besideOneThatNeverReads(server, seconds);
+        Stage stage;
+        for (const std::string& hello : {frames, json}) {
+            stage.spawn(flooding(stage, server, hello, 1000));
+            stage.run();
+        }
+        idle(server, 1000);
+    } catch (const std::exception& fault) {
+        std::fprintf(stderr, "load: %s\n", fault.what());
+        return 1;
+    }
+}

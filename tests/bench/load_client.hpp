@@ -1,0 +1,54 @@
+#pragma once
+// A client for load tests: a WebSocket, and how long its pictures took.
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace load {
+
+using Clock = std::chrono::steady_clock;
+using Endpoint = boost::asio::ip::tcp::endpoint;
+
+/// Seconds from a key to its picture.
+using Latencies = std::vector<double>;
+
+class Client {
+  public:
+    Client(boost::asio::io_context& io, Endpoint server) : stream_(io), server_(server) {}
+
+    /// Connects, says hello (a JSON text) and takes the first picture, if there is a stream.
+    boost::asio::awaitable<void> open(std::string hello, bool streams);
+    boost::asio::awaitable<void> send(std::string text);
+    /// Reads up to the picture of this revision or a newer one, and says that it was shown. Pictures on the way there
+    /// are shown too, and counted.
+    boost::asio::awaitable<void> picture(std::uint64_t revision);
+    /// One key and its picture.
+    boost::asio::awaitable<void> key(char which);
+    boost::asio::awaitable<void> close();
+
+    std::uint64_t revision() const { return revision_; }
+    std::uint64_t pictures() const { return pictures_; }
+    std::uint64_t bytes() const { return bytes_; }
+
+  private:
+    boost::asio::awaitable<std::string_view> read();
+
+    boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
+    Endpoint server_;
+    boost::beast::flat_buffer buffer_;
+    std::uint64_t revision_ = 0, pictures_ = 0, bytes_ = 0;
+};
+
+/// The body of an HTTP GET.
+boost::asio::awaitable<std::string> get(boost::asio::io_context& io, Endpoint server, std::string path);
+
+}  // namespace load

@@ -1,0 +1,15 @@
+// All in one process: they share a browser, and the machine is not torn between them.
+import "./picture.mjs";
+import "./keys.mjs";
+import "./buttons.mjs";
+import "./client.mjs";
+import "./command_line.mjs";
+import "./connection.mjs";
+import "./links.mjs";
+import "./pointer.mjs";
+import "./phone.mjs";
+import "./accessibility.mjs";
+import "./without_webgl.mjs";
+import { runAll } from "./support/suite.mjs";
+
+runAll("the page in a browser");

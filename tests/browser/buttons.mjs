@@ -1,0 +1,145 @@
+// Every action has a button, and the button does what the key does.
+import assert from "node:assert/strict";
+import { test } from "./support/suite.mjs";
+
+import { common, openWithScript, presented } from "./support/browser.mjs";
+import { decode } from "./support/pixels.mjs";
+import { joinSession } from "./support/script.mjs";
+import { pngText } from "./node_modules/.oval4d/client.mjs";
+
+const { url } = await common();
+const asking = await joinSession(url);
+const { keys: table } = await asking.request({ type: "get", what: "keymap" });
+asking.leave();
+
+const comparable = ({ id, revision, ...state }) => state;
+
+/** The state after what `act` does to a session that stands as it does at the start of each comparison. */
+async function outcome(script, { action }, act) {
+    await script.request({ type: "set", polytope: "16-cell", view: "oval", turning: false, alpha: 0.3, beta: 0.2 });
+    await script.request({ type: "reset" });
+    await script.request({ type: "set", shown: { faces: true, bars: true, balls: true, coordinates: true } });
+    await script.request({ type: "set", slices: { count: 21, spacing: 0.14, focus: 2 } });
+    await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.25, 0.5] });
+    if (action === "redo") await script.request({ type: "undo" });
+    const { revision } = await script.state();
+    await act();
+    return comparable(await script.until((one) => one.revision > revision, `a change by ${action}`));
+}
+
+test("buttons: each does what its key does", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    for (const binding of table.filter(({ client, action }) => !client && action !== "turn")) {
+        const { key, ctrl = false, action, name, shift } = binding;
+        for (const inverse of shift === "inverse" ? [false, true] : [false]) {
+            const byKey = await outcome(script, binding, async () => {
+                const strokes = key.length > 1 ? [...key] : [key];
+                for (const one of strokes) await script.request({ type: "key", key: one, shift: inverse, ctrl });
+            });
+            const button = page.locator(`[data-action="${action}"][data-key="${inverse ? "Shift+" : ""}${name}"]`);
+            assert.equal(await button.count(), 1, `a button for ${name}`);
+            const byButton = await outcome(script, binding, () => button.click());
+            assert.deepEqual(byButton, byKey, name);
+        }
+    }
+    assert.equal(
+        await page.evaluate(() => document.activeElement.id),
+        "drawing",
+        "the mouse leaves the keys where they are",
+    );
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("buttons: turning is switched on and off, and shown", async () => {
+    const { page, script, press, close } = await openWithScript();
+    await press("4");
+    const button = page.locator('[data-action="turn"]');
+    await button.click();
+    await script.until((one) => one.turning, "the turning to begin");
+    await page.waitForSelector('[data-action="turn"][aria-pressed="true"]');
+    await button.click();
+    await script.until((one) => !one.turning, "the turning to stop");
+    await page.waitForSelector('[data-action="turn"][aria-pressed="false"]');
+    await close();
+});
+
+test("buttons: one that is held repeats until it is let go", async () => {
+    const { page, script, close } = await openWithScript();
+    const { revision } = await script.state();
+    await page.hover('[data-action="alpha_up"]');
+    await page.mouse.down();
+    const { alpha } = await script.until((one) => one.revision >= revision + 3, "three steps of a held button");
+    await page.mouse.up();
+    assert.ok(alpha > (3 * Math.PI) / 180);
+    const rest = await script.state();
+    await page.locator("#drawing").focus();
+    await page.keyboard.press("J");
+    const after = await script.until((one) => one.beta < rest.beta, "another key's change");
+    assert.equal(after.alpha, rest.alpha, "nothing more came from the button");
+    await close();
+});
+
+test("buttons: the selector shows another polytope", async () => {
+    const { page, script, close } = await openWithScript();
+    const { polytopes } = await script.request({ type: "get", what: "catalogue" });
+    const offered = await page.locator("#polytope option").allTextContents();
+    assert.deepEqual(
+        offered,
+        polytopes.map(({ name }) => name),
+    );
+    await page.selectOption("#polytope", "120-cell");
+    const { polytope } = await script.until((one) => one.polytope.name === "120-cell", "the 120-cell");
+    assert.equal(polytope.cells, 120);
+    await close();
+});
+
+test("buttons: start again brings back the orientation, and the viewpoint", async () => {
+    const { page, script, press, close } = await openWithScript();
+    const { orientation } = await script.state();
+    await press("4");
+    await script.request({ type: "set", camera: { azimuth: 1, zoom: 2 } });
+    await page.click("[data-own=reset]");
+    const turned = await script.until((one) => one.orientation[0][0] === 1, "the first orientation");
+    assert.deepEqual(turned.orientation, orientation);
+    await page.click("[data-own=reset-view]");
+    await script.until(({ camera }) => camera.azimuth === 0 && camera.zoom === 1, "the first viewpoint");
+    await close();
+});
+
+test("buttons: the picture is saved as a PNG file that holds the state", async () => {
+    const { page, script, press, close } = await openWithScript();
+    const state = await press("y");
+    const saving = page.waitForEvent("download");
+    await page.click("[data-own=save]");
+    const download = await saving;
+    assert.equal(download.suggestedFilename(), "5-cell.png");
+    const chunks = [];
+    for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+    const png = Buffer.concat(chunks);
+    const { width, height } = decode(png);
+    const size = await page.evaluate(() => {
+        const { clientWidth, clientHeight } = document.getElementById("drawing");
+        return [clientWidth, clientHeight];
+    });
+    assert.deepEqual([width, height], size);
+    assert.deepEqual(JSON.parse(pngText(png)).orientation, state.orientation);
+    await presented(page, (await script.state()).revision);
+    await close();
+});
+
+test("buttons: the tools are put away and brought back, and the picture takes their place", async () => {
+    const { page, close } = await openWithScript();
+    const width = () => page.evaluate(() => document.getElementById("drawing").clientWidth);
+    const before = await width();
+    await page.click("#tools-button");
+    assert.equal(await page.locator("#tools").isVisible(), false);
+    assert.equal(await page.getAttribute("#tools-button", "aria-expanded"), "false");
+    assert.ok((await width()) > before + 200);
+    await page.waitForFunction(
+        () => document.querySelector("#drawing .solids").width === document.getElementById("drawing").clientWidth,
+    );
+    await page.click("#tools-button");
+    assert.equal(await width(), before);
+    await close();
+});

@@ -1,0 +1,111 @@
+// The client of protocol/ts, as a script uses it.
+import assert from "node:assert/strict";
+
+import WebSocket from "ws";
+
+import { Client, pngText, RequestError } from "./node_modules/.oval4d/client.mjs";
+import { common, openPage, scriptFor } from "./support/browser.mjs";
+import { decode } from "./support/pixels.mjs";
+import { startProxy } from "./support/proxy.mjs";
+import { joinSession } from "./support/script.mjs";
+import { atEnd, test } from "./support/suite.mjs";
+import { within } from "./support/within.mjs";
+
+const { url } = await common();
+
+/** A client, and promises of what it is told next. */
+function listen(options) {
+    const waiting = {};
+    const told = (event) => (value) => waiting[event]?.(value);
+    const client = new Client({
+        url,
+        webSocket: WebSocket,
+        onStatus: ({ kind }) => told(kind)(),
+        onSlices: told("slices"),
+        onFrame: told("frame"),
+        onState: told("state"),
+        ...options,
+    });
+    atEnd(() => client.close());
+    return { client, next: (event) => within(new Promise((resolve) => (waiting[event] = resolve)), event) };
+}
+
+test("client: slices come out alike from JSON and from CBOR", async () => {
+    const pictures = [];
+    for (const encoding of ["json", "cbor"]) {
+        const { client, next } = listen({ stream: "geometry", encoding, viewport: { width: 640, height: 480 } });
+        const slices = next("slices");
+        client.connect();
+        pictures.push(await slices);
+        client.close();
+    }
+    const [json, cbor] = pictures;
+    assert.ok(json.slices.some(({ faces }) => faces.corners.length > 0));
+    const compare = (a, b, path) => {
+        if (typeof a === "number") assert.ok(Math.abs(a - b) <= 1e-6 * Math.max(1, Math.abs(a)), `${path}: ${a}, ${b}`);
+        else if (typeof a !== "object") assert.equal(a, b, path);
+        else for (const key of Object.keys(a)) compare(a[key], b[key], `${path}.${key}`);
+        if (ArrayBuffer.isView(a)) assert.ok(b instanceof a.constructor && a.length === b.length, path);
+    };
+    compare(json, cbor, "slices");
+    compare(cbor, json, "slices");
+});
+
+test("client: a frame that is asked for is not mistaken for one of the stream", async () => {
+    const { client, next } = listen({ stream: "frames", viewport: { width: 320, height: 200 } });
+    const first = next("frame");
+    client.connect();
+    assert.equal(decode(await first).width, 320);
+    client.shown(0);
+    const streamed = next("frame");
+    const [asked] = await Promise.all([
+        client.request({ type: "get", what: "frame", width: 200, height: 100 }),
+        client.request({ type: "key", key: "4" }),
+    ]);
+    assert.equal(decode(asked).width, 200);
+    const frame = await streamed;
+    assert.equal(decode(frame).width, 320);
+    assert.equal(JSON.parse(pngText(frame)).revision, 1);
+    client.close();
+});
+
+test("client: errors come as errors, with their code", async () => {
+    const script = await joinSession(url);
+    await assert.rejects(script.request({ type: "set", polytope: "25-cell" }), (error) => {
+        assert.ok(error instanceof RequestError);
+        assert.equal(error.code, "unknown_polytope");
+        assert.match(error.message, /25-cell/);
+        return true;
+    });
+    script.leave();
+    await assert.rejects(script.state(), { code: "not_connected" });
+});
+
+test("client: it comes back to its session by itself", async () => {
+    const proxy = await startProxy(url, "/under");
+    const { client, next } = listen({ url: proxy.url });
+    const opened = next("open");
+    client.connect();
+    await opened;
+    const { session } = client.credentials;
+    await client.request({ type: "set", polytope: "16-cell" });
+    const [waiting, again] = [next("waiting"), next("open")];
+    const unanswered = assert.rejects(client.request({ type: "get", what: "frame" }), { code: "not_connected" });
+    proxy.cut();
+    await unanswered;
+    await waiting;
+    await again;
+    assert.equal(client.credentials.session, session);
+    assert.equal((await client.request({ type: "get", what: "state" })).polytope.name, "16-cell");
+    client.close();
+    await proxy.stop();
+});
+
+test("client: a script and a page in one session see each other's changes", async () => {
+    const { page, close } = await openPage();
+    const script = await scriptFor(page);
+    await script.request({ type: "command", line: "polytope 600-cell" });
+    await page.waitForFunction(() => document.getElementById("polytope").value === "600-cell");
+    script.leave();
+    await close();
+});

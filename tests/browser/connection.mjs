@@ -1,0 +1,146 @@
+// A session outlives its connection, and the page says truthfully how things stand.
+import assert from "node:assert/strict";
+import { test } from "./support/suite.mjs";
+
+import { common, openPage, openWithScript, presented, ready, scriptFor } from "./support/browser.mjs";
+import { startProxy } from "./support/proxy.mjs";
+import { startServer } from "./support/server.mjs";
+
+const connection = (page) => page.locator("#connection").textContent();
+const isOpen = (page) => page.waitForSelector("#connection[data-kind=open]");
+
+test("connection: a reload keeps the session", async () => {
+    const { page, script, press, errors, close } = await openWithScript();
+    const state = await press("y");
+    await page.reload();
+    await presented(page, state.revision);
+    await ready(page);
+    assert.equal((await script.state()).revision, state.revision);
+    const again = await scriptFor(page);
+    assert.equal(again.client.credentials.session, script.client.credentials.session);
+    again.leave();
+    const { orientation } = await press("Shift+Y");
+    assert.ok(Math.abs(orientation[0][0] - 1) < 1e-9);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("connection: a broken one is said, mended by itself, and the session goes on", async () => {
+    const { url } = await common();
+    const proxy = await startProxy(url, "/deep/inside");
+    const { page, close } = await openPage({ url: proxy.url });
+    await ready(page);
+    const script = await scriptFor(page, url);
+    proxy.cut();
+    await page.waitForSelector("#connection[data-kind=waiting]");
+    assert.match(await connection(page), /trying again/);
+    assert.equal(await page.locator("#stale").isVisible(), true);
+    assert.match(await page.locator("#stale").textContent(), /Not connected.*picture is from .*\d/);
+    await isOpen(page);
+    assert.equal(await page.locator("#stale").isVisible(), false);
+    assert.equal(await connection(page), "connected");
+    await page.locator("#drawing").focus();
+    await page.keyboard.press("y");
+    const { revision } = await script.until((one) => one.last !== null, "a key in the old session");
+    await presented(page, revision);
+    script.leave();
+    await close();
+    await proxy.stop();
+});
+
+test("connection: behind a path prefix everything is asked for under it", async () => {
+    const proxy = await startProxy((await common()).url, "/maths/oval");
+    const { page, errors, close } = await openPage({ url: `${proxy.url}?polytope=8-cell` });
+    await ready(page);
+    await page.waitForFunction(() => document.getElementById("polytope").value === "8-cell");
+    const saving = page.waitForEvent("download");
+    await page.click("[data-own=save]");
+    await saving;
+    assert.deepEqual(proxy.outside, []);
+    assert.deepEqual(errors, []);
+    await close();
+    await proxy.stop();
+});
+
+test("connection: the page bears a strict content security policy", async () => {
+    const policy = { "content-security-policy": "default-src 'self'; object-src 'none'; base-uri 'none'" };
+    const proxy = await startProxy((await common()).url, "/strict", policy);
+    const { page, errors, close } = await openPage({ url: proxy.url });
+    await ready(page);
+    await page.click("[data-own=frames]");
+    await page.waitForSelector("#drawing[data-drawn-by=frames]");
+    const saving = page.waitForEvent("download");
+    await page.click("[data-own=save]");
+    await saving;
+    assert.deepEqual(errors, []);
+    await close();
+    await proxy.stop();
+});
+
+test("connection: after a restart of the server the view goes on in a new session, and the page says so", async () => {
+    const server = await startServer();
+    const { page, close } = await openPage({ url: server.url });
+    await ready(page);
+    const script = await scriptFor(page, server.url);
+    await script.request({ type: "set", polytope: "24-cell", alpha: 0.25 });
+    const { revision } = await script.request({ type: "rotate", planes: ["xw"], angles: [0.5] });
+    await presented(page, revision);
+    const before = await script.state();
+    script.leave();
+    await server.stop();
+    await page.waitForSelector("#connection[data-kind=waiting]");
+    assert.equal(await page.locator("#stale").isVisible(), true);
+    await page.evaluate(() => {
+        document.getElementById("drawing").focus();
+    });
+    await page.keyboard.press("y");
+    await page.waitForFunction(() => /no connection/.test(document.getElementById("notice").textContent));
+
+    const again = await startServer({ port: server.port });
+    await isOpen(page);
+    await page.waitForFunction(() => /new one/.test(document.getElementById("notice").textContent));
+    const second = await scriptFor(page, again.url);
+    assert.notEqual(second.client.credentials.session, script.client.credentials.session);
+    const after = await second.until((one) => one.polytope.name === "24-cell", "the view in the new session");
+    assert.equal(after.alpha, 0.25);
+    after.orientation.flat().forEach((value, i) => assert.ok(Math.abs(value - before.orientation.flat()[i]) < 1e-9));
+    await page.keyboard.press("4");
+    const pressed = await second.until((one) => one.revision > after.revision, "a key in the new session");
+    await presented(page, pressed.revision);
+    second.leave();
+    await close();
+    await again.stop();
+});
+
+test("connection: a server that is not there is said too", async () => {
+    const server = await startServer();
+    const { page, close } = await openPage({ url: server.url });
+    await server.stop();
+    await page.waitForSelector("#connection[data-kind=waiting]");
+    // The reason changes from the one that the server gave to what is found when trying again.
+    await page.waitForFunction(() => /no answer/.test(document.getElementById("connection").textContent));
+    await close();
+});
+
+test("connection: a page that nobody looks at asks for no pictures", async () => {
+    const { page, script, close } = await openWithScript();
+    const asked = (hidden) =>
+        page.evaluate((value) => {
+            const sent = new Promise((resolve) => {
+                const { send } = WebSocket.prototype;
+                WebSocket.prototype.send = function (text) {
+                    const message = JSON.parse(text);
+                    if (message.type === "hello") ((WebSocket.prototype.send = send), resolve(message.stream));
+                    return send.call(this, text);
+                };
+            });
+            Object.defineProperty(document, "hidden", { value, configurable: true });
+            document.dispatchEvent(new Event("visibilitychange"));
+            return sent;
+        }, hidden);
+    assert.equal(await asked(true), "none");
+    const { revision } = await script.request({ type: "rotate", planes: ["xy"], angles: [1] });
+    assert.equal(await asked(false), "geometry");
+    await presented(page, revision);
+    await close();
+});

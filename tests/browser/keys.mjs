@@ -1,0 +1,225 @@
+// Every key of the table does what it says, seen by the page and by a second client.
+import assert from "node:assert/strict";
+import { test } from "./support/suite.mjs";
+
+import { common, openWithScript, readings } from "./support/browser.mjs";
+import { joinSession } from "./support/script.mjs";
+
+const kAxes = "xyzw";
+const close = (a, b) => Math.abs(a - b) < 1e-9;
+
+/** R · M for rotations by these angles in these planes. */
+function turned(matrix, planes, angles) {
+    const out = matrix.map((row) => [...row]);
+    planes.forEach((plane, i) => {
+        const [a, b] = [...plane].map((axis) => kAxes.indexOf(axis));
+        const [cos, sin] = [Math.cos(angles[i]), Math.sin(angles[i])];
+        for (let k = 0; k < 4; ++k) {
+            [out[a][k], out[b][k]] = [out[a][k] * cos - out[b][k] * sin, out[a][k] * sin + out[b][k] * cos];
+        }
+    });
+    return out;
+}
+
+function assertMatrix(actual, expected) {
+    actual.flat().forEach((value, i) => assert.ok(close(value, expected.flat()[i]), `${actual} is not ${expected}`));
+}
+
+const toggles = (part) => (before, after) => assert.equal(after.shown[part], !before.shown[part]);
+const adds = (angle, sign) => (before, after) => assert.ok(close(after[angle], before[angle] + sign * before.step));
+
+/** What the state is to be after each action. */
+const effects = {
+    rotate: (before, after, { planes }) => {
+        assertMatrix(after.orientation, turned(before.orientation, planes, [before.alpha, before.beta]));
+    },
+    alpha_up: adds("alpha", 1),
+    alpha_down: adds("alpha", -1),
+    beta_up: adds("beta", 1),
+    beta_down: adds("beta", -1),
+    focus_right: (before, after) => assert.equal(after.slices.focus, before.slices.focus + 1),
+    focus_left: (before, after) => assert.equal(after.slices.focus, before.slices.focus - 1),
+    focus_zero: (_, after) => assert.equal(after.slices.focus, 0),
+    focus_first: (before, after) => assert.ok(after.slices.focus < 0 && after.slices.focus < before.slices.focus),
+    focus_last: (before, after) => assert.ok(after.slices.focus > 0 && after.slices.focus > before.slices.focus),
+    undo: (before, after) => assert.notDeepEqual(after.orientation, before.orientation),
+    redo: (before, after) => assert.notDeepEqual(after.orientation, before.orientation),
+    repeat: (before, after) => {
+        assertMatrix(after.orientation, turned(before.orientation, before.last.planes, before.last.angles));
+    },
+    turn: (before, after) => assert.equal(after.turning, !before.turning),
+    spacing_smaller: (before, after) => assert.ok(close(after.slices.spacing, before.slices.spacing / 1.1)),
+    spacing_larger: (before, after) => assert.ok(close(after.slices.spacing, before.slices.spacing * 1.1)),
+    slices_fewer: (before, after) => assert.equal(after.slices.count, before.slices.count - 2),
+    slices_more: (before, after) => assert.equal(after.slices.count, before.slices.count + 2),
+    polytope_next: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
+    polytope_previous: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
+    view: (_, after) => assert.equal(after.view, "single"),
+    coordinates: toggles("coordinates"),
+    faces: toggles("faces"),
+    bars: toggles("bars"),
+    balls: toggles("balls"),
+};
+
+/** As Playwright presses it, on a US keyboard. */
+function strokes({ key, code, ctrl }, inverse = false) {
+    if (key.length > 1) return [...key];
+    const name = code ?? (/[A-Z]/.test(key) ? `Shift+${key}` : key);
+    if (ctrl) return [`Control+${key}`];
+    return [inverse ? (code ? `Shift+${code}` : `Shift+${key.toUpperCase()}`) : name];
+}
+
+/** The same state before each key: rotated, off the middle, with something to undo and to redo. */
+async function prepare(script, { action }) {
+    await script.request({ type: "set", polytope: "24-cell", view: "oval", turning: false });
+    await script.request({ type: "reset" });
+    await script.request({ type: "set", shown: { faces: true, bars: true, balls: true, coordinates: true } });
+    await script.request({ type: "set", alpha: 0.3, beta: 0.2, slices: { count: 21, spacing: 0.2, focus: 2 } });
+    await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.25, 0.5] });
+    if (action === "redo") await script.request({ type: "undo" });
+    return script.state();
+}
+
+const { url } = await common();
+const asking = await joinSession(url);
+const { keys: table } = await asking.request({ type: "get", what: "keymap" });
+asking.leave();
+
+test("keys: the table has them all", () => {
+    const names = table.map(({ name }) => name).sort();
+    const expected = [..."234567rtykjKJlh0Gu.[]{}nNopfbe:?", "gg", "Ctrl-r", "Space"].sort();
+    assert.deepEqual(names, expected);
+});
+
+let shared; // one page serves for all keys
+
+for (const binding of table.filter(({ client }) => !client)) {
+    test(`keys: ${binding.name} – ${binding.text}`, async () => {
+        shared ??= await openWithScript();
+        const { page, script, press, errors } = shared;
+        const before = await prepare(script, binding);
+        const after = await press(...strokes(binding));
+        assert.ok(effects[binding.action], `the test knows no effect of ${binding.action}`);
+        effects[binding.action](before, after, binding);
+        const shown = await readings(page);
+        assert.equal(shown.polytope, after.polytope.name);
+        assert.equal(Number(shown.slices), after.slices.count);
+        assert.ok(Math.abs(parseFloat(shown.alpha) - (after.alpha * 180) / Math.PI) <= 0.005, shown.alpha);
+        assert.ok(Math.abs(parseFloat(shown.beta) - (after.beta * 180) / Math.PI) <= 0.005, shown.beta);
+        const w = after.slices.focus * after.slices.spacing;
+        assert.ok(Math.abs(Number(shown.w.replace("\u2212", "-")) - w) <= 0.01 * Math.abs(w), shown.w);
+        if (binding.shift === "inverse") {
+            const back = await press(...strokes(binding, true));
+            assertMatrix(back.orientation, before.orientation);
+        }
+        if (binding.action === "turn") {
+            const later = await script.until((one) => one.revision > after.revision + 2, "the turning to go on");
+            assert.notDeepEqual(later.orientation, after.orientation);
+            await page.keyboard.press("Space");
+            await script.until((one) => !one.turning, "the turning to stop");
+        }
+        assert.deepEqual(errors, []);
+    });
+}
+
+/** A key event as a keyboard of another layout makes it. */
+async function dispatch(page, event) {
+    const session = await page.context().newCDPSession(page);
+    for (const type of ["keyDown", "keyUp"]) await session.send("Input.dispatchKeyEvent", { type, ...event });
+    await session.detach();
+}
+
+test("keys: a digit is the physical key, so Shift with it is the inverse on every layout", async () => {
+    const layouts = [
+        { shifted: '"', plain: "2" }, // British, German
+        { shifted: "2", plain: "é" }, // French
+        { shifted: "2", plain: "ě" }, // Czech
+    ];
+    for (const { shifted, plain } of layouts) {
+        const { page, script, close: end } = await openWithScript();
+        const start = await script.state();
+        await dispatch(page, { key: plain, text: plain, code: "Digit2", windowsVirtualKeyCode: 50 });
+        const there = await script.until((one) => one.revision > start.revision, `a change by ${plain}`);
+        assertMatrix(there.orientation, turned(start.orientation, ["xy"], [start.alpha]));
+        await dispatch(page, { key: shifted, text: shifted, code: "Digit2", windowsVirtualKeyCode: 50, modifiers: 8 });
+        const back = await script.until((one) => one.revision > there.revision, `a change by Shift and ${shifted}`);
+        assertMatrix(back.orientation, start.orientation);
+        await end();
+    }
+});
+
+test("keys: brackets may need AltGr, and letters another script's keyboard", async () => {
+    const { page, script, close: end } = await openWithScript();
+    const type = async (event, holds) => {
+        await page.evaluate((init) => {
+            const typed = new KeyboardEvent("keydown", { bubbles: true, cancelable: true, ...init });
+            document.getElementById("drawing").dispatchEvent(typed);
+        }, event);
+        await script.until(holds, JSON.stringify(event));
+    };
+    const altGr = { modifierAltGraph: true, ctrlKey: true, altKey: true }; // as Windows reports it
+    await type({ key: "{", code: "Digit7", ...altGr }, (one) => one.slices.count === 19); // German
+    await type({ key: "}", code: "Digit0", ...altGr }, (one) => one.slices.count === 21);
+    await type({ key: "}", code: "Digit9", altKey: true }, (one) => one.slices.count === 23); // German, Mac
+    await type({ key: "к", code: "KeyR" }, (one) => one.last?.planes.join() === "xw,yz"); // Russian
+    await type({ key: "Т", code: "KeyN", shiftKey: true }, (one) => one.polytope.name !== "5-cell");
+    await end();
+});
+
+test("keys: what is not ours is left alone", async () => {
+    const { page, script, close: end } = await openWithScript();
+    const { revision } = await script.state();
+    await page.evaluate(() => {
+        window.prevented = [];
+        window.addEventListener("keydown", (event) => window.prevented.push(event.defaultPrevented));
+    });
+    const foreign = ["Control+y", "Control+2", "Alt+y", "Meta+y", "Control+Shift+R", "F3", "Home", "Tab"];
+    for (const stroke of foreign) await page.keyboard.press(stroke);
+    await page.locator("#drawing").focus();
+    await page.evaluate(() => {
+        const composing = new KeyboardEvent("keydown", { key: "y", code: "KeyY", isComposing: true, bubbles: true });
+        document.getElementById("drawing").dispatchEvent(composing);
+    });
+    assert.ok((await page.evaluate(() => window.prevented)).every((prevented) => !prevented));
+    // One that is ours goes through the same channel: all before it has been dealt with by then.
+    await page.keyboard.press("k");
+    const after = await script.until((one) => one.revision > revision, "a change by k");
+    assert.equal(after.revision, revision + 1);
+    await end();
+});
+
+test("keys: they act only while the drawing has the focus, which it has from the start", async () => {
+    const { page, script, press, close: end } = await openWithScript();
+    assert.equal(await page.evaluate(() => document.activeElement.id), "drawing");
+    const { revision } = await press("k");
+    await page.focus("#help-button");
+    await page.keyboard.press("k");
+    await page.focus("#drawing");
+    assert.equal((await press("j")).revision, revision + 1);
+    assert.equal((await script.state()).alpha, Math.PI / 36);
+    await end();
+});
+
+test("keys: a held key repeats no faster than pictures come, and stops when it is let go", async () => {
+    const { page, script, close: end } = await openWithScript();
+    await script.request({ type: "set", polytope: "600-cell" });
+    await page.evaluate(() => {
+        window.sent = 0;
+        window.most = 0;
+        const { send } = WebSocket.prototype;
+        let open = 0;
+        WebSocket.prototype.send = function (text) {
+            const { type } = JSON.parse(text);
+            if (type === "key") ((window.most = Math.max(window.most, ++open)), ++window.sent);
+            if (type === "shown") open = 0;
+            return send.call(this, text);
+        };
+    });
+    await page.keyboard.down("y");
+    for (let i = 0; i < 200; ++i) await page.keyboard.down("y"); // as the keyboard repeats it
+    await page.keyboard.up("y");
+    const { sent, most } = await page.evaluate(() => ({ sent: window.sent, most: window.most }));
+    assert.ok(sent >= 2 && sent < 201, `${sent} of 201 were sent`);
+    assert.equal(most, 1, "the next goes when the last one's picture was seen");
+    await end();
+});

@@ -1,0 +1,76 @@
+// Addresses that open a view, and links that share a session.
+import assert from "node:assert/strict";
+import { test } from "./support/suite.mjs";
+
+import { common, openPage, openWithScript, presented, ready, scriptFor } from "./support/browser.mjs";
+
+const { url } = await common();
+
+test("links: a query opens its view", async () => {
+    const query =
+        "?polytope=24-cell&rotate=xw,yz:pi/8,pi/sqrt(3)-pi/8&rotate=xy:0.1+0.1&slices=31&alpha=pi/8&width=640";
+    const { page, errors, close } = await openPage({ url: url + query });
+    await ready(page);
+    const script = await scriptFor(page);
+    const state = await script.state();
+    assert.equal(state.polytope.name, "24-cell");
+    assert.equal(state.slices.count, 31);
+    assert.equal(state.alpha, Math.PI / 8);
+    assert.deepEqual(state.last, { planes: ["xy"], angles: [0.2] });
+    assert.ok(Math.abs(state.orientation[3][3] - Math.cos(Math.PI / 8)) < 1e-12);
+    assert.equal(await page.locator("#notice").textContent(), "");
+    await presented(page, state.revision);
+    assert.deepEqual(errors, []);
+
+    // A reload does not turn it again, another query opens another view.
+    await page.reload();
+    await ready(page);
+    assert.equal((await script.state()).revision, state.revision);
+    script.leave();
+    await page.goto(`${url}?polytope=16-cell`);
+    await page.waitForFunction(() => document.getElementById("polytope").value === "16-cell");
+    await close();
+});
+
+test("links: a fault in a query is told, and the rest of it holds", async () => {
+    const { page, errors, close } = await openPage({ url: `${url}?polytope=25-cell&slices=11` });
+    await page.waitForFunction(() => /25-cell/.test(document.getElementById("notice").textContent));
+    await page.waitForFunction(() => document.querySelector("[data-reading=slices]").textContent === "11");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("links: a shared link joins the session, and both see every change", async () => {
+    const first = await openWithScript({ permissions: ["clipboard-read", "clipboard-write"] });
+    await first.press("4");
+    await first.page.click("[data-own=share]");
+    await first.page.waitForFunction(() => /copied/.test(document.getElementById("notice").textContent));
+    const link = await first.page.evaluate(() => navigator.clipboard.readText());
+    const second = await openPage({ url: link });
+    await ready(second.page);
+    assert.equal(second.page.url(), url, "the token does not stay in the address");
+    const { revision } = await first.press("y");
+    await presented(second.page, revision);
+    await second.page.locator("#drawing").focus();
+    await second.page.keyboard.press("n");
+    const after = await first.script.until((one) => one.polytope.name !== "5-cell", "the other page's key");
+    await presented(first.page, after.revision);
+    assert.equal(await first.page.inputValue("#polytope"), after.polytope.name);
+    await second.close();
+    await first.close();
+});
+
+test("links: a link to a session that cannot be opened is told, and a new one begins", async () => {
+    const { script, close } = await openWithScript();
+    const { session } = script.client.credentials;
+    for (const fragment of ["session=nonesuch&token=x", `session=${session}&token=wrong`]) {
+        const { page, close: closeOther } = await openPage({ url: `${url}#${fragment}` });
+        await page.waitForFunction(() => /cannot be opened/.test(document.getElementById("notice").textContent));
+        await page.waitForSelector("#connection[data-kind=open]");
+        const other = await scriptFor(page);
+        assert.notEqual(other.client.credentials.session, session);
+        other.leave();
+        await closeOther();
+    }
+    await close();
+});

@@ -1,0 +1,61 @@
+// A phone in the hand.
+import assert from "node:assert/strict";
+import { test } from "./support/suite.mjs";
+
+import { openWithScript } from "./support/browser.mjs";
+import { covered, decode } from "./support/pixels.mjs";
+
+const phone = { viewport: { width: 375, height: 667 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
+
+test("phone: the picture has room, nothing overflows, every button can be hit", async () => {
+    const { page, script, errors, close } = await openWithScript(phone);
+    const { width, height } = await page.locator("#drawing").boundingBox();
+    assert.equal(width, 375);
+    assert.ok(height > 0.4 * 667, `the picture is ${height} high`);
+    assert.ok(covered(decode(await page.locator("#drawing").screenshot()), [16, 20, 28]) > 0.02);
+    const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok((await overflow()) <= 0);
+    const readings = await page
+        .locator("[data-reading]")
+        .evaluateAll((all) => all.map((one) => one.getBoundingClientRect().right));
+    assert.ok(
+        readings.every((right) => right <= 375),
+        "the state is in sight",
+    );
+
+    const { keys } = await script.request({ type: "get", what: "keymap" });
+    const found = new Set();
+    for (const tab of await page.locator(".tabs button").all()) {
+        await tab.tap();
+        assert.ok((await overflow()) <= 0);
+        for (const button of await page.locator("#tools section button:visible").all()) {
+            await button.scrollIntoViewIfNeeded();
+            const box = await button.boundingBox();
+            assert.ok(
+                box.height >= 38 && box.width >= 30,
+                `${await button.getAttribute("title")}: ${box.width} × ${box.height}`,
+            );
+            assert.ok(box.x >= 0 && box.x + box.width <= 375);
+            found.add(await button.getAttribute("data-action"));
+        }
+    }
+    for (const { action } of keys) assert.ok(found.has(action), action);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("phone: a tap turns", async () => {
+    const { page, script, close } = await openWithScript(phone);
+    await page.locator('[data-action="rotate"][data-key="y"]').tap();
+    const { last } = await script.until((one) => one.last !== null, "the turn");
+    assert.deepEqual(last.planes, ["xy", "zw"]);
+    await close();
+});
+
+test("phone: lying on its side it is usable too", async () => {
+    const { page, close } = await openWithScript({ ...phone, viewport: { width: 667, height: 375 } });
+    const { width, height } = await page.locator("#drawing").boundingBox();
+    assert.ok(width >= 375 && height >= 280, `${width} × ${height}`);
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0);
+    await close();
+});

@@ -1,0 +1,118 @@
+// What is seen: the oval where the slices stand, the same from both streams.
+import assert from "node:assert/strict";
+import { test } from "./support/suite.mjs";
+
+import { openPage, openWithScript, presented } from "./support/browser.mjs";
+import { compare, decode, distance, pixelAt } from "./support/pixels.mjs";
+import { project, rgb, worldPoints } from "./support/scene.mjs";
+
+const drawing = (page) => page.locator("#drawing");
+
+/** Lets the drawing lose the focus, and with it the frame around it. */
+const blur = (page) => page.evaluate(() => document.activeElement.blur());
+
+async function picture(page) {
+    await blur(page);
+    return decode(await drawing(page).screenshot());
+}
+
+/** Switches the way of drawing and waits for a picture drawn so. */
+async function drawBy(page, mode) {
+    await page.click(`[data-own=${mode}]`);
+    await page.waitForSelector(`#drawing[data-drawn-by=${mode}]`);
+}
+
+for (const polytope of ["5-cell", "8-cell", "24-cell", "600-cell"]) {
+    test(`picture: the slices of the ${polytope} stand where the server says`, async () => {
+        const { page, script, errors, close } = await openWithScript();
+        const { revision } = await script.request({ type: "set", polytope });
+        await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.4, 1.1] });
+        await presented(page, revision + 1);
+        const shown = await picture(page);
+        const { width, height } = shown;
+        const { scene, slices } = await script.request({ type: "get", what: "slices", width, height });
+        const background = rgb(scene.colors.background);
+        let seen = 0;
+        for (const slice of slices.filter(({ vertices }) => vertices.length > 0)) {
+            for (const point of worldPoints(scene, slice)) {
+                const [x, y] = project(scene, point, { width, height });
+                if (x < 1 || y < 1 || x > width - 2 || y > height - 2) continue;
+                ++seen;
+                const apart = distance(pixelAt(shown, x, y), background);
+                assert.ok(apart > 8, `slice ${slice.index}: only background at ${x}, ${y}`);
+            }
+        }
+        assert.ok(seen >= 4 * slices.filter(({ vertices }) => vertices.length > 0).length, "all slices are in sight");
+        const hole = pixelAt(shown, width / 2, height * 0.1);
+        assert.ok(distance(hole, background) <= 8, "inside the oval there is nothing");
+        assert.deepEqual(errors, []);
+        await close();
+    });
+}
+
+const views = [
+    { name: "the 5-cell as it starts", settings: {} },
+    { name: "the 600-cell", settings: { polytope: "600-cell" } },
+    {
+        name: "from another side and nearer",
+        settings: { polytope: "24-cell", camera: { azimuth: 0.5, elevation: 0.3, zoom: 1.6 } },
+    },
+    { name: "the single view", settings: { polytope: "16-cell", view: "single" } },
+    { name: "bars alone", settings: { polytope: "120-cell", shown: { faces: false, balls: false } } },
+    { name: "faces alone", settings: { polytope: "8-cell", shown: { bars: false, balls: false, coordinates: false } } },
+];
+for (const { name, settings } of views) {
+    test(`picture: geometry and frame lie over each other: ${name}`, async () => {
+        const { page, script, errors, close } = await openWithScript();
+        await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.7, 0.3] });
+        const { revision } = await script.request({ type: "set", ...settings });
+        await presented(page, revision);
+        const geometry = await picture(page);
+        await drawBy(page, "frames");
+        const frame = await picture(page);
+        const { mean, far } = compare(geometry, frame);
+        assert.ok(mean < 1, `mean difference ${mean.toFixed(2)} of 255`);
+        assert.ok(far < 0.005, `${(100 * far).toFixed(2)} % of the pixels differ much`);
+        await drawBy(page, "geometry");
+        assert.ok(compare(await picture(page), geometry).mean < 0.1, "and back again it is the first picture");
+        assert.deepEqual(errors, []);
+        await close();
+    });
+}
+
+test("picture: two different states are told apart by the comparison", async () => {
+    const { page, press, close } = await openWithScript();
+    const before = await picture(page);
+    await drawing(page).focus();
+    await press("6");
+    const { mean, far } = compare(before, await picture(page));
+    assert.ok(mean > 0.3 || far > 0.006, `one key changes the picture: ${mean}, ${far}`);
+    await close();
+});
+
+test("picture: nothing is drawn while nothing changes", async () => {
+    const { page, close } = await openPage();
+    const frames = await page.evaluate(async () => {
+        let asked = 0;
+        const { requestAnimationFrame: ask } = window;
+        window.requestAnimationFrame = (callback) => (++asked, ask.call(window, callback));
+        for (let i = 0; i < 20; ++i) await new Promise((resolve) => ask.call(window, resolve));
+        return asked;
+    });
+    assert.equal(frames, 0);
+    await close();
+});
+
+test("picture: a sharp screen gets a sharp picture, in either mode", async () => {
+    const { page, close } = await openPage({ deviceScaleFactor: 2 });
+    const sizes = () =>
+        page.evaluate(() => {
+            const { clientWidth, clientHeight, dataset } = document.getElementById("drawing");
+            const canvas = document.querySelector(`#drawing .${dataset.mode === "frames" ? "frame" : "solids"}`);
+            return [canvas.width - 2 * clientWidth, canvas.height - 2 * clientHeight];
+        });
+    assert.deepEqual(await sizes(), [0, 0]);
+    await drawBy(page, "frames");
+    assert.deepEqual(await sizes(), [0, 0]);
+    await close();
+});

@@ -1,0 +1,44 @@
+// Pictures as pixels.
+import pngjs from "pngjs";
+
+export function decode(png) {
+    return pngjs.PNG.sync.read(Buffer.from(png));
+}
+
+/** Red, green, blue at a point, from the upper left. */
+export function pixelAt({ width, data }, x, y) {
+    const at = 4 * (Math.round(y) * width + Math.round(x));
+    return [...data.subarray(at, at + 3)];
+}
+
+/** The largest difference of a channel. */
+export function distance(a, b) {
+    return Math.max(...a.map((value, i) => Math.abs(value - b[i])));
+}
+
+/** Lays two pictures of one size over each other. */
+export function compare(a, b) {
+    if (a.width !== b.width || a.height !== b.height) throw new Error("the pictures differ in size");
+    let sum = 0;
+    let far = 0;
+    for (let i = 0; i < a.data.length; i += 4) {
+        let most = 0;
+        for (let k = 0; k < 3; ++k) {
+            const difference = Math.abs(a.data[i + k] - b.data[i + k]);
+            sum += difference;
+            most = Math.max(most, difference);
+        }
+        if (most > 64) ++far;
+    }
+    const pixels = a.width * a.height;
+    return { mean: sum / (3 * pixels), far: far / pixels };
+}
+
+/** The part of the pixels that differ from the background. */
+export function covered(picture, background) {
+    let count = 0;
+    for (let i = 0; i < picture.data.length; i += 4) {
+        if (distance([...picture.data.subarray(i, i + 3)], background) > 24) ++count;
+    }
+    return count / (picture.width * picture.height);
+}

@@ -1,0 +1,32 @@
+// Where the points of a `slices` message are seen, computed from the specification, not from the page's code.
+
+const minus = (a, b) => a.map((x, i) => x - b[i]);
+const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
+const cross = ([a, b, c], [x, y, z]) => [b * z - c * y, c * x - a * z, a * y - b * x];
+const unit = (a) => a.map((x) => x / Math.hypot(...a));
+
+/** Pixels from the upper left corner of a picture of this size. */
+export function project(scene, world, { width, height }) {
+    const { eye, target, up, fov, shift } = scene.camera;
+    const back = unit(minus(eye, target));
+    const right = unit(cross(up, back));
+    const seen = minus(world, eye);
+    const depth = -dot(seen, back);
+    const f = 1 / Math.tan(fov / 2);
+    const x = (f * height * dot(seen, right)) / (width * depth) + 2 * shift[0];
+    const y = (f * dot(seen, cross(back, right))) / depth + 2 * shift[1];
+    return [((x + 1) / 2) * width, ((1 - y) / 2) * height];
+}
+
+/** The slice's vertices in the world. */
+export function worldPoints(scene, slice) {
+    const points = [];
+    for (let i = 0; i < slice.vertices.length; i += 3) {
+        points.push(slice.position.map((at, k) => at + scene.scale * slice.vertices[i + k]));
+    }
+    return points;
+}
+
+export function rgb(colour) {
+    return [colour >> 16, (colour >> 8) & 255, colour & 255];
+}

@@ -1,0 +1,49 @@
+// A second client of a page's session, as a script is one.
+import WebSocket from "ws";
+
+import { Client } from "../node_modules/.oval4d/client.mjs";
+import { atEnd } from "./suite.mjs";
+import { within } from "./within.mjs";
+
+/** Joins a session, or makes one. */
+export async function joinSession(url, credentials) {
+    const watchers = new Set();
+    let state;
+    const opened = new Promise((resolve, reject) => {
+        const client = new Client({
+            url,
+            credentials,
+            webSocket: WebSocket,
+            stream: "none",
+            onStatus: ({ kind }) => kind === "open" && resolve(client),
+            onLost: (reason) => reject(new Error(reason)),
+            onState: (newer) => {
+                state = newer;
+                for (const watch of watchers) watch();
+            },
+        });
+        atEnd(() => client.close());
+        client.connect();
+    });
+    const client = await within(opened, "the script to connect");
+    return {
+        client,
+        request: (message) => client.request(message),
+        state: () => client.request({ type: "get", what: "state" }),
+        /** The first state for which `holds` is true, now or later. */
+        async until(holds, what) {
+            let watch;
+            const found = new Promise((resolve) => {
+                watch = () => state && holds(state) && resolve(state);
+                watchers.add(watch);
+                watch();
+            });
+            try {
+                return await within(found, what);
+            } finally {
+                watchers.delete(watch);
+            }
+        },
+        leave: () => client.close(),
+    };
+}

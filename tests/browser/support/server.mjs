@@ -1,0 +1,40 @@
+// The real server, on a port of its own.
+import { spawn } from "node:child_process";
+import { existsSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+import { atEnd } from "./suite.mjs";
+
+const top = join(dirname(fileURLToPath(import.meta.url)), "../../..");
+const binary = process.env.OVAL4D ?? process.env.OVAL4D_SERVER ?? join(top, "build/release/bin/oval4d");
+const webRoot = process.env.OVAL4D_WEB_ROOT ?? join(top, "web_client/dist");
+
+/** Starts a server; port 0 is any free one. */
+export async function startServer({ port = 0, options = [] } = {}) {
+    if (!existsSync(binary)) throw new Error(`there is no server at ${binary}: build it, or set OVAL4D`);
+    if (!existsSync(join(webRoot, "app.js"))) throw new Error(`there is no page in ${webRoot}: npm run build makes it`);
+    const child = spawn(binary, ["--port", String(port), "--web-root", webRoot, ...options]);
+    atEnd(() => child.kill());
+    let said = "";
+    const url = await new Promise((resolve, reject) => {
+        const listen = (chunk) => {
+            said += chunk;
+            const [, found] = /listening url=(\S+)/.exec(said) ?? [];
+            if (found && /\bready\b/.test(said)) resolve(found);
+        };
+        child.stdout.on("data", listen);
+        child.stderr.on("data", listen);
+        child.once("exit", (code) => reject(new Error(`the server ended with ${code}:\n${said}`)));
+    });
+    const ended = new Promise((resolve) => child.once("exit", resolve));
+    return {
+        url,
+        port: Number(new URL(url).port),
+        /** Stops it as an operator would. */
+        async stop() {
+            child.kill("SIGTERM");
+            await ended;
+        },
+    };
+}

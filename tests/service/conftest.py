@@ -1,0 +1,26 @@
+"""Fixtures; and tests that are coroutines are run as such."""
+
+import asyncio
+import inspect
+
+import pytest
+from harness import DEADLINE, Server
+
+
+@pytest.fixture(scope="session", name="server")
+def shared_server():
+    """A server with its default options, shared by the tests: none of them may harm it."""
+    with Server() as server:
+        yield server
+
+
+def pytest_pyfunc_call(pyfuncitem):
+    if not inspect.iscoroutinefunction(pyfuncitem.obj):
+        return None
+    arguments = {name: pyfuncitem.funcargs[name] for name in pyfuncitem._fixtureinfo.argnames}
+
+    async def limited():
+        await asyncio.wait_for(pyfuncitem.obj(**arguments), 3 * DEADLINE)
+
+    asyncio.run(limited())
+    return True

@@ -1,0 +1,111 @@
+"""Starts the real server for a test, and talks HTTP to it."""
+
+import contextlib
+import http.client
+import os
+import re
+import signal
+import subprocess
+import tempfile
+import time
+import urllib.parse
+from pathlib import Path
+
+PROGRAM = Path(os.environ.get("OVAL4D_SERVER") or os.environ.get("OVAL4D") or "build/release/bin/oval4d").resolve()
+
+
+def _sanitized():
+    program = PROGRAM.read_bytes() if PROGRAM.exists() else b""
+    return b"__tsan_init" in program or b"__asan_init" in program
+
+
+# Deadlines are multiplied by this: sanitizers and busy machines are slow, and no test waits longer than it must.
+SLOW = float(os.environ.get("OVAL4D_TEST_SLOW") or (6 if _sanitized() else 1))
+DEADLINE = 20 * SLOW
+
+
+class Server:
+    """One running server on a port of its own. `options` are command-line words, `variables` its environment's."""
+
+    def __init__(self, *options, **variables):
+        self.log_file = tempfile.NamedTemporaryFile(prefix="oval4d-", suffix=".log")
+        environment = {name: value for name, value in os.environ.items() if not name.startswith("OVAL4D")}
+        words = [str(PROGRAM), "--port", "0", "--workers", "2", "--io-threads", "2", *map(str, options)]
+        self.process = subprocess.Popen(words, env=environment | variables, stderr=self.log_file,
+                                        stdin=subprocess.DEVNULL)
+        try:
+            self.url = self.wait_for(lambda: re.search(r"listening url=(\S+)", self.log())).group(1)
+            parts = urllib.parse.urlsplit(self.url)
+            self.host, self.port, self.token = parts.hostname, parts.port, parts.query.removeprefix("token=")
+            self.wait_for(lambda: self.get("/readyz").status == 200)
+        except BaseException:
+            self.kill()
+            raise
+
+    def log(self):
+        return Path(self.log_file.name).read_text(encoding="utf-8", errors="replace")
+
+    def wait_for(self, condition):
+        """The condition's first true value; an error if the server ends before, or it does not come in time."""
+        limit = time.monotonic() + DEADLINE
+        while True:
+            value = condition()
+            if value:
+                return value
+            assert self.process.poll() is None, f"the server has ended: {self.log()}"
+            assert time.monotonic() < limit, f"this did not come about in time; the log: {self.log()}"
+            time.sleep(0.01)
+
+    def get(self, path, method="GET", **headers):
+        """One request; headers with _ for -. The answer has `.body` beside what http.client gives it."""
+        connection = http.client.HTTPConnection(self.host, self.port, timeout=DEADLINE)
+        with contextlib.closing(connection):
+            connection.putrequest(method, path, skip_host="Host" in headers, skip_accept_encoding=True)
+            for name, value in headers.items():
+                connection.putheader(name.replace("_", "-"), value)
+            connection.endheaders()
+            answer = connection.getresponse()
+            answer.body = answer.read()
+            return answer
+
+    def metric(self, name):
+        """A value of /metrics; `name` with its labels."""
+        for line in self.get("/metrics").body.decode().splitlines():
+            if line.rsplit(" ", 1)[0] == name:
+                return float(line.rsplit(" ", 1)[1])
+        return 0.0
+
+    def memory(self):
+        """Resident bytes."""
+        pages = Path(f"/proc/{self.process.pid}/statm").read_text(encoding="ascii").split()[1]
+        return int(pages) * os.sysconf("SC_PAGE_SIZE")
+
+    def stop(self, number=signal.SIGTERM):
+        """Asks it to end; the exit status and the seconds that it took."""
+        start = time.monotonic()
+        self.process.send_signal(number)
+        try:
+            return self.process.wait(DEADLINE), time.monotonic() - start
+        finally:
+            self.kill()
+
+    def kill(self):
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            status, _ = self.stop()
+            assert status == 0, self.log()
+        assert "fault=" not in self.log(), self.log()
+        self.log_file.close()
+
+
+def run(*words, **keywords):
+    """Runs the program to its end."""
+    return subprocess.run([str(PROGRAM), *map(str, words)], capture_output=True, timeout=DEADLINE, check=False,
+                          **keywords)

@@ -1,0 +1,157 @@
+"""What the slices say, against mathematics that the server had no part in."""
+
+import itertools
+import math
+import struct
+
+import cbor2
+import pytest
+from wire import Client
+
+PLANES = {"xy": (0, 1), "xz": (0, 2), "xw": (0, 3), "yz": (1, 2), "yw": (1, 3), "zw": (2, 3)}
+
+
+def turned(points, plane, angle):
+    a, b = PLANES[plane]
+    result = []
+    for point in points:
+        moved = list(point)
+        moved[a] = point[a] * math.cos(angle) - point[b] * math.sin(angle)
+        moved[b] = point[a] * math.sin(angle) + point[b] * math.cos(angle)
+        result.append(moved)
+    return result
+
+
+def cuts_of_a_simplex(vertices, w):
+    """The 3-D points in which the edges (all pairs) of a 5-cell meet a hyperplane."""
+    points = []
+    for p, q in itertools.combinations(vertices, 2):
+        if (p[3] - w) * (q[3] - w) < 0:
+            part = (w - p[3]) / (q[3] - p[3])
+            points.append([p[i] + part * (q[i] - p[i]) for i in range(3)])
+    return points
+
+
+def volume(piece):
+    """By the divergence theorem: positive if the faces run counter-clockwise seen from outside."""
+    total = 0
+    for face in piece["faces"]:
+        a, *others = (piece["vertices"][v] for v in face)
+        for b, c in zip(others, others[1:]):
+            total += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+                      + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
+    return total
+
+
+def check_closed(piece):
+    """Euler's formula, and each edge run through once in either direction."""
+    if not piece["faces"]:
+        return
+    assert len(piece["vertices"]) - len(piece["edges"]) + len(piece["faces"]) == 2
+    sides = [side for face in piece["faces"] for side in zip(face, face[1:] + face[:1])]
+    assert len(set(sides)) == len(sides) == 2 * len(piece["edges"])
+    assert {tuple(sorted(side)) for side in sides} == {tuple(sorted(edge)) for edge in piece["edges"]}
+    assert volume(piece) > 0
+
+
+async def test_the_cuts_of_the_5_cell_after_each_key(server):
+    keys = {"2": ["xy"], "3": ["xz"], "4": ["xw"], "5": ["yz"], "6": ["yw"], "7": ["zw"],
+            "r": ["xw", "yz"], "t": ["xz", "yw"], "y": ["xy", "zw"]}
+    alpha, beta = 0.3, 0.7
+    async with Client(server, stream="geometry") as client:
+        expected = (await client.slices(0))["coordinates"]
+        await client.request("set", alpha=alpha, beta=beta)
+        for key, planes in keys.items():
+            for plane, angle in zip(planes, (alpha, beta)):
+                expected = turned(expected, plane, angle)
+            done = await client.request("key", key=key)
+            slices = await client.slices(done["revision"])
+            assert len(slices["slices"]) == 21
+            for got, point in zip(slices["coordinates"], expected):
+                assert got == pytest.approx(point, abs=1e-6)
+            spacing = (await client.state(done["revision"]))["slices"]["spacing"]
+            for piece in slices["slices"]:
+                assert piece["w"] == pytest.approx(piece["index"] * spacing)
+                check_closed(piece)
+                if min(abs(p[3] - piece["w"]) for p in expected) < 1e-5:
+                    continue  # through a vertex: another test's subject
+                points = cuts_of_a_simplex(expected, piece["w"])
+                assert len(points) == len(piece["vertices"])
+                for point in points:
+                    assert min(math.dist(point, vertex) for vertex in piece["vertices"]) < 1e-5
+                assert len(piece["of"]["faces"]) == len(piece["faces"]) and len(set(piece["of"]["faces"])) == len(
+                    piece["faces"])
+
+
+@pytest.mark.parametrize("polytope, content", [
+    ("5-cell", math.sqrt(5) / 96 * 2**4), ("8-cell", 16), ("16-cell", 2**4 / 6), ("24-cell", 2 * 2**4),
+])
+async def test_slices_fill_the_known_hypervolume(server, polytope, content):
+    async with Client(server, stream="geometry") as client:
+        await client.request("set", polytope=polytope, slices={"count": 201})
+        await client.request("rotate", planes=["xw", "yz"], angles=[0.71, 1.93])
+        done = await client.request("rotate", planes=["xz", "yw"], angles=[1.17, 0.45])
+        slices = (await client.slices(done["revision"]))["slices"]
+        for piece in slices:
+            check_closed(piece)
+        total = sum(volume(piece) for piece in slices) * (slices[1]["w"] - slices[0]["w"])
+        assert total == pytest.approx(content, rel=2e-3)
+
+
+async def test_degenerate_cuts_are_exact(server):
+    async with Client(server, stream="geometry") as client:
+        done = await client.request("set", polytope="8-cell", slices={"count": 3, "spacing": 1})
+        pieces = (await client.slices(done["revision"]))["slices"]
+        assert [(len(p["vertices"]), len(p["edges"]), len(p["faces"])) for p in pieces] == [(8, 12, 6)] * 3
+        done = await client.request("set", polytope="16-cell")
+        middle = (await client.slices(done["revision"]))["slices"][1]
+        assert (len(middle["vertices"]), len(middle["edges"]), len(middle["faces"])) == (6, 12, 8)
+
+
+async def test_the_layout_travels_with_the_slices(server):
+    async with Client(server, stream="geometry", width=800, height=600) as client:
+        slices = await client.slices(0)
+        scene = slices["scene"]
+        assert scene["viewport"] == {"width": 800, "height": 600}
+        assert len(scene["colors"]["cells"]) == 5
+        places = [piece["position"] for piece in slices["slices"]]
+        assert places[10] == [0, 0, 0] and slices["slices"][10]["focus"] is True
+        assert all(a[0] < b[0] for a, b in zip(places, places[1:]))  # w rises to the right
+        assert places[0][2] == pytest.approx(100 * places[9][2])     # a parabola
+        done = await client.request("key", key="o")
+        single = await client.slices(done["revision"])
+        assert [p["index"] for p in single["slices"] if p["drawn"]] == [0]
+
+
+def plain(value):
+    """Typed arrays (RFC 8746) as lists of numbers."""
+    if isinstance(value, cbor2.CBORTag):
+        letter = {85: "f", 70: "I"}[value.tag]
+        return list(struct.unpack(f"<{len(value.value) // 4}{letter}", value.value))
+    if isinstance(value, dict):
+        return {name: plain(member) for name, member in value.items()}
+    return [plain(item) for item in value] if isinstance(value, list) else value
+
+
+def groups(flat, size):
+    return [list(group) for group in zip(*[iter(flat)] * size)]
+
+
+async def test_cbor_says_the_same_as_json(server):
+    async with Client(server, stream="geometry", encoding="cbor") as client:
+        done = await client.request("set", polytope="24-cell")
+        binary = plain(await client.slices(done["revision"]))
+        await client.request("hello", stream="none", encoding="json")
+        text = await client.request("get", what="slices")
+        assert binary["revision"] == text["revision"] == done["revision"]
+        for got, point in zip(groups(binary["coordinates"], 4), text["coordinates"]):
+            assert got == pytest.approx(point, abs=1e-6)
+        assert len(binary["slices"]) == len(text["slices"])
+        assert binary["scene"]["camera"] == pytest.approx(text["scene"]["camera"], rel=1e-9, abs=1e-9)
+        for piece, other in zip(binary["slices"], text["slices"]):
+            assert piece["index"] == other["index"] and piece["of"] == other["of"]
+            assert groups(piece["edges"], 2) == other["edges"]
+            begin, corners = piece["faces"]["begin"], piece["faces"]["corners"]
+            assert [corners[a:b] for a, b in zip(begin, begin[1:])] == other["faces"]
+            for got, point in zip(groups(piece["vertices"], 3), other["vertices"]):
+                assert got == pytest.approx(point, abs=1e-6)

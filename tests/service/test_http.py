@@ -1,0 +1,203 @@
+"""HTTP: the page, the API, the probes, and who may call."""
+
+import json
+
+import pytest
+import websockets
+from harness import DEADLINE, Server
+from wire import Client, connect, status_of
+
+
+@pytest.fixture(name="site", scope="module")
+def a_site(tmp_path_factory):
+    root = tmp_path_factory.mktemp("site")
+    (root / "index.html").write_text("<!doctype html><title>page</title>")
+    (root / "app.js").write_text("export {};\n")
+    (root / "style.css").write_text("body {}\n")
+    (root / "images").mkdir()
+    (root / "images" / "icon.svg").write_text("<svg/>")
+    (root.parent / "secret.txt").write_text("secret")
+    with Server("--web-root", root) as server:
+        yield server
+
+
+@pytest.mark.parametrize("path, type_, content", [
+    ("/", "text/html; charset=utf-8", b"<!doctype html>"), ("/index.html", "text/html; charset=utf-8", b"<!doctype"),
+    ("/?polytope=24-cell&rotate=xw:pi/8", "text/html; charset=utf-8", b"<!doctype html>"),
+    ("/app.js", "text/javascript; charset=utf-8", b"export"), ("/style.css", "text/css; charset=utf-8", b"body"),
+    ("/images/icon.svg", "image/svg+xml", b"<svg/>"),
+])
+def test_files_of_the_page(site, path, type_, content):
+    answer = site.get(path)
+    assert answer.status == 200 and answer.getheader("Content-Type") == type_
+    assert answer.body.startswith(content)
+    assert answer.getheader("Cache-Control") == "no-cache"
+    assert answer.getheader("X-Content-Type-Options") == "nosniff"
+
+
+def test_a_file_is_sent_again_only_if_it_changed(site):
+    etag = site.get("/app.js").getheader("ETag")
+    again = site.get("/app.js", If_None_Match=etag)
+    assert again.status == 304 and again.body == b"" and again.getheader("ETag") == etag
+    assert site.get("/app.js", If_None_Match='"other"').status == 200
+    assert site.get("/style.css").getheader("ETag") != etag
+
+
+@pytest.mark.parametrize("path", ["/nothing", "/images", "/../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt",
+                                  "//app.js", "/api/v1/", "/api/v2/catalogue"])
+def test_what_is_not_there(site, path):
+    answer = site.get(path)
+    assert answer.status == 404 and json.loads(answer.body)["code"] == "not_found"
+
+
+def test_head_and_other_methods(site):
+    head = site.get("/app.js", method="HEAD")
+    assert head.status == 200 and head.body == b"" and head.getheader("Content-Length") == "11"
+    answer = site.get("/app.js", method="POST")
+    assert answer.status == 405 and answer.getheader("Allow") == "GET, HEAD"
+
+
+def test_one_connection_serves_many_requests(site):
+    import http.client
+
+    connection = http.client.HTTPConnection(site.host, site.port, timeout=DEADLINE)
+    for _ in range(3):
+        connection.request("GET", "/healthz")
+        assert connection.getresponse().read() == b"ok\n"
+        own = connection.sock.getsockname()
+    connection.request("GET", "/readyz")
+    connection.getresponse().read()
+    assert connection.sock.getsockname() == own
+    connection.close()
+
+
+def test_a_missing_page_is_said_and_the_rest_works(tmp_path):
+    with Server("--web-root", tmp_path / "none") as server:
+        assert server.get("/").status == 404
+        assert server.get("/api/v1/catalogue").status == 200
+        assert "no page" in server.log()
+
+
+def test_probes(server):
+    assert server.get("/healthz").body == b"ok\n"
+    assert server.get("/readyz").status == 200
+
+
+def test_catalogue_and_keymap(server):
+    catalogue = json.loads(server.get("/api/v1/catalogue").body)["polytopes"]
+    assert {"name": "600-cell", "vertices": 120, "edges": 720, "faces": 1200, "cells": 600}.items() <= next(
+        p for p in catalogue if p["name"] == "600-cell").items()
+    assert len(json.loads(server.get("/api/v1/keymap").body)["keys"]) > 20
+
+
+async def test_metrics_count(server):
+    before = server.metric('oval4d_errors_total{code="unknown_key"}')
+    async with Client(server, stream="geometry") as client:
+        sockets = server.metric("oval4d_websockets")
+        assert sockets >= 1 and server.metric("oval4d_sessions") >= 1
+        await client.socket.send('{"type":"key","key":"q"}')
+        done = await client.request("key", key="y")
+        await client.slices(done["revision"])
+    assert server.metric('oval4d_errors_total{code="unknown_key"}') == before + 1
+    assert server.metric('oval4d_pictures_total{stream="geometry"}') >= 2
+    assert server.metric('oval4d_picture_step_seconds_count{step="slice"}') >= 2
+    assert server.metric("oval4d_bytes_sent_total") > 1000
+    text = server.get("/metrics").body.decode()
+    assert "# TYPE oval4d_connections gauge" in text
+
+
+@pytest.mark.parametrize("headers, status", [
+    ({}, 200), ({"Host": "localhost:1"}, 200), ({"Host": "[::1]:80"}, 200), ({"Host": "evil.example"}, 403),
+    ({"Host": "127.0.0.1.evil.example"}, 403), ({"Host": ""}, 403),
+    ({"Origin": "http://evil.example"}, 403), ({"Origin": "null"}, 403),
+    ({"Host": "localhost:99", "Origin": "http://localhost:99"}, 200),
+    ({"Host": "localhost:99", "Origin": "http://localhost:98"}, 403),
+])
+async def test_hosts_and_origins(server, headers, status):
+    assert server.get("/api/v1/catalogue", **headers).status == status
+    assert server.get("/healthz", **headers).status == 200
+
+
+async def test_a_foreign_page_gets_no_socket(server):
+    with pytest.raises(websockets.InvalidHandshake) as refused:
+        await connect(server, origin="http://evil.example")
+    assert status_of(refused.value) == 403
+    async with connect(server, origin=f"http://{server.host}:{server.port}") as socket:
+        await socket.ping()
+
+
+async def test_allowed_hosts_and_origins():
+    with Server("--allow-host", "oval.example", "--allow-host", "127.0.0.1", "--allow-origin",
+                "https://pages.example") as server:
+        assert server.get("/api/v1/keymap", Host="oval.example").status == 200
+        assert server.get("/api/v1/keymap", Host="localhost").status == 403
+        async with connect(server, origin="https://pages.example") as socket:
+            await socket.ping()
+
+
+@pytest.mark.parametrize("path, status", [("/nowhere", 404), ("/wsx", 404), ("/api/v1/catalogue", 404)])
+async def test_sockets_are_at_ws_only(server, path, status):
+    with pytest.raises(websockets.InvalidHandshake) as refused:
+        await websockets.connect(f"ws://{server.host}:{server.port}{path}")
+    assert status_of(refused.value) == status
+
+
+async def test_another_version_of_the_protocol_is_refused_with_words(server):
+    with pytest.raises(websockets.InvalidHandshake) as refused:
+        await connect(server, subprotocols=["oval4d.v99"])
+    assert status_of(refused.value) == 400
+    async with connect(server, subprotocols=["oval4d.v99", "oval4d.v1"]) as socket:
+        assert socket.subprotocol == "oval4d.v1"
+
+
+async def test_elsewhere_than_on_loopback_a_token_is_needed():
+    with Server("--host", "0.0.0.0", "--token", "open-sesame") as server:
+        assert server.token == "open-sesame"
+        server.host = "127.0.0.1"
+        assert server.get("/healthz").status == server.get("/readyz").status == 200
+        for path in ("/", "/metrics", "/api/v1/catalogue", "/api/v1/catalogue?token=wrong"):
+            refused = server.get(path)
+            assert refused.status == 401 and refused.getheader("WWW-Authenticate") == "Bearer"
+        assert server.get("/api/v1/catalogue", Authorization="Bearer open-sesame").status == 200
+        page = server.get("/api/v1/catalogue?token=open-sesame")
+        assert page.status == 200 and "HttpOnly" in page.getheader("Set-Cookie")
+        cookie = page.getheader("Set-Cookie").split(";")[0]
+        assert server.get("/api/v1/catalogue", Cookie="a=b; " + cookie).status == 200
+        assert server.get("/api/v1/frame.png?token=open-sesame&width=64&height=64").status == 200
+        with pytest.raises(websockets.InvalidHandshake) as refused:
+            await connect(server)
+        assert status_of(refused.value) == 401
+        async with websockets.connect(f"ws://127.0.0.1:{server.port}/ws?token=open-sesame") as socket:
+            await socket.send('{"type":"hello"}')
+            assert "welcome" in await socket.recv()
+        assert "sesame" not in server.log().split("\n", 1)[1]
+
+
+def test_a_token_is_made_up_where_none_is_given_and_not_where_none_is_wanted():
+    with Server("--host", "0.0.0.0") as one, Server("--host", "0.0.0.0") as two:
+        assert len(one.token) == 32 and one.token != two.token
+    with Server("--host", "0.0.0.0", "--open") as server:
+        assert not server.token and server.get("/api/v1/catalogue", Host="any.example").status == 200
+
+
+def raw_http(server, data):
+    import socket
+
+    with socket.create_connection((server.host, server.port), timeout=DEADLINE) as raw:
+        raw.sendall(data)
+        answer = b""
+        while chunk := raw.recv(65536):
+            answer += chunk
+        return answer
+
+
+@pytest.mark.parametrize("data, status", [
+    (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n", b"400"),
+    (b"GET / HTTP/9.9\r\n\r\n", b"400"),
+    (b"GET /?%zz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n", b"400"),
+    (b"GET / HTTP/1.1\r\nHost: localhost\r\nX: " + b"x" * 20_000 + b"\r\n\r\n", b"431"),
+    (b"POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100000000\r\n\r\n", b"413"),
+])
+def test_what_is_not_a_request(server, data, status):
+    assert raw_http(server, data).split(b" ")[1] == status
+    assert server.get("/healthz").status == 200

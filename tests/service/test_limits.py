@@ -1,0 +1,146 @@
+"""Each limit, from outside, set to something that a test can reach."""
+
+import asyncio
+import json
+import time
+
+import pytest
+import websockets
+from harness import DEADLINE, Server, run
+from wire import Client, Refused, connect, status_of
+
+
+async def refused(client, type_, **members):
+    with pytest.raises(Refused) as caught:
+        await client.request(type_, **members)
+    return caught.value
+
+
+async def test_the_welcome_tells_the_limits():
+    with Server("--max-message", "64k", "--max-depth", 9, "--max-requests", 77, "--min-side", 20, "--max-width", 900,
+                "--max-height", 800, "--max-pixels", 500_000, "--max-slices", 41, "--shown-timeout", 2.5) as server:
+        async with Client(server, width=900, height=500) as client:
+            assert client.welcome["limits"] == {
+                "message": 65536, "depth": 9, "requests_per_second": 77, "min_side": 20, "max_width": 900,
+                "max_height": 800, "max_pixels": 500_000, "slices": 41, "shown_timeout": 2.5}
+            assert (await refused(client, "set", slices={"count": 43})).code == "out_of_range"
+            for width, height in ((901, 100), (100, 801), (19, 100), (900, 800)):
+                assert (await refused(client, "get", what="frame", width=width, height=height)).code == "out_of_range"
+            await client.frame(width=900, height=20)
+            await client.socket.send('{"type":"set","slices":' + '{"a":' * 9 + "1" + "}" * 10)
+            await client.until(lambda: any(m.get("code") == "bad_json" for m in client.messages if isinstance(m, dict)))
+            await client.socket.send(" " * 65537)
+            assert await client.closed() == 1009
+
+
+async def test_sessions():
+    with Server("--max-sessions", 2) as server:
+        async with Client(server), Client(server):
+            async with connect(server) as third:
+                await third.send('{"type":"hello","id":1}')
+                error = json.loads(await third.recv())
+                assert error["code"] == "too_many" and "2" in error["message"]
+                await third.ping()
+
+
+async def test_connections():
+    with Server("--max-connections", 3) as server:
+        server.wait_for(lambda: server.metric("oval4d_connections") == 1)  # only the one that asks
+        async with Client(server), Client(server), Client(server) as last:
+            with pytest.raises(websockets.InvalidHandshake) as full:
+                await connect(server)
+            assert status_of(full.value) == 503
+            assert server.get("/healthz").status == 503
+            await last.request("key", key="y")
+        server.wait_for(lambda: server.get("/healthz").status == 200)
+
+
+async def test_requests_a_second():
+    with Server("--max-requests", 50) as server:
+        async with Client(server) as client, Client(server) as bystander:
+            start = time.monotonic()
+            for number in range(150):
+                await client.send("key", key="y", id=1000 + number)
+            await client.until(lambda: client.answer(1149))
+            allowed = sum(client.answer(1000 + n)["type"] == "done" for n in range(150))
+            errors = {client.answer(1000 + n).get("code") for n in range(150)} - {None}
+            passed = time.monotonic() - start
+            assert 99 <= allowed <= 101 + 50 * passed
+            assert errors <= {"too_many"} and (errors or passed > 0.9)
+            try:
+                for _ in range(2000):
+                    await client.send("key", key="y")
+            except websockets.ConnectionClosed:
+                pass
+            assert await client.closed() == 1008
+            await bystander.request("key", key="y")
+
+
+async def test_steps_of_undo():
+    with Server("--max-undo", 3) as server:
+        async with Client(server) as client:
+            for _ in range(5):
+                await client.request("key", key="y")
+            for _ in range(3):
+                await client.request("undo")
+            assert (await refused(client, "undo")).code == "nothing_to_undo"
+
+
+async def test_loaded_polytopes_and_their_vertices():
+    simplex = ("4OFF\n5 10 10 5\n1 1 1 -0.447214\n1 -1 -1 -0.447214\n-1 1 -1 -0.447214\n-1 -1 1 -0.447214\n"
+               "0 0 0 1.788854\n3 0 1 2\n3 0 1 3\n3 0 1 4\n3 0 2 3\n3 0 2 4\n3 0 3 4\n3 1 2 3\n3 1 2 4\n3 1 3 4\n"
+               "3 2 3 4\n4 0 1 3 6\n4 0 2 4 7\n4 1 2 5 8\n4 3 4 5 9\n4 6 7 8 9\n")
+    with Server("--max-loaded", 1) as server:
+        async with Client(server) as client:
+            await client.request("load", name="one", format="off", data=simplex)
+            assert (await refused(client, "load", name="two", format="off", data=simplex)).code == "too_many"
+    with Server("--max-vertices", 4) as server:
+        async with Client(server) as client:
+            assert (await refused(client, "load", name="one", format="off", data=simplex)).code == "too_large"
+
+
+async def test_a_silent_client_is_pinged_and_one_that_is_gone_is_dropped():
+    with Server("--ping-interval", 0.3) as server:
+        async with connect(server) as alive:
+            await alive.send('{"type":"hello"}')
+            # One that answers no ping: its kernel keeps the connection, nobody reads.
+            from test_pacing import deaf_socket
+
+            gone = deaf_socket(server, '{"type":"hello"}')
+            server.wait_for(lambda: server.metric("oval4d_websockets") == 2)
+            loop = asyncio.get_running_loop()
+            await loop.run_in_executor(None, lambda: server.wait_for(lambda: server.metric("oval4d_websockets") == 1))
+            gone.close()
+            pong = await alive.ping()
+            await asyncio.wait_for(pong, DEADLINE)
+
+
+async def test_answers_that_nobody_reads_stop_the_reading():
+    with Server("--max-unsent", "16k", "--write-timeout", 1000) as server:
+        from test_pacing import deaf_socket, masked
+
+        deaf = deaf_socket(server, '{"type":"hello"}')
+        deaf.settimeout(0.5)
+        with pytest.raises(TimeoutError):
+            for _ in range(200):
+                deaf.sendall(masked('{"type":"get","what":"keymap"}') * 1000)
+        deaf.close()
+
+
+@pytest.mark.parametrize("words, says", [
+    (["--port", "99999"], "port"), (["--max-message", "lots"], "max-message"), (["--max-depth", "0"], "max-depth"),
+    (["--ping-interval", "-1"], "ping-interval"), (["--nonsense"], "nonsense"), (["--log-level", "loud"], "log-level"),
+    (["--workers", "many"], "workers"), (["dance"], "dance"),
+])
+def test_a_bad_option_is_explained(words, says):
+    done = run(*words)
+    assert done.returncode != 0 and says in (done.stderr + done.stdout).decode()
+
+
+async def test_options_from_the_environment():
+    with Server(OVAL4D_MAX_SLICES="31", OVAL4D_MAX_MESSAGE="1M") as server:
+        async with Client(server) as client:
+            assert client.welcome["limits"]["slices"] == 31 and client.welcome["limits"]["message"] == 1 << 20
+    with Server("--max-slices", 33, OVAL4D_MAX_SLICES="31") as server:
+        async with Client(server) as client:
+            assert client.welcome["limits"]["slices"] == 33

@@ -1,0 +1,166 @@
+"""Pictures come as fast as they are shown, always the newest, and nobody waits for anybody else."""
+
+import asyncio
+import base64
+import os
+import socket
+
+import png
+import pytest
+from harness import DEADLINE, SLOW, Server
+from wire import Client
+
+
+def joined(client):
+    return {"session": client.welcome["session"], "token": client.welcome["token"]}
+
+
+def revisions(client):
+    return [m["revision"] for m in client.of_type("slices")]
+
+
+async def test_at_most_two_pictures_are_in_flight():
+    with Server("--shown-timeout", 1000) as server:
+        async with Client(server, stream="geometry", shows=False) as client:
+            for _ in range(20):
+                last = await client.request("key", key="r")
+            # Each answer came after what was sent before it: two pictures, and no third without a `shown`.
+            await client.until(lambda: len(client.pictures()) == 2)
+            for _ in range(20):
+                last = await client.request("key", key="r")
+            assert len(client.pictures()) == 2
+            await client.send("shown", revision=revisions(client)[0])
+            await client.until(lambda: len(client.pictures()) == 3)
+            assert revisions(client)[-1] == last["revision"] == 40
+            await client.send("shown", revision=40)
+            done = await client.request("key", key="r")
+            await client.slices(done["revision"])
+            assert len(client.pictures()) == len(client.states()) == 4
+
+
+async def test_who_never_says_shown_still_gets_the_newest():
+    with Server("--shown-timeout", 0.2) as server:
+        async with Client(server, stream="frames", width=64, height=64, shows=False) as client:
+            for _ in range(10):
+                last = await client.request("key", key="r")
+            frame = await client.frame_of(last["revision"])
+            assert png.state_in(frame)["revision"] == last["revision"]
+
+
+@pytest.mark.parametrize("stream", ["geometry", "frames", "none"])
+async def test_a_flood_of_keys_is_all_applied_and_the_newest_is_seen(server, stream):
+    count = 1000
+    async with Client(server, stream=stream, width=160, height=90) as client:
+        for number in range(count):
+            await client.send("key", key="y" if number % 4 else "k")
+        state = await client.state(count)
+        assert state["revision"] == count
+        if stream == "geometry":
+            await client.slices(count)
+        if stream == "frames":
+            assert png.state_in(await client.frame_of(count))["revision"] == count
+        seen = [m["revision"] for m in client.states()]
+        assert seen == sorted(set(seen))
+        # 250 steps of α were taken, and clamped at 2π only if all counted.
+        step, start = state["step"], 5 * state["step"]
+        assert state["alpha"] == pytest.approx(min(start + 250 * step, 6.283185307179586))
+    assert server.metric("oval4d_slow_readers_total") == 0
+
+
+async def test_a_flood_from_several_clients_of_one_session(server):
+    async with Client(server, stream="geometry") as one, Client(server, stream="geometry", **joined(one)) as two:
+        async def flood(client, key):
+            for _ in range(300):
+                await client.send("key", key=key)
+        await asyncio.gather(flood(one, "r"), flood(two, "t"))
+        for client in (one, two):
+            assert (await client.slices(600))["revision"] == 600
+        assert one.states()[-1] == two.states()[-1]
+
+
+async def test_turning_goes_on_by_itself_and_is_one_step_of_the_history(server):
+    async with Client(server, stream="geometry") as client:
+        await client.request("key", key="r")
+        await client.request("key", key=" ")
+        await client.slices(8)
+        await client.request("key", key=" ")
+        stopped = await client.request("get", what="state")
+        assert stopped["turning"] is False
+        seen = [tuple(m["orientation"][0]) for m in client.states()]
+        assert len(set(seen)) >= 5
+        await client.request("undo")
+        assert (await client.request("get", what="state"))["orientation"][0] == pytest.approx(
+            [0.9961946980917455, 0, 0, -0.08715574274765817])
+
+
+async def test_turning_waits_for_those_who_look():
+    with Server("--shown-timeout", 1000) as server:
+        async with Client(server, stream="geometry", shows=False) as client:
+            await client.request("key", key="r")
+            await client.request("key", key=" ")
+            await client.until(lambda: len(client.pictures()) == 2)
+            still = (await client.request("get", what="state"))["revision"]
+            assert (await client.request("get", what="state"))["revision"] == still
+            await client.send("shown", revision=still)
+            await client.until(lambda: len(client.pictures()) > 2)
+
+
+def deaf_socket(server, *messages):
+    """A client that asks and never reads: raw, with the smallest of receive buffers."""
+    raw = socket.socket()
+    raw.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    raw.settimeout(DEADLINE)
+    raw.connect((server.host, server.port))
+    raw.sendall(f"GET /ws HTTP/1.1\r\nHost: {server.host}:{server.port}\r\nUpgrade: websocket\r\n"
+                "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                f"Sec-WebSocket-Key: {base64.b64encode(os.urandom(16)).decode()}\r\n\r\n".encode())
+    answer = b""
+    while not answer.endswith(b"\r\n\r\n"):  # RFC 6455, 4.1: nothing is sent before the handshake is answered
+        answer += raw.recv(1)
+    try:
+        for message in messages:
+            raw.sendall(masked(message))
+    except ConnectionError:  # dropped already
+        pass
+    return raw
+
+
+def masked(text, opcode=1, final=True):
+    """One WebSocket frame as a client must send it."""
+    data, mask = text.encode() if isinstance(text, str) else text, os.urandom(4)
+    size = len(data)
+    header = bytes([(0x80 if final else 0) | opcode])
+    header += bytes([0x80 | size]) if size < 126 else b"\xfe" + size.to_bytes(2, "big")
+    return header + mask + bytes(byte ^ mask[i % 4] for i, byte in enumerate(data))
+
+
+async def test_a_client_that_never_reads_is_dropped_and_harms_nobody():
+    with Server("--write-timeout", 0.5 * SLOW, "--max-unsent", "64k") as server:
+        hello = '{"type":"hello","stream":"frames","width":1600,"height":1200}'
+        wishes = ['{"type":"set","polytope":"600-cell"}'] + ['{"type":"get","what":"slices"}'] * 200
+        before = server.memory()
+        deaf = [deaf_socket(server, hello, *wishes) for _ in range(5)]
+        async with Client(server, stream="geometry") as client:
+            loop = asyncio.get_running_loop()
+            dropped = loop.run_in_executor(
+                None, lambda: server.wait_for(lambda: server.metric("oval4d_slow_readers_total") >= 5))
+            while not dropped.done():
+                done = await client.request("key", key="r")
+                await client.slices(done["revision"])
+            await dropped
+        await loop.run_in_executor(None, lambda: server.wait_for(lambda: server.metric("oval4d_websockets") == 0))
+        # 200 answers of 200 kB to each of five would be 200 MB.
+        assert server.memory() - before < 100e6 * SLOW
+        for raw in deaf:
+            raw.close()
+
+
+async def test_a_socket_closed_in_mid_message(server):
+    raw = deaf_socket(server, '{"type":"hello","stream":"frames"}')
+    raw.sendall(masked('{"type":"key","key":"y"}')[:9])
+    raw.close()
+    raw = deaf_socket(server)
+    raw.sendall(masked('{"type":"hel', final=False))
+    raw.close()
+    async with Client(server, stream="geometry") as client:
+        await client.request("key", key="y")

@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include "geometry/catalogue.hpp"
+
+namespace {
+
+using namespace oval4d::geometry;
+
+class Catalogue : public testing::TestWithParam<CatalogueEntry> {
+  protected:
+    const CatalogueEntry& entry = GetParam();
+    const Polytope& p = *polytopeOf(*findEntry(entry.name));
+};
+
+TEST_P(Catalogue, hasTheCountsOfTheoryAndEulersFormula) {
+    EXPECT_EQ(p.vertices.size(), entry.vertices);
+    EXPECT_EQ(p.edges.size(), entry.edges);
+    EXPECT_EQ(p.faces.size(), entry.faces);
+    EXPECT_EQ(p.cells.size(), entry.cells);
+    EXPECT_EQ(entry.vertices + entry.faces, entry.edges + entry.cells);
+}
+
+TEST_P(Catalogue, isRegularAndCentred) {
+    glm::dvec4 sum(0);
+    for (const auto& v : p.vertices) {
+        EXPECT_NEAR(glm::length(v), p.circumradius, 1e-12 * p.circumradius);
+        sum += v;
+    }
+    EXPECT_LT(glm::length(sum), 1e-10);
+    for (const auto& [a, b] : p.edges) EXPECT_NEAR(glm::distance(p.vertices[a], p.vertices[b]), 2, 1e-12);
+}
+
+TEST_P(Catalogue, hasFlatFacesAndCells) {
+    for (std::size_t c = 0; c < p.cells.size(); ++c) {
+        // A cell of a regular polytope stands square on the line from the origin through its centre.
+        std::set<std::uint32_t> corners;
+        for (const auto f : p.cells[c]) corners.insert(p.faces[f].begin(), p.faces[f].end());
+        glm::dvec4 centre(0);
+        for (const auto v : corners) centre += p.vertices[v] / static_cast<double>(corners.size());
+        for (const auto v : corners) EXPECT_NEAR(glm::dot(p.vertices[v] - centre, centre), 0, 1e-10);
+    }
+    for (std::size_t f = 0; f < p.faces.size(); ++f) {
+        const auto loop = p.faces[f];
+        const glm::dvec4 u = glm::normalize(p.vertices[loop[1]] - p.vertices[loop[0]]);
+        glm::dvec4 v = p.vertices[loop[2]] - p.vertices[loop[0]];
+        v = glm::normalize(v - u * glm::dot(u, v));
+        for (const auto i : loop) {
+            const glm::dvec4 d = p.vertices[i] - p.vertices[loop[0]];
+            EXPECT_LT(glm::length(d - u * glm::dot(d, u) - v * glm::dot(d, v)), 1e-10);
+        }
+    }
+}
+
+TEST_P(Catalogue, isAClosedCoherentlyOrientedSurface) {
+    std::vector<int> signs(p.faces.size());
+    std::vector<int> cellsOfFace(p.faces.size());
+    for (std::size_t slot = 0; slot < p.cells.items.size(); ++slot) {
+        signs[p.cells.items[slot]] += p.cellSigns[slot];
+        ++cellsOfFace[p.cells.items[slot]];
+    }
+    for (std::size_t f = 0; f < p.faces.size(); ++f) {
+        EXPECT_EQ(signs[f], 0);
+        EXPECT_EQ(cellsOfFace[f], 2);
+        for (const auto c : p.faceCells[f]) EXPECT_NE(std::count(p.cells[c].begin(), p.cells[c].end(), f), 0);
+    }
+    for (std::size_t c = 0; c < p.cells.size(); ++c) {
+        std::map<std::uint32_t, int> passes;
+        std::size_t sides = 0;
+        for (std::uint32_t slot = p.cells.begin[c]; slot < p.cells.begin[c + 1]; ++slot) {
+            const auto f = p.cells.items[slot];
+            sides += p.faces[f].size();
+            for (std::size_t i = 0; i < p.faces[f].size(); ++i) {
+                const auto e = p.faceEdges[f][i];
+                const auto next = p.faces[f][(i + 1) % p.faces[f].size()];
+                ASSERT_EQ(std::set({p.edges[e][0], p.edges[e][1]}), std::set({p.faces[f][i], next}));
+                passes[e] += p.cellSigns[slot] * (p.edges[e][0] == p.faces[f][i] ? 1 : -1);
+            }
+        }
+        EXPECT_EQ(sides, 2 * passes.size());
+        for (const auto& [edge, sum] : passes) EXPECT_EQ(sum, 0) << "edge " << edge;
+    }
+}
+
+TEST_P(Catalogue, isFoundByEveryName) {
+    EXPECT_EQ(findEntry(entry.schlaefli)->name, entry.name);
+    for (const auto alias : entry.aliases) EXPECT_EQ(findEntry(alias)->name, entry.name);
+    EXPECT_EQ(polytopeOf(*findEntry(entry.name))->name, entry.name);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Catalogue, testing::ValuesIn(catalogue().begin(), catalogue().end()), [](const auto& i) {
+    std::string name(i.param.name);
+    std::replace(name.begin(), name.end(), '-', '_');
+    return "the_" + name;
+});
+
+TEST(CatalogueNames, doNotMindCaseAndHyphens) {
+    EXPECT_EQ(findEntry("24 Cell")->name, "24-cell");
+    EXPECT_EQ(findEntry("TESSERACT")->name, "8-cell");
+    EXPECT_EQ(findEntry("25-cell"), nullptr);
+    EXPECT_EQ(findEntry(""), nullptr);
+}
+
+TEST(CatalogueNames, nearMissesAreSuggested) {
+    EXPECT_EQ(nearestName("25-cell"), "24-cell");
+    EXPECT_EQ(nearestName("teseract"), "tesseract");
+    EXPECT_EQ(nearestName("601cell"), "600-cell");
+}
+
+// Every vertex of the polytope is a signed permutation of one of the seeds, even where `even` is set, and all of
+// those are vertices.
+void expectOrbits(std::string_view name, double scale, const std::vector<std::pair<glm::dvec4, bool>>& seeds) {
+    const Polytope& p = *polytopeOf(*findEntry(name));
+    std::set<std::array<long, 4>> expected;
+    const auto rounded = [](const glm::dvec4& v) {
+        return std::array{std::lround(v.x * 1e6), std::lround(v.y * 1e6), std::lround(v.z * 1e6),
+                          std::lround(v.w * 1e6)};
+    };
+    for (const auto& [seed, even] : seeds) {
+        std::array<int, 4> order{0, 1, 2, 3};
+        do {
+            int inversions = 0;
+            for (int i = 0; i < 4; ++i) {
+                for (int j = i + 1; j < 4; ++j) inversions += order[i] > order[j] ? 1 : 0;
+            }
+            if (even && inversions % 2 != 0) continue;
+            for (int signs = 0; signs < 16; ++signs) {
+                glm::dvec4 v;
+                for (int i = 0; i < 4; ++i) v[i] = seed[order[i]] * (signs >> i & 1 ? -scale : scale);
+                expected.insert(rounded(v));
+            }
+        } while (std::next_permutation(order.begin(), order.end()));
+    }
+    std::set<std::array<long, 4>> found;
+    for (const auto& v : p.vertices) found.insert(rounded(v));
+    EXPECT_EQ(found, expected) << name;
+}
+
+TEST(StartingPosition, isTheOneInCommonUse) {
+    const double phi = std::numbers::phi;
+    const double root5 = std::sqrt(5.0);
+    expectOrbits("8-cell", 1, {{{1, 1, 1, 1}, false}});
+    expectOrbits("16-cell", std::numbers::sqrt2, {{{1, 0, 0, 0}, false}});
+    expectOrbits("24-cell", 1, {{{2, 0, 0, 0}, false}, {{1, 1, 1, 1}, false}});
+    expectOrbits("600-cell", phi, {{{2, 0, 0, 0}, false}, {{1, 1, 1, 1}, false}, {{phi, 1, 1 / phi, 0}, true}});
+    expectOrbits("120-cell", phi * phi,
+                 {{{0, 0, 2, 2}, false},
+                  {{1, 1, 1, root5}, false},
+                  {{1 / phi / phi, phi, phi, phi}, false},
+                  {{1 / phi, 1 / phi, 1 / phi, phi * phi}, false},
+                  {{0, 1 / phi / phi, 1, phi * phi}, true},
+                  {{0, 1 / phi, phi, root5}, true},
+                  {{1 / phi, 1, phi, 2}, true}});
+}
+
+TEST(StartingPosition, ofThe5CellIsThePapers) {
+    const double y = 1 / std::sqrt(3.0);
+    const double z = 1 / std::sqrt(6.0);
+    const double w = 1 / std::sqrt(10.0);
+    const std::array<glm::dvec4, 5> paper{
+        {{-1, -y, -z, -w}, {1, -y, -z, -w}, {0, 2 * y, -z, -w}, {0, 0, std::sqrt(1.5), -w}, {0, 0, 0, 4 * w}}};
+    const Polytope& p = *polytopeOf(*findEntry("5-cell"));
+    ASSERT_EQ(p.vertices.size(), paper.size());
+    for (std::size_t i = 0; i < paper.size(); ++i) EXPECT_LT(glm::distance(p.vertices[i], paper[i]), 1e-14) << "P" << i;
+}
+
+TEST(MakePolytope, refusesWhatIsNotASurface) {
+    const Polytope& good = *polytopeOf(catalogue()[0]);
+    const auto build = [&](const Lists& faces, const Lists& cells) {
+        return makePolytope("x", good.vertices, faces, cells);
+    };
+    EXPECT_NO_THROW((void)build(good.faces, good.cells));
+    Lists open = good.cells;
+    open.begin.pop_back();
+    open.items.resize(open.begin.back());
+    EXPECT_THROW((void)build(good.faces, open), std::invalid_argument);
+    Lists wrongIndex = good.faces;
+    wrongIndex.items[4] = 5;
+    EXPECT_THROW((void)build(wrongIndex, good.cells), std::invalid_argument);
+    Lists twisted = good.cells;
+    std::swap(twisted.items.front(), twisted.items.back());
+    EXPECT_THROW((void)build(good.faces, twisted), std::invalid_argument);
+    EXPECT_THROW((void)makePolytope("x", {}, {}, {}), std::invalid_argument);
+}
+
+}  // namespace

@@ -1,0 +1,142 @@
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <glm/vec2.hpp>
+
+#include "geometry/coxeter.hpp"
+#include "geometry_support.hpp"
+
+namespace {
+
+using namespace oval4d::geometry;
+using namespace oval4d::geometry::support;
+
+using Polygon = std::vector<glm::dvec2>;
+
+/// Counts a place as often as the polygon winds around it.
+double areaOf(const Polygon& polygon) {
+    double sum = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 a = polygon[i];
+        const glm::dvec2 b = polygon[(i + 1) % polygon.size()];
+        sum += (a.x * b.y - a.y * b.x) / 2;
+    }
+    return sum;
+}
+
+/// The Cartesian product of a polygon in xy and one in zw: its cells are prisms over the one and over the other.
+Polytope product(const Polygon& p, const Polygon& q) {
+    const auto n = static_cast<std::uint32_t>(p.size());
+    const auto m = static_cast<std::uint32_t>(q.size());
+    const auto vertex = [&](std::uint32_t i, std::uint32_t j) { return (i % n) * m + j % m; };
+    std::vector<glm::dvec4> vertices;
+    for (const auto& a : p) {
+        for (const auto& b : q) vertices.emplace_back(a, b);
+    }
+    Lists faces;  // n·m squares, then m copies of p, then n copies of q
+    for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t j = 0; j < m; ++j) {
+            faces.add(std::array{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+        }
+    }
+    std::vector<std::uint32_t> loop;
+    for (std::uint32_t j = 0; j < m; ++j) {
+        loop.clear();
+        for (std::uint32_t i = 0; i < n; ++i) loop.push_back(vertex(i, j));
+        faces.add(loop);
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        loop.clear();
+        for (std::uint32_t j = 0; j < m; ++j) loop.push_back(vertex(i, j));
+        faces.add(loop);
+    }
+    Lists cells;
+    for (std::uint32_t j = 0; j < m; ++j) {
+        loop = {n * m + j, n * m + (j + 1) % m};
+        for (std::uint32_t i = 0; i < n; ++i) loop.push_back(i * m + j);
+        cells.add(loop);
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        loop = {n * m + m + i, n * m + m + (i + 1) % n};
+        for (std::uint32_t j = 0; j < m; ++j) loop.push_back(i * m + j);
+        cells.add(loop);
+    }
+    return makePolytope("product", std::move(vertices), std::move(faces), std::move(cells));
+}
+
+/// Every slice edge is passed once each way by the loops around it, and every loop is closed.
+void expectClosed(const SliceSet& s) {
+    for (int slice = 0; slice < s.planes.count; ++slice) {
+        std::map<std::uint32_t, int> passes;
+        for (auto f = s.faceBegin[slice]; f < s.faceBegin[slice + 1]; ++f) {
+            const auto begin = s.cornerBegin[f];
+            const auto end = s.cornerBegin[f + 1];
+            for (auto i = begin; i < end; ++i) {
+                const auto next = s.corners[i + 1 == end ? begin : i + 1];
+                const auto& edge = s.edges[s.edgeBegin[slice] + s.cornerEdges[i]];
+                const bool along = edge[0] == s.corners[i] && edge[1] == next;
+                ASSERT_TRUE(along || (edge[1] == s.corners[i] && edge[0] == next));
+                passes[s.cornerEdges[i]] += along ? 1 : -1;
+            }
+        }
+        for (const auto& [edge, sum] : passes) ASSERT_EQ(sum, 0);
+    }
+}
+
+const Polygon kSquare{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+const Polygon kDented{{-2, -2}, {2, -2}, {2, 0}, {0.5, 0}, {0.5, 1.5}, {-0.5, 1.5}, {-0.5, 0}, {-2, 0}};
+
+Polygon pentagram() {
+    Polygon star;
+    for (int i = 0; i < 5; ++i)
+        star.emplace_back(std::cos(4 * i * std::numbers::pi / 5), std::sin(4 * i * std::numbers::pi / 5));
+    return star;
+}
+
+TEST(NonConvex, productsHaveTheHypervolumeOfTheirPolygonsAreas) {
+    std::mt19937 random(21);
+    for (const auto& [p, q] : {std::pair{kDented, kSquare},
+                               {kSquare, kDented},
+                               {kDented, kDented},
+                               {pentagram(), kSquare},
+                               {pentagram(), kDented},
+                               {pentagram(), pentagram()}}) {
+        const Polytope polytope = product(p, q);
+        EXPECT_FALSE(polytope.convexFaces);
+        for (int trial = 0; trial < 5; ++trial) {
+            EXPECT_NEAR(hypervolumeBySlices(polytope, randomRotation(random)), std::abs(areaOf(p) * areaOf(q)), 1e-6);
+        }
+    }
+}
+
+TEST(NonConvex, slicesAreClosed) {
+    std::mt19937 random(22);
+    SliceSet s;
+    Slicer slicer;
+    const Branch star{5, 2};
+    const Diagram stellated = Diagram::linear(star, {5, 1}, {3, 1}, {true, false, false, false});
+    for (const Polytope& p : {product(kDented, pentagram()), wythoff("{5/2,5,3}", stellated, mirrorsOf(stellated))}) {
+        for (int trial = 0; trial < 50; ++trial) {
+            // Every other one with its vertices in hyperplanes.
+            Rotation orientation = randomRotation(random);
+            if (trial % 2 == 0)
+                orientation = Rotation(Turn{kPlanes.at(random() % 6), std::numbers::pi / 2 * int(random() % 4), {}});
+            slicer.slice(p, orientation, {-10, 21, trial % 4 == 0 ? 0.25 : p.circumradius / 9.7}, s);
+            expectClosed(s);
+            ASSERT_FALSE(HasFatalFailure()) << p.name << " trial " << trial;
+        }
+    }
+}
+
+TEST(NonConvex, aPentagramsSectionHasTwoPieces) {
+    // The prism over a pentagram prism, cut along the axis of the star: one pentagonal point up.
+    const Polytope p = product(kSquare, pentagram());
+    const SliceSet s = cutAt(p, Rotation(Turn{Plane::zw, std::numbers::pi / 2, {}}), 0.9);
+    EXPECT_EQ(s.vertexCount(0), 8U);  // a thin box at the tip
+    EXPECT_EQ(s.edgeCount(0), 12U);
+    EXPECT_EQ(s.faceCount(0), 6U);
+}
+
+}  // namespace

@@ -1,0 +1,211 @@
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "geometry/catalogue.hpp"
+#include "geometry/slicer.hpp"
+#include "protocol_support.hpp"
+#include "session/session.hpp"
+
+namespace oval4d::protocol {
+namespace {
+
+using geometry::SliceSet;
+using nlohmann::json;
+using session::Session;
+
+struct Picture {
+    session::PolytopePtr polytope;
+    SliceSet slices;
+    scene::Scene scene;
+};
+
+Picture pictureOf(const std::vector<std::string>& lines) {
+    Session session;
+    for (const std::string& line : lines) {
+        const auto done = apply(session, CommandLine{line}, {});
+        EXPECT_TRUE(done) << done.error().message;
+    }
+    const session::State& state = session.now;
+    Picture picture{state.polytope, {}, {}};
+    geometry::Slicer().slice(*state.polytope, state.orientation, state.hyperplanes(), picture.slices);
+    compose(*state.polytope, state.hyperplanes(), state.slices.focus, state.look, {1280, 720}, picture.scene);
+    return picture;
+}
+
+std::string messageOf(const Picture& picture, Encoding encoding) {
+    std::string out = "what was there before";
+    slicesMessage(*picture.polytope, picture.slices, picture.scene, 7, 3, encoding, out);
+    return out;
+}
+
+void expectPoint(const json& point, const double* expected, std::size_t size) {
+    ASSERT_EQ(point.size(), size);
+    for (std::size_t i = 0; i < size; ++i) EXPECT_EQ(point[i].get<float>(), static_cast<float>(expected[i]));
+}
+
+void expectSlices(const json& list, const Picture& picture) {
+    const SliceSet& set = picture.slices;
+    ASSERT_EQ(list.size(), static_cast<std::size_t>(set.planes.count));
+    for (int i = 0; i < set.planes.count; ++i) {
+        const json& slice = list[i];
+        const scene::Stand& stand = picture.scene.stands[i];
+        EXPECT_EQ(slice.at("index"), set.planes.first + i);
+        EXPECT_EQ(slice.at("w"), set.planes.w(i));
+        EXPECT_EQ(slice.at("label"), stand.label);
+        EXPECT_EQ(slice.at("focus"), stand.focus);
+        EXPECT_EQ(slice.at("drawn"), stand.drawn);
+        expectPoint(slice.at("position"), &stand.position.x, 3);
+        expectPoint(slice.at("label_at"), &stand.labelAt.x, 3);
+        ASSERT_EQ(slice.at("vertices").size(), set.vertexCount(i));
+        for (std::size_t v = 0; v < set.vertexCount(i); ++v) {
+            expectPoint(slice.at("vertices")[v], &set.vertices[set.vertexBegin[i] + v].x, 3);
+            EXPECT_EQ(slice.at("of").at("vertices").at(v), set.vertexOf[set.vertexBegin[i] + v]);
+        }
+        ASSERT_EQ(slice.at("edges").size(), set.edgeCount(i));
+        for (std::size_t e = 0; e < set.edgeCount(i); ++e) {
+            EXPECT_EQ(slice.at("edges")[e], json(set.edges[set.edgeBegin[i] + e]));
+            EXPECT_EQ(slice.at("of").at("edges").at(e), set.edgeOf[set.edgeBegin[i] + e]);
+        }
+        ASSERT_EQ(slice.at("faces").size(), set.faceCount(i));
+        for (std::size_t f = 0; f < set.faceCount(i); ++f) {
+            const std::size_t face = set.faceBegin[i] + f;
+            const std::vector<std::uint32_t> corners(set.corners.begin() + set.cornerBegin[face],
+                                                     set.corners.begin() + set.cornerBegin[face + 1]);
+            EXPECT_EQ(slice.at("faces")[f], json(corners));
+            EXPECT_EQ(slice.at("of").at("faces").at(f), set.faceOf[face]);
+        }
+    }
+}
+
+TEST(SlicesMessage, IsWhatWasCut) {
+    for (const auto& entry : geometry::catalogue()) {
+        const Picture picture =
+            pictureOf({"polytope " + std::string(entry.name), "rotate xw,yz 0.7 1.1", "rotate yw 0.3"});
+        const json message = fitting(messageOf(picture, Encoding::json));
+        EXPECT_EQ(message.at("revision"), 7);
+        EXPECT_EQ(message.at("id"), 3);
+        expectSlices(message.at("slices"), picture);
+        ASSERT_EQ(message.at("coordinates").size(), picture.slices.turned.size());
+        for (std::size_t v = 0; v < picture.slices.turned.size(); ++v) {
+            expectPoint(message.at("coordinates")[v], &picture.slices.turned[v].x, 4);
+        }
+        EXPECT_EQ(message.at("scene").at("colors").at("cells"), json(*picture.scene.cellColours));
+        EXPECT_EQ(message.at("scene").at("scale"), picture.scene.scale);
+        EXPECT_EQ(message.at("scene").at("camera").at("eye"),
+                  json({picture.scene.camera.eye.x, picture.scene.camera.eye.y, picture.scene.camera.eye.z}));
+    }
+}
+
+TEST(SlicesMessage, SaysWhichCellColoursAFaceInTheHyperplane) {
+    const Picture picture = pictureOf({"polytope 8-cell"});  // spacing 0.2: w = ±1 holds a whole cell
+    const json slices = fitting(messageOf(picture, Encoding::json)).at("slices");
+    expectSlices(slices, picture);
+    int tinted = 0;
+    for (const json& slice : slices) {
+        const json& of = slice.at("of").at("faces");
+        if (!slice.contains("tints")) {
+            for (const json& cell : of) EXPECT_LT(cell.get<int>(), 8);
+            continue;
+        }
+        ++tinted;
+        ASSERT_EQ(slice.at("tints").size(), of.size());
+        for (std::size_t f = 0; f < of.size(); ++f) {
+            const auto tint = slice.at("tints")[f].get<std::uint32_t>();
+            ASSERT_GE(of[f].get<std::uint32_t>(), 8U);
+            const auto faces = picture.polytope->cells[tint];
+            EXPECT_NE(std::find(faces.begin(), faces.end(), of[f].get<std::uint32_t>() - 8), faces.end())
+                << "the cell has the 2-face";
+        }
+    }
+    EXPECT_EQ(tinted, 2);
+}
+
+TEST(SlicesMessage, LeavesOutCoordinatesThatAreNotShown) {
+    EXPECT_FALSE(fitting(messageOf(pictureOf({"set coordinates=off"}), Encoding::json)).contains("coordinates"));
+}
+
+TEST(SlicesMessage, EmptySlicesAreEmptyLists) {
+    const Picture picture = pictureOf({"focus 100"});
+    const json slices = fitting(messageOf(picture, Encoding::json)).at("slices");
+    EXPECT_EQ(slices.size(), 21U);
+    for (const json& slice : slices) {
+        EXPECT_EQ(slice.at("vertices"), json::array());
+        EXPECT_EQ(slice.at("faces"), json::array());
+    }
+    const json cbor = json::from_cbor(messageOf(picture, Encoding::cbor), true, true, json::cbor_tag_handler_t::store);
+    EXPECT_TRUE(cbor.at("slices").at(0).at("vertices").get_binary().empty());
+}
+
+TEST(SlicesMessage, ReusesItsMemory) {
+    const Picture picture = pictureOf({"polytope 24-cell", "rotate xw 0.5"});
+    std::string out;
+    slicesMessage(*picture.polytope, picture.slices, picture.scene, 1, {}, Encoding::json, out);
+    const std::string first = out;
+    const char* memory = out.data();
+    slicesMessage(*picture.polytope, picture.slices, picture.scene, 1, {}, Encoding::json, out);
+    EXPECT_EQ(out, first);
+    EXPECT_EQ(static_cast<const void*>(out.data()), memory);
+}
+
+// A typed array of RFC 8746 as an array of its numbers.
+template <typename T>
+json numbersOf(const json& typed, std::uint64_t tag) {
+    const auto& bytes = typed.get_binary();
+    EXPECT_EQ(bytes.subtype(), tag);
+    EXPECT_EQ(bytes.size() % sizeof(T), 0U);
+    std::vector<T> numbers(bytes.size() / sizeof(T));
+    if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
+    return numbers;
+}
+
+json inRowsOf(std::size_t size, const json& flat) {
+    json rows = json::array();
+    for (std::size_t i = 0; i < flat.size(); i += size)
+        rows.emplace_back(
+            std::vector<json>(flat.begin() + static_cast<long>(i), flat.begin() + static_cast<long>(i + size)));
+    return rows;
+}
+
+TEST(SlicesMessage, CborSaysTheSame) {
+    constexpr std::uint64_t kFloat32 = 85, kUint32 = 70;
+    for (const char* name : {"5-cell", "8-cell", "120-cell"}) {
+        const Picture picture = pictureOf({std::string("polytope ") + name});  // unrotated: tints
+        const std::string cbor = messageOf(picture, Encoding::cbor);
+        json message = json::from_cbor(cbor, true, true, json::cbor_tag_handler_t::store);
+        message["coordinates"] = inRowsOf(4, numbersOf<float>(message.at("coordinates"), kFloat32));
+        message["scene"]["colors"]["cells"] =
+            numbersOf<std::uint32_t>(message.at("scene").at("colors").at("cells"), kUint32);
+        for (json& slice : message["slices"]) {
+            slice["vertices"] = inRowsOf(3, numbersOf<float>(slice.at("vertices"), kFloat32));
+            slice["edges"] = inRowsOf(2, numbersOf<std::uint32_t>(slice.at("edges"), kUint32));
+            const json begin = numbersOf<std::uint32_t>(slice.at("faces").at("begin"), kUint32);
+            const json corners = numbersOf<std::uint32_t>(slice.at("faces").at("corners"), kUint32);
+            json faces = json::array();
+            for (std::size_t f = 0; f + 1 < begin.size(); ++f) {
+                faces.emplace_back(std::vector<json>(corners.begin() + begin[f].get<long>(),
+                                                     corners.begin() + begin[f + 1].get<long>()));
+            }
+            slice["faces"] = faces;
+            for (const char* kind : {"vertices", "edges", "faces"}) {
+                slice["of"][kind] = numbersOf<std::uint32_t>(slice.at("of").at(kind), kUint32);
+            }
+            if (slice.contains("tints")) slice["tints"] = numbersOf<std::uint32_t>(slice.at("tints"), kUint32);
+        }
+        fitting(message.dump());
+        expectSlices(message.at("slices"), picture);
+        json plain = json::parse(messageOf(picture, Encoding::json));
+        EXPECT_EQ(message.at("scene"), plain.at("scene"));
+    }
+}
+
+TEST(SlicesMessage, CborIsShorter) {
+    for (const auto& entry : geometry::catalogue()) {
+        const Picture picture =
+            pictureOf({"polytope " + std::string(entry.name), "rotate xw,yz 0.7 1.1", "rotate xy,zw 0.3 0.2"});
+        EXPECT_LT(messageOf(picture, Encoding::cbor).size(), messageOf(picture, Encoding::json).size()) << entry.name;
+    }
+}
+
+}  // namespace
+}  // namespace oval4d::protocol

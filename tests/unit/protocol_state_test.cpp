@@ -1,0 +1,150 @@
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "geometry/catalogue.hpp"
+#include "protocol/cpp/embedded.hpp"
+#include "protocol_support.hpp"
+#include "session/session.hpp"
+
+namespace oval4d::protocol {
+namespace {
+
+using nlohmann::json;
+using session::Session;
+using session::State;
+
+Session randomSession(unsigned seed) {
+    std::mt19937 random(seed);
+    const std::string keys = "234567rtyRTYkjKJlh[]{}nNopfbe";
+    Session session;
+    for (int i = 0; i < 100; ++i) {
+        const Key key{std::string(1, keys[std::uniform_int_distribution<std::size_t>(0, keys.size() - 1)(random)])};
+        EXPECT_TRUE(apply(session, key, {}));
+    }
+    EXPECT_TRUE(apply(session, CommandLine{"set azimuth=0.1 elevation=-0.2 zoom=1.5 step=0.01"}, {}));
+    if (seed % 2 == 0) {
+        EXPECT_TRUE(apply(session, Key{" "}, {}));
+    }
+    return session;
+}
+
+void expectSame(const State& a, const State& b) {
+    const glm::dmat4 m = a.orientation.matrix();
+    const glm::dmat4 n = b.orientation.matrix();
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 4; ++r) EXPECT_NEAR(m[c][r], n[c][r], 1e-14);
+    }
+    State likeA = b;
+    likeA.orientation = a.orientation;
+    EXPECT_EQ(likeA, a) << "all but the orientation's last bits";
+}
+
+TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
+    Session session;
+    ASSERT_TRUE(apply(session, CommandLine{"rotate xw,yz pi/8 0.2"}, {}));
+    const json message = fitting(stateMessage(session.now, 7, 3));
+    EXPECT_EQ(message.at("type"), "state");
+    EXPECT_EQ(message.at("id"), 3);
+    EXPECT_EQ(message.at("revision"), 7);
+    EXPECT_EQ(message.at("polytope"), json::parse(R"({"name":"5-cell","vertices":5,"edges":10,"faces":10,"cells":5})"));
+    EXPECT_EQ(message.at("orientation").at(0).at(3), session.now.orientation.matrix()[3][0]) << "rows";
+    EXPECT_EQ(message.at("alpha"), std::numbers::pi / 36);
+    EXPECT_EQ(message.at("step"), std::numbers::pi / 180);
+    EXPECT_EQ(message.at("slices").at("count"), 21);
+    EXPECT_EQ(message.at("slices").at("focus"), 0);
+    EXPECT_EQ(message.at("view"), "oval");
+    EXPECT_EQ(message.at("turning"), false);
+    EXPECT_EQ(message.at("shown"), json::parse(R"({"faces":true,"bars":true,"balls":true,"coordinates":true})"));
+    EXPECT_EQ(message.at("camera"), json::parse(R"({"azimuth":0,"elevation":0,"zoom":1})"));
+    EXPECT_EQ(message.at("last").at("planes"), json::parse(R"(["xw","yz"])"));
+    EXPECT_EQ(message.at("last").at("angles").at(0), std::numbers::pi / 8);
+    EXPECT_TRUE(fitting(stateMessage(session::initialState(), 0)).at("last").is_null());
+    EXPECT_FALSE(fitting(stateMessage(session::initialState(), 0)).contains("id"));
+}
+
+TEST(StateMessage, SetInANewSessionGivesTheSameState) {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        const Session session = randomSession(seed);
+        const std::string text = stateMessage(session.now, session.revision, 1);
+        fitting(text);
+        const auto set = setFromState(text);
+        ASSERT_TRUE(set) << set.error().message;
+        Session fresh;
+        const auto done = apply(fresh, *set, {});
+        ASSERT_TRUE(done) << done.error().message;
+        expectSame(fresh.now, session.now);
+
+        Session same = session;
+        ASSERT_TRUE(apply(same, *set, {}));
+        EXPECT_TRUE(same == session) << "its own state changes nothing in a session";
+    }
+}
+
+TEST(StateMessage, BecomesASetByItsType) {
+    const Session session = randomSession(3);
+    json message = json::parse(stateMessage(session.now, session.revision));
+    message["type"] = "set";
+    Session fresh;
+    ASSERT_TRUE(apply(fresh, parsedCommand<Set>(message.dump()), {}));
+    expectSame(fresh.now, session.now);
+}
+
+TEST(StateMessage, WhatIsNoStateIsRefused) {
+    const auto refused = [](std::string_view text, ErrorCode code, std::string_view says) {
+        const auto set = setFromState(text);
+        ASSERT_FALSE(set) << text;
+        EXPECT_EQ(set.error().code, code);
+        EXPECT_NE(set.error().message.find(says), std::string::npos) << set.error().message;
+    };
+    refused("", ErrorCode::bad_json, "not JSON");
+    refused("[]", ErrorCode::bad_message, "a message must be a JSON object");
+    refused("{}", ErrorCode::bad_message, "\"type\":\"state\"");
+    refused(R"({"type":"undo"})", ErrorCode::bad_message, "\"type\":\"state\"");
+    refused(R"({"type":"state","alpha":"x"})", ErrorCode::bad_message, "/alpha must be an angle");
+    refused(R"({"type":"state","slices":{"count":[[[[[[[[[[]]]]]]]]]]}})", ErrorCode::bad_json, "nests too deeply");
+}
+
+TEST(OtherMessages, FitTheirSchemas) {
+    const json error = fitting(errorMessage({ErrorCode::out_of_range, "a \"quoted\"\nword\x01 — ü"}, 12));
+    EXPECT_EQ(error.at("code"), "out_of_range");
+    EXPECT_EQ(error.at("message"), "a \"quoted\"\nword\x01 — ü");
+    EXPECT_EQ(error.at("id"), 12);
+    EXPECT_FALSE(fitting(errorMessage({ErrorCode::internal, "x"}, {})).contains("id"));
+
+    const json done = fitting(doneMessage(0.5, 8));
+    EXPECT_EQ(done.at("id"), 0.5);
+    EXPECT_EQ(done.at("revision"), 8);
+
+    const json welcome = fitting(welcomeMessage("k3v", "secret", R"({"message":8388608,"shown_timeout":1.5})", 1));
+    EXPECT_EQ(welcome.at("session"), "k3v");
+    EXPECT_EQ(welcome.at("token"), "secret");
+    EXPECT_EQ(welcome.at("protocol"), 1);
+    EXPECT_EQ(welcome.at("server").get<std::string>().substr(0, 7), "oval4d ");
+    EXPECT_EQ(welcome.at("limits").at("shown_timeout"), 1.5);
+
+    const json keymap = fitting(keymapMessage(4));
+    EXPECT_EQ(keymap.at("id"), 4);
+    EXPECT_EQ(keymap.at("keys"), json::parse(embedded("keymap.json")).at("keys"));
+    fitting(keymapMessage({}));
+}
+
+TEST(OtherMessages, TheCatalogueIsTheGeometrys) {
+    const json catalogue = fitting(catalogueMessage(2)).at("polytopes");
+    ASSERT_EQ(catalogue.size(), geometry::catalogue().size());
+    for (std::size_t i = 0; i < catalogue.size(); ++i) {
+        const geometry::Polytope& polytope = *geometry::polytopeOf(geometry::catalogue()[i]);
+        EXPECT_EQ(catalogue[i].at("name"), polytope.name);
+        EXPECT_EQ(catalogue[i].at("vertices"), polytope.vertices.size());
+        EXPECT_EQ(catalogue[i].at("edges"), polytope.edges.size());
+        EXPECT_EQ(catalogue[i].at("faces"), polytope.faces.size());
+        EXPECT_EQ(catalogue[i].at("cells"), polytope.cells.size());
+        for (const auto& alias : catalogue[i].at("aliases")) {
+            EXPECT_EQ(geometry::findEntry(alias.get<std::string>()), &geometry::catalogue()[i]);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace oval4d::protocol

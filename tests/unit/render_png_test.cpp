@@ -1,0 +1,189 @@
+// PNG files: read back by libpng, and looked at chunk by chunk.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "render/filter.hpp"
+#include "render_pictures.hpp"
+
+namespace oval4d::render {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+struct Chunk {
+    std::string type;
+    Bytes data;
+    std::uint32_t crc, crcFound;
+};
+
+/// The CRC as PNG's specification defines it, bit by bit.
+std::uint32_t crcOf(std::span<const std::uint8_t> bytes) {
+    std::uint32_t crc = 0xffffffff;
+    for (const std::uint8_t byte : bytes) {
+        crc ^= byte;
+        for (int i = 0; i < 8; ++i) crc = crc & 1 ? 0xedb88320 ^ crc >> 1 : crc >> 1;
+    }
+    return ~crc;
+}
+
+std::vector<Chunk> chunksOf(const Bytes& file) {
+    const auto word = [&](std::size_t at) {
+        return std::uint32_t{file[at]} << 24 | file[at + 1] << 16 | file[at + 2] << 8 | file[at + 3];
+    };
+    std::vector<Chunk> chunks;
+    for (std::size_t at = 8; at + 12 <= file.size();) {
+        const std::size_t length = word(at);
+        if (at + 12 + length > file.size()) break;
+        const std::span content(file.data() + at + 4, length + 4);
+        chunks.push_back({std::string(content.begin(), content.begin() + 4), Bytes(content.begin() + 4, content.end()),
+                          crcOf(content), word(at + 8 + length)});
+        at += 12 + length;
+    }
+    return chunks;
+}
+
+enum class Kind { noise, flat, gradient };
+
+Image makeImage(int width, int height, Kind kind, std::mt19937& random) {
+    Image image{width, height, Bytes(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4)};
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = static_cast<std::uint8_t>(kind == Kind::noise  ? random()
+                                                    : kind == Kind::flat ? i % 4 * 80
+                                                                         : i / 64);
+    return image;
+}
+
+void expectSamePixels(const Image& image, const Image& read) {
+    ASSERT_EQ(read.width, image.width);
+    ASSERT_EQ(read.height, image.height);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        if (i % 4 == 3) continue;
+        ASSERT_EQ(read.pixels[i], image.pixels[i]) << "byte " << i;
+    }
+}
+
+TEST(Png, EverySmallSizeReadsBack) {
+    std::mt19937 random(1);
+    PngEncoder encoder;
+    Bytes file;
+    for (int width = 1; width <= 40; ++width)
+        for (const int height : {1, 2, 7}) {
+            SCOPED_TRACE(testing::Message() << width << " × " << height);
+            const Image image = makeImage(width, height, Kind::noise, random);
+            encoder.encode(image, "{}", file);
+            expectSamePixels(image, readPng(file));
+        }
+}
+
+TEST(Png, RandomSizesAndContentsReadBack) {
+    std::mt19937 random(2);
+    std::uniform_int_distribution<int> size(1, 600);
+    PngEncoder encoder;
+    Bytes file;
+    for (int i = 0; i < 30; ++i) {
+        const Image image = makeImage(size(random), size(random), static_cast<Kind>(i % 3), random);
+        SCOPED_TRACE(testing::Message() << image.width << " × " << image.height << ", kind " << i % 3);
+        encoder.encode(image, std::string(static_cast<std::size_t>(i) * 50, 'x'), file);
+        expectSamePixels(image, readPng(file));
+    }
+}
+
+TEST(Png, LongThinImagesReadBack) {
+    std::mt19937 random(3);
+    for (const auto& [width, height] : {std::pair{1, 16384}, {16384, 1}, {16384, 3}}) {
+        const Image image = makeImage(width, height, Kind::noise, random);
+        Bytes file;
+        PngEncoder().encode(image, "", file);
+        expectSamePixels(image, readPng(file));
+    }
+}
+
+TEST(Png, ChunksAreInOrderAndTheirChecksumsRight) {
+    std::mt19937 random(4);
+    Bytes file;
+    PngEncoder().encode(makeImage(33, 20, Kind::noise, random), R"({"type":"state"})", file);
+    EXPECT_EQ(std::memcmp(file.data(), "\x89PNG\r\n\x1a\n", 8), 0);
+    const std::vector<Chunk> chunks = chunksOf(file);
+    std::vector<std::string> types;
+    std::size_t size = 8;
+    for (const Chunk& chunk : chunks) {
+        types.push_back(chunk.type);
+        EXPECT_EQ(chunk.crcFound, chunk.crc) << chunk.type;
+        size += 12 + chunk.data.size();
+    }
+    EXPECT_EQ(types, (std::vector<std::string>{"IHDR", "iTXt", "IDAT", "IEND"}));
+    EXPECT_EQ(size, file.size()) << "nothing stands after the chunks";
+    EXPECT_EQ(chunks[0].data, (Bytes{0, 0, 0, 33, 0, 0, 0, 20, 8, 2, 0, 0, 0}));
+}
+
+TEST(Png, StateIsTheTextOfTheKeywordOval4d) {
+    const std::string state = R"({"type":"state","label":"w = −0.25 ✓"})";
+    std::mt19937 random(5);
+    Bytes file;
+    PngEncoder().encode(makeImage(5, 5, Kind::flat, random), state, file);
+
+    struct Source {
+        const Bytes& bytes;
+        std::size_t at;
+    } source{file, 0};
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_set_read_fn(png, &source, [](png_structp p, png_bytep out, std::size_t count) {
+        auto* from = static_cast<Source*>(png_get_io_ptr(p));
+        std::memcpy(out, from->bytes.data() + from->at, count);
+        from->at += count;
+    });
+    png_read_info(png, info);
+    png_textp text = nullptr;
+    int count = 0;
+    png_get_text(png, info, &text, &count);
+    ASSERT_EQ(count, 1);
+    EXPECT_EQ(text[0].compression, PNG_ITXT_COMPRESSION_NONE);
+    EXPECT_STREQ(text[0].key, "oval4d");
+    EXPECT_STREQ(text[0].lang, "");
+    EXPECT_EQ(std::string(text[0].text, text[0].itxt_length), state);
+    png_destroy_read_struct(&png, &info, nullptr);
+}
+
+TEST(Png, OneEncoderServesManySizes) {
+    std::mt19937 random(6);
+    PngEncoder encoder;
+    Bytes file, fresh;
+    for (const int size : {300, 3, 150, 1}) {
+        const Image image = makeImage(size, size, Kind::gradient, random);
+        encoder.encode(image, "state", file);
+        PngEncoder().encode(image, "state", fresh);
+        EXPECT_EQ(file, fresh);
+    }
+}
+
+TEST(Png, RefusesAnImageWithPixelsMissing) {
+    Bytes file;
+    EXPECT_THROW(PngEncoder().encode({0, 0, {}}, "", file), std::invalid_argument);
+    EXPECT_THROW(PngEncoder().encode({2, 2, Bytes(15)}, "", file), std::invalid_argument);
+}
+
+TEST(Png, FilterIsUpInEveryRowAndStaysInside) {
+    std::mt19937 random(7);
+    for (int width = 1; width <= 20; ++width) {
+        const Image image = makeImage(width, 3, Kind::noise, random);
+        Bytes rows;
+        filterUp(image, rows);
+        const std::size_t stride = 3 * static_cast<std::size_t>(width) + 1;
+        ASSERT_EQ(rows.size(), 3 * stride);
+        for (std::size_t y = 0; y < 3; ++y) {
+            EXPECT_EQ(rows[y * stride], 2) << "filter type of row " << y << " at width " << width;
+            for (int x = 0; x < width; ++x)
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const int here = pixelAt(image, x, static_cast<int>(2 - y))[c];
+                    const int above = y == 0 ? 0 : pixelAt(image, x, static_cast<int>(3 - y))[c];
+                    EXPECT_EQ(rows[y * stride + 1 + static_cast<std::size_t>(x) * 3 + c], (here - above) & 255);
+                }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace oval4d::render

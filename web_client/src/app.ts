@@ -1,0 +1,239 @@
+// Puts the parts together: the connection, the picture, keys, buttons and what is said about the state.
+
+import { Client, RequestError, type KeyBinding, type Keymap, type Request, type State } from "@oval4d/protocol";
+
+import { CommandLine } from "./command_line";
+import { ConnectionView } from "./connection";
+import { byId, element } from "./element";
+import { listenForGestures } from "./gestures";
+import { Help } from "./help";
+import { strokeOf, strokesOf } from "./keys";
+import { keep, readStart, shareLink } from "./link";
+import { recall, remember } from "./memory";
+import { Notice } from "./notice";
+import { OrbitControl } from "./orbit";
+import { Pace } from "./pace";
+import { markMode, ownSections } from "./own_tools";
+import { type Mode, Stage } from "./picture/stage";
+import { Readings } from "./readings";
+import { Tools } from "./tools";
+
+const kMode = "oval4d.mode"; // of drawing
+const kSettled = 120; // milliseconds after the last change of the window's size
+
+type Command = Exclude<Request, { type: "hello" | "get" | "shown" }>;
+
+export class App {
+    private readonly drawing = byId("drawing");
+    private readonly polytope = byId<HTMLSelectElement>("polytope");
+    private readonly notice = new Notice();
+    private readonly connection = new ConnectionView();
+    private readonly pace = new Pace();
+    private readonly begin = readStart();
+    private readonly stage = new Stage(this.drawing, {
+        presented: (revision) => this.presented(revision),
+        resized: () => this.resized(),
+        lost: () => this.setMode("frames", "The graphics card gave up: pictures come from the server now."),
+    });
+    private readonly client = new Client({
+        url: new URL(".", location.href),
+        encoding: "cbor",
+        ...(this.begin.credentials && { credentials: this.begin.credentials }),
+        onStatus: (status) => {
+            this.connection.update(status);
+            if (status.kind === "open") void this.opened();
+        },
+        onWelcome: (welcome) => {
+            keep(welcome);
+            this.stage.limit(welcome.limits);
+        },
+        onState: (state) => this.update(state),
+        onSlices: (slices) => this.stage.showSlices(slices, this.state?.camera ?? this.stage.orbit),
+        onFrame: (png) => this.stage.showFrame(png).catch((error: Error) => this.notice.show(error.message)),
+        onError: (error) => this.notice.show(error.message),
+        onLost: (reason) => this.lost(reason),
+    });
+    private readonly orbit = new OrbitControl(this.client, this.stage);
+    private readonly help = new Help();
+    private readonly commandLine = new CommandLine(
+        (line) => this.pace.follow(this.client.request({ type: "command", line })),
+        () => this.drawing.focus(),
+    );
+    private readonly readings = new Readings((command) => this.commandLine.open(command));
+    private readonly tools = new Tools({ press: (...binding) => this.press(...binding) });
+    private keymap: Keymap | undefined;
+    private state: State | undefined;
+    private restored: State | undefined; // what a lost session showed
+    private resizing: ReturnType<typeof setTimeout> | undefined;
+
+    start(): void {
+        this.stage.mode = this.stage.canDrawGeometry ? (recall<Mode>(kMode) ?? "geometry") : "frames";
+        listenForGestures(this.drawing, this.orbit);
+        this.drawing.addEventListener("keydown", (event) => this.keydown(event));
+        this.polytope.addEventListener("change", () => {
+            this.send({ type: "set", polytope: this.polytope.value });
+            this.drawing.focus();
+        });
+        document.querySelector("header")!.addEventListener("mousedown", (event) => {
+            if (event.target instanceof Element && event.target.closest("button")) event.preventDefault(); // as in Tools
+        });
+        byId("help-button").addEventListener("click", () => this.help.open());
+        this.listenForTools();
+        document.addEventListener("visibilitychange", () => this.stream());
+        window.addEventListener("online", () => this.stream());
+        window.addEventListener("pageshow", (event) => event.persisted && this.client.connect());
+        this.drawing.focus();
+        this.client.hello({ viewport: this.stage.size }).catch(() => {}); // for the connection to come
+        this.client.connect();
+    }
+
+    /** A connection has been made: the tables may be another server's by now. */
+    private async opened(): Promise<void> {
+        this.pace.restart();
+        try {
+            await this.restoreView();
+            this.stream();
+            const [keymap, { polytopes }] = await Promise.all([
+                this.client.request({ type: "get", what: "keymap" }),
+                this.client.request({ type: "get", what: "catalogue" }),
+            ]);
+            this.polytope.replaceChildren(...polytopes.map(({ name }) => element("option", { value: name }, name)));
+            if (JSON.stringify(keymap.keys) !== JSON.stringify(this.keymap?.keys)) this.showKeys(keymap);
+            if (this.state) this.update(this.state);
+        } catch (error) {
+            if ((error as RequestError).code !== "not_connected") this.notice.show((error as Error).message);
+        }
+    }
+
+    private showKeys(keymap: Keymap): void {
+        this.keymap = keymap;
+        this.help.show(keymap);
+        const own = ownSections({
+            mode: this.stage.mode,
+            canDrawGeometry: this.stage.canDrawGeometry,
+            setMode: (mode) => this.setMode(mode),
+            reset: () => this.send({ type: "reset" }),
+            resetView: () => this.orbit.reset(),
+            share: () => void this.share(),
+            save: () => void this.save(),
+        });
+        this.tools.show(keymap, own);
+    }
+
+    /** In a new session: the view that the address asks for, or that of a session that is no more. */
+    private async restoreView(): Promise<void> {
+        const { lines } = this.begin;
+        const lost = this.restored;
+        this.begin.lines = [];
+        this.restored = undefined;
+        if (lost) await this.client.request({ ...lost, type: "set", turning: false });
+        for (const line of lines) {
+            await this.client.request({ type: "command", line }).catch((error: RequestError) => {
+                this.notice.show(`In the address, “${line}”: ${error.message}`);
+            });
+        }
+    }
+
+    /** Asks for what is to be drawn; for nothing while nobody looks. */
+    private stream(): void {
+        const stream = document.hidden ? "none" : this.stage.mode;
+        this.client.hello({ stream, viewport: this.stage.size }).catch(() => {}); // no connection: it will be asked for
+        if (document.hidden) return;
+        if (this.client.status.kind === "waiting") this.client.connect();
+        else this.client.test(); // it may have died unnoticed meanwhile
+    }
+
+    private update(state: State): void {
+        this.state = state;
+        this.orbit.follow(state);
+        const { name } = state.polytope;
+        const known = [...this.polytope.options].some((option) => option.value === name);
+        if (!known) this.polytope.append(element("option", { value: name }, name)); // one that was loaded
+        this.polytope.value = name;
+        document.title = `${name} \u2013 oval4d`;
+        this.readings.update(state);
+        this.tools.update(state);
+    }
+
+    private presented(revision: number): void {
+        this.client.shown(revision);
+        this.pace.presented(revision);
+        this.connection.presented(this.pace.latency);
+    }
+
+    private resized(): void {
+        clearTimeout(this.resizing);
+        this.resizing = setTimeout(() => this.stream(), kSettled);
+    }
+
+    private setMode(mode: Mode, why?: string): void {
+        if (why !== undefined) this.notice.show(why);
+        this.stage.mode = mode;
+        markMode(mode);
+        remember(kMode, mode);
+        this.stream();
+    }
+
+    private keydown(event: KeyboardEvent): void {
+        if (event.key === "Escape") this.notice.hide();
+        const stroke = strokeOf(event, this.keymap?.keys ?? []);
+        if (!stroke) return;
+        event.preventDefault();
+        const binding = this.keymap?.keys.find((one) => one.client && one.key === stroke.key);
+        if (binding) this.press(binding, false, event.repeat);
+        else if (!event.repeat || this.pace.free) this.send({ type: "key", ...stroke });
+    }
+
+    private press(binding: KeyBinding, inverse: boolean, held: boolean): void {
+        if (binding.action === "command_line") this.commandLine.open();
+        else if (binding.action === "help") this.help.open();
+        else if (held && !this.pace.free) return;
+        else for (const stroke of strokesOf(binding, inverse)) this.send({ type: "key", ...stroke });
+    }
+
+    private send(command: Command): void {
+        this.notice.hide();
+        this.pace.follow(this.client.request(command)).catch((error: Error) => this.notice.show(error.message));
+    }
+
+    private lost(reason: string): void {
+        this.restored = this.state;
+        this.client.hello({ stream: "none" }).catch(() => {}); // until the view is restored
+        this.notice.show(
+            this.state
+                ? `That session has ended (${reason}); this is a new one with the same view.`
+                : `That session cannot be opened (${reason}); this is a new one.`,
+        );
+    }
+
+    private async share(): Promise<void> {
+        if (!this.client.credentials) return;
+        const link = shareLink(this.client.credentials);
+        try {
+            await navigator.clipboard.writeText(link);
+            this.notice.show("The link is copied. Whoever opens it turns this polytope with you.");
+        } catch {
+            this.notice.show("Copy this link; whoever opens it turns this polytope with you:", link);
+        }
+    }
+
+    private async save(): Promise<void> {
+        try {
+            const png = await this.client.request({ type: "get", what: "frame", ...this.stage.size });
+            const url = URL.createObjectURL(new Blob([png as Uint8Array<ArrayBuffer>], { type: "image/png" }));
+            element("a", { href: url, download: `${this.state?.polytope.name ?? "oval4d"}.png` }).click();
+            setTimeout(() => URL.revokeObjectURL(url), 10_000); // once the browser has taken it
+        } catch (error) {
+            this.notice.show((error as Error).message);
+        }
+    }
+
+    private listenForTools(): void {
+        const button = byId("tools-button");
+        const show = (open: boolean): void => {
+            document.body.toggleAttribute("data-tools-hidden", !open);
+            button.setAttribute("aria-expanded", String(open));
+        };
+        button.addEventListener("click", () => show(button.getAttribute("aria-expanded") === "false"));
+    }
+}

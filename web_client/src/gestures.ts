@@ -1,0 +1,42 @@
+// Mouse, pen and touch on the drawing: drag to look from another side, wheel or pinch to come nearer.
+
+import type { OrbitControl } from "./orbit";
+
+const kWheel = 0.0015; // of the logarithm of the magnification, a pixel
+const kLine = 16; // pixels
+
+export function listenForGestures(drawing: HTMLElement, orbit: OrbitControl): void {
+    const fingers = new Map<number, PointerEvent>();
+    const spread = (): number => {
+        const [a, b] = [...fingers.values()];
+        return a && b ? Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY) : 0;
+    };
+    drawing.addEventListener("pointerdown", (event) => {
+        if (event.button !== 0) return;
+        fingers.set(event.pointerId, event);
+        drawing.setPointerCapture(event.pointerId);
+        drawing.focus({ preventScroll: true });
+    });
+    drawing.addEventListener("pointermove", (event) => {
+        const before = fingers.get(event.pointerId);
+        if (!before) return;
+        const spreadBefore = spread();
+        fingers.set(event.pointerId, event);
+        if (fingers.size === 1) orbit.drag(event.clientX - before.clientX, event.clientY - before.clientY);
+        else if (spreadBefore > 0) orbit.magnify(spread() / spreadBefore);
+    });
+    const lift = (event: PointerEvent): void => void fingers.delete(event.pointerId);
+    for (const end of ["pointerup", "pointercancel", "lostpointercapture"] as const)
+        drawing.addEventListener(end, lift);
+    drawing.addEventListener(
+        "wheel",
+        (event) => {
+            if (event.ctrlKey) return; // the browser's own zoom
+            event.preventDefault();
+            const pixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY : event.deltaY * kLine;
+            orbit.magnify(Math.exp(-pixels * kWheel));
+        },
+        { passive: false },
+    );
+    drawing.addEventListener("dblclick", () => orbit.reset());
+}

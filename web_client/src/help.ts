@@ -1,0 +1,55 @@
+// The help sheet, made from the key table.
+
+import type { Keymap } from "@oval4d/protocol";
+
+import { byId, element } from "./element";
+
+const kGestures = [
+    ["Drag", "look from another side"],
+    ["Wheel, pinch", "nearer and farther"],
+    ["Double click", "back to the first view"],
+] as const;
+
+export class Help {
+    private readonly dialog = byId<HTMLDialogElement>("help");
+
+    constructor() {
+        this.dialog.addEventListener("keydown", (event) => {
+            if (event.key !== "?") return;
+            event.preventDefault();
+            this.dialog.close();
+        });
+        this.dialog.addEventListener("click", (event) => {
+            if (event.target === this.dialog) this.dialog.close(); // beside the sheet
+        });
+    }
+
+    show({ groups, keys }: Keymap): void {
+        const sections = groups.map(({ name, title }) => {
+            const lines = keys.filter((key) => key.group === name);
+            const inverse = lines.some((key) => key.shift === "inverse");
+            return element(
+                "section",
+                {},
+                element("h3", {}, title),
+                element(
+                    "table",
+                    {},
+                    ...lines.map((key) => line(key.name, key.text)),
+                    ...(inverse ? [line("Shift +", "any of these: the inverse")] : []),
+                ),
+            );
+        });
+        const gestures = element("table", {}, ...kGestures.map(([name, text]) => line(name, text, "span")));
+        const pointer = element("section", {}, element("h3", {}, "Mouse and touch"), gestures);
+        this.dialog.querySelector(".sheet")!.replaceChildren(...sections, pointer);
+    }
+
+    open(): void {
+        if (!this.dialog.open) this.dialog.showModal();
+    }
+}
+
+function line(name: string, text: string, as: "kbd" | "span" = "kbd"): HTMLElement {
+    return element("tr", {}, element("th", { scope: "row" }, element(as, {}, name)), element("td", {}, text));
+}

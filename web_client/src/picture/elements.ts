@@ -1,0 +1,137 @@
+// The vertices, edges and faces of all slices that are drawn, placed in the world, one after the other in flat arrays
+// that are kept from picture to picture.
+
+import type { SceneDescription, Slice, Slices, Vector } from "@oval4d/protocol";
+
+/** Half-open, in the arrays of all. */
+export type Range = readonly [begin: number, end: number];
+
+/** What belongs to one slice. */
+export interface Body {
+    slice: Slice;
+    position: Vector;
+    vertices: Range;
+    edges: Range;
+    faces: Range;
+}
+
+export class Elements {
+    bodies: Body[] = [];
+    vertexCount = 0;
+    edgeCount = 0;
+    faceCount = 0;
+    cornerCount = 0;
+    points = new Float32Array(0); // x, y, z of each vertex
+    edges = new Uint32Array(0); // pairs of vertices
+    cornerBegin = new Uint32Array(1); // face f is the loop corners[cornerBegin[f]] … corners[cornerBegin[f + 1] − 1]
+    corners = new Uint32Array(0);
+    cornerEdges = new Uint32Array(0); // the edge from each corner to the next
+    normals = new Float32Array(0); // x, y, z of each face, outward
+    readonly buckets = new Buckets();
+
+    take({ slices, scene }: Slices): void {
+        this.vertexCount = this.edgeCount = this.faceCount = this.cornerCount = 0;
+        this.bodies = slices
+            .filter((slice) => slice.drawn && slice.vertices.length > 0)
+            .map((slice) => this.body(slice));
+        this.points = roomFor(this.points, 3 * this.vertexCount);
+        this.edges = roomFor(this.edges, 2 * this.edgeCount);
+        this.cornerBegin = roomFor(this.cornerBegin, this.faceCount + 1);
+        this.corners = roomFor(this.corners, this.cornerCount);
+        this.cornerEdges = roomFor(this.cornerEdges, this.cornerCount);
+        this.normals = roomFor(this.normals, 3 * this.faceCount);
+        for (const body of this.bodies) this.place(body, scene);
+    }
+
+    private body(slice: Slice): Body {
+        const { vertexCount, edgeCount, faceCount } = this;
+        this.vertexCount += slice.vertices.length / 3;
+        this.edgeCount += slice.edges.length / 2;
+        this.faceCount += slice.faces.begin.length - 1;
+        this.cornerCount += slice.faces.corners.length;
+        return {
+            slice,
+            position: slice.position,
+            vertices: [vertexCount, this.vertexCount],
+            edges: [edgeCount, this.edgeCount],
+            faces: [faceCount, this.faceCount],
+        };
+    }
+
+    private place({ slice, position, vertices, edges, faces }: Body, scene: SceneDescription): void {
+        const begin = slice.faces.begin;
+        const firstCorner = this.cornerBegin[faces[0]]!;
+        for (let i = 0; i < slice.vertices.length; ++i) {
+            this.points[3 * vertices[0] + i] = position[i % 3]! + scene.scale * slice.vertices[i]!;
+        }
+        for (let i = 0; i < slice.edges.length; ++i) this.edges[2 * edges[0] + i] = vertices[0] + slice.edges[i]!;
+        for (let i = 0; i < begin.length; ++i) this.cornerBegin[faces[0] + i] = firstCorner + begin[i]!;
+        for (let i = 0; i < slice.faces.corners.length; ++i) {
+            this.corners[firstCorner + i] = vertices[0] + slice.faces.corners[i]!;
+        }
+        this.buckets.sort(vertices, edges, (e) => Math.min(this.edges[2 * e]!, this.edges[2 * e + 1]!));
+        for (let f = faces[0]; f < faces[1]; ++f) {
+            this.findNormal(f);
+            this.findEdges(f);
+        }
+    }
+
+    /** The corner after corner c of face f. */
+    private next(f: number, c: number): number {
+        return this.corners[c + 1 < this.cornerBegin[f + 1]! ? c + 1 : this.cornerBegin[f]!]!;
+    }
+
+    private findEdges(f: number): void {
+        for (let c = this.cornerBegin[f]!; c < this.cornerBegin[f + 1]!; ++c) {
+            const a = this.corners[c]!;
+            const b = this.next(f, c);
+            const { begin, items } = this.buckets;
+            const lower = Math.min(a, b);
+            for (let k = begin[lower]!; k < begin[lower + 1]!; ++k) {
+                const e = items[k]!;
+                if (this.edges[2 * e]! + this.edges[2 * e + 1]! === a + b) this.cornerEdges[c] = e;
+            }
+        }
+    }
+
+    private findNormal(f: number): void {
+        const { points, corners, normals } = this;
+        let [x, y, z] = [0, 0, 0];
+        for (let c = this.cornerBegin[f]!; c < this.cornerBegin[f + 1]!; ++c) {
+            const p = 3 * corners[c]!;
+            const q = 3 * this.next(f, c);
+            x += (points[p + 1]! - points[q + 1]!) * (points[p + 2]! + points[q + 2]!);
+            y += (points[p + 2]! - points[q + 2]!) * (points[p]! + points[q]!);
+            z += (points[p]! - points[q]!) * (points[p + 1]! + points[q + 1]!);
+        }
+        const length = Math.hypot(x, y, z) || 1;
+        normals[3 * f] = x / length;
+        normals[3 * f + 1] = y / length;
+        normals[3 * f + 2] = z / length;
+    }
+}
+
+/** A counting sort of one slice's edges by a vertex: those of vertex v are items[begin[v]] … items[begin[v + 1] − 1]. */
+export class Buckets {
+    begin = new Uint32Array(0);
+    items = new Uint32Array(0);
+
+    sort(vertices: Range, edges: Range, vertexOf: (edge: number) => number): void {
+        this.begin = roomFor(this.begin, vertices[1] + 1);
+        this.items = roomFor(this.items, edges[1] - edges[0]);
+        const { begin, items } = this;
+        begin.fill(0, vertices[0], vertices[1] + 1);
+        for (let e = edges[0]; e < edges[1]; ++e) ++begin[vertexOf(e)]!;
+        for (let v = vertices[0] + 1; v <= vertices[1]; ++v) begin[v]! += begin[v - 1]!;
+        // Each entry is now where its edges end; filling from the back leaves it where they begin.
+        for (let e = edges[1]; e-- > edges[0]; ) items[--begin[vertexOf(e)]!] = e;
+    }
+}
+
+/** The array, or a larger one with the same contents. */
+export function roomFor<T extends Float32Array | Uint32Array | Uint8Array>(array: T, length: number): T {
+    if (array.length >= length) return array;
+    const larger = new (array.constructor as new (length: number) => T)(2 ** Math.ceil(Math.log2(length)));
+    larger.set(array);
+    return larger;
+}

@@ -1,0 +1,93 @@
+// Geometry mode: draws slices with WebGL, their labels, axes and coordinates on a canvas above.
+
+import { Camera, Color, ColorManagement, GLSL3, LinearSRGBColorSpace, RawShaderMaterial, Scene, Vector3 } from "three";
+import { Mesh as Drawing, Vector4, WebGLRenderer } from "three";
+
+import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
+
+import { Lens } from "./lens";
+import { Mesh } from "./mesh";
+import { drawOverlay } from "./overlay";
+import { fragmentShader, vertexShader } from "./shaders";
+
+ColorManagement.enabled = false; // colours are sRGB values, shown as they are
+
+export class GeometryView {
+    readonly lens = new Lens();
+    private readonly renderer: WebGLRenderer;
+    private readonly scene = new Scene();
+    private readonly camera = new Camera();
+    private readonly mesh = new Mesh();
+    private readonly uniforms = {
+        light: { value: new Vector3() },
+        shading: { value: new Vector4() },
+        ballRadius: { value: 0 },
+        barRadius: { value: 0 },
+        opacity: { value: 1 },
+        pixels: { value: 1 },
+    };
+    private readonly pen: CanvasRenderingContext2D;
+    private picture: Slices | undefined;
+    private pictureOrbit: Orbit | undefined;
+    private arranged: Orbit | undefined; // for which the mesh is in order
+    private readonly background = new Color();
+
+    /** WebGL 2 must be there. */
+    constructor(
+        canvas: HTMLCanvasElement,
+        private readonly overlay: HTMLCanvasElement,
+    ) {
+        this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, depth: false, stencil: false });
+        this.renderer.outputColorSpace = LinearSRGBColorSpace;
+        this.pen = overlay.getContext("2d")!;
+        const material = new RawShaderMaterial({
+            ...{ vertexShader, fragmentShader, glslVersion: GLSL3, uniforms: this.uniforms },
+            ...{ transparent: true, depthTest: false, depthWrite: false },
+        });
+        const drawing = new Drawing(this.mesh.geometry, material);
+        drawing.frustumCulled = drawing.matrixAutoUpdate = false;
+        material.side = 2; // both: patches may be seen from either side
+        this.scene.add(drawing);
+        this.scene.matrixWorldAutoUpdate = false;
+        this.camera.matrixWorldAutoUpdate = false;
+    }
+
+    /** The newest slices, and the orbit for which they were laid out. */
+    take(picture: Slices, orbit: Orbit): void {
+        this.picture = picture;
+        this.pictureOrbit = orbit;
+        this.mesh.fill(picture);
+        this.arranged = undefined;
+        const { light, ball, bar, opacity } = picture.scene;
+        this.uniforms.light.value.fromArray(light.direction).normalize();
+        this.uniforms.shading.value.set(light.ambient, light.diffuse, light.specular, light.shininess);
+        this.uniforms.ballRadius.value = picture.scene.shown.balls ? ball : bar;
+        this.uniforms.barRadius.value = bar;
+        this.uniforms.opacity.value = opacity;
+    }
+
+    /** Draws what was taken last, as seen in this orbit; `size` is in device pixels. */
+    draw(orbit: Orbit, size: Viewport): void {
+        if (!this.picture || !this.pictureOrbit) return;
+        const { scene } = this.picture;
+        if (this.overlay.width !== size.width || this.overlay.height !== size.height) {
+            this.renderer.setSize(size.width, size.height, false);
+            Object.assign(this.overlay, size);
+        }
+        this.lens.set(scene.camera, size, this.pictureOrbit, orbit);
+        const { azimuth, elevation } = orbit;
+        if (azimuth !== this.arranged?.azimuth || elevation !== this.arranged.elevation) this.mesh.arrange(this.lens);
+        this.arranged = orbit;
+        this.uniforms.pixels.value = this.lens.pixels;
+        this.camera.projectionMatrix.copy(this.lens.projection);
+        this.camera.matrixWorldInverse.copy(this.lens.view);
+        this.renderer.setClearColor(this.background.setHex(scene.colors.background));
+        this.renderer.render(this.scene, this.camera);
+        drawOverlay(this.pen, this.picture, this.lens, size);
+    }
+
+    dispose(): void {
+        this.mesh.geometry.dispose();
+        this.renderer.dispose();
+    }
+}

@@ -1,0 +1,42 @@
+// A vertex buffer that is written in place and grows by doubling: a steady stream of pictures allocates nothing.
+
+import { BufferAttribute, DynamicDrawUsage } from "three";
+
+type Numbers = Float32Array | Int8Array | Uint8Array | Uint32Array;
+
+export class Growing<T extends Numbers> {
+    attribute: BufferAttribute;
+    used = 0; // items
+
+    constructor(
+        private readonly make: new (length: number) => T,
+        private readonly itemSize: number,
+        private readonly normalized = false,
+    ) {
+        this.attribute = this.allocate(1024);
+    }
+
+    get array(): T {
+        return this.attribute.array as T;
+    }
+
+    /** Makes room for this many items, whose values are then all to be written; true if the buffer is another one. */
+    reserve(items: number): boolean {
+        this.used = items;
+        if (items <= this.attribute.count) return false;
+        this.attribute = this.allocate(2 ** Math.ceil(Math.log2(items)));
+        return true;
+    }
+
+    /** Hands what was written to the graphics card at the next drawing. */
+    written(): void {
+        this.attribute.clearUpdateRanges();
+        this.attribute.addUpdateRange(0, this.used * this.itemSize);
+        this.attribute.needsUpdate = true;
+    }
+
+    private allocate(items: number): BufferAttribute {
+        const attribute = new BufferAttribute(new this.make(items * this.itemSize), this.itemSize, this.normalized);
+        return attribute.setUsage(DynamicDrawUsage);
+    }
+}

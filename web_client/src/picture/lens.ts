@@ -1,0 +1,69 @@
+// The scene's camera as matrices, moved by what the viewer has done since the server placed it.
+
+import { Matrix4, Vector3, Vector4 } from "three";
+
+import type { Orbit, SceneDescription, Viewport } from "@oval4d/protocol";
+
+export interface Point {
+    x: number;
+    y: number;
+}
+
+const kSteepest = 1.55; // short of straight down, where "up" would be lost
+
+export class Lens {
+    readonly view = new Matrix4();
+    readonly projection = new Matrix4();
+    readonly eye = new Vector3();
+    private readonly axes = [new Vector3(), new Vector3(), new Vector3()] as const;
+    private readonly clip = new Vector4();
+    private width = 1;
+    private height = 1;
+
+    /** `from` is the orbit in which the server placed the camera, `to` the one wanted. */
+    set(camera: SceneDescription["camera"], viewport: Viewport, from: Orbit, to: Orbit): void {
+        this.width = viewport.width;
+        this.height = viewport.height;
+        const [right, up, back] = this.axes;
+        const target = right.fromArray(camera.target);
+        const { x, y, z } = back.fromArray(camera.eye).sub(target);
+        const distance = Math.hypot(x, y, z);
+        const azimuth = Math.atan2(x, z) + to.azimuth - from.azimuth;
+        const steep = Math.asin(y / distance) + to.elevation - from.elevation;
+        const pitch = Math.min(kSteepest, Math.max(-kSteepest, steep));
+        back.set(Math.sin(azimuth) * Math.cos(pitch), Math.sin(pitch), Math.cos(azimuth) * Math.cos(pitch));
+        this.eye.copy(back).multiplyScalar(distance).add(target);
+        right.fromArray(camera.up).cross(back).normalize();
+        up.crossVectors(back, right);
+        this.view.makeBasis(right, up, back).setPosition(this.eye).invert();
+
+        const f = to.zoom / from.zoom / Math.tan(camera.fov / 2);
+        const depth = camera.near - camera.far;
+        const [shiftX, shiftY] = camera.shift;
+        this.projection.set(
+            ...([(f * this.height) / this.width, 0, -2 * shiftX, 0] as const),
+            ...([0, f, -2 * shiftY, 0] as const),
+            ...([0, 0, (camera.near + camera.far) / depth, (2 * camera.near * camera.far) / depth] as const),
+            ...([0, 0, -1, 0] as const),
+        );
+    }
+
+    /** Pixels of the viewport from its upper left corner, or nothing behind the viewer. */
+    project(world: readonly [number, number, number]): Point | undefined {
+        const { x, y, w } = this.clip
+            .set(...world, 1)
+            .applyMatrix4(this.view)
+            .applyMatrix4(this.projection);
+        return w > 0 ? { x: ((x / w + 1) / 2) * this.width, y: ((1 - y / w) / 2) * this.height } : undefined;
+    }
+
+    /** The world's x, y or z axis as the camera sees it. */
+    axis(i: 0 | 1 | 2): Vector3 {
+        return new Vector3().setFromMatrixColumn(this.view, i);
+    }
+
+    /** Pixels of a world length at distance 1. */
+    get pixels(): number {
+        return (this.projection.elements[5]! * this.height) / 2;
+    }
+}

@@ -1,0 +1,116 @@
+// Balls, bars and faces as one mesh. Its vertices change with the slices; its indices with the camera too, since all
+// is painted from far to near: transparency and soft edges come out right without a depth buffer.
+
+import { BufferGeometry } from "three";
+
+import type { SceneDescription, Slices } from "@oval4d/protocol";
+
+import { Elements } from "./elements";
+import { Growing } from "./growing";
+import type { Lens } from "./lens";
+import { PaintersOrder } from "./painters_order";
+import { kBall, kBar, kFace } from "./shaders";
+
+const kCorners = [-1, -1, 1, -1, -1, 1, 1, 1] as const;
+
+export class Mesh {
+    readonly geometry = new BufferGeometry();
+
+    private readonly elements = new Elements();
+    private readonly order = new PaintersOrder(this.elements);
+    private readonly at = new Growing(Float32Array, 3);
+    private readonly to = new Growing(Float32Array, 3);
+    private readonly shape = new Growing(Int8Array, 4);
+    private readonly colour = new Growing(Uint8Array, 4, true);
+    private readonly index = new Growing(Uint32Array, 1);
+
+    /** Takes in new slices. */
+    fill(picture: Slices): void {
+        const { elements } = this;
+        elements.take(picture);
+        this.reserve();
+        const { scene } = picture;
+        const { shown, colors } = scene;
+        // Without balls, bars meet in round joints.
+        for (let v = 0; v < elements.vertexCount; ++v) {
+            for (let k = 0; k < 4; ++k) this.put(4 * v + k, v, kBall, k, shown.balls ? colors.ball : colors.bar);
+        }
+        const inBall = shown.balls ? Math.sqrt(Math.max(0, scene.ball ** 2 - scene.bar ** 2)) : 0;
+        for (let e = 0; e < elements.edgeCount; ++e) this.putBar(e, inBall, colors.bar);
+        this.putFaces(scene);
+        for (const buffer of [this.at, this.to, this.shape, this.colour]) buffer.written();
+        this.order.show(shown);
+    }
+
+    /** Puts all in order for this camera. */
+    arrange(lens: Lens): void {
+        const count = this.order.write(lens, this.index.array);
+        this.index.used = count;
+        this.index.written();
+        this.geometry.setDrawRange(0, count);
+    }
+
+    private reserve(): void {
+        const { vertexCount, edgeCount, cornerCount } = this.elements;
+        const { at, to, shape, colour, index } = this;
+        const items = 4 * vertexCount + 4 * edgeCount + cornerCount;
+        let grown = index.reserve(6 * vertexCount + 6 * edgeCount + 3 * cornerCount);
+        for (const buffer of [at, to, shape, colour]) grown = buffer.reserve(items) || grown;
+        if (!grown && this.geometry.index) return;
+        this.geometry.dispose();
+        for (const [name, { attribute }] of Object.entries({ at, to, shape, colour })) {
+            this.geometry.setAttribute(name, attribute);
+        }
+        this.geometry.setIndex(index.attribute);
+    }
+
+    private put(item: number, vertex: number, kind: number, corner: number, colour: number): void {
+        const { array: at } = this.at;
+        const { array: shape } = this.shape;
+        const { array: rgba } = this.colour;
+        for (let k = 0; k < 3; ++k) at[3 * item + k] = this.elements.points[3 * vertex + k]!;
+        shape[4 * item] = kCorners[2 * corner]!;
+        shape[4 * item + 1] = kCorners[2 * corner + 1]!;
+        shape[4 * item + 2] = kind;
+        rgba[4 * item] = colour >> 16;
+        rgba[4 * item + 1] = colour >> 8;
+        rgba[4 * item + 2] = colour;
+    }
+
+    /** A bar begins where it comes out of its ball; one within its balls shrinks to nothing. */
+    private putBar(e: number, inBall: number, colour: number): void {
+        const { points, edges, vertexCount } = this.elements;
+        const a = 3 * edges[2 * e]!;
+        const b = 3 * edges[2 * e + 1]!;
+        const length = Math.hypot(
+            points[b]! - points[a]!,
+            points[b + 1]! - points[a + 1]!,
+            points[b + 2]! - points[a + 2]!,
+        );
+        const part = length > 0 ? Math.min(inBall / length, 0.5) : 0.5;
+        for (let k = 0; k < 4; ++k) {
+            const item = 4 * (vertexCount + e) + k;
+            this.put(item, edges[2 * e]!, kBar, k, colour);
+            for (let i = 0; i < 3; ++i) {
+                const cut = part * (points[b + i]! - points[a + i]!);
+                this.at.array[3 * item + i] = points[a + i]! + cut;
+                this.to.array[3 * item + i] = points[b + i]! - cut;
+            }
+        }
+    }
+
+    private putFaces({ colors }: SceneDescription): void {
+        const { bodies, corners, cornerBegin, normals, vertexCount, edgeCount } = this.elements;
+        for (const { slice, faces } of bodies) {
+            const tints = slice.tints ?? slice.of.faces;
+            for (let f = faces[0]; f < faces[1]; ++f) {
+                const tint = colors.cells[tints[f - faces[0]]!] ?? colors.bar;
+                for (let c = cornerBegin[f]!; c < cornerBegin[f + 1]!; ++c) {
+                    const item = 4 * (vertexCount + edgeCount) + c;
+                    this.put(item, corners[c]!, kFace, 0, tint);
+                    for (let k = 0; k < 3; ++k) this.to.array[3 * item + k] = normals[3 * f + k]!;
+                }
+            }
+        }
+    }
+}

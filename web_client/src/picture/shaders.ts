@@ -1,0 +1,95 @@
+// Balls, bars and faces as flat patches with coordinates (u, v): the normal is X·u + Y·v + Z·√(1 − u² − v²). A ball
+// fills the unit disc and Z points to the eye; on a bar v is 0 and u runs across; on a face u = v = 0. Light enters
+// through its products with the axes. Edges fade over a pixel, and what is thinner than a pixel is fainter instead.
+
+/** Values of the attribute `shape`'s third component. */
+export const kBall = 0;
+export const kBar = 1;
+export const kFace = 2;
+
+export const vertexShader = `
+precision highp float;
+uniform mat4 viewMatrix, projectionMatrix;
+uniform vec3 light;
+uniform vec4 shading;  // ambient, diffuse, specular, shininess
+uniform float ballRadius, barRadius, opacity, pixels;
+in vec3 at, to;  // a ball's centre; a bar's ends; a face's corner and normal
+in vec4 shape;   // across: -1, 1; along: -1, 1; the kind
+in vec4 colour;
+out vec3 place;  // u, v, and half the radius in pixels
+flat out vec3 diffuse, specular, tint;
+flat out float alpha;
+
+const float kThinnest = 0.6;  // radius in pixels
+
+// Widens a thin radius; returns the factor, and sets the coverage and the fading.
+float widen(float radius, bool round) {
+    float part = min(radius / kThinnest, 1.0);
+    alpha = round ? part * part : part;
+    place.z = 0.5 * max(radius, kThinnest);
+    return 1.0 / part;
+}
+
+void ball(vec3 centre, vec3 h) {
+    float d2 = dot(centre, centre), inside2 = d2 - ballRadius * ballRadius;
+    if (centre.z > -ballRadius || inside2 <= 0.0) return;
+    float wide = widen(ballRadius * pixels / -centre.z, true), reach = sqrt(1.0 + 0.5 / place.z);
+    vec3 z = -centre / sqrt(d2), x = normalize(vec3(z.z, 0.0, -z.x)), y = cross(z, x);
+    place.xy = shape.xy * reach;
+    diffuse = shading.y * vec3(dot(x, light), dot(y, light), dot(z, light));
+    specular = vec3(dot(x, h), dot(y, h), dot(z, h));
+    float silhouette = ballRadius * wide * sqrt(d2 / inside2);
+    gl_Position = projectionMatrix * vec4(centre + silhouette * (x * place.x + y * place.y), 1.0);
+}
+
+void bar(vec3 from, vec3 end, vec3 h) {
+    if (from.z > -barRadius || end.z > -barRadius) return;
+    // The eye and the bar's axis lie in a plane with normal n; the silhouette runs parallel to the axis.
+    vec3 axis = end - from, n = cross(from, end);
+    float n2 = dot(n, n), axis2 = dot(axis, axis), inside2 = n2 - barRadius * barRadius * axis2;
+    if (inside2 <= 0.0) return;
+    float wide = widen(barRadius * pixels / (-0.5 * (from.z + end.z)), false), reach = sqrt(1.0 + 0.5 / place.z);
+    vec3 x = n / sqrt(n2), z = cross(x, axis) / sqrt(axis2);
+    if (dot(z, from) > 0.0) z = -z;
+    place.xy = vec2(shape.x * reach, 0.0);
+    diffuse = shading.y * vec3(dot(x, light), 0.0, dot(z, light));
+    specular = vec3(dot(x, h), 0.0, dot(z, h));
+    vec3 side = x * (place.x * barRadius * wide * sqrt(n2 / inside2));
+    gl_Position = projectionMatrix * vec4((shape.y < 0.0 ? from : end) + side, 1.0);
+}
+
+void main() {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // out of sight, unless placed
+    place = diffuse = specular = vec3(0.0);
+    alpha = 1.0;
+    tint = colour.rgb;
+    vec3 h = normalize(light + vec3(0.0, 0.0, 1.0));
+    vec3 seen = (viewMatrix * vec4(at, 1.0)).xyz;
+    if (shape.z == ${kBall}.0) {
+        ball(seen, h);
+    } else if (shape.z == ${kBar}.0) {
+        bar(seen, (viewMatrix * vec4(to, 1.0)).xyz, h);
+    } else {
+        place.z = 0.5;
+        alpha = opacity;
+        diffuse.z = shading.y * abs(dot(mat3(viewMatrix) * to, light));
+        gl_Position = projectionMatrix * vec4(seen, 1.0);
+    }
+}
+`;
+
+export const fragmentShader = `
+precision highp float;
+uniform vec4 shading;
+in vec3 place;
+flat in vec3 diffuse, specular, tint;
+flat in float alpha;
+out vec4 pixel;
+void main() {
+    float q = 1.0 - dot(place.xy, place.xy);
+    vec3 n = vec3(place.xy, sqrt(max(q, 0.0)));
+    float shine = shading.z * pow(max(dot(n, specular), 0.0), shading.w);
+    vec3 lit = tint * (shading.x + max(dot(n, diffuse), 0.0)) + shine;
+    pixel = vec4(lit, alpha * clamp(q * place.z + 0.5, 0.0, 1.0));
+}
+`;

@@ -1,0 +1,128 @@
+// The place of the picture: draws either kind of stream, on demand only, and says when a picture has been presented.
+
+import { pngText, type Orbit, type Slices, type State, type Viewport } from "@oval4d/protocol";
+
+import { FrameView } from "./frame_view";
+import { GeometryView } from "./geometry_view";
+
+/** Where the slices are drawn: by this page, or by the server. */
+export type Mode = "geometry" | "frames";
+
+export interface StageEvents {
+    presented(revision: number): void;
+    resized(size: Viewport): void;
+    /** WebGL ceased to work. */
+    lost(): void;
+}
+
+/** The sizes of pictures that the server takes. */
+export interface SizeLimits {
+    min_side?: number;
+    max_width?: number;
+    max_height?: number;
+    max_pixels?: number;
+}
+
+const kMostPixels = 4_000_000; // more cost time and are not seen
+
+export class Stage {
+    orbit: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
+    size: Viewport = { width: 1280, height: 720 }; // device pixels
+    private current: Mode = "frames";
+    private geometry: GeometryView | undefined;
+    private readonly frames: FrameView;
+    private readonly canvases: Record<"solids" | "overlay" | "frame", HTMLCanvasElement>;
+    private unpresented: number | undefined;
+    private scheduled = false;
+    private limits: SizeLimits = {};
+
+    constructor(
+        private readonly root: HTMLElement,
+        private readonly events: StageEvents,
+    ) {
+        const canvas = (name: string): HTMLCanvasElement => root.querySelector<HTMLCanvasElement>(`canvas.${name}`)!;
+        this.canvases = { solids: canvas("solids"), overlay: canvas("overlay"), frame: canvas("frame") };
+        this.frames = new FrameView(this.canvases.frame);
+        if (document.createElement("canvas").getContext("webgl2")) {
+            this.geometry = new GeometryView(this.canvases.solids, this.canvases.overlay);
+        }
+        this.canvases.solids.addEventListener("webglcontextlost", () => {
+            this.geometry = undefined;
+            this.events.lost();
+        });
+        this.measure();
+        new ResizeObserver(() => this.measure()).observe(root);
+    }
+
+    get canDrawGeometry(): boolean {
+        return this.geometry !== undefined;
+    }
+
+    get mode(): Mode {
+        return this.current;
+    }
+
+    set mode(mode: Mode) {
+        this.current = mode;
+        this.root.dataset["mode"] = mode;
+        this.unpresented = undefined;
+    }
+
+    showSlices(slices: Slices, orbit: Orbit): void {
+        if (this.current !== "geometry" || !this.geometry) return;
+        this.geometry.take(slices, orbit);
+        this.unpresented = slices.revision;
+        this.redraw();
+    }
+
+    async showFrame(png: Uint8Array): Promise<void> {
+        if (this.current !== "frames") return;
+        const state = JSON.parse(pngText(png) ?? "{}") as Partial<State>;
+        await this.frames.take(png);
+        this.unpresented = state.revision;
+        this.redraw();
+    }
+
+    /** Keeps the size within these limits. */
+    limit(limits: SizeLimits): void {
+        this.limits = limits;
+        this.measure();
+    }
+
+    redraw(): void {
+        if (this.scheduled) return;
+        this.scheduled = true;
+        requestAnimationFrame(() => this.draw());
+    }
+
+    private draw(): void {
+        this.scheduled = false;
+        if (this.current === "geometry") this.geometry?.draw(this.orbit, this.size);
+        else this.frames.draw();
+        const revision = this.unpresented;
+        this.unpresented = undefined;
+        if (revision === undefined) return;
+        this.root.dataset["revision"] = String(revision);
+        this.root.dataset["drawnBy"] = this.current;
+        this.events.presented(revision);
+    }
+
+    private measure(): void {
+        const { clientWidth, clientHeight } = this.root;
+        if (clientWidth === 0 || clientHeight === 0) return;
+        const { min_side: least = 1, max_width: widest = Infinity, max_height: highest = Infinity } = this.limits;
+        const most = Math.min(kMostPixels, this.limits.max_pixels ?? Infinity);
+        const ratio = Math.min(
+            devicePixelRatio,
+            Math.sqrt(most / (clientWidth * clientHeight)),
+            widest / clientWidth,
+            highest / clientHeight,
+        );
+        const side = (length: number): number => Math.max(least, Math.floor(length * ratio));
+        const size = { width: side(clientWidth), height: side(clientHeight) };
+        if (size.width === this.size.width && size.height === this.size.height) return;
+        this.size = size;
+        this.redraw();
+        this.events.resized(size);
+    }
+}
