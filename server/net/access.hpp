@@ -9,8 +9,8 @@ namespace oval4d::net {
 
 /// The headers of a request that tell who sent it; empty where they are absent.
 struct Credentials {
-    std::string_view host, origin, authorization, cookie;
-    std::string_view token;  ///< of the query
+    std::string_view host{}, origin{}, authorization{}, cookie{};
+    std::string_view token{};  ///< of the query
 };
 
 /// Rules for every request but the probes'. They keep foreign pages out (Origin), and pages that rename this machine

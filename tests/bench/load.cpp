@@ -1,5 +1,5 @@
 // How a running server bears up: key-to-picture latency, many sessions, a flood of keys, a client that never reads.
-//   oval4d --port 8080 &  load [port] [seconds]
+//   oval4d --port 8080 --max-requests 1000000 &  load [port] [seconds]
 
 #include <algorithm>
 #include <boost/asio/co_spawn.hpp>

@@ -22,6 +22,7 @@ def revisions(client):
 async def test_at_most_two_pictures_are_in_flight():
     with Server("--shown-timeout", 1000) as server:
         async with Client(server, stream="geometry", shows=False) as client:
+            await client.slices(0)
             for _ in range(20):
                 last = await client.request("key", key="r")
             # Each answer came after what was sent before it: two pictures, and no third without a `shown`.

@@ -10,7 +10,6 @@
 namespace {
 
 using namespace oval4d;
-using geometry::Hyperplanes;
 using scene::Scene;
 
 const geometry::Polytope& named(std::string_view name) { return *geometry::polytopeOf(*geometry::findEntry(name)); }
