@@ -113,7 +113,7 @@ asio::awaitable<void> HttpSession::run() {
         open = co_await write(*request, std::move(reply));
     }
     boost::system::error_code ignored;
-    stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+    (void)stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
 }
 
 asio::awaitable<std::optional<Request>> HttpSession::read() {
@@ -126,7 +126,8 @@ asio::awaitable<std::optional<Request>> HttpSession::read() {
     reading_ = false;
     if (!fault) co_return parser.release();
     if (auto complaint = complaintAbout(fault)) {
-        const Request unread;
+        Request unread;
+        unread.keep_alive(false);
         co_await write(unread, std::move(*complaint));
     }
     co_return std::nullopt;
@@ -224,7 +225,7 @@ void HttpSession::stop() {
 
 asio::awaitable<void> serve(asio::ip::tcp::socket socket, Front front, bool full) {
     boost::system::error_code ignored;
-    socket.set_option(asio::ip::tcp::no_delay(true), ignored);
+    (void)socket.set_option(asio::ip::tcp::no_delay(true), ignored);
     front.services.metrics.connections.Increment();
     auto& connections = front.services.metrics.connections;
     try {

@@ -17,6 +17,7 @@ void Readiness::warmUp(picture::Painter& painter) {
         for (const geometry::CatalogueEntry& entry : geometry::catalogue()) geometry::polytopeOf(entry);
         if (--missing_ == 0) spdlog::info("ready");
     } catch (const std::exception& fault) {
+        broken_ = true;
         spdlog::error("frames cannot be drawn fault=\"{}\"", fault.what());
     }
 }

@@ -18,9 +18,12 @@ class Readiness {
     void warmUp(picture::Painter& painter);
 
     bool ready() const { return missing_ == 0; }
+    /// Frames cannot be drawn, now or later.
+    bool broken() const { return broken_; }
 
   private:
     std::atomic<std::size_t> missing_;
+    std::atomic<bool> broken_ = false;
 };
 
 }  // namespace oval4d::net

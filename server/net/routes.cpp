@@ -120,10 +120,7 @@ asio::awaitable<Reply> Routes::answer(Inquiry inquiry) {
     }
     const std::string& path = inquiry.target.path;
     if (path == "/healthz") co_return textReply("text/plain", "ok\n");
-    if (path == "/readyz") {
-        co_return readiness_.ready() ? textReply("text/plain", "ready\n")
-                                     : textReply("text/plain", "not yet: workers are warming up\n", 503);
-    }
+    if (path == "/readyz") co_return readiness();
     if (path == "/metrics") co_return metrics();
     if (path == "/api/v1/catalogue") co_return textReply(kJson, protocol::catalogueMessage({}));
     if (path == "/api/v1/keymap") co_return textReply(kJson, protocol::keymapMessage({}));
@@ -145,6 +142,12 @@ asio::awaitable<Reply> Routes::frame(session::Query query) {
         spdlog::error("picture failed fault=\"{}\"", fault.what());
         co_return errorReply(kFault);
     }
+}
+
+Reply Routes::readiness() const {
+    if (readiness_.ready()) return textReply("text/plain", "ready\n");
+    const bool broken = readiness_.broken();
+    return textReply("text/plain", broken ? "frames cannot be drawn: see the log\n" : "not yet: warming up\n", 503);
 }
 
 Reply Routes::metrics() {

@@ -41,6 +41,7 @@ class Routes {
 
   private:
     boost::asio::awaitable<Reply> frame(session::Query query);
+    Reply readiness() const;
     Reply metrics();
 
     const Services services_;

@@ -1,6 +1,7 @@
 #pragma once
 // Scenes to draw and pictures to look at, for the tests of render.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
