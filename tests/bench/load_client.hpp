@@ -28,8 +28,8 @@ class Client {
     /// Connects, says hello (a JSON text) and takes the first picture, if there is a stream.
     boost::asio::awaitable<void> open(std::string hello, bool streams);
     boost::asio::awaitable<void> send(std::string text);
-    /// Reads up to the picture of the wanted revision or a newer one, and says that it was shown. Pictures on the way there
-    /// are shown too, and counted.
+    /// Reads up to the picture of the wanted revision or a newer one, and says that it was shown. Pictures on the way
+    /// there are shown too, and counted.
     boost::asio::awaitable<void> picture(std::uint64_t wanted);
     /// One key and its picture.
     boost::asio::awaitable<void> key(char which);
