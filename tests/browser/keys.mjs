@@ -216,10 +216,14 @@ test("keys: a held key repeats no faster than pictures come, and stops when it i
         };
     });
     await page.keyboard.down("y");
-    for (let i = 0; i < 200; ++i) await page.keyboard.down("y"); // as the keyboard repeats it
+    let pressed = 1;
+    for (const deadline = Date.now() + 30_000; Date.now() < deadline; ) {
+        for (let i = 0; i < 50; ++i, ++pressed) await page.keyboard.down("y"); // as the keyboard repeats it
+        if ((await page.evaluate(() => window.sent)) >= 3) break;
+    }
     await page.keyboard.up("y");
     const { sent, most } = await page.evaluate(() => ({ sent: window.sent, most: window.most }));
-    assert.ok(sent >= 2 && sent < 201, `${sent} of 201 were sent`);
+    assert.ok(sent >= 3 && sent < pressed, `${sent} of ${pressed} were sent`);
     assert.equal(most, 1, "the next goes when the last one's picture was seen");
     await end();
 });
