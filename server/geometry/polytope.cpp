@@ -236,6 +236,8 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists 
     p.vertices = std::move(vertices);
     p.faces = std::move(faces);
     p.cells = std::move(cells);
+    p.cellKinds.assign(p.cells.size(), 0);
+    p.kinds = {"cell"};
     if (p.cells.size() == 0) refuse("there are no cells");
     for (const auto& v : p.vertices) {
         const double r = glm::length(v);

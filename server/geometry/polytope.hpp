@@ -37,6 +37,8 @@ struct Polytope {
                                                           ///< counter-clockwise seen from outside the cell, else −1;
                                                           ///< a 2-face has opposite signs in its two cells
     std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face, the smaller number first
+    std::vector<std::uint32_t> cellKinds;                 ///< the kind of each cell, a number into `kinds`
+    std::vector<std::string> kinds;                       ///< names of the kinds of cells: "truncated tetrahedron"
     std::uint64_t serial = 0;                             ///< no two built in one process share it: what caches go by
     bool convexFaces = true;                              ///< no 2-face is dented or a star
     double circumradius = 0;                              ///< the largest distance of a vertex from the origin
