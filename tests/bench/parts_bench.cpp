@@ -2,126 +2,80 @@
 
 #include <benchmark/benchmark.h>
 
-#include <iterator>
-#include <random>
 #include <string>
-#include <vector>
 
 #include "geometry/catalogue.hpp"
-#include "geometry/slicer.hpp"
+#include "path.hpp"
 #include "protocol/cpp/codec.hpp"
-#include "render/renderer.hpp"
-#include "scene/scene.hpp"
 
-namespace oval4d {
+namespace oval4d::bench {
 namespace {
 
-constexpr int kHalf = 10, kSlices = 2 * kHalf + 1;
-constexpr scene::Viewport kViewport{1280, 720};
 const char* const kPolytopes[] = {"5-cell", "8-cell", "16-cell", "24-cell", "120-cell", "600-cell"};
 
-/// The way from an orientation to a picture, all memory kept. The orientations are the same in every run.
-struct Bench {
-    std::shared_ptr<const geometry::Polytope> polytope;
-    geometry::Hyperplanes planes;
-    std::vector<geometry::Rotation> orientations;
-    std::size_t next = 0;
-    geometry::Slicer slicer;
-    geometry::SliceSet slices;
-    scene::Scene scene;
-    render::Image image;
-    render::PngEncoder encoder;
-    std::vector<std::uint8_t> png;
-
-    explicit Bench(benchmark::State& state)
-        : polytope(geometry::polytopeOf(*geometry::findEntry(kPolytopes[state.range(0)]))),
-          planes{-kHalf, kSlices, polytope->circumradius / kHalf} {
-        state.SetLabel(polytope->name);
-        std::mt19937 random(4);
-        std::normal_distribution<double> normal;
-        const auto quaternion = [&] {
-            const double a = normal(random), b = normal(random), c = normal(random), d = normal(random);
-            return glm::normalize(glm::dquat(a, b, c, d));
-        };
-        for (int i = 0; i < 64; ++i) {
-            const glm::dquat left = quaternion(), right = quaternion();
-            orientations.emplace_back(left, right);
-        }
-    }
-
-    void slice() { slicer.slice(*polytope, orientations[next++ % orientations.size()], planes, slices); }
-    void compose() { scene::compose(*polytope, planes, 0, {}, kViewport, scene); }
-    void draw(render::Renderer& renderer) { renderer.draw(*polytope, slices, scene, image); }
-    void encode() { encoder.encode(image, "{}", png); }
-};
-
-render::Renderer& renderer() {
-    static render::Renderer instance;
-    return instance;
+Path pathOf(benchmark::State& state) {
+    const char* const name = kPolytopes[state.range(0)];
+    state.SetLabel(name);
+    return Path(geometry::polytopeOf(*geometry::findEntry(name)));
 }
 
 void slice(benchmark::State& state) {
-    Bench bench(state);
+    Path path = pathOf(state);
     std::size_t elements = 0;
     for (auto _ : state) {
-        bench.slice();
-        elements += bench.slices.vertices.size() + bench.slices.edges.size() + bench.slices.faceOf.size();
+        path.slice();
+        elements += path.elements();
     }
     state.counters["slices"] =
-        benchmark::Counter(static_cast<double>(state.iterations() * kSlices), benchmark::Counter::kIsRate);
+        benchmark::Counter(static_cast<double>(state.iterations() * path.planes.count), benchmark::Counter::kIsRate);
     state.counters["elements"] = benchmark::Counter(static_cast<double>(elements), benchmark::Counter::kIsRate);
 }
 
 void compose(benchmark::State& state) {
-    Bench bench(state);
-    bench.slice();
-    for (auto _ : state) bench.compose();
+    Path path = pathOf(state);
+    path.slice();
+    for (auto _ : state) path.compose();
 }
 
 void draw(benchmark::State& state) {
-    Bench bench(state);
-    bench.compose();
+    Path path = pathOf(state);
+    path.compose();
     for (auto _ : state) {
         state.PauseTiming();
-        bench.slice();
+        path.slice();
         state.ResumeTiming();
-        bench.draw(renderer());
+        path.draw();
     }
 }
 
 void encode(benchmark::State& state) {
-    Bench bench(state);
-    bench.compose();
+    Path path = pathOf(state);
+    path.compose();
     for (auto _ : state) {
         state.PauseTiming();
-        bench.slice();
-        bench.draw(renderer());
+        path.slice();
+        path.draw();
         state.ResumeTiming();
-        bench.encode();
+        path.encode();
     }
-    state.counters["bytes"] = static_cast<double>(bench.png.size());
+    state.counters["bytes"] = static_cast<double>(path.png.size());
 }
 
 void frame(benchmark::State& state) {
-    Bench bench(state);
-    for (auto _ : state) {
-        bench.slice();
-        bench.compose();
-        bench.draw(renderer());
-        bench.encode();
-    }
+    Path path = pathOf(state);
+    for (auto _ : state) path.frame();
 }
 
 template <protocol::Encoding encoding>
 void message(benchmark::State& state) {
-    Bench bench(state);
-    bench.compose();
+    Path path = pathOf(state);
+    path.compose();
     std::string text;
     for (auto _ : state) {
         state.PauseTiming();
-        bench.slice();
+        path.slice();
         state.ResumeTiming();
-        protocol::slicesMessage(*bench.polytope, bench.slices, bench.scene, 1, {}, encoding, text);
+        protocol::slicesMessage(*path.polytope, path.slices, path.scene, 1, {}, encoding, text);
     }
     state.counters["bytes"] = static_cast<double>(text.size());
 }
@@ -139,4 +93,4 @@ BENCHMARK(message<protocol::Encoding::json>)->Apply(everyPolytope);
 BENCHMARK(message<protocol::Encoding::cbor>)->Apply(everyPolytope);
 
 }  // namespace
-}  // namespace oval4d
+}  // namespace oval4d::bench
