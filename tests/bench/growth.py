@@ -8,9 +8,9 @@ TITLES = {
     "growBuild": ("Building, by elements of the polytope", "elements"),
     "growSlice": ("Slicing by 21 hyperplanes, by elements of the slices", "elements cut"),
     "growFrame": ("A whole frame at 1280 × 720, by elements of the slices", "elements cut"),
-    "growWithSlices": ("Slicing, by the number of slices", "slices"),
+    "growSliceWithSlices": ("Slicing, by the number of slices", "slices"),
     "growFrameWithSlices": ("A whole frame at 1280 × 720, by the number of slices", "slices"),
-    "growWithPixels": ("A whole frame, by pixels", "pixels"),
+    "growFrameWithPixels": ("A whole frame, by pixels", "pixels"),
 }
 
 

@@ -21,39 +21,25 @@ void growBuild(benchmark::State& state) {
     state.counters["size"] = sizeOf(*bench::subject(state.range(0)));
 }
 
-void growSlice(benchmark::State& state) {
+// One step of the path, or all of it, for every polytope …
+template <void (Path::*step)()>
+void growWithPolytope(benchmark::State& state) {
     Path path(subject(state.range(0)));
     state.SetLabel(path.polytope->name);
     std::size_t elements = 0;
     for (auto _ : state) {
-        path.slice();
+        (path.*step)();
         elements += path.elements();
     }
     state.counters["size"] = static_cast<double>(elements) / static_cast<double>(state.iterations());
 }
 
-void growFrame(benchmark::State& state) {
-    Path path(subject(state.range(0)));
-    state.SetLabel(path.polytope->name);
-    std::size_t elements = 0;
-    for (auto _ : state) {
-        path.frame();
-        elements += path.elements();
-    }
-    state.counters["size"] = static_cast<double>(elements) / static_cast<double>(state.iterations());
-}
-
+// … and for every number of slices.
+template <void (Path::*step)()>
 void growWithSlices(benchmark::State& state) {
     Path path(subject(kSixHundredCell), static_cast<int>(state.range(0)));
     state.SetLabel(std::to_string(state.range(0)) + " slices of the 600-cell");
-    for (auto _ : state) path.slice();
-    state.counters["size"] = static_cast<double>(state.range(0));
-}
-
-void growFrameWithSlices(benchmark::State& state) {
-    Path path(subject(kSixHundredCell), static_cast<int>(state.range(0)));
-    state.SetLabel(std::to_string(state.range(0)) + " slices of the 600-cell");
-    for (auto _ : state) path.frame();
+    for (auto _ : state) (path.*step)();
     state.counters["size"] = static_cast<double>(state.range(0));
 }
 
@@ -74,11 +60,12 @@ void everyCount(benchmark::internal::Benchmark* bench) {
 }
 
 BENCHMARK(growBuild)->Apply(everySubject);
-BENCHMARK(growSlice)->Apply(everySubject);
-BENCHMARK(growFrame)->Apply(everySubject);
-BENCHMARK(growWithSlices)->Apply(everyCount);
-BENCHMARK(growFrameWithSlices)->Apply(everyCount);
+BENCHMARK(growWithPolytope<&Path::slice>)->Name("growSlice")->Apply(everySubject);
+BENCHMARK(growWithPolytope<&Path::frame>)->Name("growFrame")->Apply(everySubject);
+BENCHMARK(growWithSlices<&Path::slice>)->Name("growSliceWithSlices")->Apply(everyCount);
+BENCHMARK(growWithSlices<&Path::frame>)->Name("growFrameWithSlices")->Apply(everyCount);
 BENCHMARK(growWithPixels)
+    ->Name("growFrameWithPixels")
     ->Arg(256)
     ->Arg(640)
     ->Arg(1280)
