@@ -92,6 +92,11 @@ std::string stateMessage(const session::State& state, std::uint64_t revision, st
         w.member("elevation", state.look.orbit.elevation);
         w.member("zoom", state.look.orbit.zoom);
         w.endObject();
+        w.member("color", wireName(state.look.colouring));
+        w.key("hidden");
+        w.numbers(state.look.kinds.hidden);
+        w.key("faded");
+        w.numbers(state.look.kinds.faded);
         writeLast(w, state.last);
         w.endObject();
     }

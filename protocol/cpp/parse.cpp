@@ -89,6 +89,10 @@ Set setOf(const json& message) {
         take(*camera, "elevation", set.elevation);
         take(*camera, "zoom", set.zoom);
     }
+    if (const auto colouring = message.find("color"); colouring != message.end())
+        set.colouring = colouringNamed(colouring->get_ref<const std::string&>());
+    take(message, "hidden", set.hidden);
+    take(message, "faded", set.faded);
     if (const auto last = message.find("last"); last != message.end() && !last->is_null())
         set.last = turnOf(*last, "set: /last");
     return set;

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
+#include <vector>
 
 #include <glm/mat4x4.hpp>
 
@@ -35,6 +37,8 @@ struct Set {
     std::optional<bool> turning;
     std::optional<bool> faces, bars, balls, coordinates;
     std::optional<double> azimuth, elevation, zoom;
+    std::optional<scene::Colouring> colouring;
+    std::optional<std::vector<std::uint32_t>> hidden, faded;  ///< kinds of cells, in any order
     std::optional<geometry::Turn> last;  ///< what '.' repeats and space continues, as a state has it
 };
 struct Load {
@@ -47,6 +51,10 @@ struct CommandLine {
     std::string line;  ///< without the ':'
 };
 using Command = std::variant<Key, Rotate, Set, Load, Undo, Redo, Reset, CommandLine>;
+
+/// A colouring as the wire has it, and back; nothing for any other word.
+std::string_view wireName(scene::Colouring colouring);
+std::optional<scene::Colouring> colouringNamed(std::string_view name);
 
 // The rest concerns one connection.
 

@@ -5,6 +5,8 @@ export type Plane = "xy" | "xz" | "xw" | "yz" | "yw" | "zw";
 export type Stream = "none" | "geometry" | "frames";
 export type Encoding = "json" | "cbor";
 export type View = "oval" | "single";
+/** What a face's colour tells: its cell, the kind of its cell, the w of its cell's centre as turned, or nothing. */
+export type Coloring = "cell" | "kind" | "w" | "plain";
 export type Vector = [number, number, number];
 
 export interface Parts {
@@ -46,6 +48,10 @@ export interface Settings {
     turning?: boolean;
     shown?: Partial<Parts>;
     camera?: Partial<Orbit>;
+    color?: Coloring;
+    /** Kinds of cells, numbers into the polytope's kinds. */
+    hidden?: number[];
+    faded?: number[];
 }
 
 export type Request =
@@ -88,6 +94,10 @@ export interface State {
     turning: boolean;
     shown: Parts;
     camera: Orbit;
+    color: Coloring;
+    /** Kinds of cells, numbers into the polytope's kinds. */
+    hidden: number[];
+    faded: number[];
     last: { planes: Plane[]; angles: number[] } | null;
 }
 

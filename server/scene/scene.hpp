@@ -17,6 +17,20 @@ namespace oval4d::scene {
 
 enum class View : std::uint8_t { oval, single };
 
+/// What a face's colour, and the colour of a cell, tells.
+enum class Colouring : std::uint8_t {
+    cell,   ///< which cell it is
+    kind,   ///< which kind of cell
+    w,      ///< the w of the cell's centre, as the polytope is turned
+    plain,  ///< nothing: one colour
+};
+
+/// Kinds of cells, numbers into Polytope::kinds: in order, each once, and none in both lists.
+struct Kinds {
+    std::vector<std::uint32_t> hidden, faded;
+    bool operator==(const Kinds&) const = default;
+};
+
 /// Which parts are drawn.
 struct Parts {
     bool faces = true, bars = true, balls = true, coordinates = true;
@@ -35,6 +49,8 @@ struct Look {
     View view = View::oval;
     Parts parts;
     Orbit orbit;
+    Colouring colouring = Colouring::cell;
+    Kinds kinds;
     bool operator==(const Look&) const = default;
 };
 

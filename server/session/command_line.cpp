@@ -8,6 +8,7 @@
 
 #include "protocol/cpp/suggest.hpp"
 #include "session/expression.hpp"
+#include "session/kinds.hpp"
 #include "session/session.hpp"
 
 namespace oval4d::session {
@@ -24,7 +25,8 @@ using Words = std::vector<std::string_view>;
 
 // One row of the table of settings: its name, and the member of Set that it fills.
 using Member = std::variant<std::optional<double> Set::*, std::optional<int> Set::*, std::optional<bool> Set::*,
-                            std::optional<std::string> Set::*, std::optional<scene::View> Set::*>;
+                            std::optional<std::string> Set::*, std::optional<scene::View> Set::*,
+                            std::optional<scene::Colouring> Set::*, std::optional<KindList> Set::*>;
 struct Setting {
     std::string_view name;
     Member member;
@@ -44,7 +46,10 @@ const auto kSettings = std::to_array<Setting>({{"polytope", &Set::polytope},
                                                {"coordinates", &Set::coordinates},
                                                {"azimuth", &Set::azimuth},
                                                {"elevation", &Set::elevation},
-                                               {"zoom", &Set::zoom}});
+                                               {"zoom", &Set::zoom},
+                                               {"color", &Set::colouring},
+                                               {"hidden", &Set::hidden},
+                                               {"faded", &Set::faded}});
 
 std::vector<std::string_view> names() {
     std::vector<std::string_view> all;
@@ -93,6 +98,18 @@ struct ValueReader {
             return bad(ErrorCode::bad_expression, std::string(name) + " must be oval or single, not " + inQuotes(text));
         }
         set.*member = text == "single" ? scene::View::single : scene::View::oval;
+        return std::monostate{};
+    }
+    Result<std::monostate> operator()(std::optional<scene::Colouring> Set::* member) const {
+        set.*member = protocol::colouringNamed(text);
+        if (set.*member) return std::monostate{};
+        return bad(ErrorCode::bad_expression,
+                   std::string(name) + " must be cell, kind, w or plain, not " + inQuotes(text));
+    }
+    Result<std::monostate> operator()(std::optional<KindList> Set::* member) const {
+        auto kinds = readKinds(text);
+        if (!kinds) return bad(kinds.error().code, std::string(name) + ": " + kinds.error().message);
+        set.*member = std::move(*kinds);
         return std::monostate{};
     }
 };
@@ -166,6 +183,21 @@ Result<Command> keyLine(std::string_view rest, const Words& words, const State& 
     return Command{key};
 }
 
+// hide, fade or show, with numbers or one name of kinds of cells.
+template <scene::Kinds (*change)(scene::Kinds, const KindList&)>
+Result<Command> kindsLine(std::string_view rest, const Words& /*words*/, const State& state) {
+    Set set;
+    scene::Kinds kinds;
+    if (change != reveal || !rest.empty()) {
+        const auto named = findKinds(rest, *state.polytope);
+        if (!named) return named.error();
+        kinds = change(state.look.kinds, *named);
+    }
+    set.hidden = std::move(kinds.hidden);
+    set.faded = std::move(kinds.faded);
+    return Command{set};
+}
+
 template <typename C>
 Result<Command> plain(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
     if (!rest.empty()) return bad(ErrorCode::bad_expression, "nothing may follow here, not " + inQuotes(rest));
@@ -182,6 +214,10 @@ constexpr auto kVerbs = std::to_array<Verb>(
      {"rotate", rotateLine},
      {"view", [](std::string_view rest, const Words&, const State&) { return oneSetting("view", rest); }},
      {"focus", [](std::string_view rest, const Words&, const State&) { return oneSetting("focus", rest); }},
+     {"color", [](std::string_view rest, const Words&, const State&) { return oneSetting("color", rest); }},
+     {"hide", kindsLine<hide>},
+     {"fade", kindsLine<fade>},
+     {"show", kindsLine<reveal>},
      {"key", keyLine},
      {"reset", plain<protocol::Reset>},
      {"undo", plain<protocol::Undo>},

@@ -8,6 +8,7 @@
 
 #include "geometry/catalogue.hpp"
 #include "protocol/cpp/suggest.hpp"
+#include "session/kinds.hpp"
 
 namespace oval4d::session {
 
@@ -87,6 +88,7 @@ void show(State& state, PolytopePtr polytope) {
     if (polytope == state.polytope) return;
     state.slices.spacing *= polytope->circumradius / state.polytope->circumradius;
     state.slices.focus = 0;
+    state.look.kinds = {};
     state.polytope = std::move(polytope);
 }
 
@@ -132,6 +134,8 @@ Result<std::monostate> applySet(State& state, const protocol::Set& set, const Lo
     put(set.bars, state.look.parts.bars);
     put(set.balls, state.look.parts.balls);
     put(set.coordinates, state.look.parts.coordinates);
+    state.look.colouring = set.colouring.value_or(state.look.colouring);
+    if (auto done = setKinds(state, set); !done) return done;
     put(set.turning, state.turning);
     if (state.turning && !state.last) {
         return Error{ErrorCode::nothing_to_undo, "nothing to turn with: no rotation has been made yet"};

@@ -22,7 +22,8 @@ inline constexpr double kMinZoom = 0.05, kMaxZoom = 20;
 /// The polytope with this name or alias, or `unknown_polytope` with the nearest name.
 protocol::Result<PolytopePtr> findPolytope(std::string_view name, const Loaded& loaded);
 
-/// Shows another polytope: the orientation stays, the spacing keeps its ratio to the circumradius, the focus is 0.
+/// Shows another polytope: the orientation stays, the spacing keeps its ratio to the circumradius, the focus is 0, and
+/// all kinds of cells are seen.
 void show(State& state, PolytopePtr polytope);
 
 /// Changes the number of slices and keeps their span.

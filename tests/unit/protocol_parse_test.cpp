@@ -66,6 +66,7 @@ TEST(Parse, SetsEverySetting) {
         R"({"type":"set","polytope":{"name":"24-cell","cells":24},"orientation":[[1,0,0,0],[0,0,-1,0],[0,1,0,0],[0,0,0,1]],
             "alpha":0.1,"beta":-0.2,"step":0.01,"slices":{"count":21.0,"spacing":0.5,"focus":-3},"view":"single","turning":true,
             "shown":{"faces":false,"balls":true},"camera":{"azimuth":1,"elevation":2,"zoom":3},
+            "color":"w","hidden":[3,1],"faded":[],
             "last":{"planes":["xw"],"angles":[0.3]}})");
     EXPECT_EQ(set.polytope, "24-cell");
     ASSERT_TRUE(set.orientation);
@@ -85,6 +86,9 @@ TEST(Parse, SetsEverySetting) {
     EXPECT_EQ(set.azimuth, 1);
     EXPECT_EQ(set.elevation, 2);
     EXPECT_EQ(set.zoom, 3);
+    EXPECT_EQ(set.colouring, scene::Colouring::w);
+    EXPECT_EQ(set.hidden, (std::vector<std::uint32_t>{3, 1}));
+    EXPECT_EQ(set.faded, std::vector<std::uint32_t>{});
     EXPECT_EQ(set.last, (geometry::Turn{geometry::Plane::xw, 0.3, {}}));
     EXPECT_EQ(parsedCommand<Set>(R"({"type":"set","polytope":"5-cell"})").polytope, "5-cell");
 }

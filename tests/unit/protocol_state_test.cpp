@@ -1,3 +1,4 @@
+#include <array>
 #include <numbers>
 #include <random>
 
@@ -24,6 +25,8 @@ Session randomSession(unsigned seed) {
         EXPECT_TRUE(apply(session, key, {}));
     }
     EXPECT_TRUE(apply(session, CommandLine{"set azimuth=0.1 elevation=-0.2 zoom=1.5 step=0.01"}, {}));
+    const std::array looks{"color cell", "color kind", "color w", "set color=plain hidden=0", "fade 0"};
+    EXPECT_TRUE(apply(session, CommandLine{looks.at(seed % looks.size())}, {}));
     if (seed % 2 == 0) {
         EXPECT_TRUE(apply(session, Key{" "}, {}));
     }
@@ -58,6 +61,9 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
     EXPECT_EQ(message.at("turning"), false);
     EXPECT_EQ(message.at("shown"), json::parse(R"({"faces":true,"bars":true,"balls":true,"coordinates":true})"));
     EXPECT_EQ(message.at("camera"), json::parse(R"({"azimuth":0,"elevation":0,"zoom":1})"));
+    EXPECT_EQ(message.at("color"), "cell");
+    EXPECT_EQ(message.at("hidden"), json::array());
+    EXPECT_EQ(message.at("faded"), json::array());
     EXPECT_EQ(message.at("last").at("planes"), json::parse(R"(["xw","yz"])"));
     EXPECT_EQ(message.at("last").at("angles").at(0), std::numbers::pi / 8);
     EXPECT_TRUE(fitting(stateMessage(session::initialState(), 0)).at("last").is_null());

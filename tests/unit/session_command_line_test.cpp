@@ -57,7 +57,7 @@ TEST(CommandLine, EverySettingCanBeSet) {
     line(session,
          "set polytope=16-cell alpha=0.1 beta=-0.2 step=0.01 slices=11 spacing=0.2 focus=-2 view=single turning=on "
          "faces=off "
-         "bars=off balls=off coordinates=off azimuth=0.3 elevation=-0.1 zoom=2");
+         "bars=off balls=off coordinates=off azimuth=0.3 elevation=-0.1 zoom=2 color=w hidden=0 faded=none");
     const State& now = session.now;
     EXPECT_EQ(now.polytope->name, "16-cell");
     EXPECT_EQ(now.alpha, 0.1);
@@ -65,7 +65,9 @@ TEST(CommandLine, EverySettingCanBeSet) {
     EXPECT_EQ(now.step, 0.01);
     EXPECT_EQ(now.slices, (SliceSettings{11, 0.2, -2}));
     EXPECT_TRUE(now.turning);
-    EXPECT_EQ(now.look, (scene::Look{scene::View::single, {false, false, false, false}, {0.3, -0.1, 2}}));
+    EXPECT_EQ(now.look,
+              (scene::Look{
+                  scene::View::single, {false, false, false, false}, {0.3, -0.1, 2}, scene::Colouring::w, {{0}, {}}}));
 }
 
 TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
