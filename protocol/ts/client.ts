@@ -142,6 +142,11 @@ export class Client {
         });
     }
 
+    /** Bytes that are still to go to the server. */
+    get unsent(): number {
+        return this.socket?.bufferedAmount ?? 0;
+    }
+
     /** Says that a picture has been presented: the server sends the next one. */
     shown(revision: number): void {
         this.send({ type: "shown", revision });
@@ -220,8 +225,16 @@ export class Client {
     test(): void {
         if (this.status.kind !== "open") return;
         this.request({ type: "get", what: "state" }).catch(() => {});
+        this.await(this.unsent);
+    }
+
+    /** The answer cannot come before all is sent: as long as that goes on, there is life. */
+    private await(unsent: number): void {
         clearTimeout(this.timer);
-        this.timer = setTimeout(() => this.closed(1006, "the server does not answer"), kPatience * 1000);
+        this.timer = setTimeout(() => {
+            if (this.unsent < unsent) this.await(this.unsent);
+            else this.closed(1006, "the server does not answer");
+        }, kPatience * 1000);
     }
 
     private closed(code: number, said: string): void {

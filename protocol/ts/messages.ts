@@ -105,6 +105,8 @@ export interface Done {
     type: "done";
     id: number;
     revision: number;
+    /** What was repaired in a loaded file. */
+    warnings?: string[];
 }
 
 export interface ErrorMessage {
@@ -114,17 +116,27 @@ export interface ErrorMessage {
     message: string;
 }
 
+/** A polytope that is known by name. */
+export interface CatalogueEntry {
+    name: string;
+    aliases: string[];
+    /** Schläfli symbol, and Coxeter–Dynkin diagram in linear notation; empty where it has none. */
+    schlaefli: string;
+    diagram?: string;
+    /** The heading under which it stands: "regular", "uniform H4", "duoprism" … */
+    family?: string;
+    vertices: number;
+    edges: number;
+    faces: number;
+    cells: number;
+    /** Order of the full symmetry group, reflections included. */
+    symmetry_order?: number;
+}
+
 export interface Catalogue {
     type: "catalogue";
     id?: number;
-    polytopes: {
-        name: string;
-        vertices: number;
-        edges: number;
-        faces: number;
-        cells: number;
-        [more: string]: unknown;
-    }[];
+    polytopes: CatalogueEntry[];
 }
 
 /** One line of the key table, protocol/keymap.json. */

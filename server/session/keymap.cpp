@@ -24,9 +24,8 @@ constexpr auto kActionNames = std::to_array<std::string_view>(
      "focus_right",    "focus_left",   "focus_zero",  "focus_first",   "focus_last",
      "undo",           "redo",         "repeat",      "turn",          "spacing_smaller",
      "spacing_larger", "slices_fewer", "slices_more", "polytope_next", "polytope_previous",
-     "view",           "coordinates",  "faces",       "bars",          "balls",
-     "command_line",   "help"});
-static_assert(kActionNames.size() == static_cast<std::size_t>(Action::help) + 1);
+     "view",           "coordinates",  "faces",       "bars",          "balls"});
+static_assert(kActionNames.size() == static_cast<std::size_t>(Action::balls) + 1);
 
 bool isUpper(const std::string& key) { return key.size() == 1 && key[0] >= 'A' && key[0] <= 'Z'; }
 bool isLower(const std::string& key) { return key.size() == 1 && key[0] >= 'a' && key[0] <= 'z'; }
@@ -47,7 +46,7 @@ Key normal(Key key) {
 struct Entry {
     Key key;
     std::string first;  // of a sequence of two keys, the first
-    Binding binding;
+    Binding binding{};
     bool client = false;
 };
 
@@ -63,6 +62,10 @@ std::vector<Entry> readTable() {
         }
         entry.key = normal({keys, false, row.value("ctrl", false)});
         entry.client = row.value("client", false);
+        if (entry.client) {
+            table.push_back(entry);
+            continue;
+        }
         const std::string action = row.at("action");
         const auto at = std::find(kActionNames.begin(), kActionNames.end(), action);
         if (at == kActionNames.end()) throw std::logic_error("keymap.json: no action is called " + action);

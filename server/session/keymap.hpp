@@ -10,7 +10,8 @@
 
 namespace oval4d::session {
 
-/// What a key does. The names are those of the "action" member in protocol/keymap.json.
+/// What a key does. The names are those of the "action" member in protocol/keymap.json; those that are for the client
+/// alone are not among them.
 enum class Action {
     rotate,  ///< planes in `planes`; Shift gives the inverse
     alpha_up,
@@ -37,8 +38,6 @@ enum class Action {
     faces,
     bars,
     balls,
-    command_line,
-    help,  ///< for the client alone
 };
 
 struct Binding {

@@ -152,8 +152,6 @@ Result<std::monostate> act(State& state, const Binding& binding, const Loaded& l
             break;
         case Action::undo:
         case Action::redo:
-        case Action::command_line:
-        case Action::help:
             break;  // not actions on a state
     }
     return std::monostate{};

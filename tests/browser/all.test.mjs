@@ -4,6 +4,8 @@ import "./keys.mjs";
 import "./buttons.mjs";
 import "./client.mjs";
 import "./command_line.mjs";
+import "./picker.mjs";
+import "./loading.mjs";
 import "./connection.mjs";
 import "./links.mjs";
 import "./pointer.mjs";

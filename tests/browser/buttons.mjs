@@ -80,20 +80,6 @@ test("buttons: one that is held repeats until it is let go", async () => {
     await close();
 });
 
-test("buttons: the selector shows another polytope", async () => {
-    const { page, script, close } = await openWithScript();
-    const { polytopes } = await script.request({ type: "get", what: "catalogue" });
-    const offered = await page.locator("#polytope option").allTextContents();
-    assert.deepEqual(
-        offered,
-        polytopes.map(({ name }) => name),
-    );
-    await page.selectOption("#polytope", "120-cell");
-    const { polytope } = await script.until((one) => one.polytope.name === "120-cell", "the 120-cell");
-    assert.equal(polytope.cells, 120);
-    await close();
-});
-
 test("buttons: start again brings back the orientation, and the viewpoint", async () => {
     const { page, script, press, close } = await openWithScript();
     const { orientation } = await script.state();

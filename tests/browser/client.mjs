@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import WebSocket from "ws";
 
 import { Client, pngText, RequestError } from "./node_modules/.oval4d/client.mjs";
-import { common, openPage, scriptFor } from "./support/browser.mjs";
+import { common, named, openPage, scriptFor } from "./support/browser.mjs";
 import { decode } from "./support/pixels.mjs";
 import { startProxy } from "./support/proxy.mjs";
 import { joinSession } from "./support/script.mjs";
@@ -105,7 +105,7 @@ test("client: a script and a page in one session see each other's changes", asyn
     const { page, close } = await openPage();
     const script = await scriptFor(page);
     await script.request({ type: "command", line: "polytope 600-cell" });
-    await page.waitForFunction(() => document.getElementById("polytope").value === "600-cell");
+    await named(page, "600-cell");
     script.leave();
     await close();
 });

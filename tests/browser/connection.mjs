@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { common, openPage, openWithScript, presented, ready, scriptFor } from "./support/browser.mjs";
+import { common, named, openPage, openWithScript, presented, ready, scriptFor } from "./support/browser.mjs";
 import { startProxy } from "./support/proxy.mjs";
 import { startServer } from "./support/server.mjs";
 
@@ -52,7 +52,7 @@ test("connection: behind a path prefix everything is asked for under it", async 
     const proxy = await startProxy((await common()).url, "/maths/oval");
     const { page, errors, close } = await openPage({ url: `${proxy.url}?polytope=8-cell` });
     await ready(page);
-    await page.waitForFunction(() => document.getElementById("polytope").value === "8-cell");
+    await named(page, "8-cell");
     const saving = page.waitForEvent("download");
     await page.click("[data-own=save]");
     await saving;

@@ -87,7 +87,7 @@ asking.leave();
 
 test("keys: the table has them all", () => {
     const names = table.map(({ name }) => name).sort();
-    const expected = [..."234567rtykjKJlh0Gu.[]{}nNopfbe:?", "gg", "Ctrl-r", "Space"].sort();
+    const expected = [..."234567rtykjKJlh0Gu.[]{}sinNopfbex:?", "gg", "Ctrl-r", "Space"].sort();
     assert.deepEqual(names, expected);
 });
 

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { common, openPage, openWithScript, presented, ready, scriptFor } from "./support/browser.mjs";
+import { common, named, openPage, openWithScript, presented, ready, scriptFor } from "./support/browser.mjs";
 
 const { url } = await common();
 
@@ -28,7 +28,7 @@ test("links: a query opens its view", async () => {
     assert.equal((await script.state()).revision, state.revision);
     script.leave();
     await page.goto(`${url}?polytope=16-cell`);
-    await page.waitForFunction(() => document.getElementById("polytope").value === "16-cell");
+    await named(page, "16-cell");
     await close();
 });
 
@@ -55,7 +55,7 @@ test("links: a shared link joins the session, and both see every change", async 
     await second.page.keyboard.press("n");
     const after = await first.script.until((one) => one.polytope.name !== "5-cell", "the other page's key");
     await presented(first.page, after.revision);
-    assert.equal(await first.page.inputValue("#polytope"), after.polytope.name);
+    await named(first.page, after.polytope.name);
     await second.close();
     await first.close();
 });

@@ -110,7 +110,7 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("rotate xw,yw 1 2", ErrorCode::bad_expression, "xw goes with yz");
     refused("rotate xw 1e7", ErrorCode::out_of_range, "an angle must be from");
     refused("key", ErrorCode::unknown_key, "needs one key");
-    refused("key x", ErrorCode::unknown_key, "'x' has no meaning");
+    refused("key q", ErrorCode::unknown_key, "'q' has no meaning");
     refused("reset all", ErrorCode::bad_expression, "nothing may follow here, not 'all'");
 }
 

@@ -67,7 +67,7 @@ TEST(Keys, TheTableHasEveryKeyOfTheMethod) {
     for (const auto& row : rows()) all += row.at("name").get<std::string>() + "\n";
     EXPECT_EQ(all,
               "2\n3\n4\n5\n6\n7\nr\nt\ny\nk\nj\nK\nJ\nh\nl\n0\ngg\nG\n[\n]\n{\n}\nSpace\n.\nu\nCtrl-"
-              "r\nn\nN\no\np\nf\nb\ne\n:\n?\n");
+              "r\ns\ni\nn\nN\no\np\nf\nb\ne\nx\n:\n?\n");
 }
 
 TEST(Keys, AKeyAndItsInverseRestoreTheState) {
@@ -221,13 +221,13 @@ TEST(Keys, WalkTheCatalogueRoundAndRound) {
 
 TEST(Keys, UnknownOnesAreRefused) {
     Session session;
-    expectRefused(session, Key{"x", false, false}, ErrorCode::unknown_key, "'x' has no meaning");
+    expectRefused(session, Key{"q", false, false}, ErrorCode::unknown_key, "'q' has no meaning");
     expectRefused(session, Key{"y", false, true}, ErrorCode::unknown_key, "'Ctrl-y' has no meaning");
     expectRefused(session, Key{"ArrowUp", false, false}, ErrorCode::unknown_key, "'ArrowUp'");
     expectRefused(session, Key{"gg", false, false}, ErrorCode::unknown_key, "'gg'");
     expectRefused(session, Key{"?", false, false}, ErrorCode::unknown_key, "for the client alone");
     press(session, "g");
-    expectRefused(session, Key{"x", false, false}, ErrorCode::unknown_key, "'x' has no meaning");
+    expectRefused(session, Key{"q", false, false}, ErrorCode::unknown_key, "'q' has no meaning");
 }
 
 }  // namespace

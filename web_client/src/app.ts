@@ -9,11 +9,13 @@ import { listenForGestures } from "./gestures";
 import { Help } from "./help";
 import { strokeOf, strokesOf } from "./keys";
 import { keep, readStart, shareLink } from "./link";
+import { Loading } from "./loading";
 import { recall, remember } from "./memory";
 import { Notice } from "./notice";
 import { OrbitControl } from "./orbit";
 import { Pace } from "./pace";
 import { markMode, ownSections } from "./own_tools";
+import { Picker } from "./picker";
 import { type Mode, Stage } from "./picture/stage";
 import { Readings } from "./readings";
 import { Tools } from "./tools";
@@ -25,7 +27,7 @@ type Command = Exclude<Request, { type: "hello" | "get" | "shown" }>;
 
 export class App {
     private readonly drawing = byId("drawing");
-    private readonly polytope = byId<HTMLSelectElement>("polytope");
+    private readonly polytope = byId("polytope");
     private readonly notice = new Notice();
     private readonly connection = new ConnectionView();
     private readonly pace = new Pace();
@@ -60,6 +62,10 @@ export class App {
         () => this.drawing.focus(),
     );
     private readonly readings = new Readings((command) => this.commandLine.open(command));
+    private readonly picker = new Picker((name) =>
+        this.pace.follow(this.client.request({ type: "set", polytope: name })),
+    );
+    private readonly loading = new Loading(this.client);
     private readonly tools = new Tools({ press: (...binding) => this.press(...binding) });
     private keymap: Keymap | undefined;
     private state: State | undefined;
@@ -70,10 +76,7 @@ export class App {
         this.stage.mode = this.stage.canDrawGeometry ? (recall<Mode>(kMode) ?? "geometry") : "frames";
         listenForGestures(this.drawing, this.orbit);
         this.drawing.addEventListener("keydown", (event) => this.keydown(event));
-        this.polytope.addEventListener("change", () => {
-            this.send({ type: "set", polytope: this.polytope.value });
-            this.drawing.focus();
-        });
+        this.polytope.addEventListener("click", () => this.find());
         document.querySelector("header")!.addEventListener("mousedown", (event) => {
             if (event.target instanceof Element && event.target.closest("button")) event.preventDefault(); // as in Tools
         });
@@ -93,11 +96,7 @@ export class App {
         try {
             await this.restoreView();
             this.stream();
-            const [keymap, { polytopes }] = await Promise.all([
-                this.client.request({ type: "get", what: "keymap" }),
-                this.client.request({ type: "get", what: "catalogue" }),
-            ]);
-            this.polytope.replaceChildren(...polytopes.map(({ name }) => element("option", { value: name }, name)));
+            const keymap = await this.client.request({ type: "get", what: "keymap" });
             if (JSON.stringify(keymap.keys) !== JSON.stringify(this.keymap?.keys)) this.showKeys(keymap);
             if (this.state) this.update(this.state);
         } catch (error) {
@@ -147,9 +146,7 @@ export class App {
         this.state = state;
         this.orbit.follow(state);
         const { name } = state.polytope;
-        const known = [...this.polytope.options].some((option) => option.value === name);
-        if (!known) this.polytope.append(element("option", { value: name }, name)); // one that was loaded
-        this.polytope.value = name;
+        this.polytope.querySelector("b")!.textContent = name;
         document.title = `${name} \u2013 oval4d`;
         this.readings.update(state);
         this.tools.update(state);
@@ -175,7 +172,7 @@ export class App {
     }
 
     private keydown(event: KeyboardEvent): void {
-        if (event.key === "Escape") this.notice.hide();
+        if (event.key === "Escape") this.putAway();
         const stroke = strokeOf(event, this.keymap?.keys ?? []);
         if (!stroke) return;
         event.preventDefault();
@@ -187,8 +184,26 @@ export class App {
     private press(binding: KeyBinding, inverse: boolean, held: boolean): void {
         if (binding.action === "command_line") this.commandLine.open();
         else if (binding.action === "help") this.help.open();
+        else if (binding.action === "find") this.find();
+        else if (binding.action === "open") this.loading.choose();
         else if (held && !this.pace.free) return;
         else for (const stroke of strokesOf(binding, inverse)) this.send({ type: "key", ...stroke });
+    }
+
+    /** The catalogue is asked for each time: polytopes may have been loaded meanwhile. */
+    private find(): void {
+        this.notice.hide();
+        this.picker.open(this.state?.polytope.name ?? "");
+        this.client.request({ type: "get", what: "catalogue" }).then(
+            ({ polytopes }) => this.picker.show(polytopes),
+            (error: Error) => this.notice.show(error.message),
+        );
+    }
+
+    /** What was said is no longer of interest. */
+    private putAway(): void {
+        this.notice.hide();
+        this.loading.hide();
     }
 
     private send(command: Command): void {

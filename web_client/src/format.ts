@@ -12,6 +12,11 @@ export function decimal(value: number, decimals: number): string {
     return value < 0 && Number(text) !== 0 ? kMinus + text : text;
 }
 
+/** 14,400 with a thin space: 14 400. */
+export function count(value: number): string {
+    return String(value).replace(/\B(?=(\d{3})+$)/g, value < 10_000 ? "" : "\u2009");
+}
+
 export function degrees(radians: number): string {
     return `${decimal((radians * 180) / Math.PI, 2)}°`;
 }

@@ -9,7 +9,7 @@ export interface ToolEvents {
     press(binding: KeyBinding, inverse: boolean, held: boolean): void;
 }
 
-/** A page's own section, shown among those of the table. */
+/** A page's own section, shown among those of the table; under a title that the table has too, they are one. */
 export interface Section {
     title: string;
     content: Node[];
@@ -67,11 +67,15 @@ export class Tools {
             .map(({ name, title }) => ({ name, title, keys: keymap.keys.filter((key) => key.group === name) }))
             .filter(({ keys }) => keys.some((key) => key.action !== "rotate"))
             .map(({ name, title, keys }) => ({ name, title, content: this.controls(keys) }));
-        const groups = [
+        const groups: { name: string; title: string; content: Node[] }[] = [
             { name: "turn", title: "Turn", content: rotations.map((key) => this.rotation(key)) },
             ...sections,
-            ...own.map(({ title, content }) => ({ name: title, title, content })),
         ];
+        for (const { title, content } of own) {
+            const same = groups.find((group) => group.title === title);
+            if (same) same.content.push(...content);
+            else groups.push({ name: title, title, content: [...content] });
+        }
         const tabOf = (name: string): string => kTabs.find((tab) => tab.groups.includes(name))?.title ?? kOther;
         this.root.replaceChildren(
             this.tabs([...kTabs.map((tab) => tab.title), kOther]),

@@ -65,12 +65,17 @@ export async function scriptFor(page, url) {
     return joinSession(url ?? (await common()).url, credentials);
 }
 
+/** Waits until the page names this polytope as the one shown. */
+export async function named(page, polytope) {
+    await page.waitForFunction((name) => document.querySelector("#polytope b").textContent === name, polytope);
+}
+
 /** What the page shows of the state. */
 export async function readings(page) {
     return page.evaluate(() => {
         const outputs = [...document.querySelectorAll("[data-reading]")];
         const values = Object.fromEntries(outputs.map((output) => [output.dataset.reading, output.textContent]));
-        return { ...values, polytope: document.getElementById("polytope").value };
+        return { ...values, polytope: document.querySelector("#polytope b").textContent };
     });
 }
 

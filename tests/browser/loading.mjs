@@ -1,0 +1,107 @@
+// Files from the user's disk: chosen, or dropped on the page.
+import assert from "node:assert/strict";
+import { test } from "./support/suite.mjs";
+
+import { named, openWithScript } from "./support/browser.mjs";
+import { startServer } from "./support/server.mjs";
+
+const file = (name, text) => ({ name, mimeType: "", buffer: Buffer.from(text) });
+const kVertices = "1 1 1 -0.447214\n1 -1 -1 -0.447214\n-1 1 -1 -0.447214\n-1 -1 1 -0.447214\n0 0 0 1.788854\n";
+const kFaces = "3 0 1 2\n3 0 1 3\n3 0 1 4\n3 0 2 3\n3 0 2 4\n3 0 3 4\n3 1 2 3\n3 1 2 4\n3 1 3 4\n3 2 3 4\n";
+const simplex = `# a simplex\n4OFF\n5 10 10 5\n${kVertices}${kFaces}4 0 1 3 6\n4 0 2 4 7\n4 1 2 5 8\n4 3 4 5 9\n4 6 7 8 9\n`;
+
+const report = (page) => page.locator("#loading .report").innerText();
+
+/** Drops files on the drawing as the browser does. */
+async function drop(page, ...files) {
+    const transfer = await page.evaluateHandle(
+        (all) => {
+            const data = new DataTransfer();
+            for (const { name, text } of all) data.items.add(new File([text], name));
+            return data;
+        },
+        files.map(({ name, buffer }) => ({ name, text: buffer.toString() })),
+    );
+    await page.dispatchEvent("#drawing", "dragover", { dataTransfer: transfer });
+    const invited = await page.locator("#drop").isVisible();
+    await page.dispatchEvent("#drawing", "drop", { dataTransfer: transfer });
+    return invited;
+}
+
+test("loading: a file that is dropped is shown under its name", async () => {
+    const { page, script, press, errors, close } = await openWithScript();
+    assert.ok(await drop(page, file("my simplex.off", simplex)), "while it is over the page, it is invited");
+    assert.equal(await page.locator("#drop").isVisible(), false);
+    const { polytope } = await script.until((one) => one.polytope.name === "my simplex.off", "the file's polytope");
+    assert.deepEqual([polytope.vertices, polytope.edges, polytope.faces, polytope.cells], [5, 10, 10, 5]);
+    await named(page, "my simplex.off");
+    await page.waitForSelector("#loading", { state: "hidden" });
+    await press("4");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("loading: a key and a button let a file be chosen", async () => {
+    const { page, script, close } = await openWithScript();
+    page.on("filechooser", () => {}); // the browser is to ask the test from here on
+    await page.evaluate(() => {});
+    const openers = [() => page.keyboard.press("i"), () => page.click("[data-action=open]")];
+    for (const [i, open] of openers.entries()) {
+        const choosing = page.waitForEvent("filechooser");
+        await open();
+        await (await choosing).setFiles([file(`chosen-${i}.off`, simplex)]);
+        await script.until((one) => one.polytope.name === `chosen-${i}.off`, "the chosen file");
+    }
+    await close();
+});
+
+test("loading: a faulty file is told with the line, and the line is shown", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    const { revision } = await script.state();
+    await drop(page, file("faulty.off", simplex.replace("3 0 2 4", "3 0 2 17")));
+    await page.waitForSelector("#loading[data-outcome=failed]");
+    assert.match(await report(page), /line 13.*17/is);
+    assert.equal(await page.locator("#loading .faulty").innerText(), "13\n3 0 2 17");
+    assert.equal((await script.state()).revision, revision);
+    await page.focus("#loading [data-close]");
+    await page.keyboard.press("Enter");
+    assert.equal(await page.locator("#loading").isVisible(), false);
+    assert.equal(await page.evaluate(() => document.activeElement.id), "drawing", "the focus is given back");
+    await drop(page, file("faulty.off", simplex.replace("5 10 10 5", "5 ten 10 5")));
+    await page.waitForFunction(() => /line 3/i.test(document.querySelector("#loading .report").textContent));
+    await page.keyboard.press("Escape");
+    assert.equal(await page.locator("#loading").isVisible(), false);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("loading: what cannot be read is refused before it is sent", async () => {
+    const server = await startServer({ options: ["--max-message", "4096"] });
+    const { page, script, close } = await openWithScript({ url: server.url });
+    const cases = [
+        [`# ${"x".repeat(5000)}`, /too large: 5 KiB .* takes 4 KiB/],
+        ["\n".repeat(3000), /too large/], // as JSON it has twice the bytes
+        ["", /empty/],
+        ["PK\u0003\u0004\0\0", /not a text file/],
+    ];
+    for (const [text, expected] of cases) {
+        await page.setInputFiles("#file", file("a.off", text));
+        await page.waitForFunction(
+            (source) => new RegExp(source, "i").test(document.querySelector("#loading .report").textContent),
+            expected.source,
+        );
+        await page.click("#loading [data-close]");
+    }
+    assert.equal(await page.locator("#connection").getAttribute("data-kind"), "open", "the connection lives");
+    await page.setInputFiles("#file", file("b.off", simplex));
+    await script.until((one) => one.polytope.name === "b.off", "a file within the limit");
+    await close();
+    await server.stop();
+});
+
+test("loading: several files are loaded one after the other, and all are found again", async () => {
+    const { page, script, close } = await openWithScript();
+    await drop(page, file("one.off", simplex), file("two.off", simplex));
+    await script.until((one) => one.polytope.name === "two.off", "the second file");
+    await close();
+});

@@ -1,0 +1,145 @@
+// The dialog in which a polytope is found by typing, or asked for by a symbol that the catalogue does not list.
+
+import type { CatalogueEntry } from "@oval4d/protocol";
+
+import { Catalogue } from "./catalogue";
+import { Dialog } from "./dialog";
+import { byId, element } from "./element";
+import { count } from "./format";
+
+const kPage = 8; // options that Page Up and Page Down go
+const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1, PageDown: kPage, PageUp: -kPage };
+
+export class Picker {
+    private readonly dialog = new Dialog("picker");
+    private readonly input = byId<HTMLInputElement>("picker-search");
+    private readonly list = byId("picker-list");
+    private readonly error = byId("picker-error");
+    private readonly found = byId("picker-found");
+    private readonly options = new Map<CatalogueEntry, HTMLElement>();
+    private readonly asTyped = element("div", { role: "option", id: "picker-typed", class: "typed" });
+    private catalogue = new Catalogue([]);
+    private current = "";
+    private active: HTMLElement | undefined;
+    private choosing = 0; // counts: only the last choice's outcome is shown
+
+    /** `choose` shows a polytope by name and throws an Error to be read by the user. */
+    constructor(private readonly choose: (name: string) => Promise<unknown>) {
+        this.input.addEventListener("input", () => this.search());
+        this.input.addEventListener("keydown", (event) => this.keydown(event));
+        byId("picker-form").addEventListener("submit", (event) => {
+            event.preventDefault();
+            if (this.active) void this.take(this.active);
+        });
+        this.list.addEventListener("pointerdown", (event) => event.pointerType === "mouse" && event.preventDefault());
+        this.list.addEventListener("click", (event) => {
+            const option = event.target instanceof Element && event.target.closest<HTMLElement>("[role=option]");
+            if (option) void this.take(option);
+        });
+    }
+
+    /** Opens with the polytope that is shown now. */
+    open(current: string): void {
+        this.current = current;
+        this.input.value = "";
+        this.dialog.open(this.input);
+        this.search();
+    }
+
+    /** The catalogue may be another one than before. */
+    show(entries: CatalogueEntry[]): void {
+        if (JSON.stringify(entries) === JSON.stringify(this.catalogue.entries)) return;
+        this.catalogue = new Catalogue(entries);
+        this.options.clear();
+        entries.forEach((entry, i) => this.options.set(entry, option(entry, `picker-option-${i}`)));
+        if (this.dialog.isOpen) this.search();
+    }
+
+    private search(): void {
+        ++this.choosing;
+        this.say("");
+        const text = this.input.value.trim();
+        const families = this.catalogue.find(text);
+        const groups = families.map(({ name, entries }, i) => {
+            const title = element("h3", { id: `picker-family-${i}`, role: "presentation" }, name);
+            const options = entries.map((entry) => this.options.get(entry)!);
+            const attributes = { role: "group", "aria-labelledby": title.id };
+            return element("div", attributes, title, ...options);
+        });
+        const isName = text === "" || this.catalogue.named(text) !== undefined;
+        this.asTyped.replaceChildren(element("b", {}, "Build "), element("q", {}, text));
+        this.asTyped.dataset["name"] = text;
+        this.list.replaceChildren(...groups, ...(isName ? [] : [this.asTyped]));
+        const shown = this.listed.length - (isName ? 0 : 1);
+        this.found.textContent = shown === 1 ? "1 polytope" : `${count(shown)} polytopes`;
+        for (const one of this.options.values()) {
+            one.toggleAttribute("data-current", one.dataset["name"] === this.current);
+        }
+        const first = text === "" ? this.listed.find((one) => one.dataset["name"] === this.current) : undefined;
+        this.activate(first ?? this.listed[0], first ? "center" : "nearest");
+        if (!first) this.list.scrollTop = 0;
+    }
+
+    private get listed(): HTMLElement[] {
+        return [...this.list.querySelectorAll<HTMLElement>("[role=option]")];
+    }
+
+    private keydown(event: KeyboardEvent): void {
+        const step = kSteps[event.key];
+        if (step === undefined || event.isComposing) return;
+        event.preventDefault();
+        const { listed } = this;
+        const at = this.active ? listed.indexOf(this.active) : -1;
+        const last = listed.length - 1;
+        const onward = Math.abs(step) > 1 ? Math.min(last, Math.max(0, at + step)) : (at + step + last + 1) % (last + 1);
+        this.activate(listed[onward], "nearest");
+    }
+
+    private activate(next: HTMLElement | undefined, block: ScrollLogicalPosition): void {
+        this.active?.setAttribute("aria-selected", "false");
+        this.active = next;
+        next?.setAttribute("aria-selected", "true");
+        if (next) this.input.setAttribute("aria-activedescendant", next.id);
+        else this.input.removeAttribute("aria-activedescendant");
+        const heading = next?.previousElementSibling;
+        if (block === "nearest" && heading?.tagName === "H3") heading.scrollIntoView({ block });
+        next?.scrollIntoView({ block });
+    }
+
+    private async take(chosen: HTMLElement): Promise<void> {
+        const turn = ++this.choosing;
+        this.activate(chosen, "nearest");
+        this.say("");
+        this.list.setAttribute("aria-busy", "true");
+        try {
+            await this.choose(chosen.dataset["name"]!);
+            if (turn === this.choosing) this.dialog.close();
+        } catch (error) {
+            if (turn === this.choosing) this.say((error as Error).message);
+        } finally {
+            if (turn === this.choosing) this.list.removeAttribute("aria-busy");
+        }
+    }
+
+    private say(error: string): void {
+        this.error.textContent = error;
+        this.input.toggleAttribute("aria-invalid", error !== "");
+        this.list.removeAttribute("aria-busy");
+    }
+}
+
+function option(entry: CatalogueEntry, id: string): HTMLElement {
+    const { name, aliases, schlaefli, diagram = "", vertices, edges, faces, cells } = entry;
+    const symbol = schlaefli || diagram;
+    const also = [...aliases.filter((alias) => alias !== symbol), ...(symbol === diagram ? [] : [diagram])];
+    const counts = [vertices, edges, faces, cells].map(count).join(" ");
+    const attributes = { role: "option", id, "data-name": name, "aria-selected": "false" };
+    return element(
+        "div",
+        attributes,
+        element("b", {}, name),
+        element("span", { class: "symbol-of" }, symbol),
+        element("small", {}, also.filter((one) => one !== "").join(", ")),
+        element("small", { class: "counts", title: "vertices, edges, 2-faces, cells" }, counts),
+    );
+}
