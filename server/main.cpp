@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "export_command.hpp"
 #include "net/options.hpp"
 #include "net/server.hpp"
 #include "render_command.hpp"
@@ -32,6 +33,9 @@ int main(int argc, char** argv) {
     oval4d::RenderOptions renderOptions;
     CLI::App* render = app.add_subcommand("render", "Write one picture as a PNG file");
     oval4d::addRenderOptions(*render, renderOptions);
+    oval4d::ExportOptions exportOptions;
+    CLI::App* exporting = app.add_subcommand("export", "Write a slice or the oval as a file for other programs");
+    oval4d::addExportOptions(*exporting, exportOptions);
     app.require_subcommand(0, 1);
     CLI11_PARSE(app, argc, argv);
 
@@ -39,6 +43,8 @@ int main(int argc, char** argv) {
     try {
         if (*render) {
             oval4d::renderPicture(*render, renderOptions);
+        } else if (*exporting) {
+            oval4d::exportFile(*exporting, exportOptions);
         } else {
             oval4d::net::runServer(options);
         }

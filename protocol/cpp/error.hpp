@@ -22,12 +22,13 @@ enum class ErrorCode {
     not_a_rotation,      ///< an orientation matrix is not orthogonal with determinant 1
     bad_polytope,        ///< a loaded polytope is not sound
     unsupported_format,  ///< a file format that cannot be read
+    no_body,             ///< a file is asked of a slice that is empty or flat, or cannot bear its label
     nothing_to_undo,     ///< undo, redo or repeat with nothing to act on
     hello_first,         ///< a message before hello
     not_found,           ///< no such session or resource
     bad_token,           ///< the token does not open this session
     too_many,            ///< a limit on sessions, connections or requests is reached
-    too_large,           ///< a message, frame or polytope is over its limit
+    too_large,           ///< a message, frame, file or polytope is over its limit
     internal,            ///< a fault of the server; the session is as it was
 };
 

@@ -98,6 +98,24 @@ Set setOf(const json& message) {
     return set;
 }
 
+// The schema has seen to it that the names are known.
+template <typename Choices, typename Choice>
+void choose(const json& message, const char* member, const Choices& choices, Choice& into) {
+    if (const auto named = message.find(member); named != message.end())
+        into = *exports::named(choices, named->template get_ref<const std::string&>());
+}
+
+exports::Wish wishOf(const json& message) {
+    if (!message.contains("format")) throw Misuse{"get: a file must have a /format, such as \"stl\""};
+    exports::Wish wish;
+    choose(message, "format", exports::kFormats, wish.format);
+    choose(message, "of", exports::kExtents, wish.of);
+    choose(message, "body", exports::kBodies, wish.body);
+    choose(message, "label", exports::kLabels, wish.label);
+    wish.size = message.value("size", wish.size);
+    return wish;
+}
+
 Get getOf(const json& message) {
     if (message.contains("width") != message.contains("height"))
         throw Misuse{"get: give /width and /height together, or neither"};
@@ -105,10 +123,12 @@ Get getOf(const json& message) {
     Get get;
     get.what = what == "slices"      ? What::slices
                : what == "frame"     ? What::frame
+               : what == "file"      ? What::file
                : what == "catalogue" ? What::catalogue
                : what == "keymap"    ? What::keymap
                                      : What::state;
     get.viewport = viewportOf(message);
+    if (get.what == What::file) get.file = wishOf(message);
     return get;
 }
 

@@ -10,6 +10,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include "export/wish.hpp"
 #include "geometry/rotation.hpp"
 #include "scene/scene.hpp"
 
@@ -67,10 +68,11 @@ struct Hello {
     scene::Viewport viewport;
     std::optional<std::string> token;
 };
-enum class What : std::uint8_t { state, slices, frame, catalogue, keymap };
+enum class What : std::uint8_t { state, slices, frame, file, catalogue, keymap };
 struct Get {
     What what = What::state;
     std::optional<scene::Viewport> viewport;  ///< for slices and frames; else the connection's own
+    exports::Wish file;                       ///< for a file
 };
 struct ShownRevision {
     std::uint64_t revision = 0;

@@ -8,6 +8,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/use_awaitable.hpp>
 
+#include "net/file_job.hpp"
 #include "net/on_pool.hpp"
 #include "protocol/cpp/codec.hpp"
 
@@ -113,7 +114,29 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, protocol::
             want.stream = Stream::frames;
             co_await answerWithPicture(peer, want, id);
             break;
+        case protocol::What::file:
+            co_await answerWithFile(peer, get.file, id);
+            break;
     }
+}
+
+asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, exports::Wish wish, Id id) {
+    const std::uint64_t asked = revision();
+    MadeFile made;
+    try {
+        made = co_await onPool(services_.files, fileJob(services_, session_.now, wish));
+    } catch (const std::exception& fault) {
+        spdlog::error("file failed session={} revision={} fault=\"{}\"", ticket_.id, asked, fault.what());
+    }
+    if (!made || !*made) {
+        tell(*peer, made ? made->error() : kFault, id);
+        co_return;
+    }
+    Message message;
+    message.bytes = **made;
+    message.binary = true;
+    peer->send(std::move(message));
+    peer->send(doneMessage(id, asked));
 }
 
 asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer, Want want, Id id) {

@@ -90,6 +90,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     boost::asio::awaitable<void> carryOutHere(std::shared_ptr<Peer> peer, protocol::Request request);
     boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, protocol::Get get, Id id);
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, Want want, Id id);
+    boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::Wish wish, Id id);
     std::function<Message(picture::Painter&)> pictureJob(const Want& want, Id id) const;
     void obey(Peer& peer, const protocol::Command& command, Id id);
     void tell(Peer& peer, const protocol::Error& error, Id id);

@@ -42,6 +42,8 @@ void addPlace(CLI::App& app, Options& options) {
     add(app, "--port", options.port, "TCP port; 0 for any free one, which the first line of the log names");
     add(app, "--web-root", options.webRoot, "Folder of the built page");
     add(app, "--workers", options.workers, "Threads that slice and draw; 0 for one a core")->check(CLI::Range(0, 1024));
+    add(app, "--file-workers", options.fileWorkers, "Threads that make files; pictures do not wait for them")
+        ->check(CLI::Range(1, 1024));
     add(app, "--io-threads", options.ioThreads, "Threads that read and write sockets")->check(CLI::Range(1, 64));
     add(app, "--log-level", options.logLevel, "How much is logged")
         ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "critical", "off"}));
@@ -63,6 +65,12 @@ void addAccess(CLI::App& app, Options& options) {
         ->envname("OVAL4D_OPEN");
 }
 
+void addFileLimits(CLI::App& app, exports::Limits& limits) {
+    add(app, "--max-file-triangles", limits.triangles, "Most triangles of a file")->check(CLI::Range(1, 1'000'000'000));
+    addBytes(app, "--max-file-bytes", limits.bytes, "Longest file");
+    addSeconds(app, "--max-file-time", limits.time, "A file that takes longer to make is given up");
+}
+
 void addLimits(CLI::App& app, Options& options) {
     const CLI::Range atLeastOne(1, 1'000'000'000);
     addBytes(app, "--max-message", options.maxMessage, "Longest message from a client; a longer one closes with 1009");
@@ -81,6 +89,7 @@ void addLimits(CLI::App& app, Options& options) {
     add(app, "--max-height", options.frame.maxHeight, "Greatest height of a picture, in pixels")
         ->check(CLI::Range(1, 16'384));
     add(app, "--max-pixels", options.frame.maxPixels, "Most pixels of a picture")->check(atLeastOne);
+    addFileLimits(app, options.file);
     add(app, "--max-slices", options.session.maxSlices, "Most slices of a session")->check(CLI::Range(1, 100'001));
     add(app, "--max-undo", options.session.maxUndo, "Steps that can be undone in a session");
     add(app, "--max-loaded", options.session.maxLoaded, "Polytopes that can be loaded into a session");
@@ -115,6 +124,9 @@ std::string limitsText(const Options& options) {
                           {"max_width", options.frame.maxWidth},
                           {"max_height", options.frame.maxHeight},
                           {"max_pixels", options.frame.maxPixels},
+                          {"file_triangles", options.file.triangles},
+                          {"file_bytes", options.file.bytes},
+                          {"file_time", options.file.time.count()},
                           {"slices", options.session.maxSlices},
                           {"shown_timeout", options.shownTimeout.count()}}
         .dump();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "export/export.hpp"
 #include "picture/frame_limits.hpp"
 #include "session/session.hpp"
 
@@ -23,6 +24,7 @@ struct Options {
     std::uint16_t port = 8080;  ///< 0: any free one
     std::string webRoot;        ///< the folder of the built page
     int workers = 0;            ///< 0: one a core
+    int fileWorkers = 1;        ///< threads that make files
     int ioThreads = 1;
     std::string logLevel = "info";
 
@@ -37,6 +39,7 @@ struct Options {
     std::size_t maxConnections = 4096;
     int maxRequests = 2000;  ///< a second and connection
     picture::FrameLimits frame;
+    exports::Limits file;
     session::Limits session;
 
     Seconds sessionExpiry{1800};

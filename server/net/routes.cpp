@@ -6,6 +6,7 @@
 #include <charconv>
 #include <fstream>
 
+#include "net/file_job.hpp"
 #include "net/on_pool.hpp"
 #include "protocol/cpp/codec.hpp"
 
@@ -21,7 +22,7 @@ namespace {
 constexpr const char* kJson = "application/json";
 
 const Error kNoSuchMethod{ErrorCode::bad_message, "only GET and HEAD are understood here"};
-const Error kFault{ErrorCode::internal, "the server failed to draw this picture"};
+const Error kFault{ErrorCode::internal, "the server failed to make this"};
 
 Error nothingAt(const std::string& path) { return {ErrorCode::not_found, "there is nothing at " + path}; }
 
@@ -89,6 +90,26 @@ Result<Wish> parseWish(session::Query query, const Options& options) {
     return Wish{std::move(*state), viewport};
 }
 
+struct FileWish {
+    session::State state;
+    exports::Wish wish;
+};
+
+Result<FileWish> parseFileWish(session::Query query, exports::Format format, const Options& options) {
+    std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
+    auto wish = picture::takeWish(query, format);
+    if (!wish) return wish.error();
+    auto state = session::stateFromQuery(query, options.session);
+    if (!state) return state.error();
+    return FileWish{std::move(*state), *wish};
+}
+
+/// "/api/v1/file.stl" → stl
+std::optional<exports::Format> formatIn(std::string_view path) {
+    constexpr std::string_view kFile = "/api/v1/file.";
+    return path.starts_with(kFile) ? exports::named(exports::kFormats, path.substr(kFile.size())) : std::nullopt;
+}
+
 std::function<Bytes(picture::Painter&)> frameJob(const Wish& wish, Metrics& metrics) {
     return [wish, &metrics](picture::Painter& painter) {
         geometry::SliceSet slices;
@@ -125,6 +146,7 @@ asio::awaitable<Reply> Routes::answer(Inquiry inquiry) {
     if (path == "/api/v1/catalogue") co_return textReply(kJson, protocol::catalogueMessage({}));
     if (path == "/api/v1/keymap") co_return textReply(kJson, protocol::keymapMessage({}));
     if (path == "/api/v1/frame.png") co_return co_await frame(std::move(inquiry.target.query));
+    if (const auto format = formatIn(path)) co_return co_await file(std::move(inquiry.target.query), *format);
     if (const WebFile* file = files_.find(path)) co_return fileReply(*file, inquiry.ifNoneMatch);
     co_return errorReply(nothingAt(path));
 }
@@ -142,6 +164,29 @@ asio::awaitable<Reply> Routes::frame(session::Query query) {
         spdlog::error("picture failed fault=\"{}\"", fault.what());
         co_return errorReply(kFault);
     }
+}
+
+asio::awaitable<Reply> Routes::file(session::Query query, exports::Format format) {
+    const auto asked = parseFileWish(std::move(query), format, services_.options);
+    if (!asked) {
+        services_.metrics.countError(asked.error().code);
+        co_return errorReply(asked.error());
+    }
+    MadeFile made;
+    try {
+        made = co_await onPool(services_.files, fileJob(services_, asked->state, asked->wish));
+    } catch (const std::exception& fault) {
+        spdlog::error("file failed fault=\"{}\"", fault.what());
+    }
+    if (!made || !*made) {
+        const Error& error = made ? made->error() : kFault;
+        services_.metrics.countError(error.code);
+        co_return errorReply(error);
+    }
+    Reply answer = reply(std::string(exports::mediaType(format)), **made);
+    answer.headers.emplace_back("Content-Disposition",
+                                "attachment; filename=\"" + picture::fileName(asked->state, asked->wish) + "\"");
+    co_return answer;
 }
 
 Reply Routes::readiness() const {

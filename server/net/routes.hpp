@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "export/wish.hpp"
 #include "net/peer.hpp"
 #include "net/readiness.hpp"
 #include "net/services.hpp"
@@ -41,6 +42,7 @@ class Routes {
 
   private:
     boost::asio::awaitable<Reply> frame(session::Query query);
+    boost::asio::awaitable<Reply> file(session::Query query, exports::Format format);
     Reply readiness() const;
     Reply metrics();
 

@@ -69,7 +69,7 @@ class Server {
     WebFiles files_;
     std::size_t workers_;
     Readiness readiness_;
-    WorkerPool pool_;
+    WorkerPool pool_, fileMakers_;
     Services services_;
     std::shared_ptr<Hub> hub_;
     std::string token_;
@@ -86,7 +86,8 @@ Server::Server(Options options)
                                     : std::max(1U, std::thread::hardware_concurrency())),
       readiness_(workers_),
       pool_(static_cast<int>(workers_), [this](picture::Painter& painter) { readiness_.warmUp(painter); }),
-      services_{options_, io_, pool_, metrics_},
+      fileMakers_(options_.fileWorkers, [](picture::Painter&) {}),
+      services_{options_, io_, pool_, fileMakers_, metrics_},
       hub_(std::make_shared<Hub>(services_, std::make_unique<store::MemoryStore>(options_.maxSessions))),
       token_(tokenNeeded()),
       access_(options_.allowedHosts, options_.allowedOrigins, token_,
@@ -121,6 +122,7 @@ void Server::run() {
     io_.run();
     for (std::thread& thread : others) thread.join();
     pool_.stop();
+    fileMakers_.stop();
     spdlog::info("stopped");
 }
 

@@ -13,7 +13,8 @@ namespace oval4d::net {
 struct Services {
     const Options& options;
     boost::asio::io_context& io;
-    WorkerPool& pool;
+    WorkerPool& pool;   ///< for pictures
+    WorkerPool& files;  ///< for files, which take longer
     Metrics& metrics;
 };
 

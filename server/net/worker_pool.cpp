@@ -23,6 +23,7 @@ void WorkerPool::post(Job job) {
 }
 
 void WorkerPool::stop() {
+    stopSource_.request_stop();
     std::deque<Job> dropped;  // destroyed outside the lock: a job may own much
     {
         const std::lock_guard lock(mutex_);

@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -29,12 +30,16 @@ class WorkerPool {
     /// Finishes the jobs that are running and drops the others.
     void stop();
 
+    /// Asks long jobs to end, from `stop` on.
+    std::stop_token stopToken() const { return stopSource_.get_token(); }
+
     std::size_t size() const { return threads_.size(); }
     std::size_t waiting() const;
 
   private:
     void run(const Job& first);
 
+    std::stop_source stopSource_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     std::deque<Job> jobs_;   // guarded by mutex_

@@ -1,0 +1,77 @@
+#include "export/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "scene/scene.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+double gapFor(double size) { return std::max(size / 12, 2.0); }
+
+Box boxOf(const Group& group) {
+    Box box;
+    for (const Solid& solid : group.solids) {
+        const Box own = exports::boxOf(solid.mesh);
+        box.include(own.least + solid.at);
+        box.include(own.most + solid.at);
+    }
+    return box;
+}
+
+void move(Group& group, const glm::dvec3& by, const Grid& grid) {
+    for (Solid& solid : group.solids) solid.at += grid.snap(by);
+}
+
+}  // namespace
+
+void standOnPlate(std::vector<Group>& groups, double size, const Grid& grid) {
+    const auto perRow = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(groups.size()))));
+    const double gap = gapFor(size);
+    double y = 0;
+    for (std::size_t row = 0; row < groups.size(); row += perRow) {
+        double x = 0;
+        double depth = 0;
+        for (std::size_t i = row; i < std::min(row + perRow, groups.size()); ++i) {
+            const Box box = boxOf(groups[i]);
+            move(groups[i], glm::dvec3(x, y, 0) - box.least, grid);
+            x += box.size().x + gap;
+            depth = std::max(depth, box.size().y);
+        }
+        y += depth + gap;
+    }
+}
+
+void standInOval(std::vector<Group>& groups, const geometry::Polytope& polytope, const geometry::Hyperplanes& planes,
+                 int focus, double size, const Grid& grid) {
+    scene::Scene scene;
+    scene::compose(polytope, planes, focus, {}, {}, scene);
+    const double perWorld = size / 2 / (scene.scale * scene.circumradius);  // millimetres
+    std::vector<glm::dvec3> places;
+    std::vector<double> radii;
+    for (const Group& group : groups) {
+        places.push_back(scene.stands[group.slice].position * perWorld);
+        const Box box = boxOf(group);
+        radii.push_back(std::max(glm::length(box.least), glm::length(box.most)));
+    }
+    double grow = 1;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            grow = std::max(grow, (radii[i] + radii[j]) / glm::distance(places[i], places[j]));
+        }
+    }
+    for (std::size_t i = 0; i < groups.size(); ++i) move(groups[i], places[i] * grow, grid);
+}
+
+double reachOf(int slices, double size) {
+    const double onPlate = std::ceil(std::sqrt(slices)) * (size + gapFor(size)) * 1.5;
+    // Neighbours in the oval are a slice's diameter apart or more; at few slices, as in the pictures.
+    const double inOval = 60.0 * size * std::max(1.0, slices / 21.0);
+    return std::max(onPlate, inOval);
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,212 @@
+#include "export/skin.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "export/marching.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+constexpr double kCubes = 128;  // along the slice
+
+/// A part of a face. A loop's winding number about a point of its plane is the sum of those of the triangles in which
+/// it is cut from one corner, be it a star or not.
+struct Part {
+    std::array<std::uint32_t, 3> corners;
+    std::uint32_t cell;
+};
+
+class Skin {
+  public:
+    Skin(const geometry::SliceSet& slices, int i, double scale, const Budget& budget) : budget_(budget) {
+        for (std::uint32_t v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v) {
+            points_.push_back(slices.vertices[v] * scale);
+            box_.include(points_.back());
+        }
+        for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
+            const std::uint32_t first = slices.cornerBegin[f];
+            for (std::uint32_t c = first + 1; c + 1 < slices.cornerBegin[f + 1]; ++c) {
+                parts_.push_back({{slices.corners[first], slices.corners[c], slices.corners[c + 1]}, slices.faceOf[f]});
+            }
+        }
+    }
+
+    Mesh mesh(const Grid& grid) {
+        const glm::dvec3 size = box_.size();
+        const double cube = std::max({size.x, size.y, size.z}) / kCubes;
+        if (!(cube > 64 * grid.step())) return {};
+        // Off the symmetric places of polytopes.
+        SampledField field(box_.least - glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
+        fill(field);
+        sortIn(4 * cube);
+        return march(
+            field,
+            [&](const glm::ivec3& inside, const glm::ivec3& outside) {
+                return cross(field.place(inside), field.place(outside));
+            },
+            grid, budget_);
+    }
+
+  private:
+    struct Hit {
+        double at;
+        int turns;
+        std::uint32_t cell;
+    };
+
+    // How often the edge from a to b passes the line y = row.y, z > row.z; the other way round, exactly the opposite.
+    // So a closed surface's parts cross every line along x as often one way as the other, whatever is rounded.
+    int passes(std::uint32_t a, std::uint32_t b, const glm::dvec3& row) const {
+        if (a > b) return -passes(b, a, row);
+        const glm::dvec3& p = points_[a];
+        const glm::dvec3& q = points_[b];
+        if ((p.y <= row.y) == (q.y <= row.y)) return 0;
+        const double z = p.z + (q.z - p.z) * ((row.y - p.y) / (q.y - p.y));
+        if (z <= row.z) return 0;
+        return p.y <= row.y ? -1 : 1;
+    }
+
+    /// Marks the field's points inside, line by line along x.
+    void fill(SampledField& field) const {
+        std::unordered_map<std::uint64_t, std::vector<Hit>> lines;
+        for (const Part& part : parts_) {
+            const auto [a, b, c] = part.corners;
+            Box box;
+            for (const std::uint32_t corner : part.corners) box.include(points_[corner]);
+            const glm::ivec3 least = field.below(box.least);
+            const glm::ivec3 most = field.below(box.most) + 1;
+            const glm::dvec3 normal = glm::cross(points_[b] - points_[a], points_[c] - points_[a]);
+            for (int k = least.z; k <= most.z; ++k) {
+                for (int j = least.y; j <= most.y; ++j) {
+                    const glm::dvec3 row = field.place({0, j, k});
+                    const int turns = passes(a, b, row) + passes(b, c, row) + passes(c, a, row);
+                    if (turns == 0) continue;
+                    const glm::dvec3 to = row - points_[a];
+                    const double x = points_[a].x - (normal.y * to.y + normal.z * to.z) / normal.x;
+                    lines[key(j, k)].push_back({std::clamp(x, box.least.x, box.most.x), turns, part.cell});
+                }
+            }
+        }
+        for (auto& [where, hits] : lines) {
+            budget_.checkTime();
+            std::ranges::sort(hits, {}, &Hit::at);
+            const int j = static_cast<int>(where >> 32U) - kShift;
+            const int k = static_cast<int>(where & 0xffffffffU) - kShift;
+            int winding = 0;
+            for (std::size_t h = 0; h + 1 < hits.size(); ++h) {
+                winding += hits[h].turns;
+                if (winding == 0) continue;
+                const int first = field.below({hits[h].at, 0, 0}).x + 1;
+                const int last = field.below({hits[h + 1].at, 0, 0}).x;
+                for (int i = first; i <= last; ++i) field.at({i, j, k}) = -1;
+                // The cubes that hold these points begin in blocks that must be there.
+                for (int i = first - 1; i <= last; ++i) {
+                    for (const int n : {j - 1, j}) {
+                        field.at({i, n, k});
+                        field.at({i, n, k - 1});
+                    }
+                }
+            }
+        }
+    }
+
+    /// Sorts the parts into boxes of this width.
+    void sortIn(double width) {
+        width_ = width;
+        for (std::uint32_t p = 0; p < parts_.size(); ++p) {
+            budget_.checkTime();
+            const auto& corners = parts_[p].corners;
+            Box box;
+            for (const std::uint32_t corner : corners) box.include(points_[corner]);
+            const glm::dvec3 base = points_[corners[0]];
+            const glm::dvec3 normal = glm::cross(points_[corners[1]] - base, points_[corners[2]] - base);
+            const double reach = 0.51 * width * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
+            const glm::ivec3 least = boxAt(box.least);
+            const glm::ivec3 most = boxAt(box.most);
+            for (int z = least.z; z <= most.z; ++z) {
+                for (int y = least.y; y <= most.y; ++y) {
+                    for (int x = least.x; x <= most.x; ++x) {
+                        const glm::dvec3 middle = box_.least + width * (glm::dvec3(x, y, z) + 0.5);
+                        if (std::abs(glm::dot(middle - base, normal)) <= reach) boxes_[key({x, y, z})].push_back(p);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The outermost place between a point inside and one outside where the winding number is no longer 0.
+    Cross cross(const glm::dvec3& inside, const glm::dvec3& outside) const {
+        std::vector<std::uint32_t> near;
+        const glm::ivec3 least = boxAt(glm::min(inside, outside));
+        const glm::ivec3 most = boxAt(glm::max(inside, outside));
+        for (int z = least.z; z <= most.z; ++z) {
+            for (int y = least.y; y <= most.y; ++y) {
+                for (int x = least.x; x <= most.x; ++x) {
+                    const auto found = boxes_.find(key({x, y, z}));
+                    if (found != boxes_.end()) near.insert(near.end(), found->second.begin(), found->second.end());
+                }
+            }
+        }
+        std::ranges::sort(near);
+        near.erase(std::unique(near.begin(), near.end()), near.end());
+        std::vector<Hit> hits;
+        const glm::dvec3 way = inside - outside;
+        for (const std::uint32_t p : near) {
+            // T. Möller, B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
+            const auto& [a, b, c] = parts_[p].corners;
+            const glm::dvec3 u = points_[b] - points_[a];
+            const glm::dvec3 v = points_[c] - points_[a];
+            const glm::dvec3 across = glm::cross(way, v);
+            const double determinant = glm::dot(u, across);
+            if (determinant == 0) continue;
+            const glm::dvec3 to = outside - points_[a];
+            const double s = glm::dot(to, across) / determinant;
+            const glm::dvec3 up = glm::cross(to, u);
+            const double t = glm::dot(way, up) / determinant;
+            const double at = glm::dot(v, up) / determinant;
+            if (s < 0 || t < 0 || s + t > 1 || at < 0 || at > 1) continue;
+            hits.push_back({at, determinant > 0 ? 1 : -1, parts_[p].cell});
+        }
+        std::ranges::sort(hits, {}, &Hit::at);
+        int winding = 0;
+        for (const Hit& hit : hits) {
+            winding += hit.turns;
+            if (winding != 0) return {1 - hit.at, hit.cell};
+        }
+        return {};
+    }
+
+    glm::ivec3 boxAt(const glm::dvec3& place) const { return {glm::floor((place - box_.least) / width_)}; }
+    static constexpr int kShift = 1 << 20;
+    static std::uint64_t key(int j, int k) {
+        return static_cast<std::uint64_t>(j + kShift) << 32U | static_cast<std::uint64_t>(k + kShift);
+    }
+    static std::uint64_t key(const glm::ivec3& box) {
+        const auto part = [](int i) { return static_cast<std::uint64_t>(i + kShift); };
+        return part(box.z) << 42U | part(box.y) << 21U | part(box.x);
+    }
+
+    const Budget& budget_;
+    std::vector<glm::dvec3> points_;
+    std::vector<Part> parts_;
+    Box box_;
+    double width_ = 1;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> boxes_;
+};
+
+}  // namespace
+
+Mesh skinOf(const geometry::SliceSet& slices, int i, double scale, const Grid& grid, const Budget& budget) {
+    return Skin(slices, i, scale, budget).mesh(grid);
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,127 @@
+#include "export/solid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "export/skin.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+using Loop = std::vector<std::uint32_t>;
+
+std::span<const std::uint32_t> cornersOf(const geometry::SliceSet& slices, std::uint32_t face) {
+    return {slices.corners.data() + slices.cornerBegin[face], slices.cornerBegin[face + 1] - slices.cornerBegin[face]};
+}
+
+/// Whether every face has the whole slice on its inner side.
+bool isConvex(const geometry::SliceSet& slices, int i) {
+    const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
+    const std::size_t count = slices.vertexCount(i);
+    double extent = 0;
+    for (std::size_t v = 0; v < count; ++v) extent = std::max(extent, glm::distance(points[v], points[0]));
+    constexpr double kFlat = 1e-7;
+    for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
+        const auto corners = cornersOf(slices, f);
+        const glm::dvec3 base = points[corners[0]];
+        glm::dvec3 normal(0);
+        for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
+            normal += glm::cross(points[corners[c]] - base, points[corners[c + 1]] - base);
+        }
+        // The height above a sliver means nothing; its neighbours say enough.
+        if (glm::length(normal) < kFlat * extent * extent) continue;
+        normal = glm::normalize(normal);
+        for (std::size_t v = 0; v < count; ++v) {
+            if (glm::dot(points[v] - base, normal) > kFlat * extent) return false;
+        }
+    }
+    return true;
+}
+
+/// The slice's points on the grid, equal ones once.
+class Welded {
+  public:
+    Welded(const geometry::SliceSet& slices, int i, double scale, const Grid& grid) {
+        std::map<std::tuple<double, double, double>, std::uint32_t> known;
+        for (std::uint32_t v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v) {
+            const glm::dvec3 point = grid.snap(slices.vertices[v] * scale);
+            const auto [at, fresh] = known.try_emplace({point.x, point.y, point.z}, points_.size());
+            if (fresh) points_.push_back(point);
+            index_.push_back(at->second);
+        }
+    }
+    /// The loop without what has shrunk to nothing.
+    Loop loop(std::span<const std::uint32_t> corners) const {
+        Loop out;
+        for (const std::uint32_t corner : corners) {
+            if (out.empty() || out.back() != index_[corner]) out.push_back(index_[corner]);
+        }
+        while (out.size() > 1 && out.back() == out.front()) out.pop_back();
+        return out;
+    }
+    const std::vector<glm::dvec3>& points() const { return points_; }
+
+  private:
+    std::vector<glm::dvec3> points_;
+    std::vector<std::uint32_t> index_;
+};
+
+/// Cuts a convex loop into triangles from the corner at which the smallest of them is largest.
+void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh) {
+    const std::size_t n = loop.size();
+    std::size_t best = 0;
+    double bestLeast = -1;
+    for (std::size_t apex = 0; apex < n; ++apex) {
+        double least = 1e300;
+        for (std::size_t c = 1; c + 1 < n; ++c) {
+            const glm::dvec3 normal = normalOf(mesh, {loop[apex], loop[(apex + c) % n], loop[(apex + c + 1) % n]});
+            least = std::min(least, glm::dot(normal, normal));
+        }
+        if (least > bestLeast) {
+            bestLeast = least;
+            best = apex;
+        }
+    }
+    for (std::size_t c = 1; c + 1 < n; ++c) mesh.add(loop[best], loop[(best + c) % n], loop[(best + c + 1) % n], cell);
+}
+
+/// A slice is flat on the grid if it is hardly thicker than one step of it anywhere.
+bool hasBody(const Mesh& mesh, const Grid& grid) {
+    double twiceArea = 0;
+    for (const auto& triangle : mesh.triangles) twiceArea += glm::length(normalOf(mesh, triangle));
+    constexpr double kLeastThickness = 4;
+    return volumeOf(mesh) > kLeastThickness * grid.step() * twiceArea / 4;
+}
+
+Mesh convexSolid(const geometry::SliceSet& slices, int i, double scale, const Grid& grid) {
+    const Welded welded(slices, i, scale, grid);
+    Mesh mesh;
+    mesh.points = welded.points();
+    for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
+        const Loop loop = welded.loop(cornersOf(slices, f));
+        if (loop.size() > 2) addConvex(loop, slices.faceOf[f], mesh);
+    }
+    return mesh;
+}
+
+}  // namespace
+
+Mesh solidOf(const geometry::SliceSet& slices, int i, double scale, const Grid& grid, const Budget& budget) {
+    if (slices.faceCount(i) < 4) return {};
+    if (isConvex(slices, i)) {
+        Mesh mesh = convexSolid(slices, i, scale, grid);
+        if (!hasBody(mesh, grid)) return {};
+        if (isClosedManifold(mesh)) return mesh;
+    }
+    Mesh skin = skinOf(slices, i, scale, grid, budget);
+    return hasBody(skin, grid) ? skin : Mesh{};
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "export/text.hpp"
+#include "export/text_formats.hpp"
+#include "scene/scene.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+// In the drawing's units; as wide as the page of a paper at 72 to the inch.
+constexpr double kWidth = 480;
+constexpr double kMargin = 12;
+constexpr double kAmplitude = 40;  // of one circumradius
+constexpr double kWidest = 48;     // column
+constexpr double kNarrowest = 5;
+constexpr double kText = 7;
+
+std::string number(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3f", value + 0.0);
+    return text.data();
+}
+
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '&') {
+            out += "&amp;";
+        } else if (c == '<') {
+            out += "&lt;";
+        } else if (static_cast<unsigned char>(c) >= 0x20) {
+            out += c;
+        }
+    }
+    return out;
+}
+
+std::string colour(scene::Colour rgb) {
+    std::array<char, 8> text{};
+    std::snprintf(text.data(), text.size(), "#%06x", rgb & 0xffffffU);
+    return text.data();
+}
+
+struct Columns {
+    std::size_t count, perRow, rows;
+    double step, rowStep;
+    bool named;
+
+    explicit Columns(std::size_t vertices) : count(vertices) {
+        const double width = kWidth - 2 * kMargin;
+        const auto most = static_cast<std::size_t>(width / kNarrowest);
+        rows = (count + most - 1) / most;
+        perRow = (count + rows - 1) / rows;
+        step = std::min(width / static_cast<double>(perRow), kWidest);
+        named = step > 3.2 * kText;
+        rowStep = 2 * kAmplitude + kMargin + (named ? 1.5 * kText : 0);
+    }
+    double left(std::size_t i) const { return kMargin + step * static_cast<double>(i % perRow); }
+    double zero(std::size_t row) const { return kMargin + kAmplitude + rowStep * static_cast<double>(row); }
+};
+
+}  // namespace
+
+std::string svg(const geometry::Polytope& polytope, const geometry::SliceSet& slices) {
+    const Columns columns(slices.turned.size());
+    const double height = columns.rowStep * static_cast<double>(columns.rows) + kMargin;
+    const double right = columns.left(columns.perRow - 1) + columns.step;
+    std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(kWidth) + ' ' +
+                      number(height) + "\" width=\"" + number(kWidth) + "\" height=\"" + number(height) +
+                      "\">\n<title>Parallel coordinates of the vertices: " + escaped(polytope.name) + "</title>\n";
+    out += "<g stroke=\"" + colour(scene::style().zeroLine) + "\" stroke-width=\"0.4\">\n";
+    for (std::size_t row = 0; row < columns.rows; ++row) {
+        const std::string y = number(columns.zero(row));
+        out +=
+            "<line x1=\"" + number(kMargin) + "\" y1=\"" + y + "\" x2=\"" + number(right) + "\" y2=\"" + y + "\"/>\n";
+    }
+    out += "</g>\n";
+    const std::array<scene::Colour, 4> axes{scene::style().axisX, scene::style().axisY, scene::style().axisZ,
+                                            scene::style().axisW};
+    const double lineStep = columns.step / 5;
+    for (int axis = 0; axis < 4; ++axis) {
+        out += "<g id=\"" + std::string(1, "xyzw"[axis]) + "\" stroke=\"" + colour(axes[axis]) + "\" stroke-width=\"" +
+               number(std::min(1.6, 0.7 * lineStep)) + "\">\n";
+        for (std::size_t i = 0; i < slices.turned.size(); ++i) {
+            const std::string x = number(columns.left(i) + lineStep * (axis + 1));
+            const double zero = columns.zero(i / columns.perRow);
+            out += "<line x1=\"" + x + "\" y1=\"" + number(zero) + "\" x2=\"" + x + "\" y2=\"" +
+                   number(zero - kAmplitude * slices.turned[i][axis] / polytope.circumradius) + "\"/>\n";
+        }
+        out += "</g>\n";
+    }
+    if (columns.named) {
+        out += "<g font-family=\"DejaVu Sans, sans-serif\" font-size=\"" + number(kText) +
+               "\" text-anchor=\"middle\" fill=\"#444444\">\n";
+        for (std::size_t i = 0; i < slices.turned.size(); ++i) {
+            out += "<text x=\"" + number(columns.left(i) + columns.step / 2) + "\" y=\"" +
+                   number(columns.zero(i / columns.perRow) + kAmplitude + 1.2 * kText) + "\">P" + std::to_string(i) +
+                   "</text>\n";
+        }
+        out += "</g>\n";
+    }
+    return out + "</svg>\n";
+}
+
+}  // namespace oval4d::exports
