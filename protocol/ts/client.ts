@@ -1,8 +1,8 @@
 // A connection to one session, kept alive: it reconnects by itself, comes back to its session by the token, and says
 // at any time how it stands.
 
-import { decodeCbor, decodeText, isPng } from "./decode";
-import type { Catalogue, Done, Encoding, ErrorMessage, Keymap, Message, Request } from "./messages";
+import { decodeCbor, decodeText, isFile, isPng } from "./decode";
+import type { Catalogue, Done, Encoding, ErrorMessage, FileWish, Keymap, Message, Request } from "./messages";
 import type { Slices, State, Stream, Viewport, Welcome } from "./messages";
 
 /** What opens a session again. */
@@ -52,7 +52,7 @@ export class RequestError extends Error {
 }
 
 interface Waiting {
-    wantsFrame: boolean;
+    wants: "frame" | "file" | "message";
     resolve(answer: unknown): void;
     reject(error: RequestError): void;
 }
@@ -63,6 +63,7 @@ const kFirstDelay = 0.5; // seconds, doubled at each failure
 const kLongestDelay = 15;
 const kQuiet = 20; // seconds without a message before the connection is tested
 const kPatience = 8; // seconds within which a test is answered
+const kFilePatience = 300; // the same where a file is awaited, of which nothing is heard until it is here
 const kOpen = 1; // WebSocket.OPEN
 
 export class Client {
@@ -77,6 +78,7 @@ export class Client {
     private failures = 0;
     private timer: ReturnType<typeof setTimeout> | undefined;
     private heldFrame: Uint8Array | undefined;
+    private heldFile: Uint8Array | undefined;
 
     constructor(private readonly options: Options) {
         this.credentials = options.credentials;
@@ -126,6 +128,7 @@ export class Client {
     request(message: { type: "get"; what: "state" }): Promise<State>;
     request(message: { type: "get"; what: "slices"; width?: number; height?: number }): Promise<Slices>;
     request(message: { type: "get"; what: "frame"; width?: number; height?: number }): Promise<Uint8Array>;
+    request(message: { type: "get"; what: "file" } & FileWish): Promise<Uint8Array>;
     request(message: { type: "get"; what: "catalogue" }): Promise<Catalogue>;
     request(message: { type: "get"; what: "keymap" }): Promise<Keymap>;
     request(message: Exclude<Request, { type: "hello" | "get" | "shown" }>): Promise<Done>;
@@ -136,8 +139,9 @@ export class Client {
                 reject(new RequestError("not_connected", "there is no connection to the server"));
                 return;
             }
-            const wantsFrame = message.type === "get" && message.what === "frame";
-            this.waiting.set(id, { wantsFrame, resolve, reject });
+            const what = message.type === "get" ? message.what : "message";
+            const wants = what === "frame" || what === "file" ? what : "message";
+            this.waiting.set(id, { wants, resolve, reject });
             this.send({ ...message, id });
         });
     }
@@ -163,9 +167,11 @@ export class Client {
             return;
         }
         const bytes = new Uint8Array(data);
-        if (!isPng(bytes)) {
+        if (isFile(bytes)) {
+            this.heldFile = bytes; // its `done` follows
+        } else if (!isPng(bytes)) {
             this.handle(decodeCbor(bytes));
-        } else if ([...this.waiting.values()].some((request) => request.wantsFrame)) {
+        } else if (this.awaits("frame")) {
             this.passFrame();
             this.heldFrame = bytes; // whose it is, the next message says
         } else {
@@ -176,9 +182,14 @@ export class Client {
     private handle(message: Message): void {
         const request = message.id === undefined ? undefined : this.waiting.get(message.id);
         if (message.id !== undefined) this.waiting.delete(message.id);
-        if (request?.wantsFrame && message.type === "done") {
+        if (request?.wants === "frame" && message.type === "done") {
             request.resolve(this.heldFrame);
             this.heldFrame = undefined;
+            return;
+        }
+        if (request?.wants === "file" && message.type === "done") {
+            request.resolve(this.heldFile);
+            this.heldFile = undefined;
             return;
         }
         this.passFrame();
@@ -193,6 +204,10 @@ export class Client {
         } else if (message.type === "error") {
             this.options.onError?.(message);
         }
+    }
+
+    private awaits(what: Waiting["wants"]): boolean {
+        return [...this.waiting.values()].some(({ wants }) => wants === what);
     }
 
     /** A held frame that was not followed by its `done` belongs to the stream. */
@@ -234,7 +249,7 @@ export class Client {
         this.timer = setTimeout(() => {
             if (this.unsent < unsent) this.await(this.unsent);
             else this.closed(1006, "the server does not answer");
-        }, kPatience * 1000);
+        }, (this.awaits("file") ? kFilePatience : kPatience) * 1000);
     }
 
     private closed(code: number, said: string): void {
@@ -258,7 +273,7 @@ export class Client {
         clearTimeout(this.timer);
         const socket = this.socket;
         this.socket = undefined;
-        this.heldFrame = undefined;
+        this.heldFrame = this.heldFile = undefined;
         if (socket) {
             socket.onopen = socket.onmessage = socket.onclose = null;
             socket.close();

@@ -12,6 +12,11 @@ export function isPng(bytes: Uint8Array): boolean {
     return kPngSignature.every((byte, i) => bytes[i] === byte);
 }
 
+/** Whether this is a file that was asked for: it begins with a character of ASCII, PNG and CBOR do not. */
+export function isFile(bytes: Uint8Array): boolean {
+    return bytes[0]! < 0x80;
+}
+
 export function decodeText(text: string): Message {
     return flattened(JSON.parse(text) as Message);
 }

@@ -54,6 +54,16 @@ export interface Settings {
     faded?: number[];
 }
 
+/** What a file is to hold; all but the format only where it holds bodies. */
+export interface FileWish {
+    format: "stl" | "3mf" | "obj" | "ply" | "glb" | "off" | "csv" | "svg";
+    of?: "focus" | "oval";
+    body?: "solid" | "frame";
+    /** Millimetres: the diameter of the polytope's circumscribed sphere. */
+    size?: number;
+    label?: "none" | "engraved" | "separate";
+}
+
 export type Request =
     | { type: "hello"; stream: Stream; encoding?: Encoding; token?: string; width?: number; height?: number }
     | { type: "key"; key: string; shift?: boolean; ctrl?: boolean }
@@ -65,6 +75,7 @@ export type Request =
     | { type: "reset" }
     | { type: "command"; line: string }
     | { type: "get"; what: "state" | "slices" | "frame" | "catalogue" | "keymap"; width?: number; height?: number }
+    | ({ type: "get"; what: "file" } & FileWish)
     | { type: "shown"; revision: number };
 
 // To the client
@@ -79,11 +90,20 @@ export interface Welcome {
     limits: Record<string, number>;
 }
 
+/** Cells that the polytope's symmetries take to each other. */
+export interface CellKind {
+    name: string;
+    /** How many there are. */
+    cells: number;
+    /** 0xRRGGBB, where colours tell the kind. */
+    color?: number;
+}
+
 export interface State {
     type: "state";
     id?: number;
     revision: number;
-    polytope: { name: string; vertices: number; edges: number; faces: number; cells: number };
+    polytope: { name: string; vertices: number; edges: number; faces: number; cells: number; kinds?: CellKind[] };
     /** 4×4, rows; v' = M v. */
     orientation: number[][];
     alpha: number;

@@ -6,6 +6,7 @@ import "./client.mjs";
 import "./command_line.mjs";
 import "./picker.mjs";
 import "./loading.mjs";
+import "./export.mjs";
 import "./connection.mjs";
 import "./links.mjs";
 import "./pointer.mjs";

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { common, openWithScript, presented } from "./support/browser.mjs";
+import { bytesOf } from "./support/downloads.mjs";
 import { decode } from "./support/pixels.mjs";
 import { joinSession } from "./support/script.mjs";
 import { pngText } from "./node_modules/.oval4d/client.mjs";
@@ -100,9 +101,7 @@ test("buttons: the picture is saved as a PNG file that holds the state", async (
     await page.click("[data-own=save]");
     const download = await saving;
     assert.equal(download.suggestedFilename(), "5-cell.png");
-    const chunks = [];
-    for await (const chunk of await download.createReadStream()) chunks.push(chunk);
-    const png = Buffer.concat(chunks);
+    const png = await bytesOf(download);
     const { width, height } = decode(png);
     const size = await page.evaluate(() => {
         const { clientWidth, clientHeight } = document.getElementById("drawing");

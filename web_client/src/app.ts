@@ -2,9 +2,12 @@
 
 import { Client, RequestError, type KeyBinding, type Keymap, type Request, type State } from "@oval4d/protocol";
 
+import { Colours } from "./colours";
 import { CommandLine } from "./command_line";
 import { ConnectionView } from "./connection";
-import { byId, element } from "./element";
+import { download, fileName } from "./download";
+import { byId } from "./element";
+import { ExportDialog } from "./export_dialog";
 import { listenForGestures } from "./gestures";
 import { Help } from "./help";
 import { strokeOf, strokesOf } from "./keys";
@@ -66,7 +69,9 @@ export class App {
         this.pace.follow(this.client.request({ type: "set", polytope: name })),
     );
     private readonly loading = new Loading(this.client);
+    private readonly exporting = new ExportDialog(this.client, () => this.stage.size);
     private readonly tools = new Tools({ press: (...binding) => this.press(...binding) });
+    private readonly colours = new Colours((change) => this.send({ type: "set", ...change }));
     private keymap: Keymap | undefined;
     private state: State | undefined;
     private restored: State | undefined; // what a lost session showed
@@ -116,7 +121,7 @@ export class App {
             share: () => void this.share(),
             save: () => void this.save(),
         });
-        this.tools.show(keymap, own);
+        this.tools.show(keymap, [this.colours.section, ...own]);
     }
 
     /** In a new session: the view that the address asks for, or that of a session that is no more. */
@@ -150,6 +155,7 @@ export class App {
         document.title = `${name} \u2013 oval4d`;
         this.readings.update(state);
         this.tools.update(state);
+        this.colours.update(state);
     }
 
     private presented(revision: number): void {
@@ -186,6 +192,7 @@ export class App {
         else if (binding.action === "help") this.help.open();
         else if (binding.action === "find") this.find();
         else if (binding.action === "open") this.loading.choose();
+        else if (binding.action === "export") this.export();
         else if (held && !this.pace.free) return;
         else for (const stroke of strokesOf(binding, inverse)) this.send({ type: "key", ...stroke });
     }
@@ -204,6 +211,11 @@ export class App {
     private putAway(): void {
         this.notice.hide();
         this.loading.hide();
+    }
+
+    private export(): void {
+        this.notice.hide();
+        if (this.state) this.exporting.open(this.state);
     }
 
     private send(command: Command): void {
@@ -235,9 +247,7 @@ export class App {
     private async save(): Promise<void> {
         try {
             const png = await this.client.request({ type: "get", what: "frame", ...this.stage.size });
-            const url = URL.createObjectURL(new Blob([png as Uint8Array<ArrayBuffer>], { type: "image/png" }));
-            element("a", { href: url, download: `${this.state?.polytope.name ?? "oval4d"}.png` }).click();
-            setTimeout(() => URL.revokeObjectURL(url), 10_000); // once the browser has taken it
+            download(png, fileName([this.state?.polytope.name ?? ""], "png"), "image/png");
         } catch (error) {
             this.notice.show((error as Error).message);
         }

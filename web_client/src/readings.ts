@@ -2,6 +2,7 @@
 
 import type { State } from "@oval4d/protocol";
 
+import { spokenKinds } from "./colours";
 import { byId, element } from "./element";
 import { degrees, focusW, length, rotation } from "./format";
 
@@ -71,6 +72,8 @@ export class Readings {
             ...kReadings.map((one) => one.spoken(state)),
             state.view === "oval" ? "oval view" : "single view",
             state.turning ? "turning" : "at rest",
+            `colours by ${state.color}`,
+            spokenKinds(state),
             ...Object.entries(shown).map(([what, is]) => on(what, is as boolean)),
         ];
         const before = this.spoken ?? now.map((text, i) => (i === 0 ? "" : text));

@@ -12,6 +12,8 @@ export interface ToolEvents {
 /** A page's own section, shown among those of the table; under a title that the table has too, they are one. */
 export interface Section {
     title: string;
+    /** The group of the table that it follows; else it stands at the end. */
+    after?: string;
     content: Node[];
 }
 
@@ -19,7 +21,7 @@ export interface Section {
 const kTabs = [
     { title: "Turn", groups: ["turn", "history"] },
     { title: "Slices", groups: ["angle", "focus", "slices"] },
-    { title: "Show", groups: ["polytope", "look"] },
+    { title: "Show", groups: ["polytope", "look", "Colours"] },
 ];
 const kOther = "More";
 
@@ -71,10 +73,11 @@ export class Tools {
             { name: "turn", title: "Turn", content: rotations.map((key) => this.rotation(key)) },
             ...sections,
         ];
-        for (const { title, content } of own) {
+        for (const { title, content, after } of own) {
             const same = groups.find((group) => group.title === title);
+            const at = groups.findIndex(({ name }) => name === after) + 1 || groups.length;
             if (same) same.content.push(...content);
-            else groups.push({ name: title, title, content: [...content] });
+            else groups.splice(at, 0, { name: title, title, content: [...content] });
         }
         const tabOf = (name: string): string => kTabs.find((tab) => tab.groups.includes(name))?.title ?? kOther;
         this.root.replaceChildren(

@@ -1,0 +1,191 @@
+// The export dialog: what it lets be chosen, and the files that come of it.
+import assert from "node:assert/strict";
+import { test } from "./support/suite.mjs";
+
+import { named, openWithScript } from "./support/browser.mjs";
+import { bytesOf } from "./support/downloads.mjs";
+import { decode } from "./support/pixels.mjs";
+import { startServer } from "./support/server.mjs";
+import { pngText } from "./node_modules/.oval4d/client.mjs";
+
+const text = (bytes, length = bytes.length) => Buffer.from(bytes.subarray(0, length)).toString();
+
+/** Width, height and depth of the box around a binary STL's triangles. */
+function boxOf(stl) {
+    const [least, most] = [
+        [Infinity, Infinity, Infinity],
+        [-Infinity, -Infinity, -Infinity],
+    ];
+    const triangles = stl.readUInt32LE(80);
+    assert.equal(stl.length, 84 + 50 * triangles);
+    assert.ok(triangles >= 4);
+    for (let i = 0; i < triangles; ++i) {
+        for (let k = 0; k < 9; ++k) {
+            const value = stl.readFloatLE(84 + 50 * i + 12 + 4 * k);
+            least[k % 3] = Math.min(least[k % 3], value);
+            most[k % 3] = Math.max(most[k % 3], value);
+        }
+    }
+    return most.map((value, k) => value - least[k]);
+}
+
+async function openExport(page) {
+    await page.keyboard.press("x");
+    await page.waitForSelector("#export[open]");
+}
+
+/** Chooses as a user does: radio buttons lie under their labels' text. */
+async function choose(page, name, value) {
+    await page.locator(`#export label:has([name=${name}][value="${value}"])`).click();
+}
+
+async function exported(page, choices = {}, numbers = {}) {
+    await openExport(page);
+    for (const [name, value] of Object.entries(choices)) await choose(page, name, value);
+    for (const [name, value] of Object.entries(numbers)) await page.fill(`#export [name=${name}]`, String(value));
+    const saving = page.waitForEvent("download");
+    await page.click("#export-submit");
+    const download = await saving;
+    await page.waitForSelector("#export:not([open])", { state: "attached" });
+    return { name: download.suggestedFilename(), bytes: await bytesOf(download) };
+}
+
+test("export: every format gives its file, under a name that says what it is", async () => {
+    const { page, script, press, errors, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "24-cell" });
+    await press("4");
+    const begins = {
+        "3mf": /^PK/,
+        stl: /^[ -~]/,
+        glb: /^glTF/,
+        ply: /^ply\n/,
+        obj: /^(#|o |v )/,
+        off: /^(#.*\n)*4OFF/,
+        csv: /^n,w,/,
+        svg: /^<(\?xml|svg)/,
+    };
+    for (const [format, expected] of Object.entries(begins)) {
+        const { name, bytes } = await exported(page, { format });
+        assert.match(name, new RegExp(`^24-cell.*\\.${format}$`));
+        assert.match(text(bytes, 400), expected, format);
+    }
+    assert.equal(await page.evaluate(() => document.activeElement.id), "drawing", "the focus is given back");
+    await press("4");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("export: size, body and extent are as chosen", async () => {
+    const { page, script, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "8-cell" });
+    await named(page, "8-cell");
+    // At w = 0 the tesseract's slice is its cube: a side is half the diameter.
+    const solid = await exported(page, { format: "stl" }, { size: 80 });
+    boxOf(solid.bytes).forEach((side) => assert.ok(Math.abs(side - 40) < 0.01, `a side of ${side} mm`));
+    assert.equal(solid.name, "8-cell-w-0.stl");
+    const frame = await exported(page, { body: "frame" }); // the rest is remembered
+    assert.equal(frame.name, "8-cell-w-0-frame.stl");
+    assert.ok(boxOf(frame.bytes).every((side) => side > 40.5 && side < 50), "balls stand out from the corners");
+    const oval = await exported(page, { body: "solid", of: "oval" });
+    assert.equal(oval.name, "8-cell-oval.stl");
+    assert.ok(boxOf(oval.bytes)[0] > 100, "many slices stand beside each other");
+    await page.reload();
+    await page.waitForSelector("[data-action=help]", { state: "attached" });
+    await openExport(page);
+    assert.equal(await page.inputValue("#export [name=size]"), "80", "and remembered over a reload");
+    await close();
+});
+
+test("export: only what the format leaves is asked", async () => {
+    const { page, close } = await openWithScript();
+    await openExport(page);
+    const asked = () =>
+        page.locator("#export [data-choice]:visible").evaluateAll((all) => all.map((one) => one.dataset.choice));
+    for (const [format, expected] of Object.entries({
+        stl: ["of", "body", "size", "label"],
+        off: [],
+        csv: [],
+        png: ["pixels"],
+        glb: ["of", "body", "size", "label"],
+    })) {
+        await choose(page, "format", format);
+        assert.deepEqual(await asked(), expected, format);
+        assert.ok((await page.locator("#export-about").innerText()).length > 20);
+        assert.match(await page.locator("#export-submit").innerText(), new RegExp(format, "i"));
+    }
+    await close();
+});
+
+test("export: the keyboard is enough", async () => {
+    const { page, close } = await openWithScript();
+    await openExport(page);
+    assert.equal(await page.evaluate(() => document.activeElement.name), "format");
+    await page.keyboard.press("ArrowRight");
+    assert.equal(await page.locator("#export [name=format]:checked").inputValue(), "stl");
+    await page.keyboard.press("Tab");
+    assert.equal(await page.evaluate(() => document.activeElement.name), "of");
+    await page.keyboard.press("Tab");
+    await page.keyboard.press("ArrowRight");
+    assert.equal(await page.locator("#export [name=body]:checked").inputValue(), "frame");
+    const saving = page.waitForEvent("download");
+    await page.keyboard.press("Enter");
+    assert.match((await saving).suggestedFilename(), /frame\.stl$/);
+    await openExport(page);
+    await page.keyboard.press("Escape");
+    assert.equal(await page.locator("#export").isVisible(), false);
+    await page.waitForSelector("#drawing:focus");
+    await close();
+});
+
+test("export: a PNG has the size chosen, and holds the state", async () => {
+    const { page, script, press, close } = await openWithScript();
+    const state = await press("y");
+    await openExport(page);
+    await choose(page, "format", "png");
+    const { width, height } = await page.locator("#drawing").evaluate((one) => ({ width: one.clientWidth, height: one.clientHeight }));
+    assert.equal(await page.inputValue("#export [name=width]"), String(width));
+    assert.equal(await page.inputValue("#export [name=height]"), String(height));
+    await page.keyboard.press("Escape");
+    const large = await exported(page, { format: "png", preset: "1920x1080" });
+    assert.equal(large.name, "5-cell.png");
+    assert.deepEqual([decode(large.bytes).width, decode(large.bytes).height], [1920, 1080]);
+    assert.deepEqual(JSON.parse(pngText(large.bytes)).orientation, state.orientation);
+    const own = await exported(page, {}, { width: 300, height: 200 });
+    assert.deepEqual([decode(own.bytes).width, decode(own.bytes).height], [300, 200]);
+    assert.equal((await script.state()).revision, state.revision);
+    await close();
+});
+
+test("export: a refusal is read in the dialog, and what was chosen stays", async () => {
+    const server = await startServer({ options: ["--max-file-triangles", "1000"] });
+    const { page, script, errors, close } = await openWithScript({ url: server.url });
+    await openExport(page);
+    await choose(page, "format", "stl");
+    await choose(page, "body", "frame");
+    await page.click("#export-submit");
+    await page.waitForFunction(() => /triangles.*1000.*allowed/.test(document.getElementById("export-error").textContent));
+    assert.equal(await page.locator("#export").isVisible(), true);
+    assert.equal(await page.locator("#export-submit").isEnabled(), true);
+    await choose(page, "body", "solid");
+    assert.equal(await page.locator("#export-error").textContent(), "", "it is gone when one goes on");
+    await page.keyboard.press("Escape");
+    await script.request({ type: "set", slices: { focus: 100 } }); // far outside
+    await openExport(page);
+    await page.click("#export-submit");
+    await page.waitForFunction(() => /empty|flat/.test(document.getElementById("export-error").textContent));
+    assert.deepEqual(errors, []);
+    await close();
+    await server.stop();
+});
+
+test("export: the 4OFF file is imported again as the same polytope", async () => {
+    const { page, script, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "600-cell" });
+    await script.request({ type: "rotate", planes: ["xw"], angles: [0.4] });
+    await named(page, "600-cell");
+    const { name, bytes } = await exported(page, { format: "off" });
+    await page.setInputFiles("#file", { name, mimeType: "", buffer: Buffer.from(bytes) });
+    const { polytope } = await script.until((one) => one.polytope.name === name, "the file's polytope");
+    assert.deepEqual([polytope.vertices, polytope.edges, polytope.faces, polytope.cells], [120, 720, 1200, 600]);
+    await close();
+});
