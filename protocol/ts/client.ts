@@ -246,10 +246,13 @@ export class Client {
     /** The answer cannot come before all is sent: as long as that goes on, there is life. */
     private await(unsent: number): void {
         clearTimeout(this.timer);
-        this.timer = setTimeout(() => {
-            if (this.unsent < unsent) this.await(this.unsent);
-            else this.closed(1006, "the server does not answer");
-        }, (this.awaits("file") ? kFilePatience : kPatience) * 1000);
+        this.timer = setTimeout(
+            () => {
+                if (this.unsent < unsent) this.await(this.unsent);
+                else this.closed(1006, "the server does not answer");
+            },
+            (this.awaits("file") ? kFilePatience : kPatience) * 1000,
+        );
     }
 
     private closed(code: number, said: string): void {

@@ -29,7 +29,7 @@ export function decodeCbor(bytes: Uint8Array): Message {
 export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined {
     const view = new DataView(png.buffer, png.byteOffset, png.byteLength);
     const utf8 = new TextDecoder();
-    for (let at = 8; at + 12 <= png.length; ) {
+    for (let at = 8; at + 12 <= png.length;) {
         const length = view.getUint32(at);
         const data = png.subarray(at + 8, at + 8 + length);
         if (utf8.decode(png.subarray(at + 4, at + 8)) === "iTXt") {

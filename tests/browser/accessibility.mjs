@@ -4,23 +4,63 @@ import { test } from "./support/suite.mjs";
 
 import { openPage, openWithScript, ready } from "./support/browser.mjs";
 
+/** The dialogs, and the key that opens each. */
+const dialogs = { picker: "s", export: "x", help: "?" };
+
+/** What is seen of the page with each dialog open. */
+async function withDialogs(page, look) {
+    for (const [id, key] of Object.entries(dialogs)) {
+        await page.keyboard.press(key);
+        await page.waitForSelector(`#${id}[open]`);
+        if (id === "picker") await page.waitForSelector("#picker-list [role=option]");
+        await look(id);
+        await page.keyboard.press("Escape");
+        await page.waitForSelector("#drawing:focus");
+    }
+}
+
 test("accessibility: every control has a name", async () => {
     const { page, close } = await openWithScript();
     const session = await page.context().newCDPSession(page);
-    const { nodes } = await session.send("Accessibility.getFullAXTree");
-    const controls = nodes.filter(({ ignored, role }) => {
-        return !ignored && ["button", "combobox", "textbox", "application", "dialog"].includes(role?.value);
-    });
-    assert.ok(controls.length > 40);
-    for (const { role, name } of controls) assert.ok(name?.value?.trim(), `a ${role.value} has no name`);
-    const names = controls.filter(({ role }) => role.value === "button").map(({ name }) => name.value);
+    const roles = [
+        "button",
+        "combobox",
+        "textbox",
+        "spinbutton",
+        "radio",
+        "listbox",
+        "option",
+        "application",
+        "dialog",
+    ];
+    const controlsOf = async () => {
+        const { nodes } = await session.send("Accessibility.getFullAXTree");
+        const controls = nodes.filter(({ ignored, role }) => !ignored && roles.includes(role?.value));
+        for (const { role, name } of controls) assert.ok(name?.value?.trim(), `a ${role.value} has no name`);
+        return controls;
+    };
+    const buttons = (await controlsOf()).filter(({ role }) => role.value === "button");
+    assert.ok(buttons.length > 40);
+    const names = buttons.map(({ name }) => name.value);
     assert.equal(new Set(names).size, names.length, "no two buttons have the same name");
+    await withDialogs(page, async (id) => {
+        const controls = await controlsOf();
+        assert.ok(
+            controls.some(({ role }) => role.value === "dialog"),
+            id,
+        );
+        assert.ok(controls.length > 1, "what lies under it is not there meanwhile");
+        assert.ok(
+            controls.every(({ role }) => role.value !== "application"),
+            "and not to be reached",
+        );
+    });
     await close();
 });
 
 test("accessibility: the focus is visible wherever Tab leads, and Tab leads everywhere", async () => {
     const { page, close } = await openWithScript();
-    const count = await page.locator("button:visible, select:visible, #drawing").count();
+    const count = await page.locator("button:visible, #drawing").count();
     const seen = new Set();
     for (let i = 0; i < count + 2; ++i) {
         await page.keyboard.press("Tab");
@@ -88,11 +128,17 @@ test("accessibility: who wants less motion gets none of the page's own", async (
     await lively.close();
 });
 
-test("accessibility: text stands out from its ground", async () => {
-    const { page, press, close } = await openWithScript();
-    await press("4");
-    const faint = await page.evaluate(() => {
-        const parse = (colour) => colour.match(/[\d.]+/g).map(Number);
+/** Texts that stand out too little from their ground. */
+function faintTexts(page) {
+    return page.evaluate(() => {
+        // What a colour is on the screen, however it is written.
+        const pen = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
+        const parse = (colour) => {
+            pen.clearRect(0, 0, 1, 1);
+            pen.fillStyle = colour;
+            pen.fillRect(0, 0, 1, 1);
+            return [...pen.getImageData(0, 0, 1, 1).data];
+        };
         const light = (rgb) => {
             const [r, g, b] = rgb.map((value) =>
                 value / 255 <= 0.04045 ? value / 255 / 12.92 : ((value / 255 + 0.055) / 1.055) ** 2.4,
@@ -101,8 +147,8 @@ test("accessibility: text stands out from its ground", async () => {
         };
         const ground = (element) => {
             for (let at = element; at; at = at.parentElement) {
-                const [r, g, b, a = 1] = parse(getComputedStyle(at).backgroundColor);
-                if (a === 1) return [r, g, b];
+                const [r, g, b, a] = parse(getComputedStyle(at).backgroundColor);
+                if (a === 255) return [r, g, b];
             }
             return [255, 255, 255];
         };
@@ -120,6 +166,24 @@ test("accessibility: text stands out from its ground", async () => {
             return ratio < 4.5 ? [`${element.textContent}: ${ratio.toFixed(1)}`] : [];
         });
     });
-    assert.deepEqual(faint, []);
+}
+
+test("accessibility: text stands out from its ground", async () => {
+    const { page, press, close } = await openWithScript();
+    await press("4");
+    assert.deepEqual(await faintTexts(page), []);
+    await withDialogs(page, async (id) => {
+        if (id === "picker") {
+            await page.fill("#picker-search", "25-cell");
+            await page.keyboard.press("Enter");
+            await page.waitForFunction(() => document.getElementById("picker-error").textContent !== "");
+            assert.deepEqual(await faintTexts(page), []);
+            await page.fill("#picker-search", "");
+        }
+        assert.deepEqual(await faintTexts(page), [], id);
+    });
+    await page.setInputFiles("#file", { name: "a.off", mimeType: "", buffer: Buffer.from("4OFF\n1 2 three\n") });
+    await page.waitForSelector("#loading[data-outcome=failed]");
+    assert.deepEqual(await faintTexts(page), []);
     await close();
 });

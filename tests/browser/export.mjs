@@ -85,7 +85,10 @@ test("export: size, body and extent are as chosen", async () => {
     assert.equal(solid.name, "8-cell-w-0.stl");
     const frame = await exported(page, { body: "frame" }); // the rest is remembered
     assert.equal(frame.name, "8-cell-w-0-frame.stl");
-    assert.ok(boxOf(frame.bytes).every((side) => side > 40.5 && side < 50), "balls stand out from the corners");
+    assert.ok(
+        boxOf(frame.bytes).every((side) => side > 40.5 && side < 50),
+        "balls stand out from the corners",
+    );
     const oval = await exported(page, { body: "solid", of: "oval" });
     assert.equal(oval.name, "8-cell-oval.stl");
     assert.ok(boxOf(oval.bytes)[0] > 100, "many slices stand beside each other");
@@ -142,7 +145,9 @@ test("export: a PNG has the size chosen, and holds the state", async () => {
     const state = await press("y");
     await openExport(page);
     await choose(page, "format", "png");
-    const { width, height } = await page.locator("#drawing").evaluate((one) => ({ width: one.clientWidth, height: one.clientHeight }));
+    const { width, height } = await page
+        .locator("#drawing")
+        .evaluate((one) => ({ width: one.clientWidth, height: one.clientHeight }));
     assert.equal(await page.inputValue("#export [name=width]"), String(width));
     assert.equal(await page.inputValue("#export [name=height]"), String(height));
     await page.keyboard.press("Escape");
@@ -163,7 +168,9 @@ test("export: a refusal is read in the dialog, and what was chosen stays", async
     await choose(page, "format", "stl");
     await choose(page, "body", "frame");
     await page.click("#export-submit");
-    await page.waitForFunction(() => /triangles.*1000.*allowed/.test(document.getElementById("export-error").textContent));
+    await page.waitForFunction(() =>
+        /triangles.*1000.*allowed/.test(document.getElementById("export-error").textContent),
+    );
     assert.equal(await page.locator("#export").isVisible(), true);
     assert.equal(await page.locator("#export-submit").isEnabled(), true);
     await choose(page, "body", "solid");

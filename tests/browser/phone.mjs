@@ -28,7 +28,9 @@ test("phone: the picture has room, nothing overflows, every button can be hit", 
     for (const tab of await page.locator(".tabs button").all()) {
         await tab.tap();
         assert.ok((await overflow()) <= 0);
-        for (const button of await page.locator("#tools section button:visible").all()) {
+        for (const button of await page
+            .locator("#tools section :is(button, .segments input, .presence input):visible")
+            .all()) {
             await button.scrollIntoViewIfNeeded();
             const box = await button.boundingBox();
             assert.ok(
@@ -57,5 +59,44 @@ test("phone: lying on its side it is usable too", async () => {
     const { width, height } = await page.locator("#drawing").boundingBox();
     assert.ok(width >= 375 && height >= 280, `${width} × ${height}`);
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0);
+    await close();
+});
+
+test("phone: the dialogs fill the screen, scroll where they must, and can be hit", async () => {
+    const { page, script, errors, close } = await openWithScript(phone);
+    const dialogs = [
+        { id: "picker", open: () => page.tap("#polytope"), first: "#picker-list [role=option]" },
+        {
+            id: "export",
+            first: "#export-submit",
+            async open() {
+                await page.locator(".tabs button", { hasText: "More" }).tap();
+                await page.tap("[data-action=export]");
+            },
+        },
+    ];
+    for (const { id, open, first } of dialogs) {
+        await open();
+        await page.waitForSelector(first);
+        const box = await page.locator(`#${id}`).boundingBox();
+        assert.deepEqual([box.x, box.y, box.width, box.height], [0, 0, 375, 667], id);
+        assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0);
+        const targets = page.locator(`#${id} :is(button, input, [role=option]):visible`);
+        for (const target of (await targets.all()).slice(0, 40)) {
+            await target.scrollIntoViewIfNeeded();
+            const { x, width, height } = await target.boundingBox();
+            assert.ok(
+                height >= 38 && width >= 38,
+                `${await target.evaluate((one) => one.outerHTML)}: ${width} × ${height}`,
+            );
+            assert.ok(x >= 0 && x + width <= 375);
+        }
+        await page.tap(`#${id} [data-close]`);
+        assert.equal(await page.locator(`#${id}`).isVisible(), false);
+    }
+    await page.tap("#polytope");
+    await page.tap('#picker-list [data-name="24-cell"]');
+    await script.until((one) => one.polytope.name === "24-cell", "the 24-cell");
+    assert.deepEqual(errors, []);
     await close();
 });

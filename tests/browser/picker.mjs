@@ -5,7 +5,8 @@ import { test } from "./support/suite.mjs";
 import { common, named, openWithScript } from "./support/browser.mjs";
 import { startProxy } from "./support/proxy.mjs";
 
-const listed = (page) => page.locator("#picker-list [data-name]").evaluateAll((all) => all.map((one) => one.dataset.name));
+const listed = (page) =>
+    page.locator("#picker-list [data-name]").evaluateAll((all) => all.map((one) => one.dataset.name));
 const chosen = (page) => page.locator('#picker-list [aria-selected="true"]').getAttribute("data-name");
 const focused = (page) => page.evaluate(() => document.activeElement.id);
 
@@ -30,7 +31,10 @@ test("picker: lists the whole catalogue in its order, with the polytope that is 
     assert.equal(await chosen(page), "24-cell");
     for (const { name, vertices, cells, schlaefli } of polytopes.slice(0, 6)) {
         const text = (await page.locator(`#picker-list [data-name="${name}"]`).textContent()).replace(/\u2009/g, "");
-        assert.ok([vertices, cells, schlaefli].every((one) => text.includes(one)), text);
+        assert.ok(
+            [vertices, cells, schlaefli].every((one) => text.includes(one)),
+            text,
+        );
     }
     assert.deepEqual(errors, []);
     await close();

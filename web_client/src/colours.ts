@@ -23,7 +23,10 @@ export class Colours {
         "p",
         { class: "scale", hidden: true },
         "\u2212w",
-        element("span", { role: "img", "aria-label": "from blue at the lowest w through grey to amber at the highest" }),
+        element("span", {
+            role: "img",
+            "aria-label": "from blue at the lowest w through grey to amber at the highest",
+        }),
         "+w",
     );
     private readonly list = element("div", { class: "kinds" });
@@ -74,7 +77,9 @@ export class Colours {
     private changed(): void {
         const { hidden, faded } = this.state!;
         const chosen = (presence: Presence, before: number[]): number[] => [
-            ...this.rows.flatMap((row, kind) => (row.querySelector("input:checked")?.getAttribute("value") === presence ? [kind] : [])),
+            ...this.rows.flatMap((row, kind) =>
+                row.querySelector("input:checked")?.getAttribute("value") === presence ? [kind] : [],
+            ),
             ...before.filter((kind) => kind >= this.rows.length),
         ];
         this.set({ hidden: chosen("hidden", hidden), faded: chosen("faded", faded) });
@@ -99,7 +104,12 @@ function kindRow({ name, cells, color }: CellKind, kind: number): HTMLElement {
     if (color !== undefined) swatch.style.background = `#${color.toString(16).padStart(6, "0")}`;
     const radios = kPresences.map((presence) => {
         const attributes = { type: "radio", name: `kind-${kind}`, value: presence, "aria-label": presence };
-        return element("label", { title: presence }, element("input", attributes), element("span", { class: presence }));
+        return element(
+            "label",
+            { title: presence },
+            element("input", attributes),
+            element("span", { class: presence }),
+        );
     });
     return element(
         "div",

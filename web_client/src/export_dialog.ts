@@ -166,5 +166,10 @@ function choices(title: string, formats: Format[]): HTMLElement {
         const radio = element("input", { type: "radio", name: "format", value: name, checked: name === "3mf" });
         return element("label", {}, radio, element("span", {}, label));
     });
-    return element("div", { class: "segments", role: "group", "aria-label": title }, element("h3", { "aria-hidden": "true" }, title), ...radios);
+    return element(
+        "div",
+        { class: "segments", role: "group", "aria-label": title },
+        element("h3", { "aria-hidden": "true" }, title),
+        ...radios,
+    );
 }

@@ -19,14 +19,26 @@ export const kFormats: { title: string; formats: Format[] }[] = [
     {
         title: "To print",
         formats: [
-            format("3mf", "3MF", "For 3-D printing: closed bodies in millimetres, each with its name", kBodies, "model/3mf"),
+            format(
+                "3mf",
+                "3MF",
+                "For 3-D printing: closed bodies in millimetres, each with its name",
+                kBodies,
+                "model/3mf",
+            ),
             format("stl", "STL", "For 3-D printing: closed bodies in millimetres, all as one", kBodies, "model/stl"),
         ],
     },
     {
         title: "To model",
         formats: [
-            format("glb", "GLB", "glTF for viewers, the web and Blender, with the cells’ colours", kBodies, "model/gltf-binary"),
+            format(
+                "glb",
+                "GLB",
+                "glTF for viewers, the web and Blender, with the cells’ colours",
+                kBodies,
+                "model/gltf-binary",
+            ),
             format("ply", "PLY", "Triangles with the cells’ colours, for MeshLab and others", kBodies, "model/ply"),
             format("obj", "OBJ", "Read by nearly all that models, a group for each cell", kBodies, "model/obj"),
         ],
@@ -34,8 +46,20 @@ export const kFormats: { title: string; formats: Format[] }[] = [
     {
         title: "As data",
         formats: [
-            format("off", "4OFF", "The whole polytope as turned, for other 4-D programs and to be imported again", [], "text/plain"),
-            format("csv", "CSV", "w, elements, volume, area and centroid of each slice, and the critical w", [], "text/csv"),
+            format(
+                "off",
+                "4OFF",
+                "The whole polytope as turned, for other 4-D programs and to be imported again",
+                [],
+                "text/plain",
+            ),
+            format(
+                "csv",
+                "CSV",
+                "w, elements, volume, area and centroid of each slice, and the critical w",
+                [],
+                "text/csv",
+            ),
         ],
     },
     {

@@ -71,7 +71,7 @@ export class Picker {
         this.asTyped.dataset["name"] = text;
         this.list.replaceChildren(...groups, ...(isName ? [] : [this.asTyped]));
         const shown = this.listed.length - (isName ? 0 : 1);
-        this.found.textContent = shown === 1 ? "1 polytope" : `${count(shown)} polytopes`;
+        this.found.textContent = shown === 1 ? "1 polytope" : `${shown === 0 ? "no" : count(shown)} polytopes`;
         for (const one of this.options.values()) {
             one.toggleAttribute("data-current", one.dataset["name"] === this.current);
         }
@@ -91,7 +91,8 @@ export class Picker {
         const { listed } = this;
         const at = this.active ? listed.indexOf(this.active) : -1;
         const last = listed.length - 1;
-        const onward = Math.abs(step) > 1 ? Math.min(last, Math.max(0, at + step)) : (at + step + last + 1) % (last + 1);
+        const onward =
+            Math.abs(step) > 1 ? Math.min(last, Math.max(0, at + step)) : (at + step + last + 1) % (last + 1);
         this.activate(listed[onward], "nearest");
     }
 
@@ -131,7 +132,8 @@ export class Picker {
 function option(entry: CatalogueEntry, id: string): HTMLElement {
     const { name, aliases, schlaefli, diagram = "", vertices, edges, faces, cells } = entry;
     const symbol = schlaefli || diagram;
-    const also = [...aliases.filter((alias) => alias !== symbol), ...(symbol === diagram ? [] : [diagram])];
+    const also = aliases.filter((alias) => alias !== symbol && alias !== diagram).join(", ");
+    const drawn = symbol === diagram || diagram === "" ? [] : [element("code", {}, diagram), also === "" ? "" : ", "];
     const counts = [vertices, edges, faces, cells].map(count).join(" ");
     const attributes = { role: "option", id, "data-name": name, "aria-selected": "false" };
     return element(
@@ -139,7 +141,7 @@ function option(entry: CatalogueEntry, id: string): HTMLElement {
         attributes,
         element("b", {}, name),
         element("span", { class: "symbol-of" }, symbol),
-        element("small", {}, also.filter((one) => one !== "").join(", ")),
+        element("small", {}, ...drawn, also),
         element("small", { class: "counts", title: "vertices, edges, 2-faces, cells" }, counts),
     );
 }
