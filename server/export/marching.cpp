@@ -123,11 +123,12 @@ class Marcher {
         std::uint32_t& id = ids[static_cast<std::size_t>(indexIn(lower)) * 7 + (inside ^ outside) - 1];
         if (id == kNone) {
             id = static_cast<std::uint32_t>(mesh_.points.size());
-            constexpr double kOff = 1.0 / 12;
+            // Crossings near one end of their edges stay some steps of the grid apart.
+            const double off = std::min(1.0 / 12, 6 * grid_.step() / field_.step());
             const glm::ivec3 from = at + offset(inside);
             const glm::ivec3 to = at + offset(outside);
             const Cross cross = crossing_(from, to);
-            const double part = std::clamp(cross.part, kOff, 1 - kOff);
+            const double part = std::clamp(cross.part, off, 1 - off);
             mesh_.points.push_back(grid_.snap(glm::mix(field_.place(from), field_.place(to), part)));
             pointCells_.push_back(cross.cell);
         }

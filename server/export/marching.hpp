@@ -62,8 +62,8 @@ struct Cross {
 using Crossing = std::function<Cross(const glm::ivec3& inside, const glm::ivec3& outside)>;
 
 /// The surface around the points inside. Every cube that holds a point inside must have all its corners set. The
-/// field's step must be 64 of the grid's at least; crossings are kept off the ends of their edges by a twelfth, so that
-/// no two of them meet.
+/// field's step must be 64 of the grid's at least; crossings are kept off the ends of their edges, so that no two of
+/// them meet.
 Mesh march(const SampledField& field, const Crossing& crossing, const Grid& grid, const Budget& budget);
 
 /// For a field that is a distance: the zero of the line through the two values.

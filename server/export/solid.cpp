@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "export/hull.hpp"
 #include "export/skin.hpp"
 
 namespace oval4d::exports {
@@ -21,6 +22,23 @@ std::span<const std::uint32_t> cornersOf(const geometry::SliceSet& slices, std::
     return {slices.corners.data() + slices.cornerBegin[face], slices.cornerBegin[face + 1] - slices.cornerBegin[face]};
 }
 
+/// The face's normal, as long as twice its area.
+glm::dvec3 crossOf(const geometry::SliceSet& slices, int i, std::uint32_t face) {
+    const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
+    const auto corners = cornersOf(slices, face);
+    const glm::dvec3 base = points[corners[0]];
+    glm::dvec3 normal(0);
+    for (std::size_t c = 1; c + 1 < corners.size(); ++c)
+        normal += glm::cross(points[corners[c]] - base, points[corners[c + 1]] - base);
+    return normal;
+}
+
+glm::dvec3 directionOf(const geometry::SliceSet& slices, int i, std::uint32_t face) {
+    const glm::dvec3 normal = crossOf(slices, i, face);
+    const double length = glm::length(normal);
+    return length > 0 ? normal / length : glm::dvec3(0);
+}
+
 /// Whether every face has the whole slice on its inner side.
 bool isConvex(const geometry::SliceSet& slices, int i) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
@@ -29,12 +47,8 @@ bool isConvex(const geometry::SliceSet& slices, int i) {
     for (std::size_t v = 0; v < count; ++v) extent = std::max(extent, glm::distance(points[v], points[0]));
     constexpr double kFlat = 1e-7;
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
-        const auto corners = cornersOf(slices, f);
-        const glm::dvec3 base = points[corners[0]];
-        glm::dvec3 normal(0);
-        for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
-            normal += glm::cross(points[corners[c]] - base, points[corners[c + 1]] - base);
-        }
+        const glm::dvec3 base = points[cornersOf(slices, f)[0]];
+        glm::dvec3 normal = crossOf(slices, i, f);
         // The height above a sliver means nothing; its neighbours say enough.
         if (glm::length(normal) < kFlat * extent * extent) continue;
         normal = glm::normalize(normal);
@@ -111,14 +125,29 @@ Mesh convexSolid(const geometry::SliceSet& slices, int i, double scale, const Gr
     return mesh;
 }
 
+/// Where points of a convex slice have fallen together on the grid, two faces may come to share more than an edge. Then
+/// the hull of the points stands in; its triangles belong to the cells of the faces that look the same way.
+Mesh convexHull(const geometry::SliceSet& slices, int i, const Mesh& faces, const Grid& grid) {
+    Mesh hull = hullOf(faces.points, grid);
+    std::vector<std::pair<glm::dvec3, std::uint32_t>> looks;
+    for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f)
+        looks.emplace_back(directionOf(slices, i, f), slices.faceOf[f]);
+    for (std::size_t t = 0; t < hull.triangles.size(); ++t) {
+        const glm::dvec3 normal = normalOf(hull, hull.triangles[t]);
+        hull.cells[t] =
+            std::ranges::max_element(looks, {}, [&](const auto& look) { return glm::dot(look.first, normal); })->second;
+    }
+    return hull;
+}
+
 }  // namespace
 
 Mesh solidOf(const geometry::SliceSet& slices, int i, double scale, const Grid& grid, const Budget& budget) {
     if (slices.faceCount(i) < 4) return {};
     if (isConvex(slices, i)) {
         Mesh mesh = convexSolid(slices, i, scale, grid);
-        if (!hasBody(mesh, grid)) return {};
-        if (isClosedManifold(mesh)) return mesh;
+        if (!isClosedManifold(mesh)) mesh = convexHull(slices, i, mesh, grid);
+        return hasBody(mesh, grid) ? mesh : Mesh{};
     }
     Mesh skin = skinOf(slices, i, scale, grid, budget);
     return hasBody(skin, grid) ? skin : Mesh{};

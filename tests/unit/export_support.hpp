@@ -1,0 +1,154 @@
+#pragma once
+// What the tests of exported bodies share: a check of meshes of their own, and subjects to export.
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "export/budget.hpp"
+#include "export/mesh.hpp"
+#include "geometry/catalogue.hpp"
+#include "geometry_support.hpp"
+
+namespace oval4d::exports::support {
+
+using Key = std::tuple<float, float, float>;
+
+/// As a program that knows nothing but the coordinates, in float32: every edge lies in two triangles, once each way,
+/// the triangles around every point are one ring, and the volume is positive.
+inline void expectPrintable(const Mesh& mesh) {
+    ASSERT_FALSE(mesh.triangles.empty());
+    ASSERT_EQ(mesh.cells.size(), mesh.triangles.size());
+    std::map<Key, std::uint32_t> points;
+    std::vector<std::uint32_t> same;
+    for (const auto& p : mesh.points) {
+        const Key key{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+        same.push_back(points.try_emplace(key, points.size()).first->second);
+    }
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> rings;
+    for (const auto& t : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            const auto a = same[t[i]];
+            const auto b = same[t[(i + 1) % 3]];
+            const auto c = same[t[(i + 2) % 3]];
+            ASSERT_NE(a, b);
+            ++edges[{a, b}];
+            rings[a][b] = c;
+        }
+    }
+    for (const auto& [edge, count] : edges) {
+        ASSERT_EQ(count, 1);
+        ASSERT_EQ(edges.count({edge.second, edge.first}), 1U);
+    }
+    for (const auto& [point, ring] : rings) {
+        std::size_t steps = 1;
+        for (auto at = ring.begin()->second; at != ring.begin()->first; at = ring.at(at)) {
+            ++steps;
+            ASSERT_LE(steps, ring.size());
+        }
+        ASSERT_EQ(steps, ring.size());
+    }
+    double volume = 0;
+    for (const auto& t : mesh.triangles) {
+        volume += glm::dot(mesh.points[t[0]], glm::cross(mesh.points[t[1]], mesh.points[t[2]])) / 6;
+    }
+    ASSERT_GT(volume, 0);
+    ASSERT_NEAR(volume, volumeOf(mesh), 1e-9 * std::abs(volume));
+}
+
+inline const Budget& unhurried() {
+    static const Budget kBudget({100'000'000, std::numeric_limits<std::size_t>::max(), std::chrono::hours(1)}, {});
+    return kBudget;
+}
+
+inline const geometry::Polytope& named(std::string_view name) {
+    return *geometry::polytopeOf(*geometry::findEntry(name));
+}
+
+using Polygon = std::vector<glm::dvec2>;
+
+inline const Polygon kSquare{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+inline const Polygon kDented{{-2, -2}, {2, -2}, {2, 0}, {0.5, 0}, {0.5, 1.5}, {-0.5, 1.5}, {-0.5, 0}, {-2, 0}};
+inline constexpr double kDentedArea = 4 * 2 + 1 * 1.5;
+
+inline Polygon pentagram() {
+    Polygon star;
+    for (int i = 0; i < 5; ++i)
+        star.emplace_back(std::cos(4 * i * std::numbers::pi / 5), std::sin(4 * i * std::numbers::pi / 5));
+    return star;
+}
+/// Of all that a pentagram of circumradius 1 winds around: ten triangles from its middle, between a point of the star
+/// at distance 1 and an inner corner at distance φ⁻², 36° apart.
+inline const double kPentagramArea =
+    10 * 0.5 * std::sin(std::numbers::pi / 5) / (std::numbers::phi * std::numbers::phi);
+
+/// The Cartesian product of a polygon in xy and one in zw.
+inline geometry::Polytope product(const Polygon& p, const Polygon& q) {
+    const auto n = static_cast<std::uint32_t>(p.size());
+    const auto m = static_cast<std::uint32_t>(q.size());
+    const auto at = [&](std::uint32_t i, std::uint32_t j) { return (i % n) * m + j % m; };
+    std::vector<glm::dvec4> vertices;
+    for (const auto& a : p) {
+        for (const auto& b : q) vertices.emplace_back(a, b);
+    }
+    geometry::Lists faces;  // n·m quadrilaterals, then m copies of p, then n copies of q
+    for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t j = 0; j < m; ++j)
+            faces.add(std::array{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+    std::vector<std::uint32_t> list;
+    for (std::uint32_t j = 0; j < m; ++j) {
+        list.clear();
+        for (std::uint32_t i = 0; i < n; ++i) list.push_back(at(i, j));
+        faces.add(list);
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        list.clear();
+        for (std::uint32_t j = 0; j < m; ++j) list.push_back(at(i, j));
+        faces.add(list);
+    }
+    geometry::Lists cells;
+    for (std::uint32_t j = 0; j < m; ++j) {
+        list = {n * m + j, n * m + (j + 1) % m};
+        for (std::uint32_t i = 0; i < n; ++i) list.push_back(i * m + j);
+        cells.add(list);
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        list = {n * m + m + i, n * m + m + (i + 1) % n};
+        for (std::uint32_t j = 0; j < m; ++j) list.push_back(i * m + j);
+        cells.add(list);
+    }
+    return geometry::makePolytope("product", std::move(vertices), std::move(faces), std::move(cells));
+}
+
+/// Two polytopes as one, the second moved.
+inline geometry::Polytope compound(const geometry::Polytope& a, const geometry::Polytope& b, const glm::dvec4& by) {
+    std::vector<glm::dvec4> vertices = a.vertices;
+    for (const auto& v : b.vertices) vertices.push_back(v + by);
+    geometry::Lists faces = a.faces;
+    geometry::Lists cells = a.cells;
+    const auto append = [](geometry::Lists& into, const geometry::Lists& from, std::size_t shift) {
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            std::vector<std::uint32_t> list(from[i].begin(), from[i].end());
+            for (auto& item : list) item += static_cast<std::uint32_t>(shift);
+            into.add(list);
+        }
+    };
+    append(faces, b.faces, a.vertices.size());
+    append(cells, b.cells, a.faces.size());
+    return geometry::makePolytope("compound", std::move(vertices), std::move(faces), std::move(cells));
+}
+
+}  // namespace oval4d::exports::support
