@@ -69,9 +69,16 @@ test("connection: the page bears a strict content security policy", async () => 
     await ready(page);
     await page.click("[data-own=frames]");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
-    const saving = page.waitForEvent("download");
-    await page.click("[data-own=save]");
-    await saving;
+    for (const press of ["[data-own=save]", "#export-submit"]) {
+        const saving = page.waitForEvent("download");
+        if (press === "#export-submit") await page.click("[data-action=export]");
+        await page.click(press);
+        await saving;
+    }
+    await page.click("#tools label:has([name=color][value=kind])");
+    await page.click("#polytope");
+    await page.click('#picker-list [data-name="8-cell"]');
+    await named(page, "8-cell");
     assert.deepEqual(errors, []);
     await close();
     await proxy.stop();

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { named, openWithScript } from "./support/browser.mjs";
+import { named, openWithScript, presented, scriptFor } from "./support/browser.mjs";
 import { startServer } from "./support/server.mjs";
 
 const file = (name, text) => ({ name, mimeType: "", buffer: Buffer.from(text) });
@@ -97,6 +97,69 @@ test("loading: what cannot be read is refused before it is sent", async () => {
     await script.until((one) => one.polytope.name === "b.off", "a file within the limit");
     await close();
     await server.stop();
+});
+
+test("loading: how far it has come is shown and said", async () => {
+    const { page, script, close } = await openWithScript();
+    await page.evaluate(() => {
+        window.seen = [];
+        const root = document.getElementById("loading");
+        const look = () => {
+            if (root.hidden) return;
+            const progress = root.querySelector("progress");
+            window.seen.push([root.ariaBusy, progress.checkVisibility(), root.querySelector(".report").innerText]);
+        };
+        new MutationObserver(look).observe(root, { attributes: true, childList: true, subtree: true });
+    });
+    await page.setInputFiles("#file", file("slow.off", simplex));
+    await script.until((one) => one.polytope.name === "slow.off", "the file's polytope");
+    await page.waitForSelector("#loading", { state: "hidden" });
+    const seen = await page.evaluate(() => window.seen);
+    assert.ok(
+        seen.some(([busy, visible, said]) => busy === "true" && visible && said === "Reading"),
+        String(seen),
+    );
+    assert.equal(await page.getAttribute("#loading", "aria-busy"), null);
+    await close();
+});
+
+test("loading: after a restart of the server the file is there again", async () => {
+    const server = await startServer();
+    const { page, script, close } = await openWithScript({ url: server.url });
+    await page.setInputFiles("#file", file("kept.off", simplex));
+    await script.until((one) => one.polytope.name === "kept.off", "the file's polytope");
+    await named(page, "kept.off");
+    script.leave();
+    await server.stop();
+    await page.waitForSelector("#connection[data-kind=waiting]");
+    const again = await startServer({ port: server.port });
+    await page.waitForSelector("#connection[data-kind=open]");
+    await page.waitForFunction(() => /new one/.test(document.getElementById("notice").textContent));
+    const second = await scriptFor(page, again.url);
+    await second.until((one) => one.polytope.name === "kept.off", "the file in the new session");
+    second.leave();
+    await close();
+    await again.stop();
+});
+
+test("loading: a polytope that cannot be had again leaves the rest of the view", async () => {
+    const server = await startServer();
+    const { page, script, close } = await openWithScript({ url: server.url });
+    await script.request({ type: "load", name: "another's", format: "off", data: simplex }); // not by this page
+    await script.request({ type: "set", alpha: 0.25 });
+    await named(page, "another's");
+    script.leave();
+    await server.stop();
+    await page.waitForSelector("#connection[data-kind=waiting]");
+    const again = await startServer({ port: server.port });
+    await page.waitForSelector("#connection[data-kind=open]");
+    const second = await scriptFor(page, again.url);
+    const { revision } = await second.until((one) => one.alpha === 0.25, "the rest of the view");
+    await presented(page, revision);
+    await page.waitForFunction(() => /another's/.test(document.getElementById("notice").textContent));
+    second.leave();
+    await close();
+    await again.stop();
 });
 
 test("loading: several files are loaded one after the other, and all are found again", async () => {

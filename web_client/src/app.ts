@@ -130,11 +130,24 @@ export class App {
         const lost = this.restored;
         this.begin.lines = [];
         this.restored = undefined;
-        if (lost) await this.client.request({ ...lost, type: "set", turning: false });
+        if (lost) await this.restore(lost);
         for (const line of lines) {
             await this.client.request({ type: "command", line }).catch((error: RequestError) => {
                 this.notice.show(`In the address, “${line}”: ${error.message}`);
             });
+        }
+    }
+
+    /** A polytope that cannot be had again, such as another page's file, leaves the rest of the view. */
+    private async restore(lost: State): Promise<void> {
+        try {
+            await this.loading.again(lost.polytope.name);
+            await this.client.request({ ...lost, type: "set", turning: false });
+        } catch (error) {
+            if ((error as RequestError).code === "not_connected") throw error;
+            this.notice.show((error as Error).message);
+            const { polytope, slices, hidden, faded, ...rest } = lost;
+            await this.client.request({ ...rest, type: "set", turning: false });
         }
     }
 

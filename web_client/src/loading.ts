@@ -7,6 +7,7 @@ import { FileError, linesAround, readFile, type Readable } from "./files";
 
 const kProgress = 100; // milliseconds between two looks at how far it is
 const kDefaultLimit = 8 * 2 ** 20; // bytes of a message, where the server names none
+const kMostKept = 8; // files: as many as a session holds
 const kMostShown = 120; // characters of a line of the file
 
 export class Loading {
@@ -16,6 +17,7 @@ export class Loading {
     private readonly report = this.root.querySelector<HTMLElement>(".report")!;
     private readonly chooser = byId<HTMLInputElement>("file");
     private readonly target = byId("drop");
+    private readonly kept = new Map<string, Readable>(); // what the session has of this page's files
     private queue: Promise<void> = Promise.resolve();
 
     constructor(private readonly client: Client) {
@@ -31,6 +33,12 @@ export class Loading {
     /** Has the user choose a file. */
     choose(): void {
         this.chooser.click();
+    }
+
+    /** Loads the file of this name once more, into a session that has not got it; without such a file nothing. */
+    async again(name: string): Promise<void> {
+        const readable = this.kept.get(name);
+        if (readable) await this.client.request({ type: "load", ...readable });
     }
 
     /** Puts away what was said, unless a file is on its way. */
@@ -51,6 +59,7 @@ export class Loading {
             this.begin(file.name);
             readable = await readFile(file, this.client.welcome?.limits["message"] ?? kDefaultLimit);
             const done = await this.send(readable);
+            this.keep(readable);
             this.end(done.warnings ?? []);
         } catch (error) {
             this.fail(error as Error, readable?.data ?? "");
@@ -67,6 +76,12 @@ export class Loading {
             else this.progress.removeAttribute("value"); // it takes as long as it takes
         }, kProgress);
         return await answer.finally(() => clearInterval(timer));
+    }
+
+    private keep(readable: Readable): void {
+        this.kept.delete(readable.name);
+        this.kept.set(readable.name, readable);
+        if (this.kept.size > kMostKept) this.kept.delete([...this.kept.keys()][0]!);
     }
 
     private begin(name: string): void {
