@@ -101,6 +101,7 @@ void writeScene(W& w, const Scene& scene) {
     w.member("ball", scene.ballRadius);
     w.member("bar", scene.barRadius);
     w.member("opacity", style.faceOpacity);
+    w.member("faded", scene::opacityOf(scene::Presence::faded));
     w.key("light");
     w.beginObject();
     writeNumbers(w, "direction", {style.light.x, style.light.y, style.light.z});
@@ -109,7 +110,7 @@ void writeScene(W& w, const Scene& scene) {
     w.member("specular", style.specular);
     w.member("shininess", style.shininess);
     w.endObject();
-    writeColours(w, style, *scene.cellColours);
+    writeColours(w, style, scene.cellColours);
     w.key("axes");
     w.beginObject();
     w.member("x", scene.axes.x);
@@ -126,22 +127,40 @@ std::span<const T> part(const std::vector<T>& all, std::uint32_t begin, std::uin
     return std::span<const T>(all).subspan(begin, end - begin);
 }
 
-// The cell that gives each face its colour, where "of" does not say it: a 2-face in the hyperplane takes the first of
-// its cells.
+// The cell that gives each face its colour, where "of" does not say it.
 template <typename W>
-void writeTints(W& w, const Polytope& polytope, std::span<const std::uint32_t> faceOf) {
+void writeTints(W& w, const Polytope& polytope, const scene::Presences& presences,
+                std::span<const std::uint32_t> faceOf) {
     const auto cells = static_cast<std::uint32_t>(polytope.cellCount());
     if (std::all_of(faceOf.begin(), faceOf.end(), [cells](std::uint32_t of) { return of < cells; })) return;
     std::vector<std::uint32_t> tints(faceOf.begin(), faceOf.end());
-    for (std::uint32_t& tint : tints) {
-        if (tint >= cells) tint = polytope.faceCells[tint - cells][0];
-    }
+    for (std::uint32_t& tint : tints) tint = scene::tintOf(polytope, presences, tint);
     w.key("tints");
     w.numbers(tints);
 }
 
+// How much is seen of each element, where not all of everything is.
 template <typename W>
-void writeSlice(W& w, const Polytope& polytope, const SliceSet& slices, std::size_t i, const scene::Stand& stand) {
+void writePresences(W& w, const scene::Presences& presences, const SliceSet& slices, std::size_t i) {
+    if (presences.all()) return;
+    const auto write = [&](std::string_view name, std::span<const std::uint32_t> of,
+                           const std::vector<scene::Presence>& by) {
+        std::vector<std::uint32_t> list;
+        for (const std::uint32_t element : of) list.push_back(static_cast<std::uint32_t>(by[element]));
+        w.key(name);
+        w.numbers(list);
+    };
+    w.key("seen");
+    w.beginObject();
+    write("vertices", part(slices.vertexOf, slices.vertexBegin[i], slices.vertexBegin[i + 1]), presences.vertices);
+    write("edges", part(slices.edgeOf, slices.edgeBegin[i], slices.edgeBegin[i + 1]), presences.edges);
+    write("faces", part(slices.faceOf, slices.faceBegin[i], slices.faceBegin[i + 1]), presences.faces);
+    w.endObject();
+}
+
+template <typename W>
+void writeSlice(W& w, const Polytope& polytope, const SliceSet& slices, std::size_t i, const Scene& scene) {
+    const scene::Stand& stand = scene.stands[i];
     const std::uint32_t v0 = slices.vertexBegin[i], v1 = slices.vertexBegin[i + 1];
     const std::uint32_t e0 = slices.edgeBegin[i], e1 = slices.edgeBegin[i + 1];
     const std::uint32_t f0 = slices.faceBegin[i], f1 = slices.faceBegin[i + 1];
@@ -170,7 +189,8 @@ void writeSlice(W& w, const Polytope& polytope, const SliceSet& slices, std::siz
     w.key("faces");
     w.numbers(part(slices.faceOf, f0, f1));
     w.endObject();
-    writeTints(w, polytope, part(slices.faceOf, f0, f1));
+    writeTints(w, polytope, scene.presences, part(slices.faceOf, f0, f1));
+    writePresences(w, scene.presences, slices, i);
     w.endObject();
 }
 
@@ -188,7 +208,7 @@ void writeMessage(W&& w, const Polytope& polytope, const SliceSet& slices, const
     }
     w.key("slices");
     w.beginArray();
-    for (std::size_t i = 0; i < scene.stands.size(); ++i) writeSlice(w, polytope, slices, i, scene.stands[i]);
+    for (std::size_t i = 0; i < scene.stands.size(); ++i) writeSlice(w, polytope, slices, i, scene);
     w.endArray();
     w.endObject();
 }

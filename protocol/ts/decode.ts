@@ -47,12 +47,13 @@ export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined
 type Loose<T> = T | number[] | number[][];
 
 /** The same slice as JSON has it: nested arrays. */
-interface LooseSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" | "tints"> {
+interface LooseSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" | "tints" | "seen"> {
     vertices: Loose<Float32Array>;
     edges: Loose<Uint32Array>;
     faces: number[][] | { begin: ArrayLike<number>; corners: ArrayLike<number> };
     of: Record<"vertices" | "edges" | "faces", Loose<Uint32Array>>;
     tints?: Loose<Uint32Array>;
+    seen?: Record<"vertices" | "edges" | "faces", Loose<Uint32Array>>;
 }
 
 function flattened(message: Message): Message {
@@ -66,19 +67,20 @@ function flattened(message: Message): Message {
         ...loose,
         scene: { ...scene, colors: { ...scene.colors, cells: indices(scene.colors.cells) } },
         coordinates: floats(loose.coordinates ?? []),
-        slices: loose.slices.map(({ tints, ...slice }) => ({
+        slices: loose.slices.map(({ tints, seen, ...slice }) => ({
             ...slice,
             vertices: floats(slice.vertices),
             edges: indices(slice.edges),
             faces: loops(slice.faces),
-            of: {
-                vertices: indices(slice.of.vertices),
-                edges: indices(slice.of.edges),
-                faces: indices(slice.of.faces),
-            },
+            of: ofAll(slice.of),
             ...(tints && { tints: indices(tints) }),
+            ...(seen && { seen: ofAll(seen) }),
         })),
     };
+}
+
+function ofAll(lists: LooseSlice["of"]): Slice["of"] {
+    return { vertices: indices(lists.vertices), edges: indices(lists.edges), faces: indices(lists.faces) };
 }
 
 function floats(values: Loose<Float32Array>): Float32Array {

@@ -209,6 +209,8 @@ export interface SceneDescription {
     ball: number;
     bar: number;
     opacity: number;
+    /** By this the opacity of what is faded is multiplied. */
+    faded: number;
     light: { direction: Vector; ambient: number; diffuse: number; specular: number; shininess: number };
     /** 0xRRGGBB. */
     colors: {
@@ -254,6 +256,8 @@ export interface Slice {
     of: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
     /** The cell that colours each face; absent where it is `of.faces`. */
     tints?: Uint32Array;
+    /** 2 where an element is seen, 1 where it is faded, 0 where it is hidden; absent where all are seen. */
+    seen?: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
     /** Where the slice's origin stands in the world: a vertex p is seen at position + scale · p. */
     position: Vector;
     label: string;

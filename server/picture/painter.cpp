@@ -43,8 +43,10 @@ void Painter::warmUp() {
 }
 
 void Painter::compose(const session::State& state, const geometry::SliceSet& slices, scene::Viewport viewport) {
-    times_.compose = secondsOf(
-        [&] { scene::compose(*state.polytope, slices.planes, state.slices.focus, state.look, viewport, scene_); });
+    times_.compose = secondsOf([&] {
+        scene::compose(*state.polytope, slices.planes, state.slices.focus, state.look, viewport, scene_,
+                       state.orientation);
+    });
 }
 
 }  // namespace oval4d::picture

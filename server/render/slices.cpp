@@ -31,20 +31,21 @@ struct SlicePainter::Slice {
         return {set.cornerBegin[firstFace() + f], set.cornerBegin[firstFace() + f + 1]};
     }
 
-    /// A 2-face that lies in the hyperplane takes the colour of its first cell.
-    scene::Colour tint(std::size_t f, const std::vector<std::uint32_t>& firstCell) const {
-        const std::uint32_t of = set.faceOf[firstFace() + f];
-        const std::size_t cells = polytope.cellCount();
-        return (*scene.cellColours)[of < cells ? of : firstCell[of - cells]];
+    scene::Colour tint(std::size_t f) const {
+        return scene.cellColours[scene::tintOf(polytope, scene.presences, set.faceOf[firstFace() + f])];
     }
+    float opacity(scene::Presence presence) const { return static_cast<float>(scene::opacityOf(presence)); }
+    float vertexOpacity(std::size_t v) const {
+        return opacity(scene.presences.vertex(set.vertexOf[firstVertex() + v]));
+    }
+    float edgeOpacity(std::size_t e) const { return opacity(scene.presences.edge(set.edgeOf[firstEdge() + e])); }
+    float faceOpacity(std::size_t f) const { return opacity(scene.presences.face(set.faceOf[firstFace() + f])); }
 };
 
 void SlicePainter::paint(const geometry::Polytope& polytope, const SliceSet& slices, const scene::Scene& scene,
                          Solids& out) {
     const glm::dmat4 toView = scene.camera.view();
     out.lookThrough(Lens::of(scene.camera, scene.viewport));
-    const auto inHyperplane = [&](std::uint32_t of) { return of >= polytope.cellCount(); };
-    if (std::any_of(slices.faceOf.begin(), slices.faceOf.end(), inHyperplane)) findFirstCells(polytope);
     standOrder_.clear();
     for (std::uint32_t i = 0; i < scene.stands.size(); ++i)
         if (scene.stands[i].drawn && slices.vertexBegin[i] < slices.vertexBegin[i + 1]) standOrder_.push_back(i);
@@ -58,12 +59,6 @@ void SlicePainter::paint(const geometry::Polytope& polytope, const SliceSet& sli
         return da != db ? da > db : a < b;
     });
     for (const std::uint32_t i : standOrder_) paintSlice({polytope, slices, scene, toView, i}, out);
-}
-
-void SlicePainter::findFirstCells(const geometry::Polytope& polytope) {
-    firstCell_.resize(polytope.faces.size());
-    for (std::size_t c = polytope.cellCount(); c-- > 0;)
-        for (const std::uint32_t f : polytope.cells[c]) firstCell_[f] = static_cast<std::uint32_t>(c);
 }
 
 void SlicePainter::paintSlice(const Slice& slice, Solids& out) {
@@ -132,10 +127,12 @@ void SlicePainter::paintFaces(const Slice& slice, Side side, Solids& out) {
     const bool soft = !slice.scene.look.parts.bars;
     for (std::size_t f = 0; f < slice.faces(); ++f) {
         if (faceSide_[f] != side) continue;
+        const float presence = slice.faceOpacity(f);
+        if (presence == 0) continue;
         const auto [begin, end] = slice.loop(f);
         corners_.clear();
         for (std::size_t i = begin; i < end; ++i) corners_.push_back(points_[slice.set.corners[i]]);
-        out.face(corners_, normals_[f], slice.tint(f, firstCell_), opacity, soft);
+        out.face(corners_, normals_[f], slice.tint(f), opacity * presence, soft);
     }
 }
 
@@ -152,16 +149,18 @@ void SlicePainter::paintFrame(const Slice& slice, Side side, Solids& out) {
 
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const std::uint32_t v = order_[i];
-        if (balls && vertexSide_[v] == side) out.ball(points_[v], ballRadius, ballColour);
+        if (balls && vertexSide_[v] == side) out.ball(points_[v], ballRadius, ballColour, slice.vertexOpacity(v));
         if (!parts.bars) continue;
         for (std::size_t k = edgeBegin_[i]; k < edgeBegin_[i + 1]; ++k) {
             const std::uint32_t e = edgeOrder_[k];
             if (edgeSide_[e] != side) continue;
+            const float opacity = slice.edgeOpacity(e);
+            if (opacity == 0) continue;
             const glm::vec3 &from = points_[v], &to = points_[slice.edge(e)[slice.edge(e)[0] == v ? 1 : 0]];
             const float length = glm::length(to - from);
             if (length <= 2 * inBall) continue;
             const glm::vec3 cut = (to - from) * (inBall / length);
-            out.bar(from + cut, to - cut, barRadius, style.bar);
+            out.bar(from + cut, to - cut, barRadius, style.bar, opacity);
         }
     }
 }

@@ -25,7 +25,6 @@ class SlicePainter {
     enum class Side : std::uint8_t { away, toward };
     struct Slice;
 
-    void findFirstCells(const geometry::Polytope& polytope);
     void paintSlice(const Slice& slice, Solids& out);
     void place(const Slice& slice);
     void classify(const Slice& slice);
@@ -33,7 +32,6 @@ class SlicePainter {
     void paintFaces(const Slice& slice, Side side, Solids& out);
     void paintFrame(const Slice& slice, Side side, Solids& out);
 
-    std::vector<std::uint32_t> firstCell_;  // of each 2-face
     std::vector<std::uint32_t> standOrder_;
     std::vector<glm::vec3> points_, corners_, normals_;  // in view axes
     std::vector<Side> faceSide_, edgeSide_, vertexSide_;

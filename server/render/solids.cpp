@@ -58,11 +58,11 @@ void Solids::quad(const std::array<glm::vec3, 4>& corners, float u, float v, Sol
     for (const std::uint32_t i : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(first + i);
 }
 
-void Solids::ball(const glm::vec3& centre, float radius, scene::Colour colour) {
+void Solids::ball(const glm::vec3& centre, float radius, scene::Colour colour, float opacity) {
     const float distance2 = glm::dot(centre, centre), inside2 = distance2 - radius * radius;
     if (centre.z > -radius || inside2 <= 0) return;  // the eye is in it, or before it
     const Thickness size = thickness(radius * lens_.pixelsPerUnit() / -centre.z, 2);
-    if (size.alpha < kFaintest) return;
+    if (size.alpha * opacity < kFaintest) return;
     const glm::vec3 z = -centre / std::sqrt(distance2);
     const glm::vec3 x = glm::normalize(glm::vec3(z.z, 0, -z.x));
     const glm::vec3 y = glm::cross(z, x);
@@ -75,10 +75,10 @@ void Solids::ball(const glm::vec3& centre, float radius, scene::Colour colour) {
           {0, 0, size.half},
           diffuse_ * glm::vec3(glm::dot(x, light_), glm::dot(y, light_), glm::dot(z, light_)),
           {glm::dot(x, half_), glm::dot(y, half_), glm::dot(z, half_)},
-          rgba(colour, size.alpha)});
+          rgba(colour, size.alpha * opacity)});
 }
 
-void Solids::bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Colour colour) {
+void Solids::bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Colour colour, float opacity) {
     if (from.z > -radius || to.z > -radius) return;
     // The eye and the bar's axis lie in a plane with normal n. The silhouette runs parallel to the axis.
     const glm::vec3 axis = to - from;
@@ -86,7 +86,7 @@ void Solids::bar(const glm::vec3& from, const glm::vec3& to, float radius, scene
     const float n2 = glm::dot(n, n), axis2 = glm::dot(axis, axis), inside2 = n2 - radius * radius * axis2;
     if (inside2 <= 0) return;  // seen from the end: the ball there hides it
     const Thickness size = thickness(radius * lens_.pixelsPerUnit() / (-0.5f * (from.z + to.z)), 1);
-    if (size.alpha < kFaintest) return;
+    if (size.alpha * opacity < kFaintest) return;
     const glm::vec3 x = n / std::sqrt(n2);
     glm::vec3 z = glm::cross(x, axis) / std::sqrt(axis2);
     if (glm::dot(z, from) > 0) z = -z;
@@ -97,7 +97,7 @@ void Solids::bar(const glm::vec3& from, const glm::vec3& to, float radius, scene
                              {0, 0, size.half},
                              diffuse_ * glm::vec3(glm::dot(x, light_), 0, glm::dot(z, light_)),
                              {glm::dot(x, half_), 0, glm::dot(z, half_)},
-                             rgba(colour, size.alpha)};
+                             rgba(colour, size.alpha * opacity)};
     const auto first = static_cast<std::uint32_t>(vertices_.size());
     quad({a - dx, a + dx, b - dx, b + dx}, size.reach, 0, vertex);
     if (2 * size.half < kThinnestFoot) return;

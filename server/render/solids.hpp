@@ -35,10 +35,10 @@ class Solids {
     /// What is added from now on is seen through `lens`.
     void lookThrough(const Lens& lens) { lens_ = lens; }
 
-    void ball(const glm::vec3& centre, float radius, scene::Colour colour);
+    void ball(const glm::vec3& centre, float radius, scene::Colour colour, float opacity = 1);
 
     /// A round bar. It comes out of something at `from`, the end farther from the eye; at `to` it is cut straight.
-    void bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Colour colour);
+    void bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Colour colour, float opacity = 1);
 
     /// A flat convex polygon with this unit normal, either way. With `soft` the edges fade over a pixel, for where no
     /// bar covers them.

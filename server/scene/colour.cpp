@@ -38,25 +38,30 @@ Colour oklch(double lightness, double chroma, double hue) {
     }
 }
 
+// The mean of a cell's vertices, each as often as 2-faces of the cell meet there.
 glm::dvec4 centreOf(const geometry::Polytope& polytope, std::size_t cell) {
     glm::dvec4 sum(0);
+    double count = 0;
     for (const auto face : polytope.cells[cell]) {
         for (const auto v : polytope.faces[face]) sum += polytope.vertices[v];
+        count += static_cast<double>(polytope.faces[face].size());
     }
-    return sum;
+    return sum / count;
 }
 
-// Few cells: as far apart in hue as can be. Many: the Hopf map takes the direction of a cell's centre to a point of
-// the sphere, whose longitude is the hue and whose latitude the lightness; a ring of cells keeps one colour.
-std::vector<Colour> paint(const geometry::Polytope& polytope) {
+// Number i of `count` colours, as far apart in hue as can be.
+Colour distinct(std::size_t i, std::size_t count) {
+    const double step = count <= 8 ? 1.0 / static_cast<double>(count) : std::numbers::phi - 1;
+    return oklch(i % 2 == 0 ? 0.76 : 0.69, 0.18, kTau * (0.07 + std::fmod(static_cast<double>(i) * step, 1.0)));
+}
+
+// Few cells: colours far apart. Many: the Hopf map takes the direction of a cell's centre to a point of the sphere,
+// whose longitude is the hue and whose latitude the lightness; a ring of cells keeps one colour.
+void paintByCell(const geometry::Polytope& polytope, std::vector<Colour>& out) {
     constexpr std::size_t kFew = 24;
-    const std::size_t cells = polytope.cells.size();
-    std::vector<Colour> colours(cells);
-    for (std::size_t c = 0; c < cells; ++c) {
-        if (cells <= kFew) {
-            const double step = cells <= 8 ? 1.0 / static_cast<double>(cells) : std::numbers::phi - 1;
-            colours[c] =
-                oklch(c % 2 == 0 ? 0.76 : 0.69, 0.18, kTau * (0.07 + std::fmod(static_cast<double>(c) * step, 1.0)));
+    for (std::size_t c = 0; c < out.size(); ++c) {
+        if (out.size() <= kFew) {
+            out[c] = distinct(c, out.size());
             continue;
         }
         const glm::dvec4 d = centreOf(polytope, c);
@@ -64,15 +69,60 @@ std::vector<Colour> paint(const geometry::Polytope& polytope) {
         const double p = 2 * (d.x * d.z + d.y * d.w) / r2;
         const double q = 2 * (d.y * d.z - d.x * d.w) / r2;
         const double height = (d.x * d.x + d.y * d.y - d.z * d.z - d.w * d.w) / r2;
-        colours[c] = oklch(0.71 + 0.11 * height, 0.16, std::atan2(q, p) + 0.45);
+        out[c] = oklch(0.71 + 0.11 * height, 0.16, std::atan2(q, p) + 0.45);
     }
-    return colours;
+}
+
+void paintByKind(const geometry::Polytope& polytope, std::vector<Colour>& out) {
+    std::vector<Colour> kinds(std::max<std::size_t>(polytope.kinds.size(), 1));
+    for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] = distinct(k, kinds.size());
+    for (std::size_t c = 0; c < out.size(); ++c) out[c] = kinds[polytope.cellKinds[c]];
+}
+
+// From blue through grey to amber, for −1 … 1.
+constexpr int kSteps = 255;
+using Scale = std::array<Colour, kSteps>;
+Scale divergingScale() {
+    constexpr double kBlue = 4.5, kAmber = 1.25;  // hues
+    Scale scale{};
+    for (int i = 0; i < kSteps; ++i) {
+        const double t = 2.0 * i / (kSteps - 1) - 1;
+        scale.at(static_cast<std::size_t>(i)) = oklch(0.74 - 0.06 * std::abs(t) * (t < 0 ? 1.5 : -0.5),
+                                                      0.01 + 0.17 * std::pow(std::abs(t), 0.8), t < 0 ? kBlue : kAmber);
+    }
+    return scale;
 }
 
 }  // namespace
 
-std::shared_ptr<const std::vector<Colour>> cellColours(const geometry::Polytope& polytope) {
-    return std::make_shared<const std::vector<Colour>>(paint(polytope));
+void CellColours::paint(const geometry::Polytope& polytope, Colouring colouring, const geometry::Rotation& orientation,
+                        std::vector<Colour>& out) {
+    const bool another =
+        paintedFor_ != polytope.serial || colouring_ != colouring || out.size() != polytope.cellCount();
+    paintedFor_ = polytope.serial;
+    colouring_ = colouring;
+    out.resize(polytope.cellCount());
+    if (another && colouring == Colouring::cell) paintByCell(polytope, out);
+    if (another && colouring == Colouring::kind) paintByKind(polytope, out);
+    if (another && colouring == Colouring::plain) std::fill(out.begin(), out.end(), oklch(0.72, 0.1, 4.2));
+    if (colouring != Colouring::w) return;
+    if (another) {
+        centres_.resize(out.size());
+        double farthest = 0;
+        for (std::size_t c = 0; c < out.size(); ++c) {
+            centres_[c] = centreOf(polytope, c);
+            farthest = std::max(farthest, glm::length(centres_[c]));
+        }
+        // Cells that all pass through the middle have no w to tell apart.
+        for (glm::dvec4& centre : centres_) centre *= farthest > 1e-9 * polytope.circumradius ? 1 / farthest : 0;
+    }
+    static const Scale kScale = divergingScale();
+    const glm::dmat4 turn = orientation.matrix();
+    const glm::dvec4 toW(turn[0][3], turn[1][3], turn[2][3], turn[3][3]);
+    for (std::size_t c = 0; c < out.size(); ++c) {
+        const double t = std::clamp(glm::dot(toW, centres_[c]), -1.0, 1.0);
+        out[c] = kScale.at(static_cast<std::size_t>(std::lround((t + 1) / 2 * (kSteps - 1))));
+    }
 }
 
 }  // namespace oval4d::scene

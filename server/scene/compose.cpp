@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "scene/presence.hpp"
 #include "scene/scene.hpp"
 
 namespace oval4d::scene {
@@ -177,10 +178,12 @@ double meanEdge(const geometry::Polytope& polytope) {
 }  // namespace
 
 void compose(const geometry::Polytope& polytope, const geometry::Hyperplanes& planes, int focus, const Look& look,
-             Viewport viewport, Scene& out) {
+             Viewport viewport, Scene& out, const geometry::Rotation& orientation) {
     const double aspect = static_cast<double>(viewport.width) / viewport.height;
-    if (!out.cellColours || out.composedFor != polytope.serial) {
-        out.cellColours = cellColours(polytope);
+    out.colours.paint(polytope, look.colouring, orientation, out.cellColours);
+    const bool another = out.composedFor != polytope.serial;
+    if (another || out.look.kinds != look.kinds) findPresences(polytope, look.kinds, out.presences);
+    if (another) {
         out.composedFor = polytope.serial;
         // Balls and bars grow with the edges, so that they neither drown a 120-cell nor starve a 5-cell.
         out.thickness = 0.062 * std::min(1.0, std::pow(meanEdge(polytope) / polytope.circumradius, 0.65));

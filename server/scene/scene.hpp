@@ -3,14 +3,15 @@
 // Both streams draw from this, so that a page and a frame can be laid over each other.
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "geometry/polytope.hpp"
+#include "geometry/rotation.hpp"
 #include "geometry/slicer.hpp"
 
 namespace oval4d::scene {
@@ -50,7 +51,7 @@ struct Look {
     Parts parts;
     Orbit orbit;
     Colouring colouring = Colouring::cell;
-    Kinds kinds;
+    Kinds kinds = {};
     bool operator==(const Look&) const = default;
 };
 
@@ -109,6 +110,20 @@ struct AxesLayout {
     double x = 0, y = 0, length = 0;
 };
 
+/// Paints the cells; keeps between calls what does not turn with the polytope.
+class CellColours {
+  public:
+    /// One colour a cell, the same for the same arguments. By cell, neighbours differ, and cells along one Hopf fibre
+    /// share a hue where there are many; by w, the farthest cells' centres have the strongest colours.
+    void paint(const geometry::Polytope& polytope, Colouring colouring, const geometry::Rotation& orientation,
+               std::vector<Colour>& out);
+
+  private:
+    std::uint64_t paintedFor_ = 0;  // the serial of the polytope
+    Colouring colouring_ = Colouring::cell;
+    std::vector<glm::dvec4> centres_;  // of the cells, of length 1 for the farthest
+};
+
 /// Colours and sizes that do not depend on the state.
 struct Style {
     Colour background, text, focusText, ball, bar, zeroLine;
@@ -121,6 +136,25 @@ struct Style {
 };
 const Style& style();
 
+/// How much is seen of each cell and of what bounds it.
+enum class Presence : std::uint8_t { hidden, faded, full };
+
+/// The presence of all that a slice's elements are cut from, by their "of" numbers: a cell's is that of its kind, any
+/// other element's the greatest of the cells that it belongs to. Empty lists where everything is seen.
+struct Presences {
+    std::vector<Presence> vertices, edges, faces;
+
+    bool all() const { return faces.empty(); }
+    Presence vertex(std::uint32_t of) const { return vertices.empty() ? Presence::full : vertices[of]; }
+    Presence edge(std::uint32_t of) const { return edges.empty() ? Presence::full : edges[of]; }
+    Presence face(std::uint32_t of) const { return faces.empty() ? Presence::full : faces[of]; }
+};
+
+/// By this a shape's opacity is multiplied.
+constexpr double opacityOf(Presence presence) {
+    return presence == Presence::full ? 1 : presence == Presence::faded ? 0.25 : 0;
+}
+
 struct Scene {
     Look look;
     Viewport viewport;
@@ -129,20 +163,22 @@ struct Scene {
     double ballRadius = 0, barRadius = 0;  ///< in world units
     double circumradius = 1;
     std::vector<Stand> stands;  ///< as many as slices, in their order
-    std::shared_ptr<const std::vector<Colour>> cellColours;
+    std::vector<Colour> cellColours;
+    Presences presences;
+    CellColours colours;
     double thickness = 0;           ///< ball radius per slice radius, for this polytope
-    std::uint64_t composedFor = 0;  ///< the serial of the polytope that cellColours and thickness belong to
+    std::uint64_t composedFor = 0;  ///< the serial of the polytope that presences and thickness belong to
     CoordinatesLayout coordinates;
     AxesLayout axes;
 };
 
-/// Composes the picture of slices that were cut from `polytope`; `focus` is the index n of the focus slice.
-/// `out` is overwritten and its memory reused.
+/// Composes the picture of slices that were cut from `polytope`, turned by `orientation`; `focus` is the index n of the
+/// focus slice. `out` is overwritten and its memory reused.
 void compose(const geometry::Polytope& polytope, const geometry::Hyperplanes& planes, int focus, const Look& look,
-             Viewport viewport, Scene& out);
+             Viewport viewport, Scene& out, const geometry::Rotation& orientation = {});
 
-/// One colour a cell, the same at every call: neighbours differ, and cells along one Hopf fibre share a hue where
-/// there are many.
-std::shared_ptr<const std::vector<Colour>> cellColours(const geometry::Polytope& polytope);
+/// The cell that gives the slice's face cut from `of` its colour: the cell itself; of a 2-face in the hyperplane the
+/// first of its two cells that is not hidden.
+std::uint32_t tintOf(const geometry::Polytope& polytope, const Presences& presences, std::uint32_t of);
 
 }  // namespace oval4d::scene

@@ -90,7 +90,7 @@ TEST(SlicesMessage, IsWhatWasCut) {
         for (std::size_t v = 0; v < picture.slices.turned.size(); ++v) {
             expectPoint(message.at("coordinates")[v], &picture.slices.turned[v].x, 4);
         }
-        EXPECT_EQ(message.at("scene").at("colors").at("cells"), json(*picture.scene.cellColours));
+        EXPECT_EQ(message.at("scene").at("colors").at("cells"), json(picture.scene.cellColours));
         EXPECT_EQ(message.at("scene").at("scale"), picture.scene.scale);
         EXPECT_EQ(message.at("scene").at("camera").at("eye"),
                   json({picture.scene.camera.eye.x, picture.scene.camera.eye.y, picture.scene.camera.eye.z}));

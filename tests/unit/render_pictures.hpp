@@ -90,7 +90,7 @@ struct HandMade {
         scene.ballRadius = 0.5;
         scene.barRadius = 0.1;
         scene.look.parts.coordinates = false;
-        scene.cellColours = std::make_shared<const std::vector<scene::Colour>>(1, 0x4080c0u);
+        scene.cellColours = {0x4080c0u};
     }
 
     void addEdge(std::uint32_t a, std::uint32_t b) {

@@ -70,7 +70,7 @@ class RayCaster {
                 nearestEdge = std::min(nearestEdge, std::abs(inside));
                 if (inside < 0) continue;
                 const double lit = style.ambient + style.diffuse * std::abs(glm::dot(toCamera_ * normal, style.light));
-                const Rgb tint = rgbOf((*subject_.scene.cellColours)[set.faceOf[f]]);
+                const Rgb tint = rgbOf(subject_.scene.cellColours[set.faceOf[f]]);
                 hits.push_back({t, glm::dvec3(tint[0], tint[1], tint[2]) * lit});
             }
         }

@@ -168,8 +168,8 @@ TEST_F(Shapes, FaceInTheHyperplaneTakesItsFirstCellsColour) {
         hand.polytope.cells.add(cell);
     for (int i = 0; i < 2; ++i) hand.polytope.faces.add(std::vector<std::uint32_t>{0, 1, 2});
     hand.addFace({0, 1, 2}, 3 + 1);
-    hand.scene.cellColours =
-        std::make_shared<const std::vector<scene::Colour>>(std::vector<scene::Colour>{0xff0000, 0x00ff00, 0x0000ff});
+    hand.polytope.faceCells = {{0, 1}, {1, 2}};
+    hand.scene.cellColours = {0xff0000, 0x00ff00, 0x0000ff};
     hand.scene.look.parts.balls = hand.scene.look.parts.bars = false;
     const Rgb pixel = pixelAt(hand.draw(renderer()), kMiddle + 30, kMiddle - 30);
     EXPECT_GT(pixel[1], pixel[0] + 40);

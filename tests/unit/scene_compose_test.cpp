@@ -145,13 +145,4 @@ TEST(Labels, tellNeighboursApart) {
     }
 }
 
-TEST(CellColours, areDistinctWhereCellsAreFewAndStable) {
-    for (const char* name : {"5-cell", "8-cell", "16-cell", "24-cell"}) {
-        const auto colours = scene::cellColours(named(name));
-        EXPECT_EQ(std::set(colours->begin(), colours->end()).size(), named(name).cells.size());
-        EXPECT_EQ(*colours, *scene::cellColours(named(name)));
-    }
-    EXPECT_EQ(scene::cellColours(named("600-cell"))->size(), 600U);
-}
-
 }  // namespace

@@ -23,7 +23,6 @@ export class GeometryView {
         shading: { value: new Vector4() },
         ballRadius: { value: 0 },
         barRadius: { value: 0 },
-        opacity: { value: 1 },
         pixels: { value: 1 },
     };
     private readonly pen: CanvasRenderingContext2D;
@@ -58,12 +57,11 @@ export class GeometryView {
         this.pictureOrbit = orbit;
         this.mesh.fill(picture);
         this.arranged = undefined;
-        const { light, ball, bar, opacity } = picture.scene;
+        const { light, ball, bar } = picture.scene;
         this.uniforms.light.value.fromArray(light.direction).normalize();
         this.uniforms.shading.value.set(light.ambient, light.diffuse, light.specular, light.shininess);
         this.uniforms.ballRadius.value = picture.scene.shown.balls ? ball : bar;
         this.uniforms.barRadius.value = bar;
-        this.uniforms.opacity.value = opacity;
     }
 
     /** Draws what was taken last, as seen in this orbit; `size` is in device pixels. */

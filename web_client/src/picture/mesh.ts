@@ -32,11 +32,17 @@ export class Mesh {
         const { scene } = picture;
         const { shown, colors } = scene;
         // Without balls, bars meet in round joints.
-        for (let v = 0; v < elements.vertexCount; ++v) {
-            for (let k = 0; k < 4; ++k) this.put(4 * v + k, v, kBall, k, shown.balls ? colors.ball : colors.bar);
-        }
         const inBall = shown.balls ? Math.sqrt(Math.max(0, scene.ball ** 2 - scene.bar ** 2)) : 0;
-        for (let e = 0; e < elements.edgeCount; ++e) this.putBar(e, inBall, colors.bar);
+        const opacities = [0, scene.faded, 1];
+        for (const { slice, vertices, edges } of elements.bodies) {
+            const ofVertex = (v: number): number => opacities[slice.seen?.vertices[v - vertices[0]] ?? 2]!;
+            const ofEdge = (e: number): number => opacities[slice.seen?.edges[e - edges[0]] ?? 2]!;
+            for (let v = vertices[0]; v < vertices[1]; ++v) {
+                const colour = shown.balls ? colors.ball : colors.bar;
+                for (let k = 0; k < 4; ++k) this.put(4 * v + k, v, kBall, k, colour, ofVertex(v));
+            }
+            for (let e = edges[0]; e < edges[1]; ++e) this.putBar(e, inBall, colors.bar, ofEdge(e));
+        }
         this.putFaces(scene);
         for (const buffer of [this.at, this.to, this.shape, this.colour]) buffer.written();
         this.order.show(shown);
@@ -64,7 +70,7 @@ export class Mesh {
         this.geometry.setIndex(index.attribute);
     }
 
-    private put(item: number, vertex: number, kind: number, corner: number, colour: number): void {
+    private put(item: number, vertex: number, kind: number, corner: number, colour: number, opacity: number): void {
         const { array: at } = this.at;
         const { array: shape } = this.shape;
         const { array: rgba } = this.colour;
@@ -75,10 +81,11 @@ export class Mesh {
         rgba[4 * item] = colour >> 16;
         rgba[4 * item + 1] = colour >> 8;
         rgba[4 * item + 2] = colour;
+        rgba[4 * item + 3] = 255 * opacity;
     }
 
     /** A bar begins where it comes out of its ball; one within its balls shrinks to nothing. */
-    private putBar(e: number, inBall: number, colour: number): void {
+    private putBar(e: number, inBall: number, colour: number, opacity: number): void {
         const { points, edges, vertexCount } = this.elements;
         const a = 3 * edges[2 * e]!;
         const b = 3 * edges[2 * e + 1]!;
@@ -90,7 +97,7 @@ export class Mesh {
         const part = length > 0 ? Math.min(inBall / length, 0.5) : 0.5;
         for (let k = 0; k < 4; ++k) {
             const item = 4 * (vertexCount + e) + k;
-            this.put(item, edges[2 * e]!, kBar, k, colour);
+            this.put(item, edges[2 * e]!, kBar, k, colour, opacity);
             for (let i = 0; i < 3; ++i) {
                 const cut = part * (points[b + i]! - points[a + i]!);
                 this.at.array[3 * item + i] = points[a + i]! + cut;
@@ -99,15 +106,16 @@ export class Mesh {
         }
     }
 
-    private putFaces({ colors }: SceneDescription): void {
+    private putFaces({ colors, faded, opacity }: SceneDescription): void {
         const { bodies, corners, cornerBegin, normals, vertexCount, edgeCount } = this.elements;
         for (const { slice, faces } of bodies) {
             const tints = slice.tints ?? slice.of.faces;
             for (let f = faces[0]; f < faces[1]; ++f) {
+                const seen = [0, faded * opacity, opacity][slice.seen?.faces[f - faces[0]] ?? 2]!;
                 const tint = colors.cells[tints[f - faces[0]]!] ?? colors.bar;
                 for (let c = cornerBegin[f]!; c < cornerBegin[f + 1]!; ++c) {
                     const item = 4 * (vertexCount + edgeCount) + c;
-                    this.put(item, corners[c]!, kFace, 0, tint);
+                    this.put(item, corners[c]!, kFace, 0, tint, seen);
                     for (let k = 0; k < 3; ++k) this.to.array[3 * item + k] = normals[3 * f + k]!;
                 }
             }

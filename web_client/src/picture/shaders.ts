@@ -12,7 +12,7 @@ precision highp float;
 uniform mat4 viewMatrix, projectionMatrix;
 uniform vec3 light;
 uniform vec4 shading;  // ambient, diffuse, specular, shininess
-uniform float ballRadius, barRadius, opacity, pixels;
+uniform float ballRadius, barRadius, pixels;
 in vec3 at, to;  // a ball's centre; a bar's ends; a face's corner and normal
 in vec4 shape;   // across: -1, 1; along: -1, 1; the kind
 in vec4 colour;
@@ -65,16 +65,17 @@ void main() {
     tint = colour.rgb;
     vec3 h = normalize(light + vec3(0.0, 0.0, 1.0));
     vec3 seen = (viewMatrix * vec4(at, 1.0)).xyz;
+    if (colour.a == 0.0) return;
     if (shape.z == ${kBall}.0) {
         ball(seen, h);
     } else if (shape.z == ${kBar}.0) {
         bar(seen, (viewMatrix * vec4(to, 1.0)).xyz, h);
     } else {
         place.z = 0.5;
-        alpha = opacity;
         diffuse.z = shading.y * abs(dot(mat3(viewMatrix) * to, light));
         gl_Position = projectionMatrix * vec4(seen, 1.0);
     }
+    alpha *= colour.a;
 }
 `;
 
