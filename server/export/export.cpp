@@ -89,16 +89,17 @@ class Exporter {
     }
 
     std::string write(const std::vector<Solid>& solids) const {
-        const auto colours = scene::cellColours(polytope_);
+        std::vector<scene::Colour> colours;
+        scene::CellColours().paint(polytope_, subject_.colouring, subject_.orientation, colours);
         switch (wish_.format) {
             case Format::threeMf:
                 return threeMf(solids, polytope_.name);
             case Format::obj:
                 return obj(solids);
             case Format::ply:
-                return ply(solids, *colours);
+                return ply(solids, colours);
             case Format::glb:
-                return glb(solids, *colours);
+                return glb(solids, colours);
             default:
                 return stl(solids);
         }

@@ -11,6 +11,7 @@
 #include "geometry/polytope.hpp"
 #include "geometry/rotation.hpp"
 #include "geometry/slicer.hpp"
+#include "scene/scene.hpp"
 
 namespace oval4d::exports {
 
@@ -27,6 +28,7 @@ struct Subject {
     const geometry::Rotation& orientation;
     geometry::Hyperplanes planes;
     int focus = 0;
+    scene::Colouring colouring = scene::Colouring::cell;
 };
 
 /// Why there is no file. `message` is a sentence for the user.

@@ -42,8 +42,9 @@ protocol::Result<std::monostate> takeSize(const std::string& text, double& size)
 
 protocol::Result<std::string> fileOf(const session::State& state, const exports::Wish& wish,
                                      const exports::Limits& limits, std::stop_token stop) {
-    auto made = exports::fileOf({*state.polytope, state.orientation, state.hyperplanes(), state.slices.focus}, wish,
-                                limits, std::move(stop));
+    auto made = exports::fileOf(
+        {*state.polytope, state.orientation, state.hyperplanes(), state.slices.focus, state.look.colouring}, wish,
+        limits, std::move(stop));
     if (auto* refusal = std::get_if<exports::Refusal>(&made)) {
         const bool empty = refusal->cause == exports::Refusal::Cause::noBody;
         return Error{empty ? ErrorCode::no_body : ErrorCode::too_large, std::move(refusal->message)};
