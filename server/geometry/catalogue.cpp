@@ -2,113 +2,176 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <mutex>
-#include <numeric>
+#include <unordered_map>
 #include <utility>
 
-#include "geometry/coxeter.hpp"
+#include "geometry/names.hpp"
+#include "geometry/uniform.hpp"
+#include "geometry/words.hpp"
 
 namespace oval4d::geometry {
 
 namespace {
 
-const std::array<CatalogueEntry, 6> kEntries{{
-    {"5-cell",
-     {"pentachoron", "pen", "4-simplex", "simplex", "pentatope", "hyperpyramid"},
-     "{3,3,3}",
-     5,
-     10,
-     10,
-     5,
-     120},
-    {"8-cell", {"tesseract", "tes", "hypercube", "4-cube", "octachoron"}, "{4,3,3}", 16, 32, 24, 8, 384},
-    {"16-cell", {"hexadecachoron", "hex", "4-orthoplex", "cross-polytope"}, "{3,3,4}", 8, 24, 32, 16, 384},
-    {"24-cell", {"icositetrachoron", "ico", "octaplex", "polyoctahedron"}, "{3,4,3}", 24, 96, 96, 24, 1152},
-    {"120-cell", {"hecatonicosachoron", "hi", "dodecaplex", "polydodecahedron"}, "{5,3,3}", 600, 1200, 720, 120, 14400},
-    {"600-cell", {"hexacosichoron", "ex", "tetraplex", "polytetrahedron"}, "{3,3,5}", 120, 720, 1200, 600, 14400},
-}};
-
-// The diagram of a regular polychoron {p, q, r}: the first mirror is ringed.
-Polytope build(const CatalogueEntry& entry) {
-    const auto branch = [&](std::size_t i) { return Branch{entry.schlaefli.at(i) - '0', 1}; };
-    const Diagram diagram = Diagram::linear(branch(1), branch(3), branch(5), {true, false, false, false});
-    Mirrors mirrors = mirrorsOf(diagram);
-    // The even permutations that the 120-cell's coordinates are usually given as are those of the mirror image.
-    if (entry.name == "120-cell") {
-        for (auto& mirror : mirrors) std::swap(mirror.x, mirror.y);
-    }
-    return wythoff(std::string(entry.name), diagram, mirrors);
+CatalogueEntry entryOf(Design design, std::string family, std::vector<std::string> aliases) {
+    const ElementCounts counts = elementCounts(design);
+    const auto narrow = [](std::uint64_t count) { return static_cast<std::uint32_t>(count); };
+    aliases.erase(std::remove_if(aliases.begin(), aliases.end(),
+                                 [&](const std::string& alias) { return alias.empty() || alias == design.name; }),
+                  aliases.end());
+    return {design.name,          std::move(family),
+            std::move(aliases),   symbolOf(design),
+            schlaefliOf(design),  narrow(counts.vertices),
+            narrow(counts.edges), narrow(counts.faces),
+            narrow(counts.cells), narrow(symmetryOrder(design)),
+            std::move(design)};
 }
 
-// Case and the difference between blanks, hyphens and underscores do not matter in a name.
-std::string folded(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        const auto u = static_cast<unsigned char>(c);
-        if (c == '-' || c == '_' || std::isspace(u) != 0) continue;
-        result += static_cast<char>(std::tolower(u));
-    }
-    return result;
-}
-
-std::size_t editDistance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-        }
-    }
-    return row.back();
-}
-
-}  // namespace
-
-std::span<const CatalogueEntry> catalogue() { return kEntries; }
-
-const CatalogueEntry* findEntry(std::string_view nameOrAlias) {
-    const std::string wanted = folded(nameOrAlias);
-    for (const auto& entry : kEntries) {
-        const auto is = [&](std::string_view known) { return folded(known) == wanted; };
-        if (is(entry.name) || is(entry.schlaefli) || std::any_of(entry.aliases.begin(), entry.aliases.end(), is)) {
-            return &entry;
-        }
-    }
-    return nullptr;
-}
-
-std::string_view nearestName(std::string_view text) {
-    const std::string wanted = folded(text.substr(0, 64));
-    std::string_view best = kEntries[0].name;
-    // Of names equally near, one of the same length: a wrong letter is likelier than a missing one.
-    std::pair<std::size_t, std::size_t> least(-1, -1);
-    const auto consider = [&](std::string_view candidate, std::string_view result) {
-        const std::string known = folded(candidate);
-        const std::size_t longer = std::max(known.size(), wanted.size()) - std::min(known.size(), wanted.size());
-        const std::pair distance(editDistance(wanted, known), longer);
-        if (distance < least) {
-            least = distance;
-            best = result;
+CatalogueEntry entryOf(const UniformPolychoron& row) {
+    std::vector<std::string> aliases;
+    for (const std::string_view name : listOf(row.otherNames)) aliases.emplace_back(name);
+    aliases.insert(row.family == "regular" ? aliases.begin() + 1 : aliases.begin(), std::string(row.bowers));
+    if (row.family == "regular" && aliases.size() < 2) aliases.emplace_back(row.bowers);
+    const auto add = [&](std::string_view symbol) {
+        for (std::string& name : operationNames(std::get<Diagram>(parseDiagram(symbol)))) {
+            if (std::find(aliases.begin(), aliases.end(), name) == aliases.end()) aliases.push_back(std::move(name));
         }
     };
-    for (const auto& entry : kEntries) {
-        consider(entry.name, entry.name);
-        for (const auto alias : entry.aliases) consider(alias, alias);
+    add(row.symbol);
+    for (const std::string_view other : listOf(row.others)) {
+        add(other);
+        aliases.emplace_back(other);
+    }
+    return entryOf(designOf(std::get<Diagram>(parseDiagram(row.symbol))), std::string(row.family), std::move(aliases));
+}
+
+// Some of the families that have no end, with Bowers' short names.
+struct Duoprism {
+    int p, q;
+    std::string_view bowers;
+};
+constexpr auto kDuoprisms = std::to_array<Duoprism>({{3, 3, "triddip"},
+                                                     {3, 4, "tisdip"},
+                                                     {3, 5, "trapedip"},
+                                                     {3, 6, "thiddip"},
+                                                     {4, 5, "squipdip"},
+                                                     {4, 6, "shiddip"},
+                                                     {5, 5, "pedip"},
+                                                     {5, 6, "phiddip"},
+                                                     {5, 7, ""},
+                                                     {6, 6, "hiddip"},
+                                                     {8, 8, "odip"},
+                                                     {12, 12, ""},
+                                                     {3, 24, ""}});
+constexpr auto kAntiprismPrisms = std::to_array<std::pair<int, std::string_view>>(
+    {{4, "squappip"}, {5, "pappip"}, {6, "happip"}, {8, "oappip"}, {10, "dappip"}});
+
+std::vector<CatalogueEntry> allEntries() {
+    std::vector<CatalogueEntry> entries;
+    for (const UniformPolychoron& row : uniformPolychora()) entries.push_back(entryOf(row));
+    entries.push_back(entryOf({"snub 24-cell", Diminished::snub24Cell}, "other",
+                              {"sadi", "snub icositetrachoron", "snub disicositetrachoron"}));
+    entries.push_back(
+        entryOf({"grand antiprism", Diminished::grandAntiprism}, "other", {"gap", "pentagonal double antiprismoid"}));
+    for (const NamedPolyhedron& base : namedPolyhedra()) {
+        // The cube's is the 8-cell; those of the stars are built on request.
+        if (base.prism.empty()) continue;
+        entries.push_back(
+            entryOf(prismOf(base), "prism", {std::string(base.prism), std::string(base.name) + " prism"}));
+    }
+    for (const auto& [sides, bowers] : kAntiprismPrisms) {
+        entries.push_back(entryOf(antiprismPrism(sides), "antiprism prism", {std::string(bowers)}));
+    }
+    for (const auto& [p, q, bowers] : kDuoprisms) {
+        const std::string names = adjectiveOf({p, 1}) + (p == q ? "" : "-" + adjectiveOf({q, 1})) + " duoprism";
+        entries.push_back(entryOf(duoprism({p, 1}, {q, 1}), "duoprism", {std::string(bowers), names}));
+    }
+    return entries;
+}
+
+const std::vector<CatalogueEntry>& entries() {
+    static const std::vector<CatalogueEntry> kEntries = allEntries();
+    return kEntries;
+}
+
+// By every folded name.
+const std::unordered_map<std::string, const CatalogueEntry*>& index() {
+    static const auto kIndex = [] {
+        std::unordered_map<std::string, const CatalogueEntry*> byName;
+        for (const CatalogueEntry& entry : entries()) {
+            byName.emplace(folded(entry.name), &entry);
+            for (const std::string& alias : entry.aliases) byName.emplace(folded(alias), &entry);
+            for (const std::string& symbol : {entry.diagram, entry.schlaefli}) {
+                if (!symbol.empty()) byName.emplace(folded(symbol), &entry);
+            }
+        }
+        return byName;
+    }();
+    return kIndex;
+}
+
+struct Near {
+    std::string_view name;
+    const CatalogueEntry* entry;
+};
+
+// The names at the least distance.
+std::vector<Near> nearest(std::string_view text) {
+    constexpr std::size_t kLongest = 64;
+    const std::string wanted = folded(text.substr(0, kLongest));
+    std::vector<Near> best;
+    // Of names equally near, those of the same length: a wrong letter is likelier than a missing one.
+    std::pair<std::size_t, std::size_t> least(-1, -1);
+    for (const CatalogueEntry& entry : entries()) {
+        const auto consider = [&](std::string_view name) {
+            const std::string known = folded(name);
+            const std::size_t longer = std::max(known.size(), wanted.size()) - std::min(known.size(), wanted.size());
+            if (longer > least.first) return;
+            const std::pair distance(editDistance(wanted, known), longer);
+            if (distance < least) best.clear();
+            if (distance <= least && (best.empty() || best.back().entry != &entry)) best.push_back({name, &entry});
+            least = std::min(least, distance);
+        };
+        consider(entry.name);
+        for (const std::string& alias : entry.aliases) consider(alias);
     }
     return best;
 }
 
-std::shared_ptr<const Polytope> polytopeOf(const CatalogueEntry& entry) {
-    static std::mutex mutex;
-    static std::array<std::shared_ptr<const Polytope>, kEntries.size()> built;
-    const std::scoped_lock lock(mutex);
-    auto& slot = built.at(static_cast<std::size_t>(&entry - kEntries.data()));
-    if (!slot) slot = std::make_shared<const Polytope>(build(entry));
-    return slot;
+}  // namespace
+
+std::span<const CatalogueEntry> catalogue() { return entries(); }
+
+const CatalogueEntry* findEntry(std::string_view text) {
+    if (const auto found = index().find(folded(text)); found != index().end()) return found->second;
+    const auto described = describedBy(text);
+    const auto* design = std::get_if<Design>(&described);
+    if (design == nullptr) return nullptr;
+    const auto found = index().find(folded(design->name));
+    return found == index().end() ? nullptr : found->second;
+}
+
+std::variant<Design, NameError> designNamed(std::string_view text, std::size_t maxVertices) {
+    if (const auto* entry = findEntry(text)) return entry->design;
+    auto described = describedBy(text);
+    if (const auto* design = std::get_if<Design>(&described)) {
+        const std::uint64_t vertices = elementCounts(*design).vertices;
+        if (vertices > maxVertices) {
+            return NameError{NameError::Reason::tooLarge, "the " + design->name + " has " + std::to_string(vertices) +
+                                                              " vertices; allowed are " + std::to_string(maxVertices)};
+        }
+    }
+    return described;
+}
+
+std::string_view nearestName(std::string_view text) { return nearest(text).front().name; }
+
+std::vector<std::string_view> nearestNames(std::string_view text) {
+    constexpr std::size_t kMost = 3;
+    std::vector<std::string_view> names;
+    for (const Near& near : nearest(text)) names.push_back(near.name);
+    names.resize(std::min(names.size(), kMost));
+    return names;
 }
 
 }  // namespace oval4d::geometry

@@ -6,20 +6,19 @@
 #include <numbers>
 #include <stdexcept>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
+
+#include "geometry/point_index.hpp"
 
 namespace oval4d::geometry {
 
 namespace {
 
 constexpr double kPhi = std::numbers::phi;
-constexpr int kMirrors = 4;
-using Subset = unsigned;  // of mirrors, one bit each
-
-bool holds(Subset set, int mirror) { return (set >> static_cast<unsigned>(mirror) & 1U) != 0; }
 
 // Linear diagrams whose mirrors are placed by hand, as {p, q, r}.
 struct Placed {
@@ -77,51 +76,8 @@ Mirrors placedByAngles(const Diagram& diagram) {
     return mirrors;
 }
 
-// The point at distance 1 from the ringed mirrors and on the others.
-glm::dvec4 generatingVertex(const Mirrors& mirrors, const std::array<bool, 4>& ringed) {
-    const glm::dmat4 rows = glm::transpose(glm::dmat4(mirrors[0], mirrors[1], mirrors[2], mirrors[3]));
-    glm::dvec4 distances;
-    for (int i = 0; i < kMirrors; ++i) distances[i] = ringed.at(i) ? 1 : 0;
-    return glm::inverse(rows) * distances;
-}
-
 // What each mirror does to the numbered members of an orbit: image[4 · member + mirror].
 using Images = std::vector<std::uint32_t>;
-
-// Points by their place, found again despite rounding: keyed by a grid cell, its neighbours looked at too.
-class PointIndex {
-  public:
-    explicit PointIndex(double grid) : grid_(grid) {}
-
-    // The number of the point, or of the nearest known one within the tolerance.
-    std::pair<std::uint32_t, bool> add(const glm::dvec4& p, std::vector<glm::dvec4>& points) {
-        for (unsigned corner = 0; corner < 16; ++corner) {
-            const auto known = cells_.find(key(p, corner));
-            if (known != cells_.end() && glm::distance(points[known->second], p) < grid_ / 4)
-                return {known->second, false};
-        }
-        const auto number = static_cast<std::uint32_t>(points.size());
-        points.push_back(p);
-        cells_.emplace(key(p, 0xffU), number);
-        return {number, true};
-    }
-
-  private:
-    // With corner = 0xff the cell that holds p; else one of the sixteen that p moved by ± grid / 4 may lie in.
-    std::uint64_t key(const glm::dvec4& p, unsigned corner) const {
-        std::uint64_t hash = 0;
-        for (int i = 0; i < 4; ++i) {
-            const double nudge = corner == 0xffU ? 0 : (corner >> static_cast<unsigned>(i) & 1U) != 0 ? 0.25 : -0.25;
-            const auto cell = static_cast<std::int64_t>(std::floor(p[i] / grid_ + nudge));
-            hash = (hash ^ static_cast<std::uint64_t>(cell)) * 0x9e3779b97f4a7c15ULL;
-            hash ^= hash >> 29U;
-        }
-        return hash;
-    }
-
-    double grid_;
-    std::unordered_map<std::uint64_t, std::uint32_t> cells_;
-};
 
 struct Orbit {
     std::vector<glm::dvec4> points;
@@ -182,24 +138,6 @@ class SetOrbit {
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> known_;
 };
 
-// Every connected part of the set holds a ring: only then do its mirrors sweep out an element of full dimension.
-bool spansAnElement(const Diagram& diagram, Subset set) {
-    Subset reached = 0;
-    for (int i = 0; i < kMirrors; ++i) {
-        if (holds(set, i) && diagram.ringed.at(i)) reached |= 1U << static_cast<unsigned>(i);
-    }
-    for (int sweep = 0; sweep < kMirrors; ++sweep) {
-        for (int i = 0; i < kMirrors; ++i) {
-            for (int j = 0; j < kMirrors; ++j) {
-                if (i != j && holds(reached, i) && holds(set, j) && diagram.branches[i][j] != Branch{}) {
-                    reached |= 1U << static_cast<unsigned>(j);
-                }
-            }
-        }
-    }
-    return reached == set;
-}
-
 // The loop of the polygon that mirrors a and b sweep out from the generating vertex p: p, a·p, then both turned on and
 // on by the rotation ab.
 std::vector<std::uint32_t> polygon(const Images& images, std::uint32_t a, std::uint32_t b) {
@@ -222,27 +160,29 @@ std::vector<std::uint32_t> polygon(const Images& images, std::uint32_t a, std::u
 // The 2-faces of the cell that the mirrors of `set` sweep out, from those of its 2-faces at the generating vertex.
 std::vector<std::uint32_t> cellFaces(Subset set, const std::vector<std::uint32_t>& seeds, const Images& faceImages) {
     std::vector<std::uint32_t> faces(seeds);
+    std::unordered_set<std::uint32_t> known(seeds.begin(), seeds.end());
     for (std::size_t i = 0; i < faces.size(); ++i) {
         for (int mirror = 0; mirror < kMirrors; ++mirror) {
             if (!holds(set, mirror)) continue;
             const auto image = faceImages[kMirrors * faces[i] + mirror];
-            if (std::find(faces.begin(), faces.end(), image) == faces.end()) faces.push_back(image);
+            if (known.insert(image).second) faces.push_back(image);
         }
     }
     return faces;
 }
 
-}  // namespace
-
-Diagram Diagram::linear(Branch p, Branch q, Branch r, std::array<bool, 4> ringed) {
-    Diagram diagram;
-    diagram.ringed = ringed;
-    const auto join = [&](int i, Branch b) { diagram.branches[i][i + 1] = diagram.branches[i + 1][i] = b; };
-    join(0, p);
-    join(1, q);
-    join(2, r);
-    return diagram;
+// The least of the sets that the diagram's symmetries take this one to.
+Subset leastImage(Subset set, const std::vector<Permutation>& symmetries) {
+    Subset least = set;
+    for (const Permutation& from : symmetries) {
+        Subset image = 0;
+        for (int i = 0; i < kMirrors; ++i) image |= holds(set, from.at(i)) ? 1U << static_cast<unsigned>(i) : 0U;
+        least = std::min(least, image);
+    }
+    return least;
 }
+
+}  // namespace
 
 Mirrors mirrorsOf(const Diagram& diagram) {
     for (const auto& family : placedFamilies()) {
@@ -255,6 +195,13 @@ Mirrors mirrorsOf(const Diagram& diagram) {
         }
     }
     return placedByAngles(diagram);
+}
+
+glm::dvec4 generatingVertex(const Mirrors& mirrors, const std::array<bool, 4>& ringed) {
+    const glm::dmat4 rows = glm::transpose(glm::dmat4(mirrors[0], mirrors[1], mirrors[2], mirrors[3]));
+    glm::dvec4 distances;
+    for (int i = 0; i < kMirrors; ++i) distances[i] = ringed.at(i) ? 1 : 0;
+    return glm::inverse(rows) * distances;
 }
 
 Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirrors, std::size_t maxVertices) {
@@ -271,6 +218,8 @@ Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirror
         }
     }
     SetOrbit cells;
+    std::vector<std::uint32_t> kinds;
+    const auto symmetries = symmetriesOf(diagram);
     for (int left = 0; left < kMirrors; ++left) {
         const Subset three = 0xfU & ~(1U << static_cast<unsigned>(left));
         if (!spansAnElement(diagram, three)) continue;
@@ -280,8 +229,10 @@ Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirror
                 seeds.push_back(faceOf.at(pair));
         }
         cells.addOrbit(cellFaces(three, seeds, faces.images), faces.images);
+        kinds.resize(cells.lists.size(), leastImage(three, symmetries));
     }
-    return makePolytope(std::move(name), std::move(vertices.points), std::move(faces.lists), std::move(cells.lists));
+    return makePolytope(std::move(name), std::move(vertices.points), std::move(faces.lists), std::move(cells.lists),
+                        std::move(kinds));
 }
 
 }  // namespace oval4d::geometry

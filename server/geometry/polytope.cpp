@@ -11,6 +11,8 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "geometry/kinds.hpp"
+
 namespace oval4d::geometry {
 
 void Lists::add(std::span<const std::uint32_t> list) {
@@ -228,7 +230,8 @@ void checkIndices(const Lists& lists, std::size_t below, const char* owner, cons
 
 }  // namespace
 
-Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists faces, Lists cells) {
+Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists faces, Lists cells,
+                      std::vector<std::uint32_t> cellKinds) {
     static std::atomic<std::uint64_t> serial{0};
     Polytope p;
     p.serial = ++serial;
@@ -236,8 +239,6 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists 
     p.vertices = std::move(vertices);
     p.faces = std::move(faces);
     p.cells = std::move(cells);
-    p.cellKinds.assign(p.cells.size(), 0);
-    p.kinds = {"cell"};
     if (p.cells.size() == 0) refuse("there are no cells");
     for (const auto& v : p.vertices) {
         const double r = glm::length(v);
@@ -250,6 +251,7 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists 
     findEdges(p);
     for (std::size_t f = 0; f < p.faces.size() && p.convexFaces; ++f) p.convexFaces = isConvex(p, p.faces[f]);
     Orienter orient(p);
+    numberKinds(p, cellKinds.empty() ? kindsByShape(p) : std::move(cellKinds));
     return p;
 }
 

@@ -48,7 +48,9 @@ struct Polytope {
 
 /// Builds edges, incidences and orientation from vertices, 2-faces (vertex loops) and cells (2-faces).
 /// Throws std::invalid_argument, saying what is wrong, unless every cell is a closed orientable surface and
-/// every 2-face lies in exactly two cells.
-Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists faces, Lists cells);
+/// every 2-face lies in exactly two cells. `cellKinds` tells the kinds of cells apart by any numbers; where it is
+/// empty, cells of the same shape are of one kind. Kinds are named by their shape and numbered from the rarest on.
+Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists faces, Lists cells,
+                      std::vector<std::uint32_t> cellKinds = {});
 
 }  // namespace oval4d::geometry

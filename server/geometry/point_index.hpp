@@ -1,0 +1,51 @@
+#pragma once
+// Points found again by their place.
+
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+namespace oval4d::geometry {
+
+/// Points by their place, found again despite rounding: keyed by a grid cell, its neighbours looked at too. Points
+/// nearer than a quarter of `grid` to each other are one.
+class PointIndex {
+  public:
+    explicit PointIndex(double grid) : grid_(grid) {}
+
+    /// The number of the point in `points`, and whether it was not there and has been added.
+    std::pair<std::uint32_t, bool> add(const glm::dvec4& p, std::vector<glm::dvec4>& points) {
+        for (unsigned corner = 0; corner < 16; ++corner) {
+            const auto known = cells_.find(key(p, corner));
+            if (known != cells_.end() && glm::distance(points[known->second], p) < grid_ / 4)
+                return {known->second, false};
+        }
+        const auto number = static_cast<std::uint32_t>(points.size());
+        points.push_back(p);
+        cells_.emplace(key(p, 0xffU), number);
+        return {number, true};
+    }
+
+  private:
+    // With corner = 0xff the cell that holds p; else one of the sixteen that p moved by ± grid / 4 may lie in.
+    std::uint64_t key(const glm::dvec4& p, unsigned corner) const {
+        std::uint64_t hash = 0;
+        for (int i = 0; i < 4; ++i) {
+            const double nudge = corner == 0xffU ? 0 : (corner >> static_cast<unsigned>(i) & 1U) != 0 ? 0.25 : -0.25;
+            const auto cell = static_cast<std::int64_t>(std::floor(p[i] / grid_ + nudge));
+            hash = (hash ^ static_cast<std::uint64_t>(cell)) * 0x9e3779b97f4a7c15ULL;
+            hash ^= hash >> 29U;
+        }
+        return hash;
+    }
+
+    double grid_;
+    std::unordered_map<std::uint64_t, std::uint32_t> cells_;
+};
+
+}  // namespace oval4d::geometry

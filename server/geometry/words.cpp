@@ -1,0 +1,69 @@
+#include "geometry/words.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+#include <utility>
+
+namespace oval4d::geometry {
+
+namespace {
+
+bool separates(char c) { return c == '-' || c == '_' || std::isspace(static_cast<unsigned char>(c)) != 0; }
+
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+}  // namespace
+
+std::vector<std::string_view> listOf(std::string_view text) {
+    std::vector<std::string_view> parts;
+    while (!text.empty()) {
+        const std::size_t comma = std::min(text.find(','), text.size());
+        parts.push_back(text.substr(0, comma));
+        text.remove_prefix(std::min(comma + 1, text.size()));
+    }
+    return parts;
+}
+
+std::vector<std::string> wordsOf(std::string_view text) {
+    std::vector<std::string> words;
+    bool apart = true;
+    for (const char c : text) {
+        if (!separates(c)) {
+            if (apart) words.emplace_back();
+            words.back() += lower(c);
+        }
+        apart = separates(c);
+    }
+    return words;
+}
+
+std::string joined(const std::vector<std::string>& words, std::size_t first, std::size_t end) {
+    std::string text;
+    for (std::size_t i = first; i < end; ++i) text += (text.empty() ? "" : " ") + words[i];
+    return text;
+}
+
+std::string folded(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        if (!separates(c)) result += lower(c);
+    }
+    return result;
+}
+
+std::size_t editDistance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i + 1);
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+}  // namespace oval4d::geometry

@@ -1,0 +1,154 @@
+// The ten regular star polychora, and other figures with star polygons.
+
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "geometry/catalogue.hpp"
+#include "geometry_support.hpp"
+
+namespace {
+
+using namespace oval4d::geometry;
+using namespace oval4d::geometry::support;
+
+struct Star {
+    const char *name, *symbol;
+    int density;
+    ElementCounts counts;
+    int vertexOfCell, facesOfCell;
+};
+
+// Coxeter, Regular Polytopes, table I (ii) and §14: densities and numbers of elements.
+const Star kStars[] = {
+    {"small stellated 120-cell", "{5/2,5,3}", 4, {120, 1200, 720, 120}, 12, 12},
+    {"icosahedral 120-cell", "{3,5,5/2}", 4, {120, 720, 1200, 120}, 12, 20},
+    {"great 120-cell", "{5,5/2,5}", 6, {120, 720, 720, 120}, 12, 12},
+    {"grand 120-cell", "{5,3,5/2}", 20, {120, 720, 720, 120}, 20, 12},
+    {"great stellated 120-cell", "{5/2,3,5}", 20, {120, 720, 720, 120}, 20, 12},
+    {"grand stellated 120-cell", "{5/2,5,5/2}", 66, {120, 720, 720, 120}, 12, 12},
+    {"great grand 120-cell", "{5,5/2,3}", 76, {120, 1200, 720, 120}, 12, 12},
+    {"great icosahedral 120-cell", "{3,5/2,5}", 76, {120, 720, 1200, 120}, 12, 20},
+    {"grand 600-cell", "{3,3,5/2}", 191, {120, 720, 1200, 600}, 4, 4},
+    {"great grand stellated 120-cell", "{5/2,3,3}", 191, {600, 1200, 720, 120}, 20, 12},
+};
+
+/// How often the surface covers the direction, seen from the origin: the degree of the projection onto the sphere,
+/// by the cones over a fan of oriented simplices that hold it.
+int coverings(const Polytope& p, const glm::dvec4& direction) {
+    int sum = 0;
+    for (std::uint32_t c = 0; c < p.cells.size(); ++c) {
+        const glm::dvec4 apex = p.vertices[p.faces[p.cells[c][0]][0]];
+        for (auto slot = p.cells.begin[c]; slot < p.cells.begin[c + 1]; ++slot) {
+            const auto loop = p.faces[p.cells.items[slot]];
+            for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+                const glm::dmat4 corners(apex, p.vertices[loop[0]], p.vertices[loop[i]], p.vertices[loop[i + 1]]);
+                const double determinant = glm::determinant(corners);
+                if (std::abs(determinant) < 1e-9) continue;  // the 2-faces at the apex
+                const glm::dvec4 parts = glm::inverse(corners) * direction;
+                if (parts.x > 0 && parts.y > 0 && parts.z > 0 && parts.w > 0)
+                    sum += p.cellSigns[slot] * (determinant > 0 ? 1 : -1);
+            }
+        }
+    }
+    return sum;
+}
+
+glm::dvec4 randomDirection(std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    return glm::normalize(glm::dvec4(normal(random), normal(random), normal(random), normal(random)));
+}
+
+class Stars : public testing::TestWithParam<Star> {
+  protected:
+    const Star& star = GetParam();
+    const std::shared_ptr<const Polytope> polytope = polytopeOf(*findEntry(star.symbol));
+    const Polytope& p = *polytope;
+};
+
+TEST_P(Stars, haveTheirElements) {
+    EXPECT_EQ(p.name, star.name);
+    EXPECT_EQ(findEntry(star.name), findEntry(star.symbol));
+    EXPECT_EQ((ElementCounts{p.vertices.size(), p.edges.size(), p.faces.size(), p.cells.size()}), star.counts);
+    for (std::size_t c = 0; c < p.cells.size(); ++c) {
+        std::set<std::uint32_t> corners;
+        for (const auto f : p.cells[c]) corners.insert(p.faces[f].begin(), p.faces[f].end());
+        ASSERT_EQ(corners.size(), std::size_t(star.vertexOfCell));
+        ASSERT_EQ(p.cells[c].size(), std::size_t(star.facesOfCell));
+    }
+}
+
+TEST_P(Stars, coverTheSphereAsOftenAsTheirDensitySays) {
+    std::mt19937 random(41);
+    for (int trial = 0; trial < 12; ++trial) EXPECT_EQ(std::abs(coverings(p, randomDirection(random))), star.density);
+}
+
+// The pentagrams wind twice around their centres.
+TEST_P(Stars, havePentagramsWhereTheirSymbolSays) {
+    const bool pentagrams = std::string_view(star.symbol).starts_with("{5/2");
+    EXPECT_EQ(p.convexFaces, !pentagrams);
+    for (std::size_t f = 0; f < p.faces.size(); ++f) {
+        const auto loop = p.faces[f];
+        const double diagonal = glm::distance(p.vertices[loop[0]], p.vertices[loop[2]]);
+        const double phi = std::numbers::phi;
+        EXPECT_NEAR(diagonal, loop.size() == 3 ? 2 : pentagrams ? 2 / phi : 2 * phi, 1e-9);
+    }
+}
+
+TEST_P(Stars, haveSlicesWhoseVolumesAddUp) {
+    double cones = 0;
+    for (std::uint32_t c = 0; c < p.cells.size(); ++c) {
+        for (auto slot = p.cells.begin[c]; slot < p.cells.begin[c + 1]; ++slot) {
+            const auto loop = p.faces[p.cells.items[slot]];
+            for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+                cones += p.cellSigns[slot] *
+                         glm::determinant(glm::dmat4(p.vertices[p.faces[p.cells[c][0]][0]], p.vertices[loop[0]],
+                                                     p.vertices[loop[i]], p.vertices[loop[i + 1]])) /
+                         24;
+            }
+        }
+    }
+    std::mt19937 random(42);
+    EXPECT_NEAR(hypervolumeBySlices(p, randomRotation(random)) / std::abs(cones), 1, 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Stars, testing::ValuesIn(kStars), [](const auto& i) {
+    std::string name(i.param.name);
+    std::replace_if(name.begin(), name.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
+    return name;
+});
+
+TEST(StarProducts, haveTheDensityOfTheirPolygons) {
+    std::mt19937 random(43);
+    const auto density = [&](std::string_view name) {
+        const auto design = designNamed(name, 1000);
+        if (!std::holds_alternative<Design>(design)) return -1;
+        return std::abs(coverings(*polytopeOf(std::get<Design>(design)), randomDirection(random)));
+    };
+    EXPECT_EQ(density("5/2,5-duoprism"), 2);
+    EXPECT_EQ(density("5/2,7/3-duoprism"), 6);
+    EXPECT_EQ(density("x5/2o x5o"), 2);
+    EXPECT_EQ(density("small stellated dodecahedral prism"), 3);
+    EXPECT_EQ(density("great dodecahedron prism"), 3);
+    EXPECT_EQ(density("great icosahedron prism"), 7);
+    EXPECT_EQ(density("{5/2,3}x{}"), 7);
+    EXPECT_EQ(density("5,7-duoprism"), 1);
+}
+
+TEST(StarKinds, areNamedAfterKeplerAndPoinsot) {
+    const auto kindOf = [](std::string_view name) { return polytopeOf(*findEntry(name))->kinds.at(0); };
+    EXPECT_EQ(kindOf("{5/2,5,3}"), "small stellated dodecahedron");
+    EXPECT_EQ(kindOf("{5,5/2,5}"), "great dodecahedron");
+    EXPECT_EQ(kindOf("{5/2,3,5}"), "great stellated dodecahedron");
+    EXPECT_EQ(kindOf("{3,5/2,5}"), "great icosahedron");
+    EXPECT_EQ(kindOf("{3,5,5/2}"), "icosahedron");
+    EXPECT_EQ(kindOf("{5,3,5/2}"), "dodecahedron");
+    EXPECT_EQ(kindOf("{3,3,5/2}"), "tetrahedron");
+}
+
+}  // namespace

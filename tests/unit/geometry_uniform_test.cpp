@@ -1,0 +1,302 @@
+// Every uniform polychoron of the catalogue, built, against what theory says of it.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "geometry/catalogue.hpp"
+#include "geometry/coxeter.hpp"
+#include "geometry/names.hpp"
+#include "geometry_support.hpp"
+
+namespace {
+
+using namespace oval4d::geometry;
+using namespace oval4d::geometry::support;
+
+const double kRoot2 = std::sqrt(2.0);
+const double kRoot5 = std::sqrt(5.0);
+
+const Polytope& named(std::string_view name) {
+    const auto* entry = findEntry(name);
+    if (entry == nullptr) throw std::invalid_argument(std::string(name));
+    static std::vector<std::shared_ptr<const Polytope>> kept;
+    kept.push_back(polytopeOf(*entry));
+    return *kept.back();
+}
+
+ElementCounts countsOf(const Polytope& p) {
+    return {p.vertices.size(), p.edges.size(), p.faces.size(), p.cells.size()};
+}
+
+bool isConvex(const CatalogueEntry& entry) { return entry.family != "star"; }
+
+class Uniform : public testing::TestWithParam<CatalogueEntry> {
+  protected:
+    const CatalogueEntry& entry = GetParam();
+    const std::shared_ptr<const Polytope> polytope = polytopeOf(*findEntry(entry.name));
+    const Polytope& p = *polytope;
+};
+
+/// The numbers of sides, the distances and the kinds around a vertex: the same for all where a symmetry takes any
+/// vertex to any other.
+struct Surroundings {
+    std::vector<long> neighbours;              // distances of other vertices, rounded
+    std::map<std::uint32_t, int> kinds;        // of cells
+    std::map<std::size_t, std::size_t> sides;  // of 2-faces
+    bool operator==(const Surroundings&) const = default;
+};
+
+std::vector<Surroundings> surroundingsOf(const Polytope& p) {
+    std::vector<Surroundings> all(p.vertices.size());
+    for (std::size_t f = 0; f < p.faces.size(); ++f) {
+        for (const auto v : p.faces[f]) ++all[v].sides[p.faces[f].size()];
+    }
+    for (std::size_t c = 0; c < p.cells.size(); ++c) {
+        std::set<std::uint32_t> corners;
+        for (const auto f : p.cells[c]) corners.insert(p.faces[f].begin(), p.faces[f].end());
+        for (const auto v : corners) ++all[v].kinds[p.cellKinds[c]];
+    }
+    // The nearest thirty distances from some vertices suffice, and all where they are few.
+    const std::size_t step = std::max<std::size_t>(p.vertices.size() / 50, 1);
+    for (std::size_t v = 0; v < p.vertices.size(); v += step) {
+        std::vector<long> distances;
+        for (const auto& other : p.vertices)
+            distances.push_back(std::lround(glm::distance(p.vertices[v], other) * 1e6));
+        const std::size_t most = std::min<std::size_t>(30, distances.size());
+        std::partial_sort(distances.begin(), distances.begin() + long(most), distances.end());
+        distances.resize(most);
+        all[v].neighbours = distances;
+    }
+    return all;
+}
+
+TEST_P(Uniform, looksTheSameFromEveryVertex) {
+    const auto all = surroundingsOf(p);
+    for (const auto& one : all) {
+        EXPECT_EQ(one.kinds, all[0].kinds);
+        EXPECT_EQ(one.sides, all[0].sides);
+        if (!one.neighbours.empty()) {
+            EXPECT_EQ(one.neighbours, all[0].neighbours);
+        }
+        if (HasFailure()) return;
+    }
+}
+
+TEST_P(Uniform, hasRegularPolygons) {
+    for (std::size_t f = 0; f < p.faces.size(); ++f) {
+        const auto loop = p.faces[f];
+        glm::dvec4 centre(0);
+        for (const auto v : loop) centre += p.vertices[v] / double(loop.size());
+        const double radius = glm::distance(p.vertices[loop[0]], centre);
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            ASSERT_NEAR(glm::distance(p.vertices[loop[i]], centre), radius, 1e-9);
+            ASSERT_NEAR(glm::distance(p.vertices[loop[i]], p.vertices[loop[(i + 1) % loop.size()]]), 2, 1e-9);
+        }
+    }
+}
+
+// A convex polytope lies on one side of each cell's hyperplane.
+TEST_P(Uniform, isConvexUnlessAStar) {
+    EXPECT_EQ(p.convexFaces, isConvex(entry) || p.faces[0].size() == 3 || entry.schlaefli.starts_with("{5,"));
+    const std::size_t step = std::max<std::size_t>(p.cells.size() / 60, 1);
+    bool convex = true;
+    for (std::size_t c = 0; c < p.cells.size(); c += step) {
+        glm::dvec4 outward(0);
+        for (const auto f : p.cells[c]) {
+            for (const auto v : p.faces[f]) outward += p.vertices[v];
+        }
+        outward = glm::normalize(outward);
+        const double height = glm::dot(outward, p.vertices[p.faces[p.cells[c][0]][0]]);
+        for (const auto& v : p.vertices) convex = convex && glm::dot(outward, v) < height + 1e-9;
+    }
+    EXPECT_EQ(convex, isConvex(entry));
+}
+
+TEST_P(Uniform, hasKindsWithNames) {
+    ASSERT_EQ(p.cellKinds.size(), p.cells.size());
+    std::vector<std::size_t> cells(p.kinds.size());
+    std::vector<std::set<std::vector<std::size_t>>> shapes(p.kinds.size());
+    for (std::size_t c = 0; c < p.cells.size(); ++c) {
+        ASSERT_LT(p.cellKinds[c], p.kinds.size());
+        ++cells[p.cellKinds[c]];
+        std::vector<std::size_t> sides;
+        for (const auto f : p.cells[c]) sides.push_back(p.faces[f].size());
+        std::sort(sides.begin(), sides.end());
+        shapes[p.cellKinds[c]].insert(sides);
+    }
+    EXPECT_TRUE(std::is_sorted(cells.begin(), cells.end()));
+    for (std::size_t k = 0; k < p.kinds.size(); ++k) {
+        EXPECT_GT(cells[k], 0U);
+        EXPECT_EQ(shapes[k].size(), 1U) << p.kinds[k];
+        EXPECT_FALSE(p.kinds[k].starts_with("cell of")) << p.kinds[k];
+        EXPECT_EQ(entry.symmetryOrder % cells[k], 0U);  // an orbit's size divides the group's order
+    }
+}
+
+std::string asName(const testing::TestParamInfo<CatalogueEntry>& info) {
+    std::string name(info.param.name);
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+    return "the_" + name;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Uniform, testing::ValuesIn(catalogue().begin(), catalogue().end()), asName);
+
+// Slices are closed surfaces that hold together; by Euler's formula those of a convex polytope are spheres.
+class Sections : public testing::TestWithParam<CatalogueEntry> {};
+
+TEST_P(Sections, areClosedSpheres) {
+    const auto polytope = polytopeOf(*findEntry(GetParam().name));
+    std::mt19937 random(31);
+    SliceSet s;
+    Slicer slicer;
+    for (int trial = 0; trial < 4; ++trial) {
+        Rotation orientation = trial < 2 ? Rotation() : randomRotation(random);
+        if (trial == 1) orientation = Rotation(Turn{Plane::xw, std::numbers::pi / 4, {}});
+        slicer.slice(*polytope, orientation, {-5, 11, polytope->circumradius / 5.5}, s);
+        for (int i = 0; i < s.planes.count; ++i) {
+            if (s.faceCount(i) < 2) continue;
+            ASSERT_EQ(s.vertexCount(i) + s.faceCount(i), s.edgeCount(i) + 2) << "slice " << i << " trial " << trial;
+            std::vector<int> passes(s.edgeCount(i));
+            for (auto f = s.faceBegin[i]; f < s.faceBegin[i + 1]; ++f) {
+                for (auto k = s.cornerBegin[f]; k < s.cornerBegin[f + 1]; ++k) {
+                    const auto& edge = s.edges[s.edgeBegin[i] + s.cornerEdges[k]];
+                    passes[s.cornerEdges[k]] += edge[0] == s.corners[k] ? 1 : -1;
+                }
+            }
+            for (const int sum : passes) ASSERT_EQ(sum, 0);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Convex, Sections, testing::ValuesIn([] {
+                             std::vector<CatalogueEntry> convex;
+                             std::copy_if(catalogue().begin(), catalogue().end(), std::back_inserter(convex), isConvex);
+                             return convex;
+                         }()),
+                         asName);
+
+/// By cones from the origin over the cells, each fanned into simplices.
+double hypervolumeOf(const Polytope& p) {
+    double sum = 0;
+    for (std::uint32_t c = 0; c < p.cells.size(); ++c) {
+        const glm::dvec4 apex = p.vertices[p.faces[p.cells[c][0]][0]];
+        for (auto slot = p.cells.begin[c]; slot < p.cells.begin[c + 1]; ++slot) {
+            const auto loop = p.faces[p.cells.items[slot]];
+            for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+                sum += p.cellSigns[slot] * glm::determinant(glm::dmat4(apex, p.vertices[loop[0]], p.vertices[loop[i]],
+                                                                       p.vertices[loop[i + 1]]));
+            }
+        }
+    }
+    return std::abs(sum) / 24;
+}
+
+TEST(Hypervolume, isThatOfTheRegularOneWithoutItsCorners) {
+    const double cell5 = std::sqrt(5.0) / 96 * 16;
+    const double cell16 = 16.0 / 6;
+    const double cell600 = 25.0 / 4 * (2 + kRoot5) * 16;
+    const auto pow4 = [](double x) { return x * x * x * x; };
+    // Rectified: of an edge twice as long, at each vertex a pyramid less; truncated: of an edge three times as long.
+    EXPECT_NEAR(hypervolumeOf(named("rectified 5-cell")), (16 - 5) * cell5, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(named("truncated 5-cell")), (81 - 5) * cell5, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(named("truncated 16-cell")), (81 - 8 / 2.0) * cell16, 1e-9);
+    // At a corner of the tesseract a simplex of four perpendicular edges √2 goes.
+    EXPECT_NEAR(hypervolumeOf(named("rectified tesseract")), pow4(2 * kRoot2) - 16 * 4 / 24.0, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(named("truncated tesseract")), pow4(2 + 2 * kRoot2) - 16 * 4 / 24.0, 1e-9);
+    // At one of the 24-cell's a pyramid of height 1 over a cube.
+    EXPECT_NEAR(hypervolumeOf(named("rectified 24-cell")), 16 * 32 - 24 * 8 / 4.0, 1e-9);
+    // At one of the 600-cell's a pyramid over an icosahedron: of radius √(φ√5) where the whole has 2φ.
+    const double phi = std::numbers::phi;
+    const double icosahedron = 5.0 / 12 * (3 + kRoot5) * 8;
+    const double height = 2 * phi - 2 * phi * phi / 2;
+    EXPECT_NEAR(hypervolumeOf(named("snub 24-cell")), cell600 - 24 * icosahedron * height / 4, 1e-8);
+    // Known closed forms, for edge length 1 (Klitzing).
+    EXPECT_NEAR(hypervolumeOf(named("runcitruncated tesseract")) / 16, 8 * (27 + 20 * kRoot2) / 3, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(named("runcitruncated 24-cell")) / 16, 305 + 224 * kRoot2, 1e-8);
+    EXPECT_NEAR(hypervolumeOf(named("runcitruncated 600-cell")) / 16, 25 * (1814 + 779 * kRoot5) / 4, 1e-5);
+}
+
+TEST(Hypervolume, ofProductsIsTheProduct) {
+    const auto area = [](int n) { return n / std::tan(std::numbers::pi / n); };
+    EXPECT_NEAR(hypervolumeOf(named("5,7-duoprism")), area(5) * area(7), 1e-9);
+    EXPECT_NEAR(hypervolumeOf(named("3,24-duoprism")), area(3) * area(24), 1e-9);
+    EXPECT_NEAR(hypervolumeOf(named("cuboctahedral prism")), 2 * 5 / 3.0 * kRoot2 * 8, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(named("truncated icosahedral prism")), 2 * (125 + 43 * kRoot5) / 4 * 8, 1e-9);
+    // Of the square antiprism, edge 1: √(4 + 3√2) / 3; of the snub cube 7.889477399975…
+    EXPECT_NEAR(hypervolumeOf(named("square antiprism prism")), 2 * std::sqrt(4 + 3 * kRoot2) / 3 * 8, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(named("snub cube prism")), 2 * 7.889477399975 * 8, 1e-9);
+}
+
+TEST(Hypervolume, isTheIntegralOfTheSlices) {
+    std::mt19937 random(32);
+    for (const char* name : {"grand antiprism", "snub 24-cell", "omnitruncated tesseract", "cantellated 24-cell",
+                             "snub dodecahedral prism", "decagonal antiprism prism", "5,7-duoprism"}) {
+        const Polytope& p = named(name);
+        EXPECT_NEAR(hypervolumeBySlices(p, randomRotation(random)) / hypervolumeOf(p), 1, 1e-6) << name;
+    }
+}
+
+// What the diagrams of the smaller groups make is what is in the catalogue under the larger group's.
+TEST(Diagrams, ofD4MakeWhatTheLargerGroupsDo) {
+    const auto same = [](const char* symbol, std::string_view name) {
+        const Diagram diagram = std::get<Diagram>(parseDiagram(symbol));
+        const Polytope p = wythoff(symbol, diagram, mirrorsOf(diagram));
+        const Polytope& known = named(name);
+        EXPECT_EQ(countsOf(p), countsOf(known)) << symbol;
+        EXPECT_EQ(countsOf(p), elementCounts(diagram)) << symbol;
+        EXPECT_NEAR(p.circumradius, known.circumradius, 1e-12) << symbol;
+        EXPECT_NEAR(hypervolumeOf(p), hypervolumeOf(known), 1e-9) << symbol;
+        EXPECT_EQ(findEntry(symbol), findEntry(name)) << symbol;
+    };
+    same("x3o3o *b3o", "16-cell");
+    same("o3x3o *b3o", "24-cell");
+    same("x3x3o *b3o", "truncated 16-cell");
+    same("x3o3x *b3o", "rectified tesseract");
+    same("x3x3x *b3o", "bitruncated tesseract");
+    same("x3o3x *b3x", "rectified 24-cell");
+    same("x3x3x *b3x", "truncated 24-cell");
+    same("o4o3x3o", "24-cell");
+    same("x4o x4o", "8-cell");
+    same("x x x x", "8-cell");
+    same("x4o3o x", "8-cell");
+    same("o3x3o x", "octahedral prism");
+    same("x3x3x x", "truncated octahedral prism");
+}
+
+TEST(Kinds, areTheOrbitsOfTheFullSymmetryGroup) {
+    const auto kindsOf = [](std::string_view name) {
+        const Polytope& p = named(name);
+        std::vector<std::pair<std::string, long>> kinds;
+        for (std::size_t k = 0; k < p.kinds.size(); ++k)
+            kinds.emplace_back(p.kinds[k], std::count(p.cellKinds.begin(), p.cellKinds.end(), k));
+        return kinds;
+    };
+    using Kinds = std::vector<std::pair<std::string, long>>;
+    EXPECT_EQ(kindsOf("24-cell"), (Kinds{{"octahedron", 24}}));
+    EXPECT_EQ(kindsOf("truncated tesseract"), (Kinds{{"truncated cube", 8}, {"tetrahedron", 16}}));
+    EXPECT_EQ(kindsOf("runcinated 5-cell"), (Kinds{{"tetrahedron", 10}, {"triangular prism", 20}}));
+    EXPECT_EQ(kindsOf("runcinated tesseract"),
+              (Kinds{{"cube", 8}, {"tetrahedron", 16}, {"cube", 24}, {"triangular prism", 32}}));
+    EXPECT_EQ(kindsOf("bitruncated 24-cell"), (Kinds{{"truncated cube", 48}}));
+    EXPECT_EQ(kindsOf("omnitruncated 120-cell"), (Kinds{{"truncated icosidodecahedron", 120},
+                                                        {"truncated octahedron", 600},
+                                                        {"decagonal prism", 720},
+                                                        {"hexagonal prism", 1200}}));
+    EXPECT_EQ(kindsOf("snub 24-cell"), (Kinds{{"icosahedron", 24}, {"tetrahedron", 24}, {"tetrahedron", 96}}));
+    EXPECT_EQ(kindsOf("grand antiprism"),
+              (Kinds{{"pentagonal antiprism", 20}, {"tetrahedron", 100}, {"tetrahedron", 200}}));
+    EXPECT_EQ(kindsOf("snub cube prism"),
+              (Kinds{{"snub cube", 2}, {"cube", 6}, {"triangular prism", 8}, {"triangular prism", 24}}));
+    EXPECT_EQ(kindsOf("5,5-duoprism"), (Kinds{{"pentagonal prism", 10}}));
+    EXPECT_EQ(kindsOf("5,7-duoprism"), (Kinds{{"heptagonal prism", 5}, {"pentagonal prism", 7}}));
+}
+
+}  // namespace
