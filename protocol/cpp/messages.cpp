@@ -25,6 +25,17 @@ void writePolytope(JsonWriter& w, const geometry::Polytope& polytope) {
     w.member("edges", std::uint64_t{polytope.edges.size()});
     w.member("faces", std::uint64_t{polytope.faces.size()});
     w.member("cells", std::uint64_t{polytope.cells.size()});
+    std::vector<std::uint64_t> cells(polytope.kinds.size());
+    for (const std::uint32_t kind : polytope.cellKinds) ++cells[kind];
+    w.key("kinds");
+    w.beginArray();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        w.beginObject();
+        w.member("name", std::string_view(polytope.kinds[i]));
+        w.member("cells", cells[i]);
+        w.endObject();
+    }
+    w.endArray();
     w.endObject();
 }
 
@@ -152,12 +163,14 @@ std::string catalogueMessage(std::optional<double> id) {
         w.beginArray();
         for (const geometry::CatalogueEntry& entry : geometry::catalogue()) {
             w.beginObject();
-            w.member("name", entry.name);
+            w.member("name", std::string_view(entry.name));
+            w.member("family", std::string_view(entry.family));
             w.key("aliases");
             w.beginArray();
-            for (const std::string_view alias : entry.aliases) w.value(alias);
+            for (const std::string& alias : entry.aliases) w.value(std::string_view(alias));
             w.endArray();
-            w.member("schlaefli", entry.schlaefli);
+            w.member("diagram", std::string_view(entry.diagram));
+            w.member("schlaefli", std::string_view(entry.schlaefli));
             w.member("vertices", entry.vertices);
             w.member("edges", entry.edges);
             w.member("faces", entry.faces);

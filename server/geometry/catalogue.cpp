@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -117,17 +118,16 @@ struct Near {
 
 // The names at the least distance.
 std::vector<Near> nearest(std::string_view text) {
-    constexpr std::size_t kLongest = 64;
-    const std::string wanted = folded(text.substr(0, kLongest));
+    const std::size_t wanted = folded(text).size();
     std::vector<Near> best;
     // Of names equally near, those of the same length: a wrong letter is likelier than a missing one.
     std::pair<std::size_t, std::size_t> least(-1, -1);
     for (const CatalogueEntry& entry : entries()) {
         const auto consider = [&](std::string_view name) {
-            const std::string known = folded(name);
-            const std::size_t longer = std::max(known.size(), wanted.size()) - std::min(known.size(), wanted.size());
+            const std::size_t known = folded(name).size();
+            const std::size_t longer = std::max(known, wanted) - std::min(known, wanted);
             if (longer > least.first) return;
-            const std::pair distance(editDistance(wanted, known), longer);
+            const std::pair distance(likeness(text, name), longer);
             if (distance < least) best.clear();
             if (distance <= least && (best.empty() || best.back().entry != &entry)) best.push_back({name, &entry});
             least = std::min(least, distance);
@@ -162,6 +162,23 @@ std::variant<Design, NameError> designNamed(std::string_view text, std::size_t m
         }
     }
     return described;
+}
+
+std::size_t likeness(std::string_view one, std::string_view other) {
+    constexpr std::size_t kLongest = 64;
+    const std::string a = folded(one.substr(0, kLongest));
+    const std::string b = folded(other.substr(0, kLongest));
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i + 1);
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
 }
 
 std::string_view nearestName(std::string_view text) { return nearest(text).front().name; }

@@ -52,7 +52,13 @@ std::vector<std::string_view> nearestNames(std::string_view text);
 std::shared_ptr<const Polytope> polytopeOf(const Design& design);
 std::shared_ptr<const Polytope> polytopeOf(const CatalogueEntry& entry);
 
+/// How alike two names are: letters to change, put in or take out. Case, blanks and hyphens do not count.
+std::size_t likeness(std::string_view a, std::string_view b);
+
 /// The bound on the memory of polytopes kept without being in use, in bytes; 64 MiB at the start.
 void keepPolytopes(std::size_t bytes);
+
+/// The memory of the polytopes used last, in bytes: never more than that bound.
+std::size_t polytopesKept();
 
 }  // namespace oval4d::geometry

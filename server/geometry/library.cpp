@@ -42,6 +42,11 @@ class Library {
         forget();
     }
 
+    std::size_t kept() {
+        const std::scoped_lock lock(mutex_);
+        return bytes_;
+    }
+
   private:
     struct Slot {
         std::mutex building;
@@ -102,5 +107,7 @@ std::shared_ptr<const Polytope> polytopeOf(const Design& design) { return librar
 std::shared_ptr<const Polytope> polytopeOf(const CatalogueEntry& entry) { return polytopeOf(entry.design); }
 
 void keepPolytopes(std::size_t bytes) { library().keep(bytes); }
+
+std::size_t polytopesKept() { return library().kept(); }
 
 }  // namespace oval4d::geometry

@@ -1,7 +1,6 @@
 #pragma once
 // Names as texts: words, lists, likeness.
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,8 +18,5 @@ std::string joined(const std::vector<std::string>& words, std::size_t first, std
 
 /// Lower case, without blanks, hyphens and underscores: what names are compared by.
 std::string folded(std::string_view text);
-
-/// Levenshtein's distance: letters to change, put in or take out.
-std::size_t editDistance(std::string_view a, std::string_view b);
 
 }  // namespace oval4d::geometry

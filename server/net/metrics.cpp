@@ -34,6 +34,8 @@ Metrics::Metrics()
       openSessions(gauge(registry_, "oval4d_open_sessions", "Sessions with a client")),
       jobsWaiting(gauge(registry_, "oval4d_jobs_waiting", "Jobs waiting for a worker")),
       memory(gauge(registry_, "process_resident_memory_bytes", "Memory of this process that is resident")),
+      polytopes(gauge(registry_, "oval4d_polytope_cache_bytes",
+                      "Memory of polytopes kept for when they are asked for again")),
       messagesReceived(
           counters(registry_, "oval4d_messages_received_total", "Messages received over WebSockets").Add({})),
       bytesSent(counters(registry_, "oval4d_bytes_sent_total", "Bytes of messages sent over WebSockets").Add({})),

@@ -26,7 +26,8 @@ class Metrics {
     prometheus::Gauge& sessions;      ///< kept in the store
     prometheus::Gauge& openSessions;  ///< those with a client
     prometheus::Gauge& jobsWaiting;
-    prometheus::Gauge& memory;  ///< bytes of this process that are resident
+    prometheus::Gauge& memory;     ///< bytes of this process that are resident
+    prometheus::Gauge& polytopes;  ///< bytes of polytopes kept for when they are asked for again
     prometheus::Counter& messagesReceived;
     prometheus::Counter& bytesSent;  ///< over WebSockets
     prometheus::Counter& slowReaders;

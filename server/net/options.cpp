@@ -93,7 +93,10 @@ void addLimits(CLI::App& app, Options& options) {
     add(app, "--max-slices", options.session.maxSlices, "Most slices of a session")->check(CLI::Range(1, 100'001));
     add(app, "--max-undo", options.session.maxUndo, "Steps that can be undone in a session");
     add(app, "--max-loaded", options.session.maxLoaded, "Polytopes that can be loaded into a session");
-    add(app, "--max-vertices", options.session.maxVertices, "Most vertices of a loaded polytope");
+    add(app, "--max-vertices", options.session.maxVertices,
+        "Most vertices of a loaded polytope, or of one built by a name that the catalogue does not list");
+    addBytes(app, "--polytope-cache", options.polytopeCache,
+             "Memory for polytopes of the catalogue and of names, kept for when they are asked for again");
 }
 
 void addTimes(CLI::App& app, Options& options) {

@@ -41,6 +41,7 @@ struct Options {
     picture::FrameLimits frame;
     exports::Limits file;
     session::Limits session;
+    std::size_t polytopeCache = 64U << 20U;  ///< bytes of polytopes kept without being in use
 
     Seconds sessionExpiry{1800};
     Seconds shownTimeout{1};

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <fstream>
 
+#include "geometry/catalogue.hpp"
 #include "net/file_job.hpp"
 #include "net/on_pool.hpp"
 #include "protocol/cpp/codec.hpp"
@@ -198,6 +199,7 @@ Reply Routes::readiness() const {
 Reply Routes::metrics() {
     services_.metrics.jobsWaiting.Set(static_cast<double>(services_.pool.waiting()));
     services_.metrics.memory.Set(residentBytes());
+    services_.metrics.polytopes.Set(static_cast<double>(geometry::polytopesKept()));
     return textReply("text/plain; version=0.0.4; charset=utf-8", services_.metrics.text());
 }
 

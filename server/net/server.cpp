@@ -14,6 +14,7 @@
 #include <csignal>
 #include <thread>
 
+#include "geometry/catalogue.hpp"
 #include "net/http_session.hpp"
 #include "net/readiness.hpp"
 #include "store/memory_store.hpp"
@@ -176,6 +177,7 @@ asio::awaitable<void> Server::stopOnSignal() {
 
 void runServer(Options options) {
     raiseFileLimit();
+    geometry::keepPolytopes(options.polytopeCache);
     Server(std::move(options)).run();
 }
 

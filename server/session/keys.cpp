@@ -60,11 +60,16 @@ void walk(State& state, int by, const Loaded& loaded) {
     const int named = static_cast<int>(entries.size());
     const int all = named + static_cast<int>(own.size());
     const auto at = std::find(own.begin(), own.end(), state.polytope);
+    const auto entry = std::find_if(entries.begin(), entries.end(), [&](const geometry::CatalogueEntry& one) {
+        return one.name == state.polytope->name;
+    });
     int i = 0;
     if (at != own.end()) {
         i = named + static_cast<int>(at - own.begin());
+    } else if (entry != entries.end()) {
+        i = static_cast<int>(entry - entries.begin());
     } else {
-        while (i + 1 < named && entries[i].name != state.polytope->name) ++i;
+        i = by > 0 ? -1 : named;  // one built by its name alone: before the first, after the last
     }
     i = (i + by + all) % all;
     show(state, i < named ? geometry::polytopeOf(entries[i]) : own[i - named]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "geometry/catalogue.hpp"
 #include "geometry/import.hpp"
@@ -26,7 +27,7 @@ Result<PolytopePtr> readPolytope(const protocol::Load& load, const Limits& limit
         std::any_of(load.name.begin(), load.name.end(), isControl)) {
         return Error{ErrorCode::bad_message, "a polytope's name must have 1 to 64 printable characters"};
     }
-    if (geometry::findEntry(load.name)) {
+    if (std::holds_alternative<geometry::Design>(geometry::designNamed(load.name, limits.maxVertices))) {
         return Error{ErrorCode::bad_polytope,
                      protocol::inQuotes(load.name) + " is a name of the catalogue; choose another"};
     }

@@ -53,8 +53,9 @@ double spanningSpacing(const geometry::Polytope& polytope, int count);
 struct Limits {
     int maxSlices = 201;
     std::size_t maxUndo = 1000;
-    std::size_t maxLoaded = 8;          ///< polytopes loaded into one session
-    std::size_t maxVertices = 100'000;  ///< of a loaded polytope
+    std::size_t maxLoaded = 8;  ///< polytopes loaded into one session
+    std::size_t maxVertices =
+        100'000;  ///< of a loaded polytope, or of one outside the catalogue that is built by its name
 };
 
 /// A session: the state, its history, and the polytopes loaded into it. A value: it copies and compares.

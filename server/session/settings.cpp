@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -66,22 +67,40 @@ Result<std::monostate> setSlices(State& state, const protocol::Set& set, const L
     return std::monostate{};
 }
 
+// "; did you mean …?": the names of the catalogue nearest to this one, or a loaded polytope's if that is as near.
+std::string suggestion(std::string_view name, const Loaded& loaded) {
+    std::vector<std::string_view> near = geometry::nearestNames(name);
+    std::size_t least = geometry::likeness(name, near.front());
+    for (const auto& [own, ignored] : loaded) {
+        if (geometry::likeness(name, own) > least) continue;
+        least = geometry::likeness(name, own);
+        near = {own};
+    }
+    std::string text;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        text += i == 0 ? "; did you mean " : i + 1 < near.size() ? ", " : " or ";
+        text += protocol::inQuotes(near[i]);
+    }
+    return text + "?";
+}
+
 }  // namespace
 
-Result<PolytopePtr> findPolytope(std::string_view name, const Loaded& loaded) {
+Result<PolytopePtr> findPolytope(std::string_view name, const Loaded& loaded, const Limits& limits) {
     if (const auto own = loaded.find(name); own != loaded.end()) return own->second;
-    if (const auto* entry = geometry::findEntry(name)) return geometry::polytopeOf(*entry);
-
-    std::vector<std::string_view> known;
-    for (const auto& [own, ignored] : loaded) known.emplace_back(own);
-    for (const auto& entry : geometry::catalogue()) {
-        known.push_back(entry.name);
-        known.insert(known.end(), entry.aliases.begin(), entry.aliases.end());
+    auto named = geometry::designNamed(name, limits.maxVertices);
+    if (const auto* design = std::get_if<geometry::Design>(&named)) {
+        try {
+            return geometry::polytopeOf(*design);
+        } catch (const std::invalid_argument& fault) {
+            named = geometry::NameError{geometry::NameError::Reason::impossible, fault.what()};
+        }
     }
-    std::string_view near = protocol::nearest(name, known);
-    if (near.empty()) near = geometry::nearestName(name);
-    return Error{ErrorCode::unknown_polytope, "no polytope is called " + protocol::inQuotes(name) + "; did you mean " +
-                                                  protocol::inQuotes(near) + "?"};
+    const auto& error = std::get<geometry::NameError>(named);
+    if (error.reason == geometry::NameError::Reason::tooLarge) return Error{ErrorCode::too_large, error.message};
+    return Error{ErrorCode::unknown_polytope,
+                 "no polytope is called " + protocol::inQuotes(name) +
+                     (error.message.empty() ? suggestion(name, loaded) : ": " + error.message)};
 }
 
 void show(State& state, PolytopePtr polytope) {
@@ -103,7 +122,7 @@ void setCount(State& state, int count) {
 
 Result<std::monostate> applySet(State& state, const protocol::Set& set, const Loaded& loaded, const Limits& limits) {
     if (set.polytope) {
-        auto polytope = findPolytope(*set.polytope, loaded);
+        auto polytope = findPolytope(*set.polytope, loaded, limits);
         if (!polytope) return polytope.error();
         show(state, std::move(*polytope));
     }

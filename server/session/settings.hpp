@@ -19,8 +19,9 @@ inline constexpr double kMaxSpacing = 10;    ///< in circumradii
 inline constexpr double kMaxOrbit = 1000;    ///< azimuth and elevation, radians
 inline constexpr double kMinZoom = 0.05, kMaxZoom = 20;
 
-/// The polytope with this name or alias, or `unknown_polytope` with the nearest name.
-protocol::Result<PolytopePtr> findPolytope(std::string_view name, const Loaded& loaded);
+/// The loaded polytope of this name, or the one that geometry::designNamed finds; else `unknown_polytope` with the
+/// nearest names or what is wrong, or `too_large`. Building a large one takes up to some tenths of a second.
+protocol::Result<PolytopePtr> findPolytope(std::string_view name, const Loaded& loaded, const Limits& limits);
 
 /// Shows another polytope: the orientation stays, the spacing keeps its ratio to the circumradius, the focus is 0, and
 /// all kinds of cells are seen.

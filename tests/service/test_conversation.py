@@ -21,7 +21,8 @@ async def test_hello_is_answered_by_welcome_state_and_slices(server):
 async def test_a_session_starts_as_the_paper_does(server):
     async with Client(server) as client:
         state = await client.state(0)
-        assert state["polytope"] == {"name": "5-cell", "vertices": 5, "edges": 10, "faces": 10, "cells": 5}
+        assert state["polytope"] == {"name": "5-cell", "vertices": 5, "edges": 10, "faces": 10, "cells": 5,
+                                     "kinds": [{"name": "tetrahedron", "cells": 5}]}
         assert state["orientation"] == [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
         assert state["alpha"] == state["beta"] == pytest.approx(ALPHA)
         assert state["slices"]["count"] == 21 and state["slices"]["focus"] == 0
@@ -95,7 +96,8 @@ async def test_load_a_polytope(server):
     async with Client(server, stream="geometry") as client:
         done = await client.request("load", name="mine", format="off", data=simplex)
         state = await client.state(done["revision"])
-        assert state["polytope"] == {"name": "mine", "vertices": 5, "edges": 10, "faces": 10, "cells": 5}
+        assert state["polytope"] == {"name": "mine", "vertices": 5, "edges": 10, "faces": 10, "cells": 5,
+                                     "kinds": [{"name": "tetrahedron", "cells": 5}]}
         assert len((await client.slices(done["revision"]))["coordinates"]) == 5
 
 

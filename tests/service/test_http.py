@@ -87,6 +87,12 @@ def test_catalogue_and_keymap(server):
     catalogue = json.loads(server.get("/api/v1/catalogue").body)["polytopes"]
     assert {"name": "600-cell", "vertices": 120, "edges": 720, "faces": 1200, "cells": 600}.items() <= next(
         p for p in catalogue if p["name"] == "600-cell").items()
+    omnitruncated = next(p for p in catalogue if p["name"] == "omnitruncated 120-cell")
+    assert omnitruncated == {
+        "name": "omnitruncated 120-cell", "family": "uniform H4", "diagram": "x5x3x3x", "schlaefli": "t0,1,2,3{5,3,3}",
+        "aliases": omnitruncated["aliases"], "vertices": 14400, "edges": 28800, "faces": 17040, "cells": 2640,
+        "symmetry_order": 14400}
+    assert {"gidpixhi", "omnitruncated 600-cell"} <= set(omnitruncated["aliases"])
     assert len(json.loads(server.get("/api/v1/keymap").body)["keys"]) > 20
 
 

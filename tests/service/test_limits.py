@@ -110,6 +110,22 @@ async def test_loaded_polytopes_and_their_vertices():
     with Server("--max-vertices", 4) as server:
         async with Client(server) as client:
             assert (await refused(client, "load", name="one", format="off", data=simplex)).code == "too_large"
+            error = await refused(client, "set", polytope="7,9-duoprism")
+            assert error.code == "too_large" and "63 vertices" in error.text
+            await client.request("set", polytope="5,7-duoprism")  # in the catalogue
+            await client.request("set", polytope="600-cell")
+
+
+async def test_polytopes_kept_without_being_in_use():
+    names = ["omnitruncated 120-cell", "runcitruncated 120-cell", "runcitruncated 600-cell", "50,60-duoprism"]
+    for option, least, most in ((0, 0, 0), ("2M", 1, 2 << 20), ("64M", 4 << 20, 64 << 20)):
+        with Server("--polytope-cache", option) as server:
+            async with Client(server) as client:
+                for name in names:
+                    await client.request("set", polytope=name)
+                    state = await client.request("get", what="state")
+                    assert state["polytope"]["name"] == name
+            assert least <= server.metric("oval4d_polytope_cache_bytes") <= most
 
 
 async def test_a_silent_client_is_pinged_and_one_that_is_gone_is_dropped():

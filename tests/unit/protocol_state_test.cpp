@@ -51,7 +51,8 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
     EXPECT_EQ(message.at("type"), "state");
     EXPECT_EQ(message.at("id"), 3);
     EXPECT_EQ(message.at("revision"), 7);
-    EXPECT_EQ(message.at("polytope"), json::parse(R"({"name":"5-cell","vertices":5,"edges":10,"faces":10,"cells":5})"));
+    EXPECT_EQ(message.at("polytope"), json::parse(R"({"name":"5-cell","vertices":5,"edges":10,"faces":10,"cells":5,
+                              "kinds":[{"name":"tetrahedron","cells":5}]})"));
     EXPECT_EQ(message.at("orientation").at(0).at(3), session.now.orientation.matrix()[3][0]) << "rows";
     EXPECT_EQ(message.at("alpha"), std::numbers::pi / 36);
     EXPECT_EQ(message.at("step"), std::numbers::pi / 180);
@@ -146,6 +147,8 @@ TEST(OtherMessages, TheCatalogueIsTheGeometrys) {
         EXPECT_EQ(catalogue[i].at("edges"), polytope.edges.size());
         EXPECT_EQ(catalogue[i].at("faces"), polytope.faces.size());
         EXPECT_EQ(catalogue[i].at("cells"), polytope.cells.size());
+        EXPECT_EQ(catalogue[i].at("family"), geometry::catalogue()[i].family);
+        EXPECT_EQ(catalogue[i].at("diagram"), geometry::catalogue()[i].diagram);
         for (const auto& alias : catalogue[i].at("aliases")) {
             EXPECT_EQ(geometry::findEntry(alias.get<std::string>()), &geometry::catalogue()[i]);
         }

@@ -1,0 +1,102 @@
+"""Polytopes by name, by notation and from the catalogue."""
+
+import pytest
+from wire import Client, Refused
+
+
+@pytest.mark.parametrize("text, name, counts", [
+    ("truncated tesseract", "truncated tesseract", (64, 128, 88, 24)),
+    ("omnitruncated 120-cell", "omnitruncated 120-cell", (14400, 28800, 17040, 2640)),
+    ("O5O3O3X", "600-cell", (120, 720, 1200, 600)),
+    ("x3o3o *b3o", "16-cell", (8, 24, 32, 16)),
+    ("{5,5/2,5}", "great 120-cell", (120, 720, 720, 120)),
+    ("sadi", "snub 24-cell", (96, 432, 480, 144)),
+    ("grand antiprism", "grand antiprism", (100, 500, 720, 320)),
+    ("7x9 duoprism", "7,9-duoprism", (63, 126, 79, 16)),
+    ("pentagonal antiprism prism", "pentagonal antiprism prism", (20, 50, 44, 14)),
+    ("snub cube prism", "snub cubic prism", (48, 144, 136, 40)),
+])
+async def test_names_and_notations(server, text, name, counts):
+    async with Client(server, stream="geometry") as client:
+        for request in ({"type_": "set", "polytope": text}, {"type_": "command", "line": f":polytope {text}"}):
+            await client.request("set", polytope="5-cell")
+            done = await client.request(request.pop("type_"), **request)
+            state = await client.state(done["revision"])
+            polytope = state["polytope"]
+            assert polytope["name"] == name
+            assert tuple(polytope[part] for part in ("vertices", "edges", "faces", "cells")) == counts
+            assert sum(kind["cells"] for kind in polytope["kinds"]) == counts[3]
+            # What a state says brings the polytope back.
+            await client.request("set", polytope="5-cell")
+            done = await client.request("set", polytope=polytope)
+            assert (await client.state(done["revision"]))["polytope"] == polytope
+
+
+async def test_kinds_are_named(server):
+    async with Client(server) as client:
+        await client.request("set", polytope="omnitruncated 120-cell")
+        state = await client.request("get", what="state")
+        assert state["polytope"]["kinds"] == [
+            {"name": "truncated icosidodecahedron", "cells": 120}, {"name": "truncated octahedron", "cells": 600},
+            {"name": "decagonal prism", "cells": 720}, {"name": "hexagonal prism", "cells": 1200}]
+
+
+@pytest.mark.parametrize("text, says", [
+    ("trunkated tesseract", "did you mean 'truncated tesseract'?"),
+    ("omnitruncate 120 cell", "did you mean 'omnitruncated 120-cell'?"),
+    ("truncated 14-cell", "did you mean 'truncated 16-cell' or 'truncated 24-cell'?"),
+    ("x5o3o", "four nodes"),
+    ("x6o3o3o", "finite"),
+    ("o5o3o3o", "ringed"),
+    ("2,5-duoprism", "at least three sides"),
+    ("{6,3,3}", "finite"),
+])
+async def test_what_names_nothing_is_explained(server, text, says):
+    async with Client(server) as client:
+        before = await client.request("get", what="state")
+        for line in ({"type_": "set", "polytope": text}, {"type_": "command", "line": f"polytope {text}"}):
+            with pytest.raises(Refused) as refused:
+                await client.request(line.pop("type_"), **line)
+            assert refused.value.code == "unknown_polytope"
+            assert says in refused.value.text and f"'{text}'" in refused.value.text
+        after = await client.request("get", what="state")
+        assert {**after, "id": 0} == {**before, "id": 0}
+
+
+async def test_too_many_vertices_are_refused(server):
+    async with Client(server) as client:
+        for text in ("1000,1000-duoprism", "x999999o x999999o", "500000-gonal antiprism prism"):
+            with pytest.raises(Refused) as refused:
+                await client.request("set", polytope=text)
+            assert refused.value.code == "too_large" and "100000" in refused.value.text
+
+
+async def test_every_entry_of_the_catalogue_has_its_counts(server):
+    async with Client(server) as client:
+        entries = (await client.request("get", what="catalogue"))["polytopes"]
+        assert len(entries) > 80
+        for entry in entries:
+            await client.request("key", key="n")
+        assert (await client.request("get", what="state"))["polytope"]["name"] == entries[0]["name"]
+        for entry in reversed(entries):
+            await client.request("key", key="N")
+            polytope = (await client.request("get", what="state"))["polytope"]
+            for part in ("name", "vertices", "edges", "faces", "cells"):
+                assert polytope[part] == entry[part]
+
+
+async def test_n_leads_on_from_a_polytope_outside_the_catalogue(server):
+    async with Client(server) as client:
+        entries = (await client.request("get", what="catalogue"))["polytopes"]
+        for key, name in (("n", entries[0]["name"]), ("N", entries[-1]["name"])):
+            await client.request("set", polytope="7,9-duoprism")
+            await client.request("key", key=key)
+            assert (await client.request("get", what="state"))["polytope"]["name"] == name
+
+
+async def test_a_builtin_name_cannot_be_loaded_over(server):
+    async with Client(server) as client:
+        for name in ("tesseract", "truncated tesseract", "7,9-duoprism", "x5o x8o"):
+            with pytest.raises(Refused) as refused:
+                await client.request("load", name=name, format="off", data="4OFF\n")
+            assert refused.value.code == "bad_polytope" and "choose another" in refused.value.text
