@@ -74,8 +74,7 @@ void paintByCell(const geometry::Polytope& polytope, std::vector<Colour>& out) {
 }
 
 void paintByKind(const geometry::Polytope& polytope, std::vector<Colour>& out) {
-    std::vector<Colour> kinds(std::max<std::size_t>(polytope.kinds.size(), 1));
-    for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k] = distinct(k, kinds.size());
+    const std::vector<Colour> kinds = kindColours(std::max<std::size_t>(polytope.kinds.size(), 1));
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = kinds[polytope.cellKinds[c]];
 }
 
@@ -94,6 +93,12 @@ Scale divergingScale() {
 }
 
 }  // namespace
+
+std::vector<Colour> kindColours(std::size_t count) {
+    std::vector<Colour> colours(count);
+    for (std::size_t k = 0; k < count; ++k) colours[k] = distinct(k, count);
+    return colours;
+}
 
 void CellColours::paint(const geometry::Polytope& polytope, Colouring colouring, const geometry::Rotation& orientation,
                         std::vector<Colour>& out) {
