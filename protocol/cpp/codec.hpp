@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -39,7 +40,8 @@ void slicesMessage(const geometry::Polytope& polytope, const geometry::SliceSet&
 
 std::string errorMessage(const Error& error, std::optional<double> id);
 std::string doneMessage(std::optional<double> id, std::uint64_t revision);
-std::string catalogueMessage(std::optional<double> id);
+/// The `catalogue` message, after the catalogue's entries those of what a session has loaded.
+std::string catalogueMessage(std::optional<double> id, std::span<const session::PolytopePtr> loaded = {});
 std::string keymapMessage(std::optional<double> id);
 
 /// `welcome`: `limits` is a JSON object text.

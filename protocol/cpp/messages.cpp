@@ -1,5 +1,7 @@
 // Messages to the client, but for slices.
 
+#include <array>
+
 #include <nlohmann/json.hpp>
 
 #include "geometry/catalogue.hpp"
@@ -17,22 +19,35 @@ void begin(JsonWriter& w, std::string_view type, std::optional<double> id) {
     if (id) w.member("id", *id);
 }
 
+// Numbers of vertices, edges, 2-faces and cells.
+using Counts = std::array<std::uint64_t, 4>;
+
+Counts countsOf(const geometry::Polytope& polytope) {
+    return {polytope.vertices.size(), polytope.edges.size(), polytope.faces.size(), polytope.cells.size()};
+}
+
+void writeCounts(JsonWriter& w, const Counts& counts) {
+    w.member("vertices", counts[0]);
+    w.member("edges", counts[1]);
+    w.member("faces", counts[2]);
+    w.member("cells", counts[3]);
+}
+
 void writePolytope(JsonWriter& w, const geometry::Polytope& polytope) {
     w.key("polytope");
     w.beginObject();
     w.member("name", std::string_view(polytope.name));
-    w.member("vertices", std::uint64_t{polytope.vertices.size()});
-    w.member("edges", std::uint64_t{polytope.edges.size()});
-    w.member("faces", std::uint64_t{polytope.faces.size()});
-    w.member("cells", std::uint64_t{polytope.cells.size()});
+    writeCounts(w, countsOf(polytope));
     std::vector<std::uint64_t> cells(polytope.kinds.size());
     for (const std::uint32_t kind : polytope.cellKinds) ++cells[kind];
+    const std::vector<scene::Colour> colours = scene::kindColours(cells.size());
     w.key("kinds");
     w.beginArray();
     for (std::size_t i = 0; i < cells.size(); ++i) {
         w.beginObject();
         w.member("name", std::string_view(polytope.kinds[i]));
         w.member("cells", cells[i]);
+        w.member("color", colours[i]);
         w.endObject();
     }
     w.endArray();
@@ -154,7 +169,7 @@ std::string welcomeMessage(std::string_view session, std::string_view token, std
     return out;
 }
 
-std::string catalogueMessage(std::optional<double> id) {
+std::string catalogueMessage(std::optional<double> id, std::span<const session::PolytopePtr> loaded) {
     std::string out;
     {
         JsonWriter w(out);
@@ -171,11 +186,20 @@ std::string catalogueMessage(std::optional<double> id) {
             w.endArray();
             w.member("diagram", std::string_view(entry.diagram));
             w.member("schlaefli", std::string_view(entry.schlaefli));
-            w.member("vertices", entry.vertices);
-            w.member("edges", entry.edges);
-            w.member("faces", entry.faces);
-            w.member("cells", entry.cells);
+            writeCounts(w, {entry.vertices, entry.edges, entry.faces, entry.cells});
             w.member("symmetry_order", entry.symmetryOrder);
+            w.endObject();
+        }
+        for (const session::PolytopePtr& polytope : loaded) {
+            w.beginObject();
+            w.member("name", std::string_view(polytope->name));
+            w.member("family", std::string_view("loaded"));
+            w.key("aliases");
+            w.beginArray();
+            w.endArray();
+            w.member("diagram", std::string_view());
+            w.member("schlaefli", std::string_view());
+            writeCounts(w, countsOf(*polytope));
             w.endObject();
         }
         w.endArray();

@@ -100,9 +100,12 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, protocol::
         case protocol::What::state:
             peer->send(textMessage(protocol::stateMessage(session_.now, revision(), id)));
             break;
-        case protocol::What::catalogue:
-            peer->send(textMessage(protocol::catalogueMessage(id)));
+        case protocol::What::catalogue: {
+            std::vector<session::PolytopePtr> loaded;
+            for (const auto& [name, polytope] : session_.loaded) loaded.push_back(polytope);
+            peer->send(textMessage(protocol::catalogueMessage(id, loaded)));
             break;
+        }
         case protocol::What::keymap:
             peer->send(textMessage(protocol::keymapMessage(id)));
             break;

@@ -60,17 +60,18 @@ test("accessibility: every control has a name", async () => {
 
 test("accessibility: the focus is visible wherever Tab leads, and Tab leads everywhere", async () => {
     const { page, close } = await openWithScript();
-    const count = await page.locator("button:visible, #drawing").count();
+    const count = await page.locator("button:visible, #drawing, #tools input:checked").count();
     const seen = new Set();
     for (let i = 0; i < count + 2; ++i) {
         await page.keyboard.press("Tab");
         const focus = await page.evaluate(() => {
             const at = document.activeElement;
             if (at === document.body) return undefined;
-            const { outlineStyle, outlineWidth } = getComputedStyle(at);
+            const seen = at.type === "radio" ? at.nextElementSibling : at; // what stands for it
+            const { outlineStyle, outlineWidth } = getComputedStyle(seen);
             const { borderTopWidth, content } = getComputedStyle(at, "::after");
             const framed = content !== "none" && parseFloat(borderTopWidth) >= 1;
-            const name = at.id || at.title || at.textContent;
+            const name = at.id || at.name || at.title || at.textContent;
             return { name, visible: framed || (outlineStyle !== "none" && parseFloat(outlineWidth) >= 2) };
         });
         if (!focus) continue;

@@ -7,6 +7,7 @@ import "./command_line.mjs";
 import "./picker.mjs";
 import "./loading.mjs";
 import "./export.mjs";
+import "./colours.mjs";
 import "./connection.mjs";
 import "./links.mjs";
 import "./pointer.mjs";

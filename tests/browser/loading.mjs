@@ -166,5 +166,12 @@ test("loading: several files are loaded one after the other, and all are found a
     const { page, script, close } = await openWithScript();
     await drop(page, file("one.off", simplex), file("two.off", simplex));
     await script.until((one) => one.polytope.name === "two.off", "the second file");
+    await page.keyboard.press("s");
+    const found = page.locator('#picker-list [role=group]:has-text("loaded") [data-name]');
+    await page.waitForFunction(() => document.querySelector('#picker-list [data-name="two.off"]'));
+    assert.deepEqual(await found.evaluateAll((all) => all.map((one) => one.dataset.name)), ["one.off", "two.off"]);
+    await page.keyboard.type("one");
+    await page.keyboard.press("Enter");
+    await script.until((one) => one.polytope.name === "one.off", "the first file again");
     await close();
 });

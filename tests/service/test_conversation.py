@@ -1,6 +1,7 @@
 """The wire, message by message."""
 
 import math
+from unittest.mock import ANY
 
 import pytest
 from wire import SUBPROTOCOL, Client, Refused, connect
@@ -22,7 +23,7 @@ async def test_a_session_starts_as_the_paper_does(server):
     async with Client(server) as client:
         state = await client.state(0)
         assert state["polytope"] == {"name": "5-cell", "vertices": 5, "edges": 10, "faces": 10, "cells": 5,
-                                     "kinds": [{"name": "tetrahedron", "cells": 5}]}
+                                     "kinds": [{"name": "tetrahedron", "cells": 5, "color": ANY}]}
         assert state["orientation"] == [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
         assert state["alpha"] == state["beta"] == pytest.approx(ALPHA)
         assert state["slices"]["count"] == 21 and state["slices"]["focus"] == 0
@@ -97,8 +98,14 @@ async def test_load_a_polytope(server):
         done = await client.request("load", name="mine", format="off", data=simplex)
         state = await client.state(done["revision"])
         assert state["polytope"] == {"name": "mine", "vertices": 5, "edges": 10, "faces": 10, "cells": 5,
-                                     "kinds": [{"name": "tetrahedron", "cells": 5}]}
+                                     "kinds": [{"name": "tetrahedron", "cells": 5, "color": ANY}]}
         assert len((await client.slices(done["revision"]))["coordinates"]) == 5
+        known = (await client.request("get", what="catalogue"))["polytopes"]
+        assert known[-1] == {"name": "mine", "family": "loaded", "aliases": [], "diagram": "", "schlaefli": "",
+                             "vertices": 5, "edges": 10, "faces": 10, "cells": 5}
+    async with Client(server) as another:
+        elsewhere = (await another.request("get", what="catalogue"))["polytopes"]
+        assert elsewhere == known[:-1], "another session has not loaded it"
 
 
 async def test_get_answers_with_what_was_asked_for(server):

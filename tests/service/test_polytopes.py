@@ -36,9 +36,14 @@ async def test_kinds_are_named(server):
     async with Client(server) as client:
         await client.request("set", polytope="omnitruncated 120-cell")
         state = await client.request("get", what="state")
-        assert state["polytope"]["kinds"] == [
-            {"name": "truncated icosidodecahedron", "cells": 120}, {"name": "truncated octahedron", "cells": 600},
-            {"name": "decagonal prism", "cells": 720}, {"name": "hexagonal prism", "cells": 1200}]
+        kinds = state["polytope"]["kinds"]
+        assert [(kind["name"], kind["cells"]) for kind in kinds] == [
+            ("truncated icosidodecahedron", 120), ("truncated octahedron", 600), ("decagonal prism", 720),
+            ("hexagonal prism", 1200)]
+        await client.request("set", color="kind")
+        slices = await client.request("get", what="slices")
+        cells = slices["scene"]["colors"]["cells"]
+        assert sorted(cells) == sorted(kind["color"] for kind in kinds for _ in range(kind["cells"]))
 
 
 @pytest.mark.parametrize("text, says", [

@@ -51,8 +51,10 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
     EXPECT_EQ(message.at("type"), "state");
     EXPECT_EQ(message.at("id"), 3);
     EXPECT_EQ(message.at("revision"), 7);
-    EXPECT_EQ(message.at("polytope"), json::parse(R"({"name":"5-cell","vertices":5,"edges":10,"faces":10,"cells":5,
-                              "kinds":[{"name":"tetrahedron","cells":5}]})"));
+    json polytope = json::parse(R"({"name":"5-cell","vertices":5,"edges":10,"faces":10,"cells":5,
+                              "kinds":[{"name":"tetrahedron","cells":5}]})");
+    polytope["kinds"][0]["color"] = scene::kindColours(1)[0];
+    EXPECT_EQ(message.at("polytope"), polytope);
     EXPECT_EQ(message.at("orientation").at(0).at(3), session.now.orientation.matrix()[3][0]) << "rows";
     EXPECT_EQ(message.at("alpha"), std::numbers::pi / 36);
     EXPECT_EQ(message.at("step"), std::numbers::pi / 180);
@@ -153,6 +155,14 @@ TEST(OtherMessages, TheCatalogueIsTheGeometrys) {
             EXPECT_EQ(geometry::findEntry(alias.get<std::string>()), &geometry::catalogue()[i]);
         }
     }
+}
+
+TEST(OtherMessages, TheCatalogueEndsWithWhatWasLoaded) {
+    const std::vector<session::PolytopePtr> loaded{Session{}.now.polytope};
+    const json catalogue = fitting(catalogueMessage({}, loaded)).at("polytopes");
+    ASSERT_EQ(catalogue.size(), geometry::catalogue().size() + 1);
+    EXPECT_EQ(catalogue.back(), json::parse(R"({"name":"5-cell","family":"loaded","aliases":[],"diagram":"",
+                              "schlaefli":"","vertices":5,"edges":10,"faces":10,"cells":5})"));
 }
 
 }  // namespace
