@@ -20,10 +20,11 @@ class Budget {
     Budget(const Limits& limits, std::stop_token stop)
         : limits_(limits), stop_(std::move(stop)), start_(std::chrono::steady_clock::now()) {}
 
+    bool isOver() const { return stop_.stop_requested() || std::chrono::steady_clock::now() - start_ > limits_.time; }
     /// To be called often. Throws when the time is over.
     void checkTime() const {
         if (stop_.stop_requested()) throw Refused{{Refusal::Cause::tooLong, "the file was given up: the server stops"}};
-        if (std::chrono::steady_clock::now() - start_ > limits_.time) {
+        if (isOver()) {
             throw Refused{{Refusal::Cause::tooLong, "the file takes more than the allowed " +
                                                         std::to_string(static_cast<int>(limits_.time.count())) +
                                                         " s to make; ask for the focus slice alone or for a solid"}};

@@ -9,6 +9,7 @@
 
 #include "export/budget.hpp"
 #include "export/frame.hpp"
+#include "export/label.hpp"
 #include "export/layout.hpp"
 #include "export/mesh_formats.hpp"
 #include "export/solid.hpp"
@@ -55,7 +56,6 @@ class Exporter {
   private:
     std::vector<Solid> bodies() {
         std::vector<Group> groups;
-        if (wish_.label != Label::none) throw Refused{{Refusal::Cause::noBody, "labels cannot be made yet"}};
         const auto colour = wish_.body == Body::frame ? scene::style().bar : scene::style().ball;
         std::size_t triangles = 0;
         if (wish_.body == Body::frame) prepareFrame();
@@ -69,6 +69,7 @@ class Exporter {
             groups.push_back({i, {{nameOf(i), std::move(mesh), colour, glm::dvec3(0)}}});
         }
         if (groups.empty()) refuseEmpty();
+        if (wish_.label != Label::none) label(groups);
         if (wish_.format == Format::stl || wish_.format == Format::threeMf) {
             standOnPlate(groups, wish_.size, grid_);
         } else if (wish_.of == Extent::oval) {
@@ -77,6 +78,30 @@ class Exporter {
         std::vector<Solid> solids;
         for (Group& group : groups) std::ranges::move(group.solids, std::back_inserter(solids));
         return solids;
+    }
+
+    void label(std::vector<Group>& groups) const {
+        std::size_t done = 0;
+        for (Group& group : groups) {
+            budget_.checkTime();
+            const Caption text(polytope_.name, wOf(group.slice));
+            if (wish_.label == Label::engraved) {
+                done += text.engrave(group.solids.front().mesh, wish_.size, grid_) ? 1 : 0;
+                continue;
+            }
+            const Box box = boxOf(group.solids.front().mesh);
+            const glm::dvec3 front{(box.least.x + box.most.x) / 2, box.least.y - wish_.size / 12, box.least.z};
+            group.solids.push_back({group.solids.front().name + " (label)", text.plate(wish_.size, grid_),
+                                    scene::style().bar, grid_.snap(front)});
+            ++done;
+        }
+        if (done == 0) {
+            throw Refused{{Refusal::Cause::noBody,
+                           wish_.body == Body::frame
+                               ? "balls and bars have no face to engrave; ask for a separate label"
+                               : "no face is flat and large enough for letters of 1 mm; ask for a separate label or a "
+                                 "larger size"}};
+        }
     }
 
     void prepareFrame() {
@@ -93,7 +118,7 @@ class Exporter {
         scene::CellColours().paint(polytope_, subject_.colouring, subject_.orientation, colours);
         switch (wish_.format) {
             case Format::threeMf:
-                return threeMf(solids, polytope_.name);
+                return threeMf(solids, polytope_.name, budget_);
             case Format::obj:
                 return obj(solids);
             case Format::ply:
@@ -105,9 +130,8 @@ class Exporter {
         }
     }
 
-    std::string nameOf(int i) const {
-        return polytope_.name + ", " + labelOfW(slices_.planes.w(i), slices_.planes.spacing);
-    }
+    std::string nameOf(int i) const { return polytope_.name + ", " + wOf(i); }
+    std::string wOf(int i) const { return labelOfW(slices_.planes.w(i), slices_.planes.spacing); }
 
     [[noreturn]] void refuseEmpty() const {
         double least = 1e300;
@@ -123,7 +147,7 @@ class Exporter {
         const bool many = slices_.planes.count > 1;
         std::string message = many ? "no slice has a body" : "the slice at ";
         if (!many) {
-            message += labelOfW(slices_.planes.w(0), slices_.planes.spacing);
+            message += wOf(0);
             message += slices_.vertices.empty() ? " is empty" : " has no thickness";
         }
         throw Refused{{Refusal::Cause::noBody, message + ": the polytope reaches from w = " + reach +

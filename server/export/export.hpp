@@ -17,8 +17,8 @@ namespace oval4d::exports {
 
 /// Bounds on the work for one file.
 struct Limits {
-    std::size_t triangles = 3'000'000;
-    std::size_t bytes = 256U << 20U;
+    std::size_t triangles = 5'000'000;
+    std::size_t bytes = 512U << 20U;
     std::chrono::duration<double> time{20};
 };
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "export/budget.hpp"
 #include "export/mesh.hpp"
 
 namespace oval4d::exports {
@@ -21,7 +22,8 @@ std::string obj(std::span<const Solid> solids);
 std::string ply(std::span<const Solid> solids, Colours cells);
 /// glTF 2.0 in one file, in metres: a node for each body, the colours at the vertices.
 std::string glb(std::span<const Solid> solids, Colours cells);
-/// 3MF: an object for each body, in millimetres. Throws std::runtime_error if lib3mf fails.
-std::string threeMf(std::span<const Solid> solids, const std::string& title);
+/// 3MF: an object for each body, in millimetres. Throws std::runtime_error if lib3mf fails, Refused if it takes too
+/// long.
+std::string threeMf(std::span<const Solid> solids, const std::string& title, const Budget& budget);
 
 }  // namespace oval4d::exports

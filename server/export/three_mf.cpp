@@ -44,6 +44,11 @@ struct Sink {
     }
 };
 
+// Asked by the library from time to time.
+bool goOn(int /*progress*/, ProgressIdentifier /*step*/, void* budget) {
+    return !static_cast<const Budget*>(budget)->isOver();
+}
+
 void addSolid(PLib3MFModel* model, const Solid& solid) {
     std::vector<MODELMESHVERTEX> points;
     points.reserve(solid.mesh.points.size());
@@ -67,7 +72,7 @@ void addSolid(PLib3MFModel* model, const Solid& solid) {
 
 }  // namespace
 
-std::string threeMf(std::span<const Solid> solids, const std::string& title) {
+std::string threeMf(std::span<const Solid> solids, const std::string& title, const Budget& budget) {
     const auto model = owned<PLib3MFModel>("cannot make a model", [](auto** out) { return lib3mf_createmodel(out); });
     check(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER), "cannot set the unit");
     check(lib3mf_model_addmetadatautf8(model.get(), "Title", title.c_str()), "cannot set the title");
@@ -75,10 +80,12 @@ std::string threeMf(std::span<const Solid> solids, const std::string& title) {
     for (const Solid& solid : solids) addSolid(model.get(), solid);
     const auto writer = owned<PLib3MFModelWriter>(
         "cannot make a writer", [&](auto** out) { return lib3mf_model_querywriter(model.get(), "3mf", out); });
+    check(lib3mf_writer_setprogresscallback(writer.get(), &goOn, const_cast<Budget*>(&budget)), "cannot be watched");
     Sink sink;
-    check(lib3mf_writer_writetocallback(writer.get(), reinterpret_cast<void*>(&Sink::write),
-                                        reinterpret_cast<void*>(&Sink::seek), &sink),
-          "cannot write the file");
+    const auto result = lib3mf_writer_writetocallback(writer.get(), reinterpret_cast<void*>(&Sink::write),
+                                                      reinterpret_cast<void*>(&Sink::seek), &sink);
+    budget.checkTime();
+    check(result, "cannot write the file");
     return std::move(sink.bytes);
 }
 

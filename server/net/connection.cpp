@@ -23,6 +23,8 @@ namespace {
 constexpr auto kQuietly = asio::as_tuple(asio::use_awaitable);
 constexpr std::size_t kKeptBuffer = 64U << 10U;  // a larger one is given back after the message that needed it
 
+constexpr std::size_t kPiece = 1U << 20U;  // bytes of a message that are written at once
+
 template <typename Duration>
 auto steady(Duration duration) {
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(duration);
@@ -207,15 +209,29 @@ void Connection::startClosing(std::uint16_t code, std::string reason) {
 void Connection::writeNext() {
     writing_ = !outbox_.empty();
     if (writing_) {
-        const Message& next = outbox_.front().message;
-        expectProgress();
-        stream_.binary(next.binary);
-        stream_.async_write(
-            asio::buffer(next.bytes.view()),
-            [self = shared_from_this()](boost::system::error_code fault, std::size_t) { self->written(fault); });
+        stream_.binary(outbox_.front().message.binary);
+        writePiece(0);
     } else if (closing_ && !ended_) {
         stream_.async_close(*closing_, [self = shared_from_this()](boost::system::error_code) {});
     }
+}
+
+/// A long message goes out in fragments, each with time of its own: a slow client is no dead one.
+void Connection::writePiece(std::size_t from) {
+    const std::string_view rest = outbox_.front().message.bytes.view().substr(from);
+    const std::string_view piece = rest.substr(0, kPiece);
+    const bool last = piece.size() == rest.size();
+    expectProgress();
+    stream_.async_write_some(
+        last, asio::buffer(piece),
+        [self = shared_from_this(), last, to = from + piece.size()](boost::system::error_code fault, std::size_t) {
+            if (last || fault || self->ended_) {
+                self->written(fault);
+            } else {
+                ++self->writes_;
+                self->writePiece(to);
+            }
+        });
 }
 
 void Connection::written(boost::system::error_code fault) {
@@ -238,7 +254,7 @@ void Connection::written(boost::system::error_code fault) {
     writeNext();
 }
 
-/// Drops a client that does not take the message being written in time.
+/// Drops a client that does not take the piece being written in time.
 void Connection::expectProgress() {
     deadline_.expires_after(steady(services_.options.writeTimeout));
     deadline_.async_wait([self = shared_from_this(), watched = writes_](boost::system::error_code cancelled) {

@@ -59,6 +59,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
 
     void startClosing(std::uint16_t code, std::string reason);
     void writeNext();
+    void writePiece(std::size_t from);
     void written(boost::system::error_code fault);
     void expectProgress();
 

@@ -24,7 +24,7 @@ using protocol::ErrorCode;
 namespace {
 
 constexpr auto kQuietly = asio::as_tuple(asio::use_awaitable);
-constexpr auto kIdle = std::chrono::seconds(30);  // for a whole request to arrive, or a reply to be taken
+constexpr auto kIdle = std::chrono::seconds(30);  // for a whole request to arrive, or a piece of a reply to be taken
 constexpr std::uint32_t kLongestHeader = 16U << 10U;
 constexpr std::uint64_t kLongestBody = 16U << 10U;  // nothing here takes one
 
@@ -203,9 +203,13 @@ asio::awaitable<bool> HttpSession::write(const Request& request, Reply reply) {
     const std::string_view target(request.target().data(), request.target().size());
     spdlog::debug("request method={} path=\"{}\" status={}", std::string_view(request.method_string()),
                   target.substr(0, target.find('?')), reply.status);
-    stream_.expires_after(kIdle);
-    const auto [fault, size] = co_await http::async_write(stream_, response, kQuietly);
-    co_return !fault && response.keep_alive();
+    http::response_serializer<http::span_body<const char>> serializer(response);
+    while (!serializer.is_done()) {
+        stream_.expires_after(kIdle);  // for each piece that the socket takes
+        const auto [fault, size] = co_await http::async_write_some(stream_, serializer, kQuietly);
+        if (fault) co_return false;
+    }
+    co_return response.keep_alive();
 }
 
 asio::awaitable<void> HttpSession::upgrade(Request request, std::string session) {

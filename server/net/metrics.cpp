@@ -13,6 +13,9 @@ using prometheus::Histogram;
 // From 100 µs to 3 s, each bucket about twice the one before.
 const Histogram::BucketBoundaries kBuckets{1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.3, 1, 3};
 
+// From 1 ms to a minute.
+const Histogram::BucketBoundaries kFileBuckets{1e-3, 1e-2, 0.1, 0.3, 1, 3, 10, 20, 60};
+
 prometheus::Gauge& gauge(prometheus::Registry& registry, const char* name, const char* help) {
     return prometheus::BuildGauge().Name(name).Help(help).Register(registry).Add({});
 }
@@ -33,6 +36,8 @@ Metrics::Metrics()
       sessions(gauge(registry_, "oval4d_sessions", "Sessions kept, with or without a client")),
       openSessions(gauge(registry_, "oval4d_open_sessions", "Sessions with a client")),
       jobsWaiting(gauge(registry_, "oval4d_jobs_waiting", "Jobs waiting for a worker")),
+      filesUnderWay(gauge(registry_, "oval4d_files_under_way", "Files being made")),
+      fileTime(histograms(registry_, "oval4d_file_seconds", "Time to make a file").Add({}, kFileBuckets)),
       memory(gauge(registry_, "process_resident_memory_bytes", "Memory of this process that is resident")),
       polytopes(gauge(registry_, "oval4d_polytope_cache_bytes",
                       "Memory of polytopes kept for when they are asked for again")),

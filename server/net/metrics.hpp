@@ -26,8 +26,10 @@ class Metrics {
     prometheus::Gauge& sessions;      ///< kept in the store
     prometheus::Gauge& openSessions;  ///< those with a client
     prometheus::Gauge& jobsWaiting;
-    prometheus::Gauge& memory;     ///< bytes of this process that are resident
-    prometheus::Gauge& polytopes;  ///< bytes of polytopes kept for when they are asked for again
+    prometheus::Gauge& filesUnderWay;  ///< being made
+    prometheus::Histogram& fileTime;   ///< from the start of making one to its end
+    prometheus::Gauge& memory;         ///< bytes of this process that are resident
+    prometheus::Gauge& polytopes;      ///< bytes of polytopes kept for when they are asked for again
     prometheus::Counter& messagesReceived;
     prometheus::Counter& bytesSent;  ///< over WebSockets
     prometheus::Counter& slowReaders;

@@ -34,7 +34,7 @@ class Refused(Exception):
 class Client:
     """`async with Client(server, stream="geometry") as client:` has said hello and been welcomed.
 
-    `messages` is all that came: dictionaries, and bytes for frames. With `shows`, each picture is acknowledged.
+    `messages` is all that came: dictionaries, and bytes for frames and files. With `shows`, each picture is acknowledged.
     """
 
     def __init__(self, server, session="", shows=True, **hello):
@@ -81,7 +81,7 @@ class Client:
     def decode(data):
         if isinstance(data, str):
             return json.loads(data)
-        return data if data.startswith(b"\x89PNG") else cbor2.loads(data)
+        return cbor2.loads(data) if 0xa0 <= data[0] < 0xc0 else data  # a map; else a frame or a file
 
     @staticmethod
     def is_picture(message):

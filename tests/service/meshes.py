@@ -1,0 +1,91 @@
+"""Reads exported files with other programs' eyes."""
+
+import collections
+import io
+import json
+import re
+import struct
+import subprocess
+import zipfile
+from pathlib import Path
+from xml.etree import ElementTree
+
+HERE = Path(__file__).resolve().parent
+CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+
+
+def admesh(path):
+    """What admesh says of an STL file."""
+    done = subprocess.run(["admesh", str(path)], capture_output=True, text=True, timeout=120, check=True)
+    number = {}
+    for name, value in re.findall(r"^(.*?)\s+:\s+(-?[\d.]+)", done.stdout, re.MULTILINE):
+        number[name.strip()] = float(value)
+    number["volume"] = float(re.search(r"Volume\s+:\s+(-?[\d.]+)", done.stdout).group(1))
+    number["box"] = [[float(v) for v in pair]
+                     for pair in re.findall(r"Min .\s*=\s*(\S+), Max .\s*=\s*(\S+)", done.stdout)]
+    return number
+
+
+def assert_closed(path, parts=None):
+    """admesh finds nothing to repair."""
+    report = admesh(path)
+    for fault in ("Total disconnected facets", "Degenerate facets", "Edges fixed", "Facets removed", "Facets added",
+                  "Facets reversed", "Backwards edges", "Normals fixed"):
+        assert report[fault] == 0, (fault, report)
+    assert report["volume"] > 0
+    if parts is not None:
+        assert report["Number of parts"] == parts
+    return report
+
+
+def stl_triangles(data):
+    count = struct.unpack_from("<I", data, 80)[0]
+    assert len(data) == 84 + 50 * count
+    return [struct.unpack_from("<12xfffffffff", data, 84 + 50 * i) for i in range(count)]
+
+
+def assimp(path, to):
+    """Has assimp read a file and write it again, its equal points as one."""
+    subprocess.run(["assimp", "export", str(path), str(to), "-fstlb", "-jiv"], capture_output=True, timeout=120, check=True)
+    return to
+
+
+def three_mf(data):
+    """The objects of a 3MF file: name, points, triangles. All of them are built, in millimetres."""
+    archive = zipfile.ZipFile(io.BytesIO(data))
+    assert archive.testzip() is None
+    assert {"[Content_Types].xml", "_rels/.rels"} <= set(archive.namelist())
+    relations = ElementTree.fromstring(archive.read("_rels/.rels"))
+    model = ElementTree.fromstring(archive.read(relations[0].get("Target").lstrip("/")))
+    assert model.get("unit") == "millimeter"
+    objects = {}
+    for thing in model.iter(CORE + "object"):
+        points = [tuple(float(v.get(a)) for a in "xyz") for v in thing.iter(CORE + "vertex")]
+        triangles = [tuple(int(t.get(a)) for a in ("v1", "v2", "v3")) for t in thing.iter(CORE + "triangle")]
+        objects[thing.get("id")] = (thing.get("name"), points, triangles)
+    assert [item.get("objectid") for item in model.iter(CORE + "item")] == list(objects)
+    return list(objects.values())
+
+
+def assert_manifold(triangles):
+    """Every edge in two triangles, once each way."""
+    edges = collections.Counter()
+    for a, b, c in triangles:
+        edges.update([(a, b), (b, c), (c, a)])
+    assert set(edges.values()) == {1}
+    assert all((b, a) in edges for a, b in edges)
+
+
+def volume(points, triangles):
+    sum_ = 0
+    for a, b, c in triangles:
+        p, q, r = points[a], points[b], points[c]
+        sum_ += (p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2])
+                 + p[2] * (q[0] * r[1] - q[1] * r[0]))
+    return sum_ / 6
+
+
+def validate_glb(path):
+    done = subprocess.run(["node", str(HERE / "validate_glb.mjs"), str(path)], capture_output=True, text=True,
+                          timeout=120, check=True)
+    return json.loads(done.stdout)

@@ -1,0 +1,287 @@
+"""Slices as files, read back with other programs."""
+
+import asyncio
+import csv
+import http.client
+import io
+import json
+import random
+import subprocess
+import time
+from xml.etree import ElementTree
+
+import meshes
+import pytest
+from harness import SLOW, Server, run
+from wire import Client, Refused
+
+FORMATS = ["stl", "3mf", "obj", "ply", "glb", "off", "csv", "svg"]
+TURNED = "rotate=xw,yz:0.39,1.42"
+
+
+def fetch(server, format_, query, status=200):
+    answer = server.get(f"/api/v1/file.{format_}?{query}")
+    assert answer.status == status, answer.body[:500]
+    return answer.body
+
+
+def fetch_to(server, path, query):
+    path.write_bytes(fetch(server, path.suffix[1:], query))
+    return path
+
+
+def refusal(server, format_, query, status=400):
+    return json.loads(fetch(server, format_, query, status))
+
+
+def rows(data):
+    """The two tables of a CSV file."""
+    slices, levels = data.decode().split("\n\n")
+    return list(csv.DictReader(io.StringIO(slices))), list(csv.DictReader(io.StringIO(levels)))
+
+
+async def file_by_socket(client, **members):
+    done = await client.request("get", what="file", **members)
+    return client.messages[client.messages.index(done) - 1]
+
+
+@pytest.mark.parametrize("format_", FORMATS)
+async def test_the_same_file_by_socket_by_http_and_by_command(server, tmp_path, format_):
+    async with Client(server, stream="none") as client:
+        await client.request("set", polytope="24-cell")
+        await client.request("rotate", planes=["xw", "yz"], angles=[0.39, 1.42])
+        by_socket = await file_by_socket(client, format=format_, of="oval", size=40)
+    by_http = fetch(server, format_, f"polytope=24-cell&{TURNED}&of=oval&size=40")
+    path = tmp_path / f"slices.{format_}"
+    done = run("export", "-o", path, "--polytope", "24-cell", "--rotate", "xw,yz:0.39,1.42", "--of", "oval", "--size=40")
+    assert done.returncode == 0, done.stderr
+    if format_ == "3mf":  # has the time of its making in it
+        assert meshes.three_mf(by_socket) == meshes.three_mf(by_http) == meshes.three_mf(path.read_bytes())
+    else:
+        assert by_socket == by_http == path.read_bytes()
+    assert by_socket[0] not in {0x89, *range(0xa0, 0xc0)}
+
+
+@pytest.mark.parametrize("polytope", ["5-cell", "8-cell", "16-cell", "24-cell", "120-cell", "600-cell"])
+def test_admesh_finds_nothing_to_repair_however_turned(server, tmp_path, polytope):
+    chance = random.Random(polytope)
+    turns = [""] + [f"&rotate=xw,yz:{chance.uniform(0, 6)},{chance.uniform(0, 6)}&rotate=xy,zw:{chance.uniform(0, 6)},"
+                    f"{chance.uniform(0, 6)}" for _ in range(8)]
+    for turn in turns:
+        query = f"polytope={polytope}{turn}&focus={chance.randint(-4, 4)}"
+        report = meshes.assert_closed(fetch_to(server, tmp_path / "solid.stl", query), parts=1)
+        (row,), levels = rows(fetch(server, "csv", query))
+        # The circumscribed sphere is 60 mm across; its radius in the polytope's units is the largest level that any
+        # turn can bring about, so take it from the polytope itself.
+        points = off_points(fetch(server, "off", query))
+        scale = 30 / max(sum(c * c for c in p) ** 0.5 for p in points)
+        assert report["volume"] == pytest.approx(float(row["volume"]) * scale**3, rel=1e-3)
+        assert sum(int(level["vertices"]) for level in levels) == len(points)
+
+
+def off_points(data):
+    words = " ".join(line.split("#")[0] for line in data.decode().splitlines()).split()
+    assert words[0] == "4OFF"
+    count = int(words[1])
+    return [tuple(map(float, words[5 + 4 * i:9 + 4 * i])) for i in range(count)]
+
+
+@pytest.mark.parametrize("polytope", ["5-cell", "24-cell", "600-cell"])
+@pytest.mark.parametrize("body", ["solid", "frame"])
+def test_every_body_of_the_oval_stands_on_the_plate_by_itself(server, tmp_path, polytope, body):
+    query = f"polytope={polytope}&{TURNED}&of=oval&slices=7&size=50"
+    slices, _ = rows(fetch(server, "csv", query))
+    full = [row for row in slices if float(row["volume"]) > 1e-6]
+    path = fetch_to(server, tmp_path / "oval.stl", query + f"&body={body}")
+    # Frames stand for flat slices too.
+    parts = len(full) if body == "solid" else sum(1 for row in slices if int(row["vertices"]) > 0)
+    report = meshes.assert_closed(path, parts)
+    assert all(low == pytest.approx(0, abs=1e-3) for low, _ in report["box"])
+    assert report["box"][2][1] < 60
+    if body == "frame" and polytope != "5-cell":
+        return  # too many triangles for Python
+    # In 3MF each is an object, and their boxes are apart.
+    objects = meshes.three_mf(fetch(server, "3mf", query + f"&body={body}"))
+    assert len(objects) == parts
+    boxes = []
+    for name, points, triangles in objects:
+        assert name.startswith(polytope + ", w = ")
+        meshes.assert_manifold(triangles)
+        assert meshes.volume(points, triangles) > 0
+        low, high = [[f(p[axis] for p in points) for axis in range(3)] for f in (min, max)]
+        assert low[2] == pytest.approx(0, abs=1e-3)
+        assert all(any(low[a] > h[a] + 1.9 or high[a] < l[a] - 1.9 for a in (0, 1)) for l, h in boxes)
+        boxes.append((low, high))
+
+
+def test_assimp_reads_the_same_bodies_from_every_format(server, tmp_path):
+    volumes = {"solid": [], "frame": []}
+    for format_, unit in (("stl", 1), ("obj", 1), ("ply", 1), ("glb", 1000)):
+        for body in ("solid", "frame"):
+            path = fetch_to(server, tmp_path / f"slice.{format_}", f"polytope=24-cell&{TURNED}&body={body}")
+            triangles = meshes.stl_triangles(meshes.assimp(path, tmp_path / "again.stl").read_bytes())
+            points = [triangle[i:i + 3] for triangle in triangles for i in (0, 3, 6)]
+            loops = [(i, i + 1, i + 2) for i in range(0, len(points), 3)]
+            volumes[body].append(meshes.volume(points, loops) * unit**3)
+    for found in volumes.values():
+        assert found == pytest.approx([found[0]] * 4, rel=1e-3) and found[0] > 0
+
+
+@pytest.mark.parametrize("query", [
+    f"polytope=24-cell&{TURNED}", f"polytope=24-cell&{TURNED}&of=oval", "polytope=120-cell&of=oval&label=separate",
+    "polytope=5-cell&body=frame", "polytope=600-cell&focus=2&label=engraved&size=150"])
+def test_khronos_validator_finds_no_fault(server, tmp_path, query):
+    report = meshes.validate_glb(fetch_to(server, tmp_path / "slice.glb", query))
+    assert report["issues"]["numErrors"] == report["issues"]["numWarnings"] == 0, report["issues"]
+    assert report["info"]["totalTriangleCount"] > 0
+
+
+def test_cells_have_their_colours(server):
+    data = fetch(server, "ply", f"polytope=24-cell&{TURNED}")
+    head, _, body = data.partition(b"end_header\n")
+    vertices, faces = (int(line.split()[2]) for line in head.decode().splitlines() if line.startswith("element"))
+    records = body[12 * vertices:]
+    assert len(records) == 16 * faces
+    colours = {records[16 * i + 13:16 * i + 16] for i in range(faces)}
+    assert len(colours) == 14  # the faces of the slice, each cut from a cell of its own
+
+
+def test_a_label_is_cut_in_or_stands_beside(server, tmp_path):
+    query = f"polytope=24-cell&{TURNED}"
+    plain = meshes.assert_closed(fetch_to(server, tmp_path / "plain.stl", query), 1)
+    cut = meshes.assert_closed(fetch_to(server, tmp_path / "cut.stl", query + "&label=engraved"), 1)
+    assert 0 < plain["volume"] - cut["volume"] < 0.01 * plain["volume"]
+    assert cut["box"] == plain["box"]
+    both = meshes.assert_closed(fetch_to(server, tmp_path / "both.stl", query + "&label=separate"), 2)
+    assert both["volume"] > plain["volume"]
+    (slice_, label) = meshes.three_mf(fetch(server, "3mf", query + "&label=separate&body=frame"))
+    assert label[0] == slice_[0] + " (label)"
+    error = refusal(server, "stl", query + "&label=engraved&body=frame")
+    assert error["code"] == "no_body" and "separate" in error["message"]
+    error = refusal(server, "stl", query + "&label=engraved&size=5")
+    assert error["code"] == "no_body" and "1 mm" in error["message"]
+
+
+def test_numbers_and_critical_levels(server):
+    slices, levels = rows(fetch(server, "csv", "polytope=16-cell&of=oval&slices=5&spacing=0.5"))
+    assert [row["n"] for row in slices] == ["-2", "-1", "0", "1", "2"]
+    for row in slices:
+        # At ±w the 16-cell's slice is the octahedron of radius √2 − |w|.
+        radius = 2**0.5 - abs(float(row["w"]))
+        assert float(row["volume"]) == pytest.approx(4 / 3 * radius**3)
+        assert float(row["area"]) == pytest.approx(4 * 3**0.5 * radius**2)
+        assert [row[name] for name in ("vertices", "edges", "faces")] == ["6", "12", "8"]
+        assert all(abs(float(row["centroid_" + axis])) < 1e-9 for axis in "xyz")
+    assert [int(row["vertices"]) for row in levels] == [1, 6, 1]
+    assert [float(row["critical_w"]) for row in levels] == pytest.approx([-(2**0.5), 0, 2**0.5])
+
+
+async def test_off_loads_again_as_the_same_polytope(server):
+    query = f"polytope=24-cell&{TURNED}"
+    data = fetch(server, "off", query).decode()
+    async with Client(server) as client:
+        await client.request("load", name="again", format="off", data=data)
+        state = await client.request("get", what="state")
+        counts = {name: state["polytope"][name] for name in ("vertices", "edges", "faces", "cells")}
+        assert counts == {"vertices": 24, "edges": 96, "faces": 96, "cells": 24}
+        again = await client.request("get", what="slices")
+        await client.request("set", polytope="24-cell")
+        await client.request("rotate", planes=["xw", "yz"], angles=[0.39, 1.42])
+        first = await client.request("get", what="slices")
+    for one, other in zip(first["slices"], again["slices"]):
+        assert one["of"] == other["of"] and one["faces"] == other["faces"]
+
+
+def test_svg_is_xml_with_a_line_for_each_coordinate(server, tmp_path):
+    path = fetch_to(server, tmp_path / "coordinates.svg", f"polytope=120-cell&{TURNED}")
+    subprocess.run(["xmllint", "--noout", str(path)], check=True, timeout=60)
+    root = ElementTree.fromstring(path.read_bytes())
+    space = "{http://www.w3.org/2000/svg}"
+    groups = {group.get("id"): group for group in root.iter(space + "g")}
+    assert all(len(groups[axis]) == 600 for axis in "xyzw")
+    width, height = (float(root.get(name)) for name in ("width", "height"))
+    for line in root.iter(space + "line"):
+        assert 0 <= float(line.get("x1")) <= width and 0 <= float(line.get("y2")) <= height
+
+
+@pytest.mark.parametrize("query, code, word", [
+    ("focus=90", "no_body", "is empty"), ("of=all", "bad_message", "focus"), ("body=wood", "bad_message", "frame"),
+    ("size=0.5", "out_of_range", "10000"), ("size=thick", "out_of_range", "thick"), ("size=nan", "out_of_range", "nan"),
+    ("label=gold", "bad_message", "engraved"), ("width=30", "unknown_command", "width"),
+    ("polytope=25-cell", "unknown_polytope", "24-cell"),
+])
+def test_what_is_wrong_is_said(server, query, code, word):
+    error = refusal(server, "stl", query)
+    assert error["code"] == code and word in error["message"]
+    done = run("export", "-o", "-", "--format", "stl", *("--" + part for part in query.split("&")))
+    assert done.returncode == 1 and word.encode() in done.stderr and not done.stdout
+
+
+def test_the_command_says_which_formats_there_are(tmp_path):
+    for words in (["-o", tmp_path / "slice.step"], ["-o", "-"], ["--format", "doc"]):
+        done = run("export", *words)
+        assert done.returncode == 1 and b"3mf" in done.stderr
+    assert run("export", "-o", tmp_path / "no" / "where.stl").returncode == 1
+
+
+async def test_messages_that_do_not_fit(server):
+    async with Client(server) as client:
+        for members in ({}, {"format": "doc"}, {"format": "stl", "size": "large"},
+                        {"format": "stl", "of": "all"}, {"format": "stl", "label": True}):
+            with pytest.raises(Refused) as refused:
+                await client.request("get", what="file", **members)
+            assert refused.value.code == "bad_message"
+        with pytest.raises(Refused) as refused:
+            await client.request("get", what="file", format="stl", size=0)
+        assert refused.value.code == "out_of_range"
+        await client.request("set", slices={"focus": 1000})
+        with pytest.raises(Refused) as refused:
+            await client.request("get", what="file", format="stl")
+        assert refused.value.code == "no_body" and "empty" in refused.value.text
+        assert (await client.request("get", what="state"))["slices"]["focus"] == 1000
+
+
+async def test_limits():
+    query = "polytope=120-cell&of=oval&body=frame"
+    with Server("--max-file-triangles", 5000) as server:
+        error = refusal(server, "stl", query, 413)
+        assert error["code"] == "too_large" and "5000 are allowed" in error["message"]
+        fetch(server, "stl", "polytope=120-cell")
+    with Server("--max-file-bytes", "2k") as server:
+        assert "2048 bytes" in refusal(server, "off", query, 413)["message"]
+        async with Client(server) as client:
+            with pytest.raises(Refused) as refused:
+                await client.request("get", what="file", format="off")
+                await client.request("get", what="file", format="stl", body="frame")
+            assert refused.value.code == "too_large"
+    with Server("--max-file-time", 0.01) as server:
+        assert "takes more than" in refusal(server, "stl", query, 413)["message"]
+
+
+async def test_pictures_do_not_wait_for_files():
+    query = "/api/v1/file.3mf?polytope=24-cell&of=oval&body=frame"
+    with Server() as server:
+        loop = asyncio.get_running_loop()
+        files = [loop.run_in_executor(None, server.get, query) for _ in range(3)]
+        async with Client(server, stream="geometry") as client:
+            pictures = 0
+            while not any(file.done() for file in files):
+                start = time.monotonic()
+                done = await client.request("key", key="r")
+                await client.slices(done["revision"])
+                pictures += time.monotonic() - start < 0.5
+            assert pictures > 3
+        for file in files:
+            assert (await file).status == 200
+
+
+async def test_a_stop_does_not_wait_for_a_file():
+    with Server("--max-file-triangles", 20_000_000, "--stop-timeout", 0.2) as server:
+        loop = asyncio.get_running_loop()
+        path = "/api/v1/file.3mf?polytope=120-cell&of=oval&body=frame"
+        file = loop.run_in_executor(None, server.get, path)
+        await loop.run_in_executor(None, server.wait_for, lambda: server.metric("oval4d_files_under_way") == 1)
+        status, seconds = server.stop()
+        assert status == 0 and seconds < 3 * SLOW
+        with pytest.raises((http.client.HTTPException, OSError)):
+            await file
