@@ -70,10 +70,10 @@ constexpr auto kAntiprismPrisms = std::to_array<std::pair<int, std::string_view>
 std::vector<CatalogueEntry> allEntries() {
     std::vector<CatalogueEntry> entries;
     for (const UniformPolychoron& row : uniformPolychora()) entries.push_back(entryOf(row));
-    entries.push_back(entryOf({"snub 24-cell", Diminished::snub24Cell}, "other",
+    entries.push_back(entryOf({"snub 24-cell", Diminished::snub_24_cell}, "other",
                               {"sadi", "snub icositetrachoron", "snub disicositetrachoron"}));
     entries.push_back(
-        entryOf({"grand antiprism", Diminished::grandAntiprism}, "other", {"gap", "pentagonal double antiprismoid"}));
+        entryOf({"grand antiprism", Diminished::grand_antiprism}, "other", {"gap", "pentagonal double antiprismoid"}));
     for (const NamedPolyhedron& base : namedPolyhedra()) {
         // The cube's is the 8-cell; those of the stars are built on request.
         if (base.prism.empty()) continue;
@@ -157,8 +157,8 @@ std::variant<Design, NameError> designNamed(std::string_view text, std::size_t m
     if (const auto* design = std::get_if<Design>(&described)) {
         const std::uint64_t vertices = elementCounts(*design).vertices;
         if (vertices > maxVertices) {
-            return NameError{NameError::Reason::tooLarge, "the " + design->name + " has " + std::to_string(vertices) +
-                                                              " vertices; allowed are " + std::to_string(maxVertices)};
+            return NameError{NameError::Reason::too_large, "the " + design->name + " has " + std::to_string(vertices) +
+                                                               " vertices; allowed are " + std::to_string(maxVertices)};
         }
     }
     return described;

@@ -52,8 +52,9 @@ std::vector<std::string_view> nearestNames(std::string_view text);
 std::shared_ptr<const Polytope> polytopeOf(const Design& design);
 std::shared_ptr<const Polytope> polytopeOf(const CatalogueEntry& entry);
 
-/// How alike two names are: letters to change, put in or take out. Case, blanks and hyphens do not count.
-std::size_t likeness(std::string_view a, std::string_view b);
+/// How alike two names are: letters to change, put in or take out (Levenshtein). Case, blanks and hyphens do not
+/// count, nor what is beyond 64 letters.
+std::size_t likeness(std::string_view one, std::string_view other);
 
 /// The bound on the memory of polytopes kept without being in use, in bytes; 64 MiB at the start.
 void keepPolytopes(std::size_t bytes);

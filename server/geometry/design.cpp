@@ -22,6 +22,8 @@ template <typename... F>
 struct Overloaded : F... {
     using F::operator()...;
 };
+template <typename... F>
+Overloaded(F...) -> Overloaded<F...>;
 
 Diagram known(std::string_view symbol) { return std::get<Diagram>(parseDiagram(symbol)); }
 
@@ -124,8 +126,8 @@ ElementCounts elementCounts(const Design& design) {
                                  [](Diminished which) {
                                      // 600 − 24 · 20 tetrahedra and 24 icosahedra; twenty antiprisms and 300
                                      // tetrahedra.
-                                     return which == Diminished::snub24Cell ? ElementCounts{96, 432, 480, 144}
-                                                                            : ElementCounts{100, 500, 720, 320};
+                                     return which == Diminished::snub_24_cell ? ElementCounts{96, 432, 480, 144}
+                                                                              : ElementCounts{100, 500, 720, 320};
                                  }},
                       design.recipe);
 }
@@ -135,7 +137,7 @@ std::uint64_t symmetryOrder(const Design& design) {
         Overloaded{[](const Diagram& diagram) { return groupOrder(diagram) * symmetriesOf(diagram).size(); },
                    // Those of the base, twice; an antiprism's are four for each side.
                    [](const SnubPrism& snub) { return rotationsOf(snub) * (snub.q.numerator == 2 ? 4 : 2); },
-                   [](Diminished which) { return std::uint64_t{which == Diminished::snub24Cell ? 576U : 400U}; }},
+                   [](Diminished which) { return std::uint64_t{which == Diminished::snub_24_cell ? 576U : 400U}; }},
         design.recipe);
 }
 
@@ -149,7 +151,7 @@ std::string symbolOf(const Design& design) {
                        const Branch second = antiprism ? snub.p : snub.q;
                        return "s" + textOf(first) + "s" + textOf(second) + "s x";
                    },
-                   [](Diminished which) { return std::string(which == Diminished::snub24Cell ? "s3s4o3o" : ""); }},
+                   [](Diminished which) { return std::string(which == Diminished::snub_24_cell ? "s3s4o3o" : ""); }},
         design.recipe);
 }
 
@@ -160,7 +162,7 @@ std::string schlaefliOf(const Design& design) {
                        return snub.q.numerator == 2 ? "s{2," + std::to_string(2 * snub.p.numerator) + "}×{}"
                                                     : "sr{" + textOf(snub.p) + "," + textOf(snub.q) + "}×{}";
                    },
-                   [](Diminished which) { return std::string(which == Diminished::snub24Cell ? "s{3,4,3}" : ""); }},
+                   [](Diminished which) { return std::string(which == Diminished::snub_24_cell ? "s{3,4,3}" : ""); }},
         design.recipe);
 }
 
@@ -168,8 +170,8 @@ Polytope build(const Design& design) {
     return std::visit(Overloaded{[&](const Diagram& diagram) { return buildWythoffian(design, diagram); },
                                  [&](const SnubPrism& snub) { return prismOver(design.name, snubOf(snub.p, snub.q)); },
                                  [&](Diminished which) {
-                                     return which == Diminished::snub24Cell ? snub24Cell(design.name)
-                                                                            : grandAntiprism(design.name);
+                                     return which == Diminished::snub_24_cell ? snub24Cell(design.name)
+                                                                              : grandAntiprism(design.name);
                                  }},
                       design.recipe);
 }

@@ -18,7 +18,7 @@ struct SnubPrism {
 };
 
 /// The polychora that are cut from the 600-cell.
-enum class Diminished : std::uint8_t { snub24Cell, grandAntiprism };
+enum class Diminished : std::uint8_t { snub_24_cell, grand_antiprism };
 
 using Recipe = std::variant<Diagram, SnubPrism, Diminished>;
 

@@ -17,7 +17,7 @@ struct NameError {
     enum class Reason : std::uint8_t {
         unknown,     ///< no name and no notation; `message` is empty
         impossible,  ///< a notation that is understood but makes no polytope, such as "2,5-duoprism"
-        tooLarge,    ///< one of more vertices than allowed
+        too_large,   ///< one of more vertices than allowed
     };
     Reason reason = Reason::unknown;
     std::string message;  ///< what is wrong and what is allowed

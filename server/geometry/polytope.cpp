@@ -95,10 +95,9 @@ class Orienter {
             const std::uint32_t slot = waiting.back();
             waiting.pop_back();
             const std::uint32_t cell = cellOfSlot_[slot];
-            if (orientCell(cell)) {
-                cells.push_back(cell);
-                hypervolume += coneOver(cell);
-            }
+            if (!orientCell(cell)) continue;
+            cells.push_back(cell);
+            hypervolume += coneOver(cell);
             for (std::uint32_t s = p_.cells.begin[cell]; s < p_.cells.begin[cell + 1]; ++s) {
                 const auto& pair = slotsOfFace_[p_.cells.items[s]];
                 const std::uint32_t other = pair[0] == s ? pair[1] : pair[0];

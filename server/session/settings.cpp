@@ -97,7 +97,7 @@ Result<PolytopePtr> findPolytope(std::string_view name, const Loaded& loaded, co
         }
     }
     const auto& error = std::get<geometry::NameError>(named);
-    if (error.reason == geometry::NameError::Reason::tooLarge) return Error{ErrorCode::too_large, error.message};
+    if (error.reason == geometry::NameError::Reason::too_large) return Error{ErrorCode::too_large, error.message};
     return Error{ErrorCode::unknown_polytope,
                  "no polytope is called " + protocol::inQuotes(name) +
                      (error.message.empty() ? suggestion(name, loaded) : ": " + error.message)};

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -159,6 +160,26 @@ TEST(CatalogueNames, nearMissesAreSuggested) {
     EXPECT_EQ(nearestNames("teseract"), (std::vector<std::string_view>{"tesseract"}));
     EXPECT_EQ(nearestNames("truncated 14-cell"),
               (std::vector<std::string_view>{"truncated 16-cell", "truncated 24-cell"}));
+}
+
+TEST(Library, buildsOncePerPolytopeWhileItIsHeld) {
+    keepPolytopes(0);
+    const CatalogueEntry& entry = *findEntry("runcinated 120-cell");
+    std::vector<std::shared_ptr<const Polytope>> got(4);
+    {
+        std::vector<std::jthread> threads;
+        for (auto& mine : got) threads.emplace_back([&] { mine = polytopeOf(entry); });
+    }
+    for (const auto& mine : got) EXPECT_EQ(mine, got[0]);
+    EXPECT_EQ(polytopesKept(), 0U);
+    const auto serial = got[0]->serial;
+    got.clear();
+    EXPECT_NE(polytopeOf(entry)->serial, serial);  // built again
+    keepPolytopes(std::size_t{1} << 20U);
+    const auto small = polytopeOf(*findEntry("5-cell"))->serial;
+    EXPECT_EQ(polytopeOf(*findEntry("5-cell"))->serial, small);  // kept, though nobody holds it
+    EXPECT_GT(polytopesKept(), 0U);
+    keepPolytopes(std::size_t{64} << 20U);
 }
 
 // Every vertex of the polytope is a signed permutation of one of the seeds, even where `even` is set, and all of

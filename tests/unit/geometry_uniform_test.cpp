@@ -7,6 +7,7 @@
 #include <set>
 
 #include <gtest/gtest.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
@@ -138,6 +139,35 @@ TEST_P(Uniform, hasKindsWithNames) {
         EXPECT_FALSE(p.kinds[k].starts_with("cell of")) << p.kinds[k];
         EXPECT_EQ(entry.symmetryOrder % cells[k], 0U);  // an orbit's size divides the group's order
     }
+}
+
+std::map<std::string, long> cellsByName(const Polytope& p) {
+    std::map<std::string, long> cells;
+    for (const auto kind : p.cellKinds) ++cells[p.kinds[kind]];
+    return cells;
+}
+
+// As a file with three decimals has it: told apart by shape alone, the cells have the same names.
+TEST_P(Uniform, hasCellsThatAreNamedByTheirShape) {
+    auto rounded = p.vertices;
+    for (auto& v : rounded) v = glm::round(v * 1000.0) / 1000.0;
+    const Polytope read = makePolytope("read", rounded, p.faces, p.cells);
+    EXPECT_EQ(cellsByName(read), cellsByName(p));
+    EXPECT_EQ(read.kinds.size(), cellsByName(read).size());
+}
+
+TEST(Kinds, ofIrregularCellsAreFewAndNamedByTheirFaces) {
+    const Polytope& regular = named("120-cell");
+    std::mt19937 random(33);
+    std::uniform_real_distribution<double> factor(0.5, 1.5);
+    auto moved = regular.vertices;
+    for (auto& v : moved) v *= factor(random);
+    const Polytope p = makePolytope("crumpled", moved, regular.faces, regular.cells);
+    EXPECT_EQ(p.kinds, std::vector<std::string>{"cell of 12 faces"});  // 120 shapes would be too many
+    auto stretched = named("8-cell").vertices;
+    for (auto& v : stretched) v.x *= 2;
+    const Polytope box = makePolytope("box", stretched, named("8-cell").faces, named("8-cell").cells);
+    EXPECT_EQ(box.kinds, (std::vector<std::string>{"cube", "cell of 6 faces"}));
 }
 
 std::string asName(const testing::TestParamInfo<CatalogueEntry>& info) {
