@@ -49,7 +49,7 @@ void addExportOptions(CLI::App& app, ExportOptions& options) {
 void exportFile(const CLI::App& app, const ExportOptions& options) {
     session::Query query = queryOf(app.remaining());
     const auto wish = valueOf(picture::takeWish(query, formatOf(options)));
-    const auto state = valueOf(session::stateFromQuery(query, session::Limits{}));
+    const auto state = stateOf(query);
     writeOutput(options.output, valueOf(picture::fileOf(state, wish, withoutHurry())));
 }
 

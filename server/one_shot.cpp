@@ -1,7 +1,12 @@
 #include "one_shot.hpp"
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <iterator>
+
+#include "session/load.hpp"
 
 namespace oval4d {
 
@@ -21,6 +26,24 @@ session::Query queryOf(const std::vector<std::string>& words) {
         }
     }
     return query;
+}
+
+session::State stateOf(session::Query query) {
+    session::PolytopePtr polytope;
+    const auto load = std::find_if(query.begin(), query.end(), [](const auto& pair) { return pair.first == "load"; });
+    if (load != query.end()) {
+        const std::string path = load->second;
+        query.erase(load);
+        std::ifstream file(path, std::ios::binary);
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        if (!file) throw std::runtime_error("cannot read " + path);
+        const auto reading =
+            session::readPolytope(text, std::filesystem::path(path).filename().string(), session::Limits{});
+        if (!reading) throw std::runtime_error(path + ": " + reading.error().message);
+        for (const std::string& warning : reading->warnings) std::cerr << "oval4d: " << path << ": " << warning << '\n';
+        polytope = reading->polytope;
+    }
+    return valueOf(session::stateFromQuery(query, session::Limits{}, polytope));
 }
 
 void writeOutput(const std::string& path, std::string_view bytes) {

@@ -20,7 +20,7 @@ void addRenderOptions(CLI::App& app, RenderOptions& options) {
 
 void renderPicture(const CLI::App& app, const RenderOptions& options) {
     const auto viewport = valueOf(picture::checked({options.width, options.height}, {}));
-    const auto state = valueOf(session::stateFromQuery(queryOf(app.remaining()), session::Limits{}));
+    const auto state = stateOf(queryOf(app.remaining()));
     picture::Painter painter;
     geometry::SliceSet slices;
     std::vector<std::uint8_t> png;

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "geometry/polytope.hpp"
 #include "geometry/slicer.hpp"
@@ -39,7 +40,8 @@ void slicesMessage(const geometry::Polytope& polytope, const geometry::SliceSet&
                    std::uint64_t revision, std::optional<double> id, Encoding encoding, std::string& out);
 
 std::string errorMessage(const Error& error, std::optional<double> id);
-std::string doneMessage(std::optional<double> id, std::uint64_t revision);
+std::string doneMessage(std::optional<double> id, std::uint64_t revision,
+                        const std::vector<std::string>& warnings = {});
 /// The `catalogue` message, after the catalogue's entries those of what a session has loaded.
 std::string catalogueMessage(std::optional<double> id, std::span<const session::PolytopePtr> loaded = {});
 std::string keymapMessage(std::optional<double> id);

@@ -141,12 +141,18 @@ std::string errorMessage(const Error& error, std::optional<double> id) {
     return out;
 }
 
-std::string doneMessage(std::optional<double> id, std::uint64_t revision) {
+std::string doneMessage(std::optional<double> id, std::uint64_t revision, const std::vector<std::string>& warnings) {
     std::string out;
     {
         JsonWriter w(out);
         begin(w, "done", id);
         w.member("revision", revision);
+        if (!warnings.empty()) {
+            w.key("warnings");
+            w.beginArray();
+            for (const std::string& warning : warnings) w.value(std::string_view(warning));
+            w.endArray();
+        }
         w.endObject();
     }
     return out;

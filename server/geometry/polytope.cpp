@@ -24,7 +24,14 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffU;
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+using Part = Unsound::Part;
+
+[[noreturn]] void refuse(const std::string& what) { throw Unsound(Part::whole, 0, what); }
+
+std::string nameOf(Part part, std::size_t index) {
+    if (part == Part::whole) return {};
+    return (part == Part::face ? "2-face " : "cell ") + std::to_string(index) + ' ';
+}
 
 void findEdges(Polytope& p) {
     std::unordered_map<std::uint64_t, std::uint32_t> known;
@@ -35,7 +42,7 @@ void findEdges(Polytope& p) {
         edges.reserve(loop.size());
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const auto [a, b] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
-            if (a == b) refuse("2-face " + std::to_string(f) + " repeats vertex " + std::to_string(a));
+            if (a == b) throw Unsound(Part::face, f, "repeats vertex " + std::to_string(a));
             const auto [at, fresh] =
                 known.try_emplace((std::uint64_t{a} << 32) | b, static_cast<std::uint32_t>(p.edges.size()));
             if (fresh) p.edges.push_back({a, b});
@@ -61,7 +68,7 @@ class Orienter {
             for (std::uint32_t slot = p_.cells.begin[c]; slot < p_.cells.begin[c + 1]; ++slot) note(c, slot);
         }
         for (std::size_t f = 0; f < slotsOfFace_.size(); ++f) {
-            if (slotsOfFace_[f][1] == kNone) refuse("2-face " + std::to_string(f) + " does not lie in two cells");
+            if (slotsOfFace_[f][1] == kNone) throw Unsound(Part::face, f, "does not lie in two cells");
             p_.faceCells.push_back({cellOfSlot_[slotsOfFace_[f][0]], cellOfSlot_[slotsOfFace_[f][1]]});
         }
         for (std::uint32_t slot = 0; slot < p_.cellSigns.size(); ++slot) {
@@ -80,7 +87,7 @@ class Orienter {
         cellOfSlot_[slot] = cell;
         const std::uint32_t face = p_.cells.items[slot];
         auto& slots = slotsOfFace_[face];
-        if (slots[1] != kNone) refuse("2-face " + std::to_string(face) + " lies in more than two cells");
+        if (slots[1] != kNone) throw Unsound(Part::face, face, "lies in more than two cells");
         slots[slots[0] == kNone ? 0 : 1] = slot;
     }
 
@@ -105,7 +112,7 @@ class Orienter {
                     p_.cellSigns[other] = static_cast<std::int8_t>(-p_.cellSigns[s]);
                     waiting.push_back(other);
                 } else if (p_.cellSigns[other] == p_.cellSigns[s]) {
-                    refuse("the surface cannot be oriented at 2-face " + std::to_string(p_.cells.items[s]));
+                    throw Unsound(Part::face, p_.cells.items[s], "is where the surface cannot be oriented");
                 }
             }
         }
@@ -135,19 +142,18 @@ class Orienter {
         for (std::size_t i = 0; i < sides.size(); i += 2) {
             if (i + 1 == sides.size() || sides[i].edge != sides[i + 1].edge ||
                 (i + 2 < sides.size() && sides[i + 2].edge == sides[i].edge)) {
-                refuse("cell " + std::to_string(cell) +
-                       " is not closed: an edge of it does not lie in two of its 2-faces");
+                throw Unsound(Part::cell, cell, "is not closed: an edge of it does not lie in two of its 2-faces");
             }
         }
         spreadSigns(sides, begin, end);
         if (std::count(signs.begin(), signs.end(), 0) != 0) {
-            refuse("cell " + std::to_string(cell) + " falls apart into pieces");
+            throw Unsound(Part::cell, cell, "falls apart into pieces");
         }
         for (std::size_t i = 0; i < sides.size(); i += 2) {
             if (p_.cellSigns[sides[i].slot] * sides[i].direction +
                     p_.cellSigns[sides[i + 1].slot] * sides[i + 1].direction !=
                 0) {
-                refuse("cell " + std::to_string(cell) + " cannot be oriented");
+                throw Unsound(Part::cell, cell, "cannot be oriented");
             }
         }
         return true;
@@ -228,6 +234,9 @@ void checkIndices(const Lists& lists, std::size_t below, const char* owner, cons
 }
 
 }  // namespace
+
+Unsound::Unsound(Part element, std::size_t number, const std::string& fault)
+    : std::invalid_argument(nameOf(element, number) + fault), part(element), index(number), detail(fault) {}
 
 Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists faces, Lists cells,
                       std::vector<std::uint32_t> cellKinds) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -46,8 +47,21 @@ struct Polytope {
     std::size_t cellCount() const { return cells.size(); }
 };
 
+/// What is wrong with a polytope that cannot be built, and in which of its elements.
+class Unsound : public std::invalid_argument {
+  public:
+    enum class Part : std::uint8_t { whole, face, cell };
+
+    /// `fault` goes on from the element's name: "does not lie in two cells".
+    Unsound(Part element, std::size_t number, const std::string& fault);
+
+    Part part;
+    std::size_t index;  ///< of the 2-face or cell
+    std::string detail;
+};
+
 /// Builds edges, incidences and orientation from vertices, 2-faces (vertex loops) and cells (2-faces).
-/// Throws std::invalid_argument, saying what is wrong, unless every cell is a closed orientable surface and
+/// Throws Unsound, saying what is wrong, unless every cell is a closed orientable surface and
 /// every 2-face lies in exactly two cells. `cellKinds` tells the kinds of cells apart by any numbers; where it is
 /// empty, cells of the same shape are of one kind. Kinds are named by their shape and numbered from the rarest on.
 Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists faces, Lists cells,

@@ -23,6 +23,8 @@ namespace {
 
 const Error kFault{ErrorCode::internal, "the server failed to do this; the session is as it was"};
 
+const std::vector<std::string> kNoWarnings;
+
 Message doneMessage(LiveSession::Id id, std::uint64_t revision) {
     return textMessage(protocol::doneMessage(id, revision));
 }
@@ -62,7 +64,11 @@ asio::awaitable<void> LiveSession::greetHere(std::shared_ptr<Peer> peer, protoco
 
 asio::awaitable<void> LiveSession::carryOutHere(std::shared_ptr<Peer> peer, protocol::Request request) {
     if (const auto* command = std::get_if<protocol::Command>(&request.body)) {
-        obey(*peer, *command, request.id);
+        if (session::mayBuild(*command)) {
+            co_await obeyPrepared(peer, *command, request.id);
+        } else {
+            obey(*peer, *command, request.id, {});
+        }
     } else if (const auto* shown = std::get_if<protocol::ShownRevision>(&request.body)) {
         if (request.id) peer->send(doneMessage(request.id, revision()));
         if (const auto client = clients_.find(peer.get()); client != clients_.end()) {
@@ -74,10 +80,39 @@ asio::awaitable<void> LiveSession::carryOutHere(std::shared_ptr<Peer> peer, prot
     }
 }
 
-void LiveSession::obey(Peer& peer, const protocol::Command& command, Id id) {
-    const std::uint64_t before = revision();
+// What takes long is done on a worker; the client's further messages wait for it, nobody else's do.
+asio::awaitable<void> LiveSession::obeyPrepared(std::shared_ptr<Peer> peer, protocol::Command command, Id id) {
+    Preparation preparation;
+    bool failed = false;
     try {
-        if (const auto done = session::apply(session_, command, services_.options.session); !done) {
+        preparation = co_await onPool(services_.pool, preparationJob(command));
+    } catch (const std::exception& fault) {
+        spdlog::error("command failed session={} fault=\"{}\"", ticket_.id, fault.what());
+        failed = true;
+    }
+    if (failed) {
+        tell(*peer, kFault, id);
+    } else {
+        obey(*peer, command, id, preparation);
+    }
+}
+
+std::function<LiveSession::Preparation(picture::Painter&)> LiveSession::preparationJob(
+    const protocol::Command& command) const {
+    session::Session bare;
+    bare.now = session_.now;
+    bare.loaded = session_.loaded;
+    bare.pendingKey = session_.pendingKey;
+    return [command, bare, &limits = services_.options.session](picture::Painter&) {
+        return session::prepare(command, bare, limits);
+    };
+}
+
+void LiveSession::obey(Peer& peer, const protocol::Command& command, Id id, const Preparation& preparation) {
+    const std::uint64_t before = revision();
+    const auto* reading = preparation ? &*preparation : nullptr;
+    try {
+        if (const auto done = session::apply(session_, command, services_.options.session, reading); !done) {
             tell(peer, done.error(), id);
             return;
         }
@@ -86,7 +121,10 @@ void LiveSession::obey(Peer& peer, const protocol::Command& command, Id id) {
         tell(peer, kFault, id);
         return;
     }
-    if (id) peer.send(doneMessage(id, revision()));
+    if (id) {
+        const bool warned = reading != nullptr && *reading;
+        peer.send(textMessage(protocol::doneMessage(id, revision(), warned ? (*reading)->warnings : kNoWarnings)));
+    }
     if (revision() != before) changed_ = Clock::now();
     update();
 }

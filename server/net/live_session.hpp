@@ -30,6 +30,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
     using Id = std::optional<double>;  ///< of a request
+    using Preparation = std::optional<protocol::Result<session::Reading>>;
 
     LiveSession(Services services, store::Ticket ticket, session::Session value);
 
@@ -91,8 +92,10 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, protocol::Get get, Id id);
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, Want want, Id id);
     boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::Wish wish, Id id);
+    std::function<Preparation(picture::Painter&)> preparationJob(const protocol::Command& command) const;
     std::function<Message(picture::Painter&)> pictureJob(const Want& want, Id id) const;
-    void obey(Peer& peer, const protocol::Command& command, Id id);
+    boost::asio::awaitable<void> obeyPrepared(std::shared_ptr<Peer> peer, protocol::Command command, Id id);
+    void obey(Peer& peer, const protocol::Command& command, Id id, const Preparation& preparation);
     void tell(Peer& peer, const protocol::Error& error, Id id);
 
     void update();

@@ -97,6 +97,7 @@ void addLimits(CLI::App& app, Options& options) {
         "Most vertices of a loaded polytope, or of one built by a name that the catalogue does not list");
     addBytes(app, "--polytope-cache", options.polytopeCache,
              "Memory for polytopes of the catalogue and of names, kept for when they are asked for again");
+    add(app, "--max-hull-cells", options.session.maxHullCells, "Most cells of the hull of loaded points");
 }
 
 void addTimes(CLI::App& app, Options& options) {

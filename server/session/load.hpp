@@ -6,6 +6,9 @@
 namespace oval4d::session {
 
 /// Reads the polytope that `load` holds. Errors: `unsupported_format`, `bad_polytope` (with the line), `too_large`.
-protocol::Result<PolytopePtr> readPolytope(const protocol::Load& load, const Limits& limits);
+protocol::Result<Reading> readPolytope(const protocol::Load& load, const Limits& limits);
+
+/// The polytope in a file's text, whose format it tells by itself.
+protocol::Result<Reading> readPolytope(const std::string& text, const std::string& name, const Limits& limits);
 
 }  // namespace oval4d::session

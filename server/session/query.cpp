@@ -1,5 +1,6 @@
 #include "session/query.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "geometry/rotation.hpp"
@@ -10,7 +11,7 @@
 
 namespace oval4d::session {
 
-protocol::Result<State> stateFromQuery(const Query& query, const Limits& limits) {
+protocol::Result<State> stateFromQuery(const Query& query, const Limits& limits, PolytopePtr polytope) {
     // All settings at once, then the rotations: a count and a spacing mean the same in either order.
     protocol::Set set;
     std::vector<geometry::Turn> turns;
@@ -27,6 +28,7 @@ protocol::Result<State> stateFromQuery(const Query& query, const Limits& limits)
         }
     }
     State state = initialState();
+    if (polytope) show(state, std::move(polytope));
     for (const geometry::Turn& turn : turns) rotate(state, turn);
     if (auto done = applySet(state, set, {}, limits); !done) return done.error();
     return state;

@@ -14,7 +14,8 @@ namespace oval4d::session {
 using Query = std::vector<std::pair<std::string, std::string>>;
 
 /// The state that the query describes: "polytope", "rotate" (any number, carried out in order), and every name that
-/// ":set" takes. Starts from initialState(). An unknown name is an error that lists the allowed ones.
-protocol::Result<State> stateFromQuery(const Query& query, const Limits& limits);
+/// ":set" takes. Starts from initialState(), or with `polytope` in place of the 5-cell. An unknown name is an error
+/// that lists the allowed ones.
+protocol::Result<State> stateFromQuery(const Query& query, const Limits& limits, PolytopePtr polytope = nullptr);
 
 }  // namespace oval4d::session

@@ -22,7 +22,8 @@ using Done = Result<std::monostate>;
 // Each command works on a copy of the state, which becomes the present only if all went well.
 class Applier {
   public:
-    Applier(Session& session, const Limits& limits) : session_(session), limits_(limits) {}
+    Applier(Session& session, const Limits& limits, const Result<Reading>* reading)
+        : session_(session), limits_(limits), reading_(reading) {}
 
     Done operator()(const protocol::Key& key) {
         std::string pending = session_.pendingKey;
@@ -50,11 +51,11 @@ class Applier {
             return Error{ErrorCode::too_many, "a session holds at most " + std::to_string(limits_.maxLoaded) +
                                                   " loaded polytopes; load under a name that is in use to replace one"};
         }
-        auto polytope = readPolytope(command, limits_);
-        if (!polytope) return polytope.error();
+        const auto reading = reading_ != nullptr ? *reading_ : readPolytope(command, limits_);
+        if (!reading) return reading.error();
         State next = session_.now;
-        show(next, *polytope);
-        session_.loaded.insert_or_assign(command.name, std::move(*polytope));
+        show(next, reading->polytope);
+        session_.loaded.insert_or_assign(command.name, reading->polytope);
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
@@ -86,6 +87,7 @@ class Applier {
 
     Session& session_;
     const Limits& limits_;
+    const Result<Reading>* reading_;
 };
 
 }  // namespace
@@ -108,8 +110,21 @@ double spanningSpacing(const geometry::Polytope& polytope, int count) {
     return count > 1 ? 2 * polytope.circumradius / (count - 1) : polytope.circumradius;
 }
 
-Done apply(Session& session, const protocol::Command& command, const Limits& limits) {
-    return std::visit(Applier(session, limits), command);
+Done apply(Session& session, const protocol::Command& command, const Limits& limits, const Result<Reading>* reading) {
+    return std::visit(Applier(session, limits, reading), command);
+}
+
+bool mayBuild(const protocol::Command& command) {
+    if (const auto* set = std::get_if<protocol::Set>(&command)) return set->polytope.has_value();
+    if (const auto* key = std::get_if<protocol::Key>(&command)) return key->key == "n" || key->key == "N";
+    return std::holds_alternative<protocol::Load>(command) || std::holds_alternative<protocol::CommandLine>(command);
+}
+
+std::optional<Result<Reading>> prepare(const protocol::Command& command, Session bare, const Limits& limits) {
+    if (const auto* load = std::get_if<protocol::Load>(&command)) return readPolytope(*load, limits);
+    // What it builds stays in the catalogue's cache; the session and its errors are for later.
+    (void)apply(bare, command, limits);
+    return std::nullopt;
 }
 
 void advance(Session& session, double seconds) {

@@ -53,9 +53,10 @@ double spanningSpacing(const geometry::Polytope& polytope, int count);
 struct Limits {
     int maxSlices = 201;
     std::size_t maxUndo = 1000;
-    std::size_t maxLoaded = 8;  ///< polytopes loaded into one session
-    std::size_t maxVertices =
-        100'000;  ///< of a loaded polytope, or of one outside the catalogue that is built by its name
+    std::size_t maxLoaded = 8;           ///< polytopes loaded into one session
+    /// of a loaded polytope, points of a list, or a polytope outside the catalogue that is built by its name
+    std::size_t maxVertices = 100'000;
+    std::size_t maxHullCells = 100'000;  ///< of the hull of a list of points
 };
 
 /// A session: the state, its history, and the polytopes loaded into it. A value: it copies and compares.
@@ -69,9 +70,24 @@ struct Session {
     bool operator==(const Session&) const = default;
 };
 
+/// A polytope read from a file, and what was repaired in it.
+struct Reading {
+    PolytopePtr polytope;
+    std::vector<std::string> warnings;
+};
+
 /// Carries out a command. On an error the session is as it was. Whatever a key can change can be undone; moving the
-/// camera is not a step of the history. A command that changes nothing leaves the revision as it is.
-protocol::Result<std::monostate> apply(Session& session, const protocol::Command& command, const Limits& limits);
+/// camera is not a step of the history. A command that changes nothing leaves the revision as it is. Of a `load`,
+/// `reading` is what was read ahead, if it was.
+protocol::Result<std::monostate> apply(Session& session, const protocol::Command& command, const Limits& limits,
+                                       const protocol::Result<Reading>* reading = nullptr);
+
+/// Whether carrying out the command may build a polytope, which can take a while.
+bool mayBuild(const protocol::Command& command);
+
+/// Does ahead, on any thread, what takes long in such a command for a session that shows `now`: reads the polytope of a
+/// `load`, or sees to it that the catalogue's is built.
+std::optional<protocol::Result<Reading>> prepare(const protocol::Command& command, Session bare, const Limits& limits);
 
 /// Continues a turning session by `seconds`: a second turns by kTurnsPerSecond times the last rotation's angles.
 /// One history step covers the whole of a continuous turn.
