@@ -147,20 +147,27 @@ Imported readOff4(std::string_view text, const std::string& name, const ImportLi
     return result;
 }
 
-// Digits after the point, an exponent counted in.
-int decimalsOf(std::string_view word) {
-    const std::size_t exponent = std::min(word.find_first_of("eE"), word.size());
-    const std::size_t point = word.substr(0, exponent).find('.');
-    int decimals = point == std::string_view::npos ? 0 : static_cast<int>(exponent - point - 1);
-    if (double power = 0; exponent < word.size() && readCoordinate(word.substr(exponent + 1), power))
-        decimals -= static_cast<int>(std::clamp(power, -300.0, 300.0));
-    return decimals;
+// Digits of a number from the first that is not 0 on.
+int significantDigits(std::string_view word) {
+    int digits = 0;
+    for (const char c : word.substr(0, word.find_first_of("eE"))) {
+        if (c >= (digits == 0 ? '1' : '0') && c <= '9') ++digits;
+    }
+    return digits;
+}
+
+// How far rounding to so many digits may have moved a point. Few digits are taken for exact ones: 0.5, 12.
+double roundingOf(double largest, int digits) {
+    constexpr int kExact = 2;
+    if (digits <= kExact || !(largest > 0)) return 0;
+    return std::pow(10.0, std::ceil(std::log10(largest)) - digits);
 }
 
 Imported readPoints(std::string_view text, std::string name, const ImportLimits& limits) {
     FileText file(text, true);
     std::vector<glm::dvec4> points;
-    int decimals = 0;
+    int digits = 0;
+    double largest = 0;
     bool first = true;
     for (auto word = file.next(); !word.empty(); word = file.next(), first = false) {
         double value = 0;
@@ -172,15 +179,14 @@ Imported readPoints(std::string_view text, std::string name, const ImportLimits&
         for (int i = 0; i < 4; ++i, word = file.nextHere()) {
             if (word.empty()) refuse(file.line(), "a point has " + std::to_string(i) + " coordinates; four are needed");
             point[i] = coordinateFrom(word, file.line());
-            decimals = std::max(decimals, decimalsOf(word));
+            digits = std::max(digits, significantDigits(word));
+            largest = std::max(largest, std::abs(point[i]));
         }
         if (!word.empty()) refuse(file.line(), shown(word) + " stands after a point's four coordinates");
         points.push_back(point);
         checkCount(points.size(), "points", limits.maxVertices, file.line());
     }
-    // Rounded coordinates leave a hull's points out of their hyperplane by about this.
-    const double rounding = std::pow(10.0, -std::min(decimals, 300));
-    Hull hull = convexHull(points, rounding, limits.maxHullCells);
+    Hull hull = convexHull(points, roundingOf(largest, digits), limits.maxHullCells);
     Imported result;
     if (const std::size_t inside = points.size() - hull.vertices.size(); inside > 0) {
         result.warnings.push_back(std::to_string(inside) + " of " + std::to_string(points.size()) +

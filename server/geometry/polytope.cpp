@@ -218,17 +218,14 @@ bool isConvex(const Polytope& p, std::span<const std::uint32_t> loop) {
     return turning < 2 * std::numbers::pi + 1e-6;
 }
 
-void checkIndices(const Lists& lists, std::size_t below, const char* owner, const char* member, std::size_t least) {
+void checkIndices(const Lists& lists, std::size_t below, Part owner, const char* member, std::size_t least) {
     for (std::size_t i = 0; i < lists.size(); ++i) {
-        if (lists[i].size() < least) {
-            refuse(std::string(owner) + ' ' + std::to_string(i) + " has fewer than " + std::to_string(least) + ' ' +
-                   member);
-        }
+        if (lists[i].size() < least) throw Unsound(owner, i, "has fewer than " + std::to_string(least) + ' ' + member);
         for (const std::uint32_t item : lists[i]) {
-            if (item >= below) {
-                refuse(std::string(owner) + ' ' + std::to_string(i) + " names " + member + " number " +
-                       std::to_string(item) + ", but there are only " + std::to_string(below));
-            }
+            if (item < below) continue;
+            throw Unsound(owner, i,
+                          std::string("names ") + member + " number " + std::to_string(item) + ", but there are only " +
+                              std::to_string(below));
         }
     }
 }
@@ -254,8 +251,8 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists 
         p.circumradius = std::max(p.circumradius, r);
     }
     if (!(p.circumradius > 0)) refuse("all vertices are at the origin");
-    checkIndices(p.faces, p.vertices.size(), "2-face", "vertices", 3);
-    checkIndices(p.cells, p.faces.size(), "cell", "2-faces", 4);
+    checkIndices(p.faces, p.vertices.size(), Part::face, "vertices", 3);
+    checkIndices(p.cells, p.faces.size(), Part::cell, "2-faces", 4);
     findEdges(p);
     for (std::size_t f = 0; f < p.faces.size() && p.convexFaces; ++f) p.convexFaces = isConvex(p, p.faces[f]);
     Orienter orient(p);

@@ -116,15 +116,14 @@ class Repairer {
         }
         std::vector<std::vector<std::uint32_t>> becomes(draft_.faces.size());
         for (std::uint32_t f = 0; f < draft_.faces.size(); ++f) becomes[f] = {f};
-        std::size_t joined = 0;
         for (const auto& [corners, faces] : copies) {
             if (faces.size() != 2) continue;
             becomes[faces[1]] = {faces[0]};
-            ++joined;
+            ++joined_;
         }
-        if (joined == 0) return;
+        if (joined_ == 0) return;
         renumberFaces(becomes);
-        warn(counted(joined, "2-face is", "2-faces are") + " given once for each cell: taken as one");
+        warn(counted(joined_, "2-face is", "2-faces are") + " given once for each cell: taken as one");
     }
 
     // A cell of pieces that share no edge is as many cells.
@@ -151,7 +150,7 @@ class Repairer {
         for (const std::uint32_t f : draft_.cells.items) used[f] = true;
         const auto stray = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
         if (stray > 0) {
-            warn(counted(stray, "2-face lies", "2-faces lie") + " in no cell: left out");
+            if (stray > joined_) warn(counted(stray - joined_, "2-face lies", "2-faces lie") + " in no cell: left out");
             Lists faces;
             std::vector<Draft::Origin> origins;
             std::vector<std::vector<std::uint32_t>> becomes(draft_.faces.size());
@@ -224,7 +223,7 @@ class Repairer {
 
     Draft& draft_;
     std::vector<std::string>& warnings_;
-    std::size_t doubled_ = 0;
+    std::size_t doubled_ = 0, joined_ = 0;
 };
 
 }  // namespace

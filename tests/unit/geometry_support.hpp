@@ -25,6 +25,18 @@ inline Rotation ontoW(const glm::dvec4& direction) {
             glm::dquat(1, 0, 0, 0)};
 }
 
+inline glm::dvec4 centreOfCell(const Polytope& p, std::size_t cell) {
+    glm::dvec4 sum(0);
+    double count = 0;
+    for (const auto f : p.cells[cell]) {
+        for (const auto v : p.faces[f]) {
+            sum += p.vertices[v];
+            ++count;
+        }
+    }
+    return sum / count;
+}
+
 /// One slice at any w.
 inline SliceSet cutAt(const Polytope& p, const Rotation& orientation, double w) {
     SliceSet out;
