@@ -23,7 +23,7 @@ struct Overloaded : F... {
     using F::operator()...;
 };
 template <typename... F>
-Overloaded(F...) -> Overloaded<F...>;
+Overloaded(F...) -> Overloaded<F...>;  // Clang 16 does not deduce it
 
 Diagram known(std::string_view symbol) { return std::get<Diagram>(parseDiagram(symbol)); }
 

@@ -159,8 +159,9 @@ int significantDigits(std::string_view word) {
 // How far rounding to so many digits may have moved a point. Few digits are taken for exact ones: 0.5, 12.
 double roundingOf(double largest, int digits) {
     constexpr int kExact = 2;
+    constexpr double kTilt = 4;  // four coordinates rounded each for itself, and a hyperplane tilted by that
     if (digits <= kExact || !(largest > 0)) return 0;
-    return std::pow(10.0, std::ceil(std::log10(largest)) - digits);
+    return kTilt * std::pow(10.0, std::ceil(std::log10(largest)) - digits);
 }
 
 Imported readPoints(std::string_view text, std::string name, const ImportLimits& limits) {

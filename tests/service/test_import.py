@@ -1,0 +1,134 @@
+"""Files brought into a session: what is read, what is repaired, what is refused, and that nobody waits for it."""
+
+import asyncio
+import itertools
+import math
+import random
+import time
+
+import pytest
+from harness import Server
+from wire import Client, Refused
+
+
+def lines(points):
+    return "".join(" ".join(f"{x:.12g}" for x in point) + "\n" for point in points)
+
+
+def tesseract():
+    return [point for point in itertools.product((-1, 1), repeat=4)]
+
+
+def tesseract_file(edges=32):
+    """4OFF, every 2-face found as the four vertices that share two coordinates."""
+    points = tesseract()
+    faces, faces_of = [], {}
+    for fixed in itertools.combinations(range(4), 2):
+        for values in itertools.product((-1, 1), repeat=2):
+            corners = [i for i, p in enumerate(points) if all(p[a] == v for a, v in zip(fixed, values))]
+            faces_of[frozenset(zip(fixed, values))] = len(faces)
+            faces.append([corners[0], corners[1], corners[3], corners[2]])
+    cells = [[n for held, n in faces_of.items() if (axis, value) in held] for axis in range(4) for value in (-1, 1)]
+    records = "".join(f"{len(r)} {' '.join(map(str, r))}\n" for r in faces + cells)
+    return f"4OFF\n16 {len(faces)} {edges} {len(cells)}\n" + lines(points) + records
+
+
+async def counts(client):
+    polytope = (await client.request("get", what="state"))["polytope"]
+    return [polytope[part] for part in ("vertices", "edges", "faces", "cells")]
+
+
+async def load(client, format_, data, name="mine"):
+    return await client.request("load", name=name, format=format_, data=data)
+
+
+async def refusal(client, format_, data):
+    with pytest.raises(Refused) as caught:
+        await load(client, format_, data)
+    return caught.value
+
+
+async def test_a_sound_file_has_no_warnings(server):
+    async with Client(server) as client:
+        done = await load(client, "off", tesseract_file())
+        assert "warnings" not in done
+        assert await counts(client) == [16, 32, 24, 8]
+
+
+async def test_what_is_repaired_is_told(server):
+    async with Client(server) as client:
+        done = await load(client, "off", tesseract_file(edges=7))
+        assert done["warnings"] == ["the file says 7 edges; its 2-faces have 32"]
+        stray = tesseract_file().replace("16 24", "17 24").replace("\n4 0", "\n9 9 9 9\n4 0", 1)
+        assert (await load(client, "off", stray))["warnings"] == ["1 vertex lies on no 2-face: left out"]
+        assert await counts(client) == [16, 32, 24, 8]
+
+
+async def test_points_become_their_hull(server):
+    async with Client(server) as client:
+        inside = [[random.uniform(-0.9, 0.9) for _ in range(4)] for _ in range(20)]
+        points = tesseract() + inside
+        random.shuffle(points)
+        done = await load(client, "points", "x,y,z,w\n" + lines(points).replace(" ", ","))
+        assert done["warnings"] == ["20 of 36 points are no vertices of the hull: left out"]
+        assert await counts(client) == [16, 32, 24, 8]
+
+
+@pytest.mark.parametrize("format_, data, says", [
+    ("off", "4OFF\n3 1 3\n", "line 2: three counts: this is Geomview's 4OFF"),
+    ("off", tesseract_file().replace("-1 -1 -1 1\n", "-1 -1 -1 nan\n", 1), "line 4: 'nan' is not a coordinate"),
+    ("off", tesseract_file().replace("-1 -1 -1 1\n", "-1 -1 -1 1.2\n", 1), "is not flat"),
+    ("off", tesseract_file().rsplit("\n", 2)[0] + "\n", "the file ends before cell 7 of 8"),
+    ("off", "\n".join(line for line in tesseract_file().splitlines() if line) + "\n4 0 1 2 3", "after the last cell"),
+    ("points", "1 2 3 4\n1 2 3\n", "line 2: a point has 3 coordinates"),
+    ("points", lines(p[:3] + (0,) for p in tesseract()), "all points lie in one hyperplane"),
+    ("points", "1 2 3 4\n", "at least 5 points"),
+])
+async def test_what_is_unsound_is_refused_and_the_session_stays(server, format_, data, says):
+    async with Client(server) as client:
+        await client.request("set", polytope="24-cell")
+        error = await refusal(client, format_, data)
+        assert error.code == "bad_polytope" and says in error.text
+        assert await counts(client) == [24, 96, 96, 24]
+
+
+async def test_an_unsound_cell_is_told_with_its_line(server):
+    text = tesseract_file().rstrip("\n").split("\n")
+    last = text[-1].split()
+    text[-1] = " ".join(["5", *last[1:6]])  # a cube without one of its squares
+    async with Client(server) as client:
+        error = await refusal(client, "off", "\n".join(text) + "\n")
+        assert f"line {len(text)}: cell 7 is not closed" in error.text or "does not lie in two cells" in error.text
+        assert "line " in error.text
+
+
+def moment_curve(count):
+    angles = [2 * math.pi * i / count for i in range(count)]
+    return lines((math.cos(t), math.sin(t), math.cos(2 * t), math.sin(2 * t)) for t in angles)
+
+
+async def test_the_hull_is_limited():
+    with Server("--max-hull-cells", 800) as server:
+        async with Client(server) as client:
+            await load(client, "points", moment_curve(40))  # 40 · 37 / 2 cells
+            assert await counts(client) == [40, 780, 1480, 740]
+            error = await refusal(client, "points", moment_curve(50))
+            assert error.code == "too_large" and "more than 800 cells" in error.text
+    with Server("--max-vertices", 30) as server:
+        async with Client(server) as client:
+            assert (await refusal(client, "points", moment_curve(31))).code == "too_large"
+
+
+async def test_nobody_waits_for_another_ones_file(server):
+    """While one client's hull is made, another's keys are answered; the first one's messages keep their order."""
+    async with Client(server) as busy, Client(server) as other:
+        started = time.monotonic()
+        loading = asyncio.ensure_future(load(busy, "points", moment_curve(250)))
+        after = asyncio.ensure_future(busy.request("get", what="state"))
+        answered = 0
+        while not loading.done():
+            await other.request("key", key="y")
+            answered += 1
+        assert answered > 1, f"loading took {time.monotonic() - started:.3f} s"
+        await loading
+        assert (await after)["polytope"]["name"] == "mine"
