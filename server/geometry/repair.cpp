@@ -195,8 +195,10 @@ class Repairer {
                 sides.push_back({std::minmax(loop[k], loop[(k + 1) % loop.size()]), i});
         }
         std::sort(sides.begin(), sides.end());
-        for (std::size_t i = 1; i < sides.size(); ++i) {
-            if (sides[i].first == sides[i - 1].first) piece[root(sides[i].second)] = root(sides[i - 1].second);
+        // Where pieces share an edge, more than two 2-faces meet at it: it joins nothing.
+        for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+            while (end < sides.size() && sides[end].first == sides[i].first) ++end;
+            if (end - i == 2) piece[root(sides[i].second)] = root(sides[i + 1].second);
         }
         std::map<std::uint32_t, std::vector<std::uint32_t>> pieces;
         for (std::uint32_t i = 0; i < faces.size(); ++i) pieces[root(i)].push_back(faces[i]);

@@ -105,6 +105,21 @@ Result<FileWish> parseFileWish(session::Query query, exports::Format format, con
     return FileWish{std::move(*state), *wish};
 }
 
+// Queries are read on a worker: the polytope that one names may have to be built.
+
+std::function<std::optional<Result<Wish>>(picture::Painter&)> readWish(const session::Query& query,
+                                                                       const Options& options) {
+    return [query, &options](picture::Painter& /*unused*/) { return std::optional(parseWish(query, options)); };
+}
+
+std::function<std::optional<Result<FileWish>>(picture::Painter&)> readFileWish(const session::Query& query,
+                                                                               exports::Format format,
+                                                                               const Options& options) {
+    return [query, format, &options](picture::Painter& /*unused*/) {
+        return std::optional(parseFileWish(query, format, options));
+    };
+}
+
 /// "/api/v1/file.stl" → stl
 std::optional<exports::Format> formatIn(std::string_view path) {
     constexpr std::string_view kFile = "/api/v1/file.";
@@ -153,13 +168,13 @@ asio::awaitable<Reply> Routes::answer(Inquiry inquiry) {
 }
 
 asio::awaitable<Reply> Routes::frame(session::Query query) {
-    const auto wish = parseWish(std::move(query), services_.options);
-    if (!wish) {
-        services_.metrics.countError(wish.error().code);
-        co_return errorReply(wish.error());
-    }
     try {
-        Bytes png = co_await onPool(services_.pool, frameJob(*wish, services_.metrics));
+        const auto wish = co_await onPool(services_.pool, readWish(query, services_.options));
+        if (!*wish) {
+            services_.metrics.countError(wish->error().code);
+            co_return errorReply(wish->error());
+        }
+        Bytes png = co_await onPool(services_.pool, frameJob(**wish, services_.metrics));
         co_return reply("image/png", std::move(png));
     } catch (const std::exception& fault) {
         spdlog::error("picture failed fault=\"{}\"", fault.what());
@@ -168,25 +183,22 @@ asio::awaitable<Reply> Routes::frame(session::Query query) {
 }
 
 asio::awaitable<Reply> Routes::file(session::Query query, exports::Format format) {
-    const auto asked = parseFileWish(std::move(query), format, services_.options);
-    if (!asked) {
-        services_.metrics.countError(asked.error().code);
-        co_return errorReply(asked.error());
-    }
+    std::optional<Result<FileWish>> asked;
     MadeFile made;
     try {
-        made = co_await onPool(services_.files, fileJob(services_, asked->state, asked->wish));
+        asked = co_await onPool(services_.pool, readFileWish(query, format, services_.options));
+        if (*asked) made = co_await onPool(services_.files, fileJob(services_, (*asked)->state, (*asked)->wish));
     } catch (const std::exception& fault) {
         spdlog::error("file failed fault=\"{}\"", fault.what());
     }
     if (!made || !*made) {
-        const Error& error = made ? made->error() : kFault;
+        const Error& error = made ? made->error() : asked && !*asked ? asked->error() : kFault;
         services_.metrics.countError(error.code);
         co_return errorReply(error);
     }
     Reply answer = reply(std::string(exports::mediaType(format)), **made);
     answer.headers.emplace_back("Content-Disposition",
-                                "attachment; filename=\"" + picture::fileName(asked->state, asked->wish) + "\"");
+                                "attachment; filename=\"" + picture::fileName((*asked)->state, (*asked)->wish) + "\"");
     co_return answer;
 }
 

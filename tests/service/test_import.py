@@ -83,7 +83,7 @@ async def test_points_become_their_hull(server):
     ("points", "1 2 3 4\n1 2 3\n", "line 2: a point has 3 coordinates"),
     ("points", lines(p[:3] + (0,) for p in tesseract()), "all points lie in one hyperplane"),
     ("points", "1 2 3 4\n", "at least 5 points"),
-])
+], ids=["geomview", "nan", "bent", "short", "long", "three", "flat", "few"])
 async def test_what_is_unsound_is_refused_and_the_session_stays(server, format_, data, says):
     async with Client(server) as client:
         await client.request("set", polytope="24-cell")

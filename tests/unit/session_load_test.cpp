@@ -61,7 +61,7 @@ TEST(Load, RefusesWhatItCannotRead) {
     expectRefused(session, Load{"mine", "off", "4OFF\n5 10 10 5\nx"}, ErrorCode::bad_polytope,
                   "line 2: the counts promise more");
     expectRefused(session, Load{"mine", "stl", "solid"}, ErrorCode::unsupported_format,
-                  "'stl' cannot be read; allowed is off");
+                  "'stl' cannot be read; allowed are off");
     expectRefused(session, Load{"tesseract", "off", kPentachoron}, ErrorCode::bad_polytope, "a name of the catalogue");
     expectRefused(session, Load{"a\nb", "off", kPentachoron}, ErrorCode::bad_message, "printable");
     expectRefused(session, Load{"mine", "off", kPentachoron}, ErrorCode::too_large, "at most 4 are allowed",
