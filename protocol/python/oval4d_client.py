@@ -77,7 +77,7 @@ class Client:
         self.closed = None  # (code, reason) once it is over
         self._ids = itertools.count(1)
         self._waiting = {}  # id → None, then the answer
-        self._wants_frame = set()  # ids whose answer is the frame before their done
+        self._wants_bytes = set()  # ids whose answer is the frame before their done
         self._binary = None
         self._change = threading.Condition()
         self._loop = asyncio.new_event_loop()
@@ -135,6 +135,10 @@ class Client:
         """A picture: the bytes of a PNG file."""
         return self.get("frame", width, height)
 
+    def file(self, format, **members):
+        """Slices as the bytes of a file: format "stl", "3mf", …; of, body, size, label as `get` has them."""
+        return self.request("get", what="file", format=format, **members)
+
     def catalogue(self):
         return self.get("catalogue")["polytopes"]
 
@@ -165,8 +169,8 @@ class Client:
         number = next(self._ids)
         with self._change:
             self._waiting[number] = None
-            if members.get("what") == "frame":
-                self._wants_frame.add(number)
+            if members.get("what") in ("frame", "file"):
+                self._wants_bytes.add(number)
         try:
             self.send({"type": type, "id": number, **members})
             self._wait_for(lambda: self._waiting[number] is not None, None, f"the answer to {type}")
@@ -174,7 +178,7 @@ class Client:
         finally:
             with self._change:
                 del self._waiting[number]
-                self._wants_frame.discard(number)
+                self._wants_bytes.discard(number)
         if isinstance(answer, dict) and answer["type"] == "error":
             raise Refused(answer["code"], answer["message"])
         return answer
@@ -232,6 +236,9 @@ class Client:
                 picture = png_state(data)["revision"]
                 self._change.notify_all()
                 return picture
+            if isinstance(data, bytes) and not 0xA0 <= data[0] < 0xC0:  # no map of CBOR: a file
+                self._binary = data
+                return None
             message = json.loads(data) if isinstance(data, str) else from_cbor(data)
             kind, number = message["type"], message.get("id")
             if kind == "slices" and number is None:
@@ -239,7 +246,7 @@ class Client:
             if kind in ("welcome", "state", "slices"):
                 setattr(self, "welcome" if kind == "welcome" else "newest_" + kind, message)
             if number in self._waiting:
-                framed = kind == "done" and number in self._wants_frame
+                framed = kind == "done" and number in self._wants_bytes
                 self._waiting[number] = self._binary if framed else message
             elif kind == "error":
                 self.errors.append(message)

@@ -70,7 +70,7 @@ class Exporter {
         }
         if (groups.empty()) refuseEmpty();
         if (wish_.label != Label::none) label(groups);
-        if (wish_.format == Format::stl || wish_.format == Format::threeMf) {
+        if (wish_.format == Format::stl || wish_.format == Format::three_mf) {
             standOnPlate(groups, wish_.size, grid_);
         } else if (wish_.of == Extent::oval) {
             standInOval(groups, polytope_, slices_.planes, subject_.focus, wish_.size, grid_);
@@ -96,7 +96,7 @@ class Exporter {
             ++done;
         }
         if (done == 0) {
-            throw Refused{{Refusal::Cause::noBody,
+            throw Refused{{Refusal::Cause::no_body,
                            wish_.body == Body::frame
                                ? "balls and bars have no face to engrave; ask for a separate label"
                                : "no face is flat and large enough for letters of 1 mm; ask for a separate label or a "
@@ -117,7 +117,7 @@ class Exporter {
         std::vector<scene::Colour> colours;
         scene::CellColours().paint(polytope_, subject_.colouring, subject_.orientation, colours);
         switch (wish_.format) {
-            case Format::threeMf:
+            case Format::three_mf:
                 return threeMf(solids, polytope_.name, budget_);
             case Format::obj:
                 return obj(solids);
@@ -150,8 +150,8 @@ class Exporter {
             message += wOf(0);
             message += slices_.vertices.empty() ? " is empty" : " has no thickness";
         }
-        throw Refused{{Refusal::Cause::noBody, message + ": the polytope reaches from w = " + reach +
-                                                   "; move the focus, or turn the polytope"}};
+        throw Refused{{Refusal::Cause::no_body, message + ": the polytope reaches from w = " + reach +
+                                                    "; move the focus, or turn the polytope"}};
     }
 
     const geometry::Polytope& polytope_;

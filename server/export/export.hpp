@@ -34,9 +34,9 @@ struct Subject {
 /// Why there is no file. `message` is a sentence for the user.
 struct Refusal {
     enum class Cause : std::uint8_t {
-        noBody,    ///< the slice is empty or flat, or the label does not fit
-        tooLarge,  ///< beyond Limits::triangles or bytes
-        tooLong,   ///< beyond Limits::time, or stopped
+        no_body,    ///< the slice is empty or flat, or the label does not fit
+        too_large,  ///< beyond Limits::triangles or bytes
+        too_long,   ///< beyond Limits::time, or stopped
     };
     Cause cause;
     std::string message;

@@ -188,10 +188,10 @@ class Skin {
     glm::ivec3 boxAt(const glm::dvec3& place) const { return {glm::floor((place - box_.least) / width_)}; }
     static constexpr int kShift = 1 << 20;
     static std::uint64_t key(int j, int k) {
-        return static_cast<std::uint64_t>(j + kShift) << 32U | static_cast<std::uint64_t>(k + kShift);
+        return std::uint64_t{static_cast<std::uint32_t>(j + kShift)} << 32U | static_cast<std::uint32_t>(k + kShift);
     }
     static std::uint64_t key(const glm::ivec3& box) {
-        const auto part = [](int i) { return static_cast<std::uint64_t>(i + kShift); };
+        const auto part = [](int i) { return std::uint64_t{static_cast<std::uint32_t>(i + kShift)}; };
         return part(box.z) << 42U | part(box.y) << 21U | part(box.x);
     }
 

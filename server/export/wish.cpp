@@ -8,7 +8,7 @@ std::string_view mediaType(Format format) {
     switch (format) {
         case Format::stl:
             return "model/stl";
-        case Format::threeMf:
+        case Format::three_mf:
             return "model/3mf";
         case Format::obj:
             return "model/obj";

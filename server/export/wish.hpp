@@ -8,7 +8,7 @@
 
 namespace oval4d::exports {
 
-enum class Format : std::uint8_t { stl, threeMf, obj, ply, glb, off, csv, svg };
+enum class Format : std::uint8_t { stl, three_mf, obj, ply, glb, off, csv, svg };
 enum class Extent : std::uint8_t { focus, oval };  ///< the focus slice alone, or all slices
 enum class Body : std::uint8_t { solid, frame };   ///< filled, or balls and bars grown together
 enum class Label : std::uint8_t { none, engraved, separate };
@@ -30,7 +30,7 @@ struct Named {
     Choice value;
 };
 inline constexpr std::array<Named<Format>, 8> kFormats{{{"stl", Format::stl},
-                                                        {"3mf", Format::threeMf},
+                                                        {"3mf", Format::three_mf},
                                                         {"obj", Format::obj},
                                                         {"ply", Format::ply},
                                                         {"glb", Format::glb},

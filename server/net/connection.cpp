@@ -23,7 +23,7 @@ namespace {
 constexpr auto kQuietly = asio::as_tuple(asio::use_awaitable);
 constexpr std::size_t kKeptBuffer = 64U << 10U;  // a larger one is given back after the message that needed it
 
-constexpr std::size_t kPiece = 1U << 20U;  // bytes of a message that are written at once
+constexpr std::size_t kPiece = 256U << 10U;  // bytes of a message that are written at once
 
 template <typename Duration>
 auto steady(Duration duration) {

@@ -46,7 +46,7 @@ protocol::Result<std::string> fileOf(const session::State& state, const exports:
         {*state.polytope, state.orientation, state.hyperplanes(), state.slices.focus, state.look.colouring}, wish,
         limits, std::move(stop));
     if (auto* refusal = std::get_if<exports::Refusal>(&made)) {
-        const bool empty = refusal->cause == exports::Refusal::Cause::noBody;
+        const bool empty = refusal->cause == exports::Refusal::Cause::no_body;
         return Error{empty ? ErrorCode::no_body : ErrorCode::too_large, std::move(refusal->message)};
     }
     return std::get<std::string>(std::move(made));

@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 import meshes
 import pytest
 from harness import SLOW, Server, run
+from test_pacing import deaf_socket
 from wire import Client, Refused
 
 FORMATS = ["stl", "3mf", "obj", "ply", "glb", "off", "csv", "svg"]
@@ -285,3 +286,24 @@ async def test_a_stop_does_not_wait_for_a_file():
         assert status == 0 and seconds < 3 * SLOW
         with pytest.raises((http.client.HTTPException, OSError)):
             await file
+
+
+def test_a_slow_reader_gets_the_whole_of_a_long_file():
+    with Server("--write-timeout", 1) as server:
+        query = "/api/v1/file.stl?polytope=24-cell&of=oval&body=frame"
+        whole = server.get(query).body
+        assert len(whole) > 20_000_000
+        wish = '{"type":"get","what":"file","format":"stl","of":"oval","body":"frame"}'
+        raw = deaf_socket(server, '{"type":"hello"}', '{"type":"set","polytope":"24-cell"}', wish,
+                          buffer=1 << 18)
+        server.wait_for(lambda: server.metric("oval4d_file_seconds_count") == 2)
+        start = time.monotonic()
+        found = data = b""
+        while len(data) < len(whole):  # longer than the time for one write, never longer without a byte
+            found = raw.recv(1 << 20)
+            assert found, "dropped"
+            data += found
+            time.sleep(2.5 * len(found) / len(whole))
+        assert time.monotonic() - start > 2
+        assert server.metric("oval4d_slow_readers_total") == 0
+        raw.close()

@@ -106,10 +106,10 @@ async def test_turning_waits_for_those_who_look():
             await client.until(lambda: len(client.pictures()) > 2)
 
 
-def deaf_socket(server, *messages):
-    """A client that asks and never reads: raw, with the smallest of receive buffers."""
+def deaf_socket(server, *messages, buffer=4096):
+    """A client that asks and never reads: raw, with a small receive buffer."""
     raw = socket.socket()
-    raw.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    raw.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, buffer)
     raw.settimeout(DEADLINE)
     raw.connect((server.host, server.port))
     raw.sendall(f"GET /ws HTTP/1.1\r\nHost: {server.host}:{server.port}\r\nUpgrade: websocket\r\n"

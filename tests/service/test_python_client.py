@@ -38,6 +38,7 @@ def test_every_message(server):
         assert len(oval.slices()["slices"]) == 11
         assert oval.slices(640, 480)["scene"]["viewport"] == {"width": 640, "height": 480}
         picture = oval.frame(320, 200)
+        assert oval.file("off").startswith(b"4OFF") and oval.file("stl", body="frame", size=20)[:6] == b"oval4d"
         assert png_state(picture)["revision"] == 9
         assert [polytope["name"] for polytope in oval.catalogue()][0] == "5-cell"
         assert any(key["name"] == "Ctrl-r" for key in oval.keymap())

@@ -196,7 +196,7 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     stop.request_stop();
     const auto given = oval4d::exports::fileOf({p, none, oval, 0}, frame, limits, stop.get_token());
     ASSERT_TRUE(std::holds_alternative<Refusal>(given));
-    EXPECT_EQ(std::get<Refusal>(given).cause, Refusal::Cause::tooLong);
+    EXPECT_EQ(std::get<Refusal>(given).cause, Refusal::Cause::too_long);
 }
 
 /// The bodies of an OBJ file.
