@@ -39,9 +39,9 @@ class QhullRun {
     QhullRun(const QhullRun&) = delete;
     QhullRun& operator=(const QhullRun&) = delete;
     ~QhullRun() {
-        int long_ = 0, total = 0;
+        int kept = 0, total = 0;
         qh_freeqhull(&state_, !qh_ALL);
-        qh_memfreeshort(&state_, &long_, &total);
+        qh_memfreeshort(&state_, &kept, &total);
     }
 
     int status() const { return status_; }

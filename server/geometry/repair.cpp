@@ -192,7 +192,7 @@ class Repairer {
         for (std::uint32_t i = 0; i < faces.size(); ++i) {
             const auto loop = draft_.faces[faces[i]];
             for (std::size_t k = 0; k < loop.size(); ++k)
-                sides.push_back({std::minmax(loop[k], loop[(k + 1) % loop.size()]), i});
+                sides.emplace_back(std::minmax(loop[k], loop[(k + 1) % loop.size()]), i);
         }
         std::sort(sides.begin(), sides.end());
         // Where pieces share an edge, more than two 2-faces meet at it: it joins nothing.

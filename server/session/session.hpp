@@ -53,7 +53,7 @@ double spanningSpacing(const geometry::Polytope& polytope, int count);
 struct Limits {
     int maxSlices = 201;
     std::size_t maxUndo = 1000;
-    std::size_t maxLoaded = 8;           ///< polytopes loaded into one session
+    std::size_t maxLoaded = 8;  ///< polytopes loaded into one session
     /// of a loaded polytope, points of a list, or a polytope outside the catalogue that is built by its name
     std::size_t maxVertices = 100'000;
     std::size_t maxHullCells = 100'000;  ///< of the hull of a list of points
