@@ -9,6 +9,7 @@
 
 using namespace oval4d::geometry;
 
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     const auto result = importPolytope(formatOf(text), text, "p", {.maxVertices = 200, .maxHullCells = 2'000});
