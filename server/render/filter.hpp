@@ -1,5 +1,5 @@
 #pragma once
-// The step before deflate: rows in a PNG file's order, without alpha, as differences.
+// The step before deflate: rows in a PNG file's order, without alpha, as differences from a prediction.
 
 #include <cstdint>
 #include <vector>
@@ -8,8 +8,9 @@
 
 namespace oval4d::render {
 
-/// Turns the image upside down, drops alpha and takes from each row the one above it (PNG's filter "up", for the first
-/// row too), in one pass. `out` gets height rows of 1 + 3 · width bytes; its memory is reused.
-void filterUp(const Image& image, std::vector<std::uint8_t>& out);
+/// Turns the image upside down, drops alpha and takes from each pixel what PNG's filter "Paeth" predicts from its
+/// neighbours to the left, above and between them, in one pass (the first row has nothing above: filter "sub"). `out`
+/// gets height rows of 1 + 3 · width bytes; its memory is reused.
+void filterRows(const Image& image, std::vector<std::uint8_t>& out);
 
 }  // namespace oval4d::render

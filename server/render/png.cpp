@@ -83,7 +83,7 @@ void PngEncoder::encode(const Image& image, std::string_view state, std::vector<
         throw std::invalid_argument("an image without pixels, or with pixels missing, has no PNG file");
     if (size > UINT32_MAX / 2) throw std::invalid_argument("an image of more than 2 GB does not fit into one IDAT");
 
-    filterUp(image, filtered_);
+    filterRows(image, filtered_);
     out.clear();
     append(out, kSignature, sizeof kSignature);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 #include "render/filter.hpp"
@@ -90,6 +92,41 @@ TEST(Png, RandomSizesAndContentsReadBack) {
     }
 }
 
+/// What pictures are made of: boxes of one colour and of slowly changing ones on a background.
+Image paint(int width, int height, std::mt19937& random) {
+    Image image = makeImage(width, height, Kind::flat, random);
+    for (int box = 0; box < 6; ++box) {
+        const int left = static_cast<int>(random() % static_cast<unsigned>(width));
+        const int bottom = static_cast<int>(random() % static_cast<unsigned>(height));
+        const auto colour = random();
+        const unsigned slope = random() % 4;
+        for (int y = bottom; y < std::min(height, bottom + 20); ++y) {
+            for (int x = left; x < std::min(width, left + 30); ++x) {
+                const std::size_t pixel =
+                    static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+                for (unsigned c = 0; c < 4; ++c) {
+                    image.pixels[4 * pixel + c] =
+                        static_cast<std::uint8_t>((colour >> 8 * c) + slope * static_cast<unsigned>(x + y));
+                }
+            }
+        }
+    }
+    return image;
+}
+
+TEST(Png, ThousandsOfPicturesReadBack) {
+    std::mt19937 random(8);
+    PngEncoder encoder;
+    Bytes file;
+    for (int i = 0; i < 2000; ++i) {
+        const int width = 1 + static_cast<int>(random() % 80), height = 1 + static_cast<int>(random() % 60);
+        SCOPED_TRACE(testing::Message() << "picture " << i << ", " << width << " × " << height);
+        const Image image = paint(width, height, random);
+        encoder.encode(image, "{}", file);
+        expectSamePixels(image, readPng(file));
+    }
+}
+
 TEST(Png, LongThinImagesReadBack) {
     std::mt19937 random(3);
     for (const auto& [width, height] : {std::pair{1, 16384}, {16384, 1}, {16384, 3}}) {
@@ -165,22 +202,35 @@ TEST(Png, RefusesAnImageWithPixelsMissing) {
     EXPECT_THROW(PngEncoder().encode({2, 2, Bytes(15)}, "", file), std::invalid_argument);
 }
 
-TEST(Png, FilterIsUpInEveryRowAndStaysInside) {
+/// The prediction as PNG's specification defines it.
+int paeth(int left, int above, int between) {
+    const int sum = left + above - between;
+    const int toLeft = std::abs(sum - left), toAbove = std::abs(sum - above), toBetween = std::abs(sum - between);
+    if (toLeft <= toAbove && toLeft <= toBetween) return left;
+    return toAbove <= toBetween ? above : between;
+}
+
+TEST(Png, FilterIsPaethInEveryRowAndStaysInside) {
+    constexpr int kRows = 60;
     std::mt19937 random(7);
     for (int width = 1; width <= 20; ++width) {
-        const Image image = makeImage(width, 3, Kind::noise, random);
+        const Image image = makeImage(width, kRows, Kind::noise, random);
         Bytes rows;
-        filterUp(image, rows);
+        filterRows(image, rows);
         const std::size_t stride = 3 * static_cast<std::size_t>(width) + 1;
-        ASSERT_EQ(rows.size(), 3 * stride);
-        for (std::size_t y = 0; y < 3; ++y) {
-            EXPECT_EQ(rows[y * stride], 2) << "filter type of row " << y << " at width " << width;
-            for (int x = 0; x < width; ++x)
+        ASSERT_EQ(rows.size(), kRows * stride);
+        for (int y = 0; y < kRows; ++y) {
+            const std::uint8_t* row = &rows[static_cast<std::size_t>(y) * stride];
+            EXPECT_EQ(row[0], y == 0 ? 1 : 4) << "filter type of row " << y << " at width " << width;
+            for (int x = 0; x < width; ++x) {
                 for (std::size_t c = 0; c < 3; ++c) {
-                    const int here = pixelAt(image, x, static_cast<int>(2 - y))[c];
-                    const int above = y == 0 ? 0 : pixelAt(image, x, static_cast<int>(3 - y))[c];
-                    EXPECT_EQ(rows[y * stride + 1 + static_cast<std::size_t>(x) * 3 + c], (here - above) & 255);
+                    const auto at = [&](int i, int j) {
+                        return i < 0 || j < 0 ? 0 : pixelAt(image, i, kRows - 1 - j)[c];
+                    };
+                    const int guess = paeth(at(x - 1, y), at(x, y - 1), at(x - 1, y - 1));
+                    EXPECT_EQ(row[1 + static_cast<std::size_t>(x) * 3 + c], (at(x, y) - guess) & 255);
                 }
+            }
         }
     }
 }
