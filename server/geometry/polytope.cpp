@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "geometry/convexity.hpp"
 #include "geometry/kinds.hpp"
 
 namespace oval4d::geometry {
@@ -203,7 +204,7 @@ class Orienter {
 };
 
 // A loop is convex where it turns the same way at every corner and once around in all.
-bool isConvex(const Polytope& p, std::span<const std::uint32_t> loop) {
+bool isConvexLoop(const Polytope& p, std::span<const std::uint32_t> loop) {
     if (loop.size() == 3) return true;
     const std::size_t n = loop.size();
     const auto side = [&](std::size_t i) { return p.vertices[loop[(i + 1) % n]] - p.vertices[loop[i % n]]; };
@@ -254,9 +255,10 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists 
     checkIndices(p.faces, p.vertices.size(), Part::face, "vertices", 3);
     checkIndices(p.cells, p.faces.size(), Part::cell, "2-faces", 4);
     findEdges(p);
-    for (std::size_t f = 0; f < p.faces.size() && p.convexFaces; ++f) p.convexFaces = isConvex(p, p.faces[f]);
+    for (std::size_t f = 0; f < p.faces.size() && p.convexFaces; ++f) p.convexFaces = isConvexLoop(p, p.faces[f]);
     Orienter orient(p);
     numberKinds(p, cellKinds.empty() ? kindsByShape(p) : std::move(cellKinds));
+    p.convex = isConvex(p);
     return p;
 }
 

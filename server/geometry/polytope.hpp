@@ -42,6 +42,7 @@ struct Polytope {
     std::vector<std::string> kinds;                       ///< names of the kinds of cells: "truncated tetrahedron"
     std::uint64_t serial = 0;                             ///< no two built in one process share it: what caches go by
     bool convexFaces = true;                              ///< no 2-face is dented or a star
+    bool convex = true;                                   ///< the boundary of a convex body
     double circumradius = 0;                              ///< the largest distance of a vertex from the origin
 
     std::size_t cellCount() const { return cells.size(); }

@@ -10,38 +10,6 @@ namespace oval4d::render {
 
 using geometry::SliceSet;
 
-/// One slice with all that painting it needs.
-struct SlicePainter::Slice {
-    const geometry::Polytope& polytope;
-    const SliceSet& set;
-    const scene::Scene& scene;
-    const glm::dmat4& toView;
-    std::size_t number;
-
-    std::size_t firstVertex() const { return set.vertexBegin[number]; }
-    std::size_t firstEdge() const { return set.edgeBegin[number]; }
-    std::size_t firstFace() const { return set.faceBegin[number]; }
-    std::size_t vertices() const { return set.vertexBegin[number + 1] - firstVertex(); }
-    std::size_t edges() const { return set.edgeBegin[number + 1] - firstEdge(); }
-    std::size_t faces() const { return set.faceBegin[number + 1] - firstFace(); }
-    const std::array<std::uint32_t, 2>& edge(std::size_t e) const { return set.edges[firstEdge() + e]; }
-
-    /// Where the loop of face f lies in the set's corners.
-    std::pair<std::size_t, std::size_t> loop(std::size_t f) const {
-        return {set.cornerBegin[firstFace() + f], set.cornerBegin[firstFace() + f + 1]};
-    }
-
-    scene::Colour tint(std::size_t f) const {
-        return scene.cellColours[scene::tintOf(polytope, scene.presences, set.faceOf[firstFace() + f])];
-    }
-    float opacity(scene::Presence presence) const { return static_cast<float>(scene::opacityOf(presence)); }
-    float vertexOpacity(std::size_t v) const {
-        return opacity(scene.presences.vertex(set.vertexOf[firstVertex() + v]));
-    }
-    float edgeOpacity(std::size_t e) const { return opacity(scene.presences.edge(set.edgeOf[firstEdge() + e])); }
-    float faceOpacity(std::size_t f) const { return opacity(scene.presences.face(set.faceOf[firstFace() + f])); }
-};
-
 void SlicePainter::paint(const geometry::Polytope& polytope, const SliceSet& slices, const scene::Scene& scene,
                          Solids& out) {
     const glm::dmat4 toView = scene.camera.view();
@@ -61,7 +29,8 @@ void SlicePainter::paint(const geometry::Polytope& polytope, const SliceSet& sli
     for (const std::uint32_t i : standOrder_) paintSlice({polytope, slices, scene, toView, i}, out);
 }
 
-void SlicePainter::paintSlice(const Slice& slice, Solids& out) {
+void SlicePainter::paintSlice(const SliceView& slice, Solids& out) {
+    if (!slice.scene.partition.empty()) return regionPainter_.paint(slice, out);
     place(slice);
     classify(slice);
     sortByDepth(slice);
@@ -71,16 +40,14 @@ void SlicePainter::paintSlice(const Slice& slice, Solids& out) {
     }
 }
 
-void SlicePainter::place(const Slice& slice) {
-    const glm::mat3 turn(glm::dmat3(slice.toView) * slice.scene.scale);
-    const glm::vec3 origin(slice.toView * glm::dvec4(slice.scene.stands[slice.number].position, 1));
+void SlicePainter::place(const SliceView& slice) {
+    const Placing placing(slice);
     points_.resize(slice.vertices());
-    for (std::size_t i = 0; i < points_.size(); ++i)
-        points_[i] = turn * glm::vec3(slice.set.vertices[slice.firstVertex() + i]) + origin;
+    for (std::size_t i = 0; i < points_.size(); ++i) points_[i] = placing(slice.set.vertices[slice.firstVertex() + i]);
 }
 
 /// A vertex or an edge is on the side of the eye if any of its faces is.
-void SlicePainter::classify(const Slice& slice) {
+void SlicePainter::classify(const SliceView& slice) {
     vertexSide_.assign(slice.vertices(), Side::away);
     edgeSide_.assign(slice.edges(), Side::away);
     faceSide_.resize(slice.faces());
@@ -104,7 +71,7 @@ void SlicePainter::classify(const Slice& slice) {
 
 /// Vertices from far to near, and each edge with its farther vertex. Drawn so, a bar lies over the ball that it comes
 /// from and under the ball that it goes to.
-void SlicePainter::sortByDepth(const Slice& slice) {
+void SlicePainter::sortByDepth(const SliceView& slice) {
     order_.resize(slice.vertices());
     std::iota(order_.begin(), order_.end(), 0u);
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -122,7 +89,7 @@ void SlicePainter::sortByDepth(const Slice& slice) {
     for (std::size_t e = slice.edges(); e-- > 0;) edgeOrder_[--edgeBegin_[farther(e)]] = static_cast<std::uint32_t>(e);
 }
 
-void SlicePainter::paintFaces(const Slice& slice, Side side, Solids& out) {
+void SlicePainter::paintFaces(const SliceView& slice, Side side, Solids& out) {
     const auto opacity = static_cast<float>(scene::style().faceOpacity);
     const bool soft = !slice.scene.look.parts.bars;
     for (std::size_t f = 0; f < slice.faces(); ++f) {
@@ -136,21 +103,13 @@ void SlicePainter::paintFaces(const Slice& slice, Side side, Solids& out) {
     }
 }
 
-void SlicePainter::paintFrame(const Slice& slice, Side side, Solids& out) {
-    const scene::Style& style = scene::style();
-    const scene::Parts& parts = slice.scene.look.parts;
-    const auto barRadius = static_cast<float>(slice.scene.barRadius);
-    // Without balls, bars meet in round joints.
-    const auto ballRadius = parts.balls ? static_cast<float>(slice.scene.ballRadius) : barRadius;
-    const scene::Colour ballColour = parts.balls ? style.ball : style.bar;
-    // A bar begins where it comes out of its ball.
-    const float inBall = std::sqrt(std::max(ballRadius * ballRadius - barRadius * barRadius, 0.0f));
-    const bool balls = parts.balls || parts.bars;
-
+void SlicePainter::paintFrame(const SliceView& slice, Side side, Solids& out) {
+    const Frame frame(slice.scene);
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const std::uint32_t v = order_[i];
-        if (balls && vertexSide_[v] == side) out.ball(points_[v], ballRadius, ballColour, slice.vertexOpacity(v));
-        if (!parts.bars) continue;
+        if (frame.balls && vertexSide_[v] == side)
+            out.ball(points_[v], frame.ballRadius, frame.ballColour, slice.vertexOpacity(v));
+        if (!frame.bars) continue;
         for (std::size_t k = edgeBegin_[i]; k < edgeBegin_[i + 1]; ++k) {
             const std::uint32_t e = edgeOrder_[k];
             if (edgeSide_[e] != side) continue;
@@ -158,9 +117,9 @@ void SlicePainter::paintFrame(const Slice& slice, Side side, Solids& out) {
             if (opacity == 0) continue;
             const glm::vec3 &from = points_[v], &to = points_[slice.edge(e)[slice.edge(e)[0] == v ? 1 : 0]];
             const float length = glm::length(to - from);
-            if (length <= 2 * inBall) continue;
-            const glm::vec3 cut = (to - from) * (inBall / length);
-            out.bar(from + cut, to - cut, barRadius, style.bar, opacity);
+            if (length <= 2 * frame.inBall) continue;
+            const glm::vec3 cut = (to - from) * (frame.inBall / length);
+            out.bar(from + cut, to - cut, frame.barRadius, frame.barColour, opacity);
         }
     }
 }

@@ -78,7 +78,8 @@ void Solids::ball(const glm::vec3& centre, float radius, scene::Colour colour, f
           rgba(colour, size.alpha * opacity)});
 }
 
-void Solids::bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Colour colour, float opacity) {
+void Solids::bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Colour colour, float opacity,
+                 bool foot) {
     if (from.z > -radius || to.z > -radius) return;
     // The eye and the bar's axis lie in a plane with normal n. The silhouette runs parallel to the axis.
     const glm::vec3 axis = to - from;
@@ -100,13 +101,13 @@ void Solids::bar(const glm::vec3& from, const glm::vec3& to, float radius, scene
                              rgba(colour, size.alpha * opacity)};
     const auto first = static_cast<std::uint32_t>(vertices_.size());
     quad({a - dx, a + dx, b - dx, b + dx}, size.reach, 0, vertex);
-    if (2 * size.half < kThinnestFoot) return;
+    if (!foot || 2 * size.half < kThinnestFoot) return;
     // The foot: the near half of the circle that the bar's end is, beyond the straight cut.
-    const glm::vec3 foot = a + lens_.clip(z) * (radius * size.reach);
+    const glm::vec3 end = a + lens_.clip(z) * (radius * size.reach);
     const auto last = static_cast<std::uint32_t>(vertices_.size());
     for (const float side : {-1.0f, 1.0f}) {
         vertices_.push_back(vertex);
-        vertices_.back().clip = foot + side * dx;
+        vertices_.back().clip = end + side * dx;
         vertices_.back().place = {side * size.reach, size.reach, size.half};
     }
     for (const std::uint32_t i : {last, last + 1, first, first, last + 1, first + 1}) indices_.push_back(i);

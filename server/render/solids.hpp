@@ -37,8 +37,10 @@ class Solids {
 
     void ball(const glm::vec3& centre, float radius, scene::Colour colour, float opacity = 1);
 
-    /// A round bar. It comes out of something at `from`, the end farther from the eye; at `to` it is cut straight.
-    void bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Colour colour, float opacity = 1);
+    /// A round bar. With a `foot` it comes out of something at `from`, the end farther from the eye; else it is cut
+    /// straight there, as at `to`.
+    void bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Colour colour, float opacity = 1,
+             bool foot = true);
 
     /// A flat convex polygon with this unit normal, either way. With `soft` the edges fade over a pixel, for where no
     /// bar covers them.

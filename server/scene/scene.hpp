@@ -13,6 +13,7 @@
 #include "geometry/polytope.hpp"
 #include "geometry/rotation.hpp"
 #include "geometry/slicer.hpp"
+#include "scene/partition.hpp"
 
 namespace oval4d::scene {
 
@@ -168,6 +169,7 @@ struct Scene {
     std::vector<Stand> stands;  ///< as many as slices, in their order
     std::vector<Colour> cellColours;
     Presences presences;
+    Partition partition;  ///< of the slices that the scene was composed for, if they are not convex
     CellColours colours;
     double thickness = 0;           ///< ball radius per slice radius, for this polytope
     std::uint64_t composedFor = 0;  ///< the serial of the polytope that presences and thickness belong to
