@@ -82,6 +82,11 @@ void CborWriter::pairs(std::span<const Pair> list) {
     if (!list.empty()) buffer_.put({reinterpret_cast<const char*>(list.data()), list.size_bytes()});
 }
 
+void CborWriter::triples(std::span<const Triple> list) {
+    typedArray(kUint32Array, list.size_bytes());
+    if (!list.empty()) buffer_.put({reinterpret_cast<const char*>(list.data()), list.size_bytes()});
+}
+
 void CborWriter::numbers(std::span<const std::uint32_t> list) {
     typedArray(kUint32Array, list.size_bytes());
     if (!list.empty()) buffer_.put({reinterpret_cast<const char*>(list.data()), list.size_bytes()});

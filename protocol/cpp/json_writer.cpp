@@ -140,6 +140,19 @@ void JsonWriter::pairs(std::span<const Pair> list) {
     });
 }
 
+void JsonWriter::triples(std::span<const Triple> list) {
+    separate();
+    putArray(buffer_, list, 3 * kNumber, [](char* at, const Triple& triple) {
+        *at++ = '[';
+        for (const std::uint32_t index : triple) {
+            at = put(at, index);
+            *at++ = ',';
+        }
+        at[-1] = ']';
+        return at;
+    });
+}
+
 void JsonWriter::numbers(std::span<const std::uint32_t> list) {
     separate();
     putArray(buffer_, list, kNumber, [](char* at, std::uint32_t index) { return put(at, index); });

@@ -158,6 +158,44 @@ void writePresences(W& w, const scene::Presences& presences, const SliceSet& sli
     w.endObject();
 }
 
+// What to draw instead of the faces of a slice that is not convex.
+struct Fill {
+    std::vector<glm::dvec3> points;
+    std::vector<Triple> triangles;
+    std::vector<std::uint32_t> tints, seen;
+};
+
+template <typename W>
+void writeFill(W& w, const Polytope& polytope, const Scene& scene, std::size_t i) {
+    const scene::Partition& tree = scene.partition;
+    if (tree.empty() || tree.root(i) >= scene::Partition::kCovered) return;
+    const glm::dvec3 eye = (scene.camera.eye - scene.stands[i].position) / scene.scale;
+    Fill fill;
+    tree.fromFarToNear(i, eye, [&](const scene::Partition::Piece& piece) {
+        const std::uint32_t of = tree.patch(piece).of;
+        const auto first = static_cast<std::uint32_t>(fill.points.size());
+        for (std::uint32_t c = piece.begin; c < piece.end; ++c) fill.points.push_back(tree.corner(c));
+        for (std::uint32_t c = 2; c < piece.end - piece.begin; ++c) {
+            fill.triangles.push_back({first, first + c - 1, first + c});
+            fill.tints.push_back(scene::tintOf(polytope, scene.presences, of));
+            fill.seen.push_back(static_cast<std::uint32_t>(scene.presences.face(of)));
+        }
+    });
+    w.key("fill");
+    w.beginObject();
+    w.key("points");
+    w.vectors(std::span<const glm::dvec3>(fill.points));
+    w.key("triangles");
+    w.triples(fill.triangles);
+    w.key("tints");
+    w.numbers(fill.tints);
+    if (!scene.presences.all()) {
+        w.key("seen");
+        w.numbers(fill.seen);
+    }
+    w.endObject();
+}
+
 template <typename W>
 void writeSlice(W& w, const Polytope& polytope, const SliceSet& slices, std::size_t i, const Scene& scene) {
     const scene::Stand& stand = scene.stands[i];
@@ -191,6 +229,7 @@ void writeSlice(W& w, const Polytope& polytope, const SliceSet& slices, std::siz
     w.endObject();
     writeTints(w, polytope, scene.presences, part(slices.faceOf, f0, f1));
     writePresences(w, scene.presences, slices, i);
+    writeFill(w, polytope, scene, i);
     w.endObject();
 }
 

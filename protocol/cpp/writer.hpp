@@ -14,6 +14,7 @@
 namespace oval4d::protocol {
 
 using Pair = std::array<std::uint32_t, 2>;
+using Triple = std::array<std::uint32_t, 3>;
 
 /// Lists one after the other, as geometry keeps them: list i is items[begin[i] − begin[0]] …
 struct ListsView {
@@ -80,6 +81,7 @@ class JsonWriter {
     void vectors(std::span<const glm::dvec3> list);
     void vectors(std::span<const glm::dvec4> list);
     void pairs(std::span<const Pair> list);
+    void triples(std::span<const Triple> list);
     void numbers(std::span<const std::uint32_t> list);
     void lists(ListsView view);
 
@@ -125,6 +127,7 @@ class CborWriter {
     void vectors(std::span<const glm::dvec3> list);
     void vectors(std::span<const glm::dvec4> list);
     void pairs(std::span<const Pair> list);
+    void triples(std::span<const Triple> list);
     void numbers(std::span<const std::uint32_t> list);
     void lists(ListsView view);
 

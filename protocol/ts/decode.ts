@@ -47,13 +47,19 @@ export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined
 type Loose<T> = T | number[] | number[][];
 
 /** The same slice as JSON has it: nested arrays. */
-interface LooseSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" | "tints" | "seen"> {
+interface LooseSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" | "tints" | "seen" | "fill"> {
     vertices: Loose<Float32Array>;
     edges: Loose<Uint32Array>;
     faces: number[][] | { begin: ArrayLike<number>; corners: ArrayLike<number> };
     of: Record<"vertices" | "edges" | "faces", Loose<Uint32Array>>;
     tints?: Loose<Uint32Array>;
     seen?: Record<"vertices" | "edges" | "faces", Loose<Uint32Array>>;
+    fill?: {
+        points: Loose<Float32Array>;
+        triangles: Loose<Uint32Array>;
+        tints: Loose<Uint32Array>;
+        seen?: Loose<Uint32Array>;
+    };
 }
 
 function flattened(message: Message): Message {
@@ -67,7 +73,7 @@ function flattened(message: Message): Message {
         ...loose,
         scene: { ...scene, colors: { ...scene.colors, cells: indices(scene.colors.cells) } },
         coordinates: floats(loose.coordinates ?? []),
-        slices: loose.slices.map(({ tints, seen, ...slice }) => ({
+        slices: loose.slices.map(({ tints, seen, fill, ...slice }) => ({
             ...slice,
             vertices: floats(slice.vertices),
             edges: indices(slice.edges),
@@ -75,6 +81,14 @@ function flattened(message: Message): Message {
             of: ofAll(slice.of),
             ...(tints && { tints: indices(tints) }),
             ...(seen && { seen: ofAll(seen) }),
+            ...(fill && {
+                fill: {
+                    points: floats(fill.points),
+                    triangles: indices(fill.triangles),
+                    tints: indices(fill.tints),
+                    ...(fill.seen && { seen: indices(fill.seen) }),
+                },
+            }),
         })),
     };
 }

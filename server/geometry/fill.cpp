@@ -31,7 +31,7 @@ void Filler::fill(const SliceSet& slices, double circumradius, Fill& out) {
 }
 
 void Filler::fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, Fill& out) {
-    Fill::Patch patch{{}, 0, slices.faceOf[begin]};
+    Fill::Patch patch{{}, 0, slices.faceOf[begin], begin, end, 0};
     if (!findPlane(slices, slice, begin, end, patch)) return;
     const auto onPlane = [this](const glm::dvec3& p) {
         return glm::dvec2(glm::dot(p - plane_.origin, plane_.x), glm::dot(p - plane_.origin, plane_.y));
@@ -51,7 +51,7 @@ void Filler::fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t b
         first += size;
     }
     findLevels();
-    sweep(out);
+    patch.winding = sweep(out);
     if (out.cornerBegin.size() - 1 == out.pieceBegin.back()) return;
     out.patches.push_back(patch);
     out.pieceBegin.push_back(static_cast<std::uint32_t>(out.cornerBegin.size() - 1));
@@ -124,8 +124,9 @@ void Filler::findLevels() {
     }
 }
 
-// Goes up from level to level. In the strip between two, the sides stand in one order from left to right.
-void Filler::sweep(Fill& out) {
+// Goes up from level to level. In the strip between two, the sides stand in one order from left to right. Returns the
+// most that the loops wind around a place.
+int Filler::sweep(Fill& out) {
     waiting_.resize(sides_.size());
     for (std::uint32_t i = 0; i < sides_.size(); ++i) waiting_[i] = i;
     std::sort(waiting_.begin(), waiting_.end(),
@@ -133,6 +134,7 @@ void Filler::sweep(Fill& out) {
     active_.clear();
     open_.clear();
     std::size_t next = 0;
+    int most = 0;
     for (std::uint32_t strip = 0; strip + 1 < levels_.size(); ++strip) {
         const double bottom = levels_[strip];
         const double top = levels_[strip + 1];
@@ -149,6 +151,7 @@ void Filler::sweep(Fill& out) {
         for (const std::uint32_t i : active_) {
             const int before = winding;
             winding += sides_[i].winding;
+            most = std::max(most, std::abs(winding));
             if (before == 0) {
                 left = i;
                 positive = winding > 0;
@@ -162,6 +165,7 @@ void Filler::sweep(Fill& out) {
         std::erase_if(open_, [](const Piece& piece) { return !piece.continued; });
     }
     for (const Piece& piece : open_) close(piece, levels_.back(), out);
+    return most;
 }
 
 // From left to right at this height. The order is nearly that of the strip before: insertion is quickest.

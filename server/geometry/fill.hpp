@@ -24,7 +24,9 @@ struct Fill {
     struct Patch {
         glm::dvec3 normal;  ///< of length 1, outward; its plane is where dot(normal, x) = offset
         double offset;
-        std::uint32_t of;  ///< as SliceSet::faceOf
+        std::uint32_t of;                   ///< as SliceSet::faceOf
+        std::uint32_t firstLoop, lastLoop;  ///< the faces firstLoop … lastLoop − 1 of the SliceSet
+        int winding;                        ///< the most that its loops wind around a place, either way
     };
     std::vector<std::uint32_t> patchBegin, pieceBegin, cornerBegin;
     std::vector<Patch> patches;
@@ -63,7 +65,7 @@ class Filler {
     void fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, Fill& out);
     bool findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, Fill::Patch& out);
     void findLevels();
-    void sweep(Fill& out);
+    int sweep(Fill& out);
     void orderActive(double y);
     void addSpan(std::uint32_t left, std::uint32_t right, bool positive, double bottom);
     bool goesOn(const Piece& piece, const Side& left, const Side& right, double bottom) const;

@@ -40,6 +40,7 @@ void RegionPainter::collect(const Work& work) {
 
 // Paints the part of the tree from this node on, with the balls and bars items_[begin] … items_[end − 1] in its region.
 void RegionPainter::paintRegion(const Work& work, std::uint32_t number, std::size_t begin, std::size_t end) {
+    if (number == Partition::kCovered) return;
     if (number == Partition::kNone) return paintItems(work, begin, end);
     const Partition& partition = work.slice.scene.partition;
     const Partition::Node& node = partition.node(number);
@@ -84,6 +85,7 @@ void RegionPainter::paintPieces(const Work& work, std::uint32_t number) {
     const Partition::Node& node = scene.partition.node(number);
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
         const Partition::Piece& piece = scene.partition.piece(i);
+        if (piece.begin == piece.end) continue;
         const geometry::Fill::Patch& patch = scene.partition.patch(piece);
         const float opacity = work.slice.opacity(scene.presences.face(patch.of));
         corners_.clear();

@@ -169,6 +169,7 @@ struct Scene {
     std::vector<Stand> stands;  ///< as many as slices, in their order
     std::vector<Colour> cellColours;
     Presences presences;
+    std::vector<Partition::View> views;
     Partition partition;  ///< of the slices that the scene was composed for, if they are not convex
     CellColours colours;
     double thickness = 0;           ///< ball radius per slice radius, for this polytope
@@ -181,6 +182,9 @@ struct Scene {
 /// focus slice. `out` is overwritten and its memory reused.
 void compose(const geometry::Polytope& polytope, const geometry::Hyperplanes& planes, int focus, const Look& look,
              Viewport viewport, Scene& out, const geometry::Rotation& orientation = {});
+
+/// Parts the slices of a scene that was composed for them, where they are not convex, as finely as can be seen.
+void part(const geometry::Polytope& polytope, const geometry::SliceSet& slices, Scene& scene);
 
 /// The cell that gives the slice's face cut from `of` its colour: the cell itself; of a 2-face in the hyperplane the
 /// first of its two cells that is not hidden.
