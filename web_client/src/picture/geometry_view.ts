@@ -1,10 +1,11 @@
 // Geometry mode: draws slices with WebGL, their labels, axes and coordinates on a canvas above.
 
-import { Camera, Color, ColorManagement, GLSL3, LinearSRGBColorSpace, RawShaderMaterial, Scene, Vector3 } from "three";
-import { Mesh as Drawing, Vector4, WebGLRenderer } from "three";
+import { type BufferGeometry, Camera, Color, ColorManagement, GLSL3, LinearSRGBColorSpace } from "three";
+import { Mesh as Drawing, RawShaderMaterial, Scene, Vector3, Vector4, WebGLRenderer } from "three";
 
 import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
 
+import { FillMesh } from "./fill_mesh";
 import { Lens } from "./lens";
 import { Mesh } from "./mesh";
 import { drawOverlay } from "./overlay";
@@ -18,6 +19,9 @@ export class GeometryView {
     private readonly scene = new Scene();
     private readonly camera = new Camera();
     private readonly mesh = new Mesh();
+    private readonly fillMesh = new FillMesh();
+    private readonly drawing: Drawing<BufferGeometry, RawShaderMaterial>;
+    private readonly fillDrawing: Drawing<BufferGeometry, RawShaderMaterial>;
     private readonly uniforms = {
         light: { value: new Vector3() },
         shading: { value: new Vector4() },
@@ -25,6 +29,8 @@ export class GeometryView {
         barRadius: { value: 0 },
         pixels: { value: 1 },
     };
+    private readonly flat = this.material(false);
+    private readonly solid = this.material(true);
     private readonly pen: CanvasRenderingContext2D;
     private picture: Slices | undefined;
     private pictureOrbit: Orbit | undefined;
@@ -36,26 +42,42 @@ export class GeometryView {
         canvas: HTMLCanvasElement,
         private readonly overlay: HTMLCanvasElement,
     ) {
-        this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, depth: false, stencil: false });
+        this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: false });
         this.renderer.outputColorSpace = LinearSRGBColorSpace;
         this.pen = overlay.getContext("2d")!;
-        const material = new RawShaderMaterial({
-            ...{ vertexShader, fragmentShader, glslVersion: GLSL3, uniforms: this.uniforms },
-            ...{ transparent: true, depthTest: false, depthWrite: false },
-        });
-        const drawing = new Drawing(this.mesh.geometry, material);
-        drawing.frustumCulled = drawing.matrixAutoUpdate = false;
-        material.side = 2; // both: patches may be seen from either side
-        this.scene.add(drawing);
+        const drawings = [
+            new Drawing(this.mesh.geometry, this.flat),
+            new Drawing(this.fillMesh.geometry, this.material(false)),
+        ] as const;
+        for (const drawing of drawings) {
+            drawing.frustumCulled = drawing.matrixAutoUpdate = false;
+            this.scene.add(drawing);
+        }
+        [this.drawing, this.fillDrawing] = drawings;
+        this.fillDrawing.renderOrder = 1;
+        this.fillDrawing.material.depthTest = true;
         this.scene.matrixWorldAutoUpdate = false;
         this.camera.matrixWorldAutoUpdate = false;
+    }
+
+    /** Balls and bars as bodies with depth, antialiased by the samples that they cover; or all in painter's order. */
+    private material(solid: boolean): RawShaderMaterial {
+        return new RawShaderMaterial({
+            ...{ vertexShader, fragmentShader, glslVersion: GLSL3, uniforms: this.uniforms },
+            ...{ transparent: !solid, alphaToCoverage: solid, depthTest: solid, depthWrite: solid },
+            defines: solid ? { SOLID: 1 } : {},
+            side: 2, // both: patches may be seen from either side
+        });
     }
 
     /** The newest slices, and the orbit for which they were laid out. */
     take(picture: Slices, orbit: Orbit): void {
         this.picture = picture;
         this.pictureOrbit = orbit;
-        this.mesh.fill(picture);
+        const filled = this.fillMesh.fill(picture);
+        this.mesh.fill(picture, !filled);
+        this.fillDrawing.visible = filled;
+        this.drawing.material = filled ? this.solid : this.flat;
         this.arranged = undefined;
         const { light, ball, bar } = picture.scene;
         this.uniforms.light.value.fromArray(light.direction).normalize();
@@ -74,7 +96,10 @@ export class GeometryView {
         }
         this.lens.set(scene.camera, size, this.pictureOrbit, orbit);
         const { azimuth, elevation } = orbit;
-        if (azimuth !== this.arranged?.azimuth || elevation !== this.arranged.elevation) this.mesh.arrange(this.lens);
+        if (azimuth !== this.arranged?.azimuth || elevation !== this.arranged.elevation) {
+            this.mesh.arrange(this.lens);
+            this.fillMesh.arrange(this.lens);
+        }
         this.arranged = orbit;
         this.uniforms.pixels.value = this.lens.pixels;
         this.camera.projectionMatrix.copy(this.lens.projection);
@@ -86,6 +111,7 @@ export class GeometryView {
 
     dispose(): void {
         this.mesh.geometry.dispose();
+        this.fillMesh.geometry.dispose();
         this.renderer.dispose();
     }
 }

@@ -24,8 +24,8 @@ export class Mesh {
     private readonly colour = new Growing(Uint8Array, 4, true);
     private readonly index = new Growing(Uint32Array, 1);
 
-    /** Takes in new slices. */
-    fill(picture: Slices): void {
+    /** Takes in new slices, with their faces or without. */
+    fill(picture: Slices, faces: boolean): void {
         const { elements } = this;
         elements.take(picture);
         this.reserve();
@@ -45,7 +45,7 @@ export class Mesh {
         }
         this.putFaces(scene);
         for (const buffer of [this.at, this.to, this.shape, this.colour]) buffer.written();
-        this.order.show(shown);
+        this.order.show({ ...shown, faces: shown.faces && faces });
     }
 
     /** Puts all in order for this camera. */

@@ -19,6 +19,10 @@ in vec4 colour;
 out vec3 place;  // u, v, and half the radius in pixels
 flat out vec3 diffuse, specular, tint;
 flat out float alpha;
+#ifdef SOLID
+out float depth;        // of the patch, along the camera's axis
+flat out float bulge;   // how far the body rises from it toward the viewer
+#endif
 
 const float kThinnest = 0.6;  // radius in pixels
 
@@ -40,6 +44,10 @@ void ball(vec3 centre, vec3 h) {
     specular = vec3(dot(x, h), dot(y, h), dot(z, h));
     float silhouette = ballRadius * wide * sqrt(d2 / inside2);
     gl_Position = projectionMatrix * vec4(centre + silhouette * (x * place.x + y * place.y), 1.0);
+#ifdef SOLID
+    depth = centre.z;
+    bulge = ballRadius;
+#endif
 }
 
 void bar(vec3 from, vec3 end, vec3 h) {
@@ -56,16 +64,24 @@ void bar(vec3 from, vec3 end, vec3 h) {
     specular = vec3(dot(x, h), 0.0, dot(z, h));
     vec3 side = x * (place.x * barRadius * wide * sqrt(n2 / inside2));
     gl_Position = projectionMatrix * vec4((shape.y < 0.0 ? from : end) + side, 1.0);
+#ifdef SOLID
+    depth = (shape.y < 0.0 ? from : end).z;
+    bulge = barRadius * z.z;
+#endif
 }
 
 void main() {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // out of sight, unless placed
     place = diffuse = specular = vec3(0.0);
+#ifdef SOLID
+    depth = -1.0;
+    bulge = 0.0;
+#endif
     alpha = 1.0;
     tint = colour.rgb;
     vec3 h = normalize(light + vec3(0.0, 0.0, 1.0));
     vec3 seen = (viewMatrix * vec4(at, 1.0)).xyz;
-    if (colour.a == 0.0) return;
+    if (colour.a == 0.0 && shape.z != ${kFace}.0) return;
     if (shape.z == ${kBall}.0) {
         ball(seen, h);
     } else if (shape.z == ${kBar}.0) {
@@ -85,6 +101,11 @@ uniform vec4 shading;
 in vec3 place;
 flat in vec3 diffuse, specular, tint;
 flat in float alpha;
+#ifdef SOLID
+uniform mat4 projectionMatrix;
+in float depth;
+flat in float bulge;
+#endif
 out vec4 pixel;
 void main() {
     float q = 1.0 - dot(place.xy, place.xy);
@@ -92,5 +113,9 @@ void main() {
     float shine = shading.z * pow(max(dot(n, specular), 0.0), shading.w);
     vec3 lit = tint * (shading.x + max(dot(n, diffuse), 0.0)) + shine;
     pixel = vec4(lit, alpha * clamp(q * place.z + 0.5, 0.0, 1.0));
+#ifdef SOLID
+    float z = depth + bulge * n.z;
+    gl_FragDepth = 0.5 - 0.5 * (projectionMatrix[2].z * z + projectionMatrix[3].z) / z;
+#endif
 }
 `;

@@ -1,0 +1,12 @@
+import { writeFileSync } from "node:fs";
+import { openWithScript, presented } from "./support/browser.mjs";
+const [out, ...commands] = process.argv.slice(2);
+const { page, script, errors, close } = await openWithScript();
+let revision=0;
+for (const line of commands) revision=(await script.request({ type: "command", line })).revision;
+await presented(page, revision);
+await page.waitForTimeout(500);
+writeFileSync(out, await page.locator("#drawing").screenshot());
+console.log(errors);
+await close();
+process.exit(0);

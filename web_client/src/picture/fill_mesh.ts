@@ -1,0 +1,94 @@
+// The triangles that stand for the faces of slices that are not convex: in the server's order within each slice, the
+// slices from far to near. They are tested against the depth of balls and bars.
+
+import { BufferGeometry } from "three";
+
+import type { Fill, Slices, Vector } from "@oval4d/protocol";
+
+import { Growing } from "./growing";
+import type { Lens } from "./lens";
+import { kFace } from "./shaders";
+
+/** One slice's part of the mesh. */
+interface Part {
+    fill: Fill;
+    position: Vector;
+    first: number; // of its points
+}
+
+export class FillMesh {
+    readonly geometry = new BufferGeometry();
+    private parts: Part[] = [];
+    private readonly at = new Growing(Float32Array, 3);
+    private readonly to = new Growing(Float32Array, 3);
+    private readonly shape = new Growing(Int8Array, 4);
+    private readonly colour = new Growing(Uint8Array, 4, true);
+    private readonly index = new Growing(Uint32Array, 1);
+
+    /** Takes in new slices; false if none of them has to be filled. */
+    fill(picture: Slices): boolean {
+        const { slices, scene } = picture;
+        let points = 0;
+        let corners = 0;
+        this.parts = [];
+        for (const { fill, drawn, position } of slices) {
+            if (!fill || !drawn || !scene.shown.faces) continue;
+            this.parts.push({ fill, position, first: points });
+            points += fill.points.length / 3;
+            corners += fill.triangles.length;
+        }
+        this.reserve(points, corners);
+        for (const part of this.parts) this.place(part, picture);
+        for (const buffer of [this.at, this.to, this.shape, this.colour]) buffer.written();
+        return slices.some((slice) => slice.fill);
+    }
+
+    /** Puts the slices in order for this camera. */
+    arrange({ eye }: Lens): void {
+        const distance = ({ position: [x, y, z] }: Part): number => Math.hypot(x - eye.x, y - eye.y, z - eye.z);
+        this.parts.sort((a, b) => distance(b) - distance(a));
+        let used = 0;
+        for (const { fill, first } of this.parts) {
+            for (const point of fill.triangles) this.index.array[used++] = first + point;
+        }
+        this.index.used = used;
+        this.index.written();
+        this.geometry.setDrawRange(0, used);
+    }
+
+    private reserve(points: number, corners: number): void {
+        const { at, to, shape, colour, index } = this;
+        let grown = index.reserve(corners);
+        for (const buffer of [at, to, shape, colour]) grown = buffer.reserve(points) || grown;
+        if (!grown && this.geometry.index) return;
+        this.geometry.dispose();
+        for (const [name, { attribute }] of Object.entries({ at, to, shape, colour })) {
+            this.geometry.setAttribute(name, attribute);
+        }
+        this.geometry.setIndex(index.attribute);
+    }
+
+    private place({ fill, position, first }: Part, { scene }: Slices): void {
+        const { points, triangles, tints, seen } = fill;
+        const { colors, opacity, faded } = scene;
+        for (let i = 0; i < points.length; ++i) {
+            this.at.array[3 * first + i] = position[i % 3]! + scene.scale * points[i]!;
+        }
+        for (let t = 0; t < tints.length; ++t) {
+            const [a, b, c] = [3 * triangles[3 * t]!, 3 * triangles[3 * t + 1]!, 3 * triangles[3 * t + 2]!];
+            const [ux, uy, uz] = [points[b]! - points[a]!, points[b + 1]! - points[a + 1]!, points[b + 2]! - points[a + 2]!];
+            const [vx, vy, vz] = [points[c]! - points[a]!, points[c + 1]! - points[a + 1]!, points[c + 2]! - points[a + 2]!];
+            const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+            const length = Math.hypot(nx, ny, nz) || 1;
+            const tint = colors.cells[tints[t]!] ?? colors.bar;
+            const alpha = 255 * opacity * (seen?.[t] === 1 ? faded : 1);
+            // A triangle's values are those of its last point; none is the last of two tints.
+            const item = first + c / 3;
+            this.to.array.set([nx / length, ny / length, nz / length], 3 * item);
+            this.shape.array[4 * item + 2] = kFace;
+            this.colour.array.set([tint >> 16, (tint >> 8) & 255, tint & 255, alpha], 4 * item);
+            this.shape.array[4 * (first + a / 3) + 2] = kFace;
+            this.shape.array[4 * (first + b / 3) + 2] = kFace;
+        }
+    }
+}
