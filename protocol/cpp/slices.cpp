@@ -100,7 +100,7 @@ void writeScene(W& w, const Scene& scene) {
     w.member("circumradius", scene.circumradius);
     w.member("ball", scene.ballRadius);
     w.member("bar", scene.barRadius);
-    w.member("opacity", style.faceOpacity);
+    w.member("opacity", scene.faceOpacity);
     w.member("faded", scene::opacityOf(scene::Presence::faded));
     w.key("light");
     w.beginObject();
@@ -158,7 +158,7 @@ void writePresences(W& w, const scene::Presences& presences, const SliceSet& sli
     w.endObject();
 }
 
-// What to draw instead of the faces of a slice that is not convex.
+// What to draw instead of the faces of a slice that need not be convex.
 struct Fill {
     std::vector<glm::dvec3> points;
     std::vector<Triple> triangles;
@@ -167,20 +167,25 @@ struct Fill {
 
 template <typename W>
 void writeFill(W& w, const Polytope& polytope, const Scene& scene, std::size_t i) {
-    const scene::Partition& tree = scene.partition;
-    if (tree.empty() || tree.root(i) >= scene::Partition::kCovered) return;
-    const glm::dvec3 eye = (scene.camera.eye - scene.stands[i].position) / scene.scale;
+    const geometry::Fill& from = scene.fill;
+    if (from.empty() || from.patchBegin[i] == from.patchBegin[i + 1]) return;
     Fill fill;
-    tree.fromFarToNear(i, eye, [&](const scene::Partition::Piece& piece) {
-        const std::uint32_t of = tree.patch(piece).of;
-        const auto first = static_cast<std::uint32_t>(fill.points.size());
-        for (std::uint32_t c = piece.begin; c < piece.end; ++c) fill.points.push_back(tree.corner(c));
-        for (std::uint32_t c = 2; c < piece.end - piece.begin; ++c) {
-            fill.triangles.push_back({first, first + c - 1, first + c});
-            fill.tints.push_back(scene::tintOf(polytope, scene.presences, of));
-            fill.seen.push_back(static_cast<std::uint32_t>(scene.presences.face(of)));
+    for (std::uint32_t p = from.patchBegin[i]; p < from.patchBegin[i + 1]; ++p) {
+        const std::uint32_t of = from.patches[p].of;
+        const scene::Presence presence = scene.presences.face(of);
+        if (presence == scene::Presence::hidden) continue;
+        const std::uint32_t tint = scene::tintOf(polytope, scene.presences, of);
+        for (std::uint32_t k = from.pieceBegin[p]; k < from.pieceBegin[p + 1]; ++k) {
+            const auto first = static_cast<std::uint32_t>(fill.points.size());
+            const auto corners = part(from.corners, from.cornerBegin[k], from.cornerBegin[k + 1]);
+            fill.points.insert(fill.points.end(), corners.begin(), corners.end());
+            for (std::uint32_t c = 2; c < corners.size(); ++c) {
+                fill.triangles.push_back({first, first + c - 1, first + c});
+                fill.tints.push_back(tint);
+                fill.seen.push_back(static_cast<std::uint32_t>(presence));
+            }
         }
-    });
+    }
     w.key("fill");
     w.beginObject();
     w.key("points");

@@ -242,7 +242,7 @@ export interface SceneDescription {
     text: number;
 }
 
-/** Triangles, cut where they cross; tint and presence (1 faded, 2 full) are those of each. */
+/** Triangles, which may cross; tint and presence (1 faded, 2 full) are those of each. */
 export interface Fill {
     points: Float32Array;
     triangles: Uint32Array;
@@ -266,7 +266,7 @@ export interface Slice {
     tints?: Uint32Array;
     /** 2 where an element is seen, 1 where it is faded, 0 where it is hidden; absent where all are seen. */
     seen?: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
-    /** What to draw instead of the faces, from far to near for the scene's camera; only where they may cross. */
+    /** What to draw instead of the faces, with a depth buffer; only where they may cross. */
     fill?: Fill;
     /** Where the slice's origin stands in the world: a vertex p is seen at position + scale · p. */
     position: Vector;

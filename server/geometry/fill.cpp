@@ -7,6 +7,14 @@
 
 namespace oval4d::geometry {
 
+void Fill::clear() {
+    patches.clear();
+    corners.clear();
+    patchBegin.assign(1, 0);
+    pieceBegin.assign(1, 0);
+    cornerBegin.assign(1, 0);
+}
+
 double Filler::Side::at(double y) const {
     if (y <= low.y) return low.x;
     if (y >= high.y) return high.x;
@@ -15,11 +23,7 @@ double Filler::Side::at(double y) const {
 
 void Filler::fill(const SliceSet& slices, double circumradius, Fill& out) {
     tiny_ = 1e-10 * circumradius;
-    out.patches.clear();
-    out.corners.clear();
-    out.patchBegin.assign(1, 0);
-    out.pieceBegin.assign(1, 0);
-    out.cornerBegin.assign(1, 0);
+    out.clear();
     for (std::size_t slice = 0; slice + 1 < slices.faceBegin.size(); ++slice) {
         const std::uint32_t last = slices.faceBegin[slice + 1];
         for (std::uint32_t begin = slices.faceBegin[slice], end = begin; begin < last; begin = end) {

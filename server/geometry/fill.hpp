@@ -31,6 +31,9 @@ struct Fill {
     std::vector<std::uint32_t> patchBegin, pieceBegin, cornerBegin;
     std::vector<Patch> patches;
     std::vector<glm::dvec3> corners;
+
+    bool empty() const { return patches.empty(); }
+    void clear();
 };
 
 /// Fills slices; keeps its memory between calls. One filler serves one thread at a time.

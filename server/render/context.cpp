@@ -9,6 +9,9 @@
 
 namespace oval4d::render {
 
+// Enough for a few hundred slices one behind the other.
+constexpr int kDepthBits = 16;
+
 struct Context::Native {
     OSMesaContext context = nullptr;
 
@@ -18,11 +21,10 @@ struct Context::Native {
 };
 
 Context::Context() : native_(std::make_unique<Native>()) {
-    // No depth buffer: everything is drawn from far to near, and clearing depth costs more than clearing colour.
     const int attributes[] = {OSMESA_FORMAT,
                               OSMESA_RGBA,
                               OSMESA_DEPTH_BITS,
-                              0,
+                              kDepthBits,
                               OSMESA_PROFILE,
                               OSMESA_CORE_PROFILE,
                               OSMESA_CONTEXT_MAJOR_VERSION,

@@ -4,6 +4,7 @@
 
 #include "render/annotations.hpp"
 #include "render/context.hpp"
+#include "render/crossing.hpp"
 #include "render/overlay.hpp"
 #include "render/slices.hpp"
 #include "render/solids.hpp"
@@ -16,14 +17,34 @@ std::string fontFile() {
 }
 
 struct Renderer::Impl {
-    explicit Impl(const std::string& font) : solidProgram(scene::style()), overlay(font) {}
+    explicit Impl(const std::string& font)
+        : flatProgram(scene::style(), SolidProgram::Depth::flat),
+          roundProgram(scene::style(), SolidProgram::Depth::round),
+          overlay(font) {}
+
+    void drawLayers();
 
     Context context;  // first: all else lives in it
-    SolidProgram solidProgram;
+    SolidProgram flatProgram, roundProgram;
     Overlay overlay;
     Solids solids;
     SlicePainter slicePainter;
+    CrossingPainter crossingPainter;
+    CrossingPainter::Layers layers;
 };
+
+void Renderer::Impl::drawLayers() {
+    glEnable(GL_DEPTH_TEST);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glDisable(GL_BLEND);
+    flatProgram.drawWithin(layers.depths, layers.faces);
+    glEnable(GL_BLEND);
+    roundProgram.drawWithin(layers.depths, layers.frame);
+    glDepthMask(GL_FALSE);
+    roundProgram.drawWithin(layers.depths, layers.faded);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_DEPTH_TEST);
+}
 
 Renderer::Renderer(const std::string& font) : impl_(std::make_unique<Impl>(font)) {
     // Mesa compiles a shader when it first draws with it.
@@ -54,12 +75,17 @@ void Renderer::draw(const geometry::Polytope& polytope, const geometry::SliceSet
 
     solids.begin(scene::style());
     overlay.begin(scene.viewport);
-    impl_->slicePainter.paint(polytope, slices, scene, solids);
+    if (polytope.convex) {
+        impl_->slicePainter.paint(polytope, slices, scene, solids);
+    } else {
+        impl_->crossingPainter.paint(polytope, slices, scene, impl_->layers);
+        impl_->drawLayers();
+    }
     paintAxes(scene, solids, overlay);
     paintCoordinates(slices, scene, overlay);
     paintLabels(scene, overlay);
 
-    impl_->solidProgram.draw(solids);
+    impl_->flatProgram.draw(solids);
     overlay.draw();
     impl_->context.finish();
 }

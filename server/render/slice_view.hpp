@@ -3,10 +3,12 @@
 
 #include <cmath>
 
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
 #include "geometry/slicer.hpp"
+#include "render/solids.hpp"
 #include "scene/scene.hpp"
 
 namespace oval4d::render {
@@ -37,10 +39,12 @@ struct SliceView {
     }
     scene::Colour tint(std::size_t f) const { return tintOf(set.faceOf[firstFace() + f]); }
     float opacity(scene::Presence presence) const { return static_cast<float>(scene::opacityOf(presence)); }
-    float vertexOpacity(std::size_t v) const {
-        return opacity(scene.presences.vertex(set.vertexOf[firstVertex() + v]));
+    scene::Presence vertexPresence(std::size_t v) const {
+        return scene.presences.vertex(set.vertexOf[firstVertex() + v]);
     }
-    float edgeOpacity(std::size_t e) const { return opacity(scene.presences.edge(set.edgeOf[firstEdge() + e])); }
+    scene::Presence edgePresence(std::size_t e) const { return scene.presences.edge(set.edgeOf[firstEdge() + e]); }
+    float vertexOpacity(std::size_t v) const { return opacity(vertexPresence(v)); }
+    float edgeOpacity(std::size_t e) const { return opacity(edgePresence(e)); }
     float faceOpacity(std::size_t f) const { return opacity(scene.presences.face(set.faceOf[firstFace() + f])); }
 };
 
@@ -72,6 +76,14 @@ struct Frame {
           ballColour(scene.look.parts.balls ? scene::style().ball : scene::style().bar),
           barColour(scene::style().bar),
           inBall(std::sqrt(std::max(ballRadius * ballRadius - barRadius * barRadius, 0.0f))) {}
+
+    /// Adds what of a bar shows between the balls at its ends, of which `from` is the farther.
+    void bar(const glm::vec3& from, const glm::vec3& to, float opacity, Solids& out) const {
+        const float length = glm::length(to - from);
+        if (opacity == 0 || length <= 2 * inBall) return;
+        const glm::vec3 cut = (to - from) * (inBall / length);
+        out.bar(from + cut, to - cut, barRadius, barColour, opacity);
+    }
 };
 
 }  // namespace oval4d::render

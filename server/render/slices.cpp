@@ -30,7 +30,6 @@ void SlicePainter::paint(const geometry::Polytope& polytope, const SliceSet& sli
 }
 
 void SlicePainter::paintSlice(const SliceView& slice, Solids& out) {
-    if (!slice.scene.partition.empty()) return regionPainter_.paint(slice, out);
     place(slice);
     classify(slice);
     sortByDepth(slice);
@@ -90,7 +89,7 @@ void SlicePainter::sortByDepth(const SliceView& slice) {
 }
 
 void SlicePainter::paintFaces(const SliceView& slice, Side side, Solids& out) {
-    const auto opacity = static_cast<float>(scene::style().faceOpacity);
+    const auto opacity = static_cast<float>(slice.scene.faceOpacity);
     const bool soft = !slice.scene.look.parts.bars;
     for (std::size_t f = 0; f < slice.faces(); ++f) {
         if (faceSide_[f] != side) continue;
@@ -113,13 +112,8 @@ void SlicePainter::paintFrame(const SliceView& slice, Side side, Solids& out) {
         for (std::size_t k = edgeBegin_[i]; k < edgeBegin_[i + 1]; ++k) {
             const std::uint32_t e = edgeOrder_[k];
             if (edgeSide_[e] != side) continue;
-            const float opacity = slice.edgeOpacity(e);
-            if (opacity == 0) continue;
-            const glm::vec3 &from = points_[v], &to = points_[slice.edge(e)[slice.edge(e)[0] == v ? 1 : 0]];
-            const float length = glm::length(to - from);
-            if (length <= 2 * frame.inBall) continue;
-            const glm::vec3 cut = (to - from) * (frame.inBall / length);
-            out.bar(from + cut, to - cut, frame.barRadius, frame.barColour, opacity);
+            const glm::vec3& to = points_[slice.edge(e)[slice.edge(e)[0] == v ? 1 : 0]];
+            frame.bar(points_[v], to, slice.edgeOpacity(e), out);
         }
     }
 }

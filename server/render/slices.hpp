@@ -7,16 +7,15 @@
 #include <glm/vec3.hpp>
 
 #include "geometry/slicer.hpp"
-#include "render/regions.hpp"
 #include "render/slice_view.hpp"
 #include "render/solids.hpp"
 #include "scene/scene.hpp"
 
 namespace oval4d::render {
 
-/// Sorts and adds. The order is exact for slices that stand clear of each other: slices from far to near; in each, if
-/// it is convex, the faces turned away, the bars and balls among them, the faces turned to the eye, then the other bars
-/// and balls; if it is not, by the scene's partition. Keeps its memory from one picture to the next.
+/// Sorts and adds. The order is exact for slices that stand clear of each other: slices from far to near; in each,
+/// which must be convex, the faces turned away, the bars and balls among them, the faces turned to the eye, then the
+/// other bars and balls. Keeps its memory from one picture to the next.
 class SlicePainter {
   public:
     /// Adds all slices that are drawn, seen through the scene's camera.
@@ -33,7 +32,6 @@ class SlicePainter {
     void paintFaces(const SliceView& slice, Side side, Solids& out);
     void paintFrame(const SliceView& slice, Side side, Solids& out);
 
-    RegionPainter regionPainter_;
     std::vector<std::uint32_t> standOrder_;
     std::vector<glm::vec3> points_, corners_, normals_;  // in view axes
     std::vector<Side> faceSide_, edgeSide_, vertexSide_;

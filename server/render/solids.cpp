@@ -78,8 +78,7 @@ void Solids::ball(const glm::vec3& centre, float radius, scene::Colour colour, f
           rgba(colour, size.alpha * opacity)});
 }
 
-void Solids::bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Colour colour, float opacity,
-                 bool foot) {
+void Solids::bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Colour colour, float opacity) {
     if (from.z > -radius || to.z > -radius) return;
     // The eye and the bar's axis lie in a plane with normal n. The silhouette runs parallel to the axis.
     const glm::vec3 axis = to - from;
@@ -101,13 +100,13 @@ void Solids::bar(const glm::vec3& from, const glm::vec3& to, float radius, scene
                              rgba(colour, size.alpha * opacity)};
     const auto first = static_cast<std::uint32_t>(vertices_.size());
     quad({a - dx, a + dx, b - dx, b + dx}, size.reach, 0, vertex);
-    if (!foot || 2 * size.half < kThinnestFoot) return;
+    if (2 * size.half < kThinnestFoot) return;
     // The foot: the near half of the circle that the bar's end is, beyond the straight cut.
-    const glm::vec3 end = a + lens_.clip(z) * (radius * size.reach);
+    const glm::vec3 foot = a + lens_.clip(z) * (radius * size.reach);
     const auto last = static_cast<std::uint32_t>(vertices_.size());
     for (const float side : {-1.0f, 1.0f}) {
         vertices_.push_back(vertex);
-        vertices_.back().clip = end + side * dx;
+        vertices_.back().clip = foot + side * dx;
         vertices_.back().place = {side * size.reach, size.reach, size.half};
     }
     for (const std::uint32_t i : {last, last + 1, first, first, last + 1, first + 1}) indices_.push_back(i);
@@ -171,6 +170,7 @@ layout(location = 1) in vec3 placeIn;
 layout(location = 2) in vec3 diffuseIn;
 layout(location = 3) in vec3 specularIn;
 layout(location = 4) in vec4 colourIn;
+uniform vec3 toDepth;
 out vec3 place;
 flat out vec3 diffuse, specular;
 flat out vec4 colour;
@@ -179,7 +179,7 @@ void main() {
     diffuse = diffuseIn;
     specular = specularIn;
     colour = colourIn;
-    gl_Position = vec4(clip.xy, 0.0, clip.z);
+    gl_Position = vec4(clip.xy, toDepth.x * clip.z + toDepth.y, clip.z);
 }
 )";
 
@@ -193,8 +193,14 @@ std::string highlight(double shininess) {
     return code;
 }
 
-std::string fragmentSource(const scene::Style& style) {
+// A body rises from its patch toward the eye by its radius, which is 2 place.z pixels, times n.z.
+constexpr std::string_view kRoundDepth = R"(
+    gl_FragDepth = 0.5 + 0.5 * (toDepth.x + toDepth.y * gl_FragCoord.w / (1.0 - toDepth.z * place.z * n.z));
+)";
+
+std::string fragmentSource(const scene::Style& style, SolidProgram::Depth depth) {
     return R"(
+uniform vec3 toDepth;
 in vec3 place;
 flat in vec3 diffuse, specular;
 flat in vec4 colour;
@@ -207,8 +213,8 @@ void main() {
            "vec3 lit = colour.rgb * (" + std::to_string(style.ambient) + " + max(dot(n, diffuse), 0.0)) + " +
            std::to_string(style.specular) + R"( * h;
     pixel = vec4(lit, colour.a * clamp(q * place.z + 0.5, 0.0, 1.0));
-}
-)";
+)" + std::string(depth == SolidProgram::Depth::round ? kRoundDepth : "") +
+           "}\n";
 }
 
 constexpr Attribute kAttributes[] = {{3, GL_FLOAT, offsetof(SolidVertex, clip)},
@@ -219,10 +225,21 @@ constexpr Attribute kAttributes[] = {{3, GL_FLOAT, offsetof(SolidVertex, clip)},
 
 }  // namespace
 
-SolidProgram::SolidProgram(const scene::Style& style)
-    : program_(kVertexSource, fragmentSource(style), sizeof(SolidVertex), kAttributes) {}
+SolidProgram::SolidProgram(const scene::Style& style, Depth depth)
+    : program_(kVertexSource, fragmentSource(style, depth), sizeof(SolidVertex), kAttributes),
+      toDepth_(program_.uniform("toDepth")) {}
 
-void SolidProgram::draw(const Solids& solids) {
+void SolidProgram::draw(const Solids& solids) { draw(solids, 0, 0); }
+
+// The depth −1 … 1 is linear in 1 / distance: then it is linear on the picture of a plane.
+void SolidProgram::drawWithin(Range range, const Solids& solids) {
+    const float offset = 2 / (1 / range.to - 1 / range.from);
+    draw(solids, 1 - offset / range.to, offset);
+}
+
+void SolidProgram::draw(const Solids& solids, float scale, float offset) {
+    program_.use();
+    glUniform3f(toDepth_, scale, offset, 2 / solids.lens().pixelsPerUnit());
     program_.draw(solids.vertices().data(), solids.vertices().size(), solids.indices());
 }
 

@@ -37,16 +37,15 @@ class Solids {
 
     void ball(const glm::vec3& centre, float radius, scene::Colour colour, float opacity = 1);
 
-    /// A round bar. With a `foot` it comes out of something at `from`, the end farther from the eye; else it is cut
-    /// straight there, as at `to`.
-    void bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Colour colour, float opacity = 1,
-             bool foot = true);
+    /// A round bar. It comes out of something at `from`, the end farther from the eye; at `to` it is cut straight.
+    void bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Colour colour, float opacity = 1);
 
     /// A flat convex polygon with this unit normal, either way. With `soft` the edges fade over a pixel, for where no
     /// bar covers them.
     void face(std::span<const glm::vec3> corners, const glm::vec3& normal, scene::Colour colour, float opacity,
               bool soft);
 
+    const Lens& lens() const { return lens_; }
     std::span<const SolidVertex> vertices() const { return vertices_; }
     std::span<const std::uint32_t> indices() const { return indices_; }
 
@@ -62,14 +61,30 @@ class Solids {
     std::vector<glm::vec2> pixels_;
 };
 
-/// The program that draws Solids, in the light of `style`.
+/// From the nearest to the farthest, along the view axis.
+struct Range {
+    float from = 1, to = 2;
+};
+
+/// A program that draws Solids, in the light of `style`.
 class SolidProgram {
   public:
-    explicit SolidProgram(const scene::Style& style);
+    /// Whose depth a pixel has: that of the flat patch, or of the ball or bar that the patch stands for (faces stand
+    /// out by a pixel then).
+    enum class Depth : std::uint8_t { flat, round };
+    SolidProgram(const scene::Style& style, Depth depth);
+
+    /// One over the other, in their order, whatever their depths.
     void draw(const Solids& solids);
 
+    /// For a depth buffer, which takes in the depths `range`.
+    void drawWithin(Range range, const Solids& solids);
+
   private:
+    void draw(const Solids& solids, float scale, float offset);
+
     Program program_;
+    GLint toDepth_;
 };
 
 }  // namespace oval4d::render

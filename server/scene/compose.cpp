@@ -4,7 +4,6 @@
 #include <limits>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/vec2.hpp>
 
 #include "scene/presence.hpp"
@@ -191,6 +190,7 @@ void compose(const geometry::Polytope& polytope, const geometry::Hyperplanes& pl
         // Those of a star cross each other: half as thick, they leave room to see where.
         if (!polytope.convex) out.thickness *= 0.5;
         out.circumradius = polytope.circumradius;
+        out.faceOpacity = polytope.convex ? style().faceOpacity : 1;
     }
     out.look = look;
     out.viewport = viewport;
@@ -211,23 +211,6 @@ void compose(const geometry::Polytope& polytope, const geometry::Hyperplanes& pl
     aim(look.orbit, oval, out.camera);
     fit(boundsOf(out.stands, Eyes(oval), radius + out.ballRadius), room, aspect, look.orbit.zoom, out.camera);
     hangLabels(oval, radius + out.ballRadius, out.camera, out.stands);
-}
-
-void part(const geometry::Polytope& polytope, const geometry::SliceSet& slices, Scene& scene) {
-    scene.partition.clear();
-    if (polytope.convex || !scene.look.parts.faces) return;
-    const auto width = static_cast<double>(scene.viewport.width), height = static_cast<double>(scene.viewport.height);
-    const glm::dmat4 toPixels =
-        glm::scale(glm::translate(glm::dmat4(1), {width / 2, height / 2, 0.0}), {width / 2, height / 2, 1.0}) *
-        scene.camera.projection(width / height) * scene.camera.view();
-    const double pixels = 0.5 * height / std::tan(scene.camera.fieldOfView / 2) * scene.scale;
-    scene.views.clear();
-    for (const Stand& stand : scene.stands) {
-        const glm::dmat4 toWorld = glm::scale(glm::translate(glm::dmat4(1), stand.position), glm::dvec3(scene.scale));
-        scene.views.push_back({(scene.camera.eye - stand.position) / scene.scale, toPixels * toWorld,
-                               pixels / glm::distance(scene.camera.eye, stand.position), stand.drawn});
-    }
-    scene.partition.build(polytope, slices, scene.presences, scene.views);
 }
 
 }  // namespace oval4d::scene

@@ -10,10 +10,10 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "geometry/fill.hpp"
 #include "geometry/polytope.hpp"
 #include "geometry/rotation.hpp"
 #include "geometry/slicer.hpp"
-#include "scene/partition.hpp"
 
 namespace oval4d::scene {
 
@@ -169,8 +169,9 @@ struct Scene {
     std::vector<Stand> stands;  ///< as many as slices, in their order
     std::vector<Colour> cellColours;
     Presences presences;
-    std::vector<Partition::View> views;
-    Partition partition;  ///< of the slices that the scene was composed for, if they are not convex
+    double faceOpacity = style().faceOpacity;  ///< 0 … 1; faces that may cross each other are opaque
+    geometry::Fill fill;  ///< of the slices that the scene was composed for, if they may be other than convex
+    geometry::Filler filler;
     CellColours colours;
     double thickness = 0;           ///< ball radius per slice radius, for this polytope
     std::uint64_t composedFor = 0;  ///< the serial of the polytope that presences and thickness belong to
@@ -183,8 +184,8 @@ struct Scene {
 void compose(const geometry::Polytope& polytope, const geometry::Hyperplanes& planes, int focus, const Look& look,
              Viewport viewport, Scene& out, const geometry::Rotation& orientation = {});
 
-/// Parts the slices of a scene that was composed for them, where they are not convex, as finely as can be seen.
-void part(const geometry::Polytope& polytope, const geometry::SliceSet& slices, Scene& scene);
+/// Fills the faces of slices, for a scene that was composed for them, where the polytope is not convex.
+void fill(const geometry::Polytope& polytope, const geometry::SliceSet& slices, Scene& scene);
 
 /// The cell that gives the slice's face cut from `of` its colour: the cell itself; of a 2-face in the hyperplane the
 /// first of its two cells that is not hidden.

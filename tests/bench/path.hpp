@@ -71,7 +71,10 @@ struct Path {
           viewport(size) {}
 
     void slice() { slicer.slice(*polytope, orientations[next++ % orientations.size()], planes, slices); }
-    void compose() { scene::compose(*polytope, planes, 0, {}, viewport, scene); }
+    void compose() {
+        scene::compose(*polytope, planes, 0, {}, viewport, scene);
+        scene::fill(*polytope, slices, scene);
+    }
     void draw() { renderer().draw(*polytope, slices, scene, image); }
     void encode() { encoder.encode(image, "{}", png); }
     void frame() {

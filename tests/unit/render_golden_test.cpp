@@ -87,6 +87,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Golden{"5-cell", "5-cell", 0, {}}, Golden{"8-cell", "8-cell", 11, {}},
                     Golden{"16-cell", "16-cell", 12, {}}, Golden{"24-cell", "24-cell", 13, {}},
                     Golden{"120-cell", "120-cell", 14, {}}, Golden{"600-cell", "600-cell", 15, {}},
+                    Golden{"star", "great stellated 120-cell", 18, {}},
+                    Golden{"dense-star", "icosahedral 120-cell", 19, {}},
                     Golden{"single", "5-cell", 16, {.view = scene::View::single, .parts = {}, .orbit = {}}},
                     Golden{"faces-from-aside",
                            "24-cell",

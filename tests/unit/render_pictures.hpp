@@ -52,6 +52,7 @@ struct Subject {
         const geometry::Hyperplanes planes{-half, count, polytope->circumradius / std::max(half, 1)};
         geometry::Slicer().slice(*polytope, orientation, planes, slices);
         scene::compose(*polytope, planes, 0, look, viewport, scene);
+        scene::fill(*polytope, slices, scene);
     }
 
     /// Takes away what stands beside the slices.

@@ -1,5 +1,5 @@
-// The triangles that stand for the faces of slices that are not convex: in the server's order within each slice, the
-// slices from far to near. They are tested against the depth of balls and bars.
+// The triangles that stand for the faces of slices that need not be convex, for a depth buffer: first all that are
+// seen fully, then the faded ones, slices from far to near.
 
 import { BufferGeometry } from "three";
 
@@ -8,6 +8,10 @@ import type { Fill, Slices, Vector } from "@oval4d/protocol";
 import { Growing } from "./growing";
 import type { Lens } from "./lens";
 import { kFace } from "./shaders";
+
+/** Values of a fill's `seen`. */
+const kFaded = 1;
+const kFull = 2;
 
 /** One slice's part of the mesh. */
 interface Part {
@@ -48,8 +52,13 @@ export class FillMesh {
         const distance = ({ position: [x, y, z] }: Part): number => Math.hypot(x - eye.x, y - eye.y, z - eye.z);
         this.parts.sort((a, b) => distance(b) - distance(a));
         let used = 0;
-        for (const { fill, first } of this.parts) {
-            for (const point of fill.triangles) this.index.array[used++] = first + point;
+        for (const presence of [kFull, kFaded]) {
+            for (const { fill, first } of this.parts) {
+                for (let i = 0; i < fill.triangles.length; ++i) {
+                    if ((fill.seen?.[Math.floor(i / 3)] ?? kFull) !== presence) continue;
+                    this.index.array[used++] = first + fill.triangles[i]!;
+                }
+            }
         }
         this.index.used = used;
         this.index.written();
@@ -81,7 +90,7 @@ export class FillMesh {
             const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
             const length = Math.hypot(nx, ny, nz) || 1;
             const tint = colors.cells[tints[t]!] ?? colors.bar;
-            const alpha = 255 * opacity * (seen?.[t] === 1 ? faded : 1);
+            const alpha = 255 * opacity * (seen?.[t] === kFaded ? faded : 1);
             // A triangle's values are those of its last point; none is the last of two tints.
             const item = first + c / 3;
             this.to.array.set([nx / length, ny / length, nz / length], 3 * item);

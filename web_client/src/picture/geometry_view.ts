@@ -55,7 +55,7 @@ export class GeometryView {
         }
         [this.drawing, this.fillDrawing] = drawings;
         this.fillDrawing.renderOrder = 1;
-        this.fillDrawing.material.depthTest = true;
+        this.fillDrawing.material.depthTest = this.fillDrawing.material.depthWrite = true;
         this.scene.matrixWorldAutoUpdate = false;
         this.camera.matrixWorldAutoUpdate = false;
     }
