@@ -11,7 +11,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "typed arrays are copied as they lie in memory");
 
 constexpr std::uint8_t kUnsigned = 0, kNegative = 1, kBytes = 2, kText = 3;
-constexpr std::uint8_t kUint32Array = 70, kFloat32Array = 85;  // both little endian
+constexpr std::uint8_t kUint8Array = 64, kUint32Array = 70, kFloat32Array = 85;  // little endian
 
 }  // namespace
 
@@ -90,6 +90,11 @@ void CborWriter::triples(std::span<const Triple> list) {
 void CborWriter::numbers(std::span<const std::uint32_t> list) {
     typedArray(kUint32Array, list.size_bytes());
     if (!list.empty()) buffer_.put({reinterpret_cast<const char*>(list.data()), list.size_bytes()});
+}
+
+void CborWriter::picture(std::span<const std::uint8_t> pixels, std::size_t /*columns*/) {
+    typedArray(kUint8Array, pixels.size());
+    if (!pixels.empty()) buffer_.put({reinterpret_cast<const char*>(pixels.data()), pixels.size()});
 }
 
 void CborWriter::lists(ListsView view) {

@@ -166,4 +166,14 @@ void JsonWriter::lists(ListsView view) {
     endArray();
 }
 
+void JsonWriter::picture(std::span<const std::uint8_t> pixels, std::size_t columns) {
+    beginArray();
+    for (std::size_t at = 0; at < pixels.size(); at += columns) {
+        separate();
+        putArray(buffer_, pixels.subspan(at, columns), 3,
+                 [](char* to, std::uint8_t pixel) { return put(to, std::uint32_t{pixel}); });
+    }
+    endArray();
+}
+
 }  // namespace oval4d::protocol

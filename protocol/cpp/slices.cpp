@@ -74,6 +74,7 @@ void writeCoordinatesLayout(W& w, const scene::CoordinatesLayout& layout) {
     w.member("line_width", layout.lineWidth);
     w.member("amplitude", layout.amplitude);
     w.member("named", layout.named);
+    w.member("columns", layout.density ? scene::Density::kColumns : 0);
     w.endObject();
 }
 
@@ -249,6 +250,10 @@ void writeMessage(W&& w, const Polytope& polytope, const SliceSet& slices, const
     if (scene.look.parts.coordinates) {
         w.key("coordinates");
         w.vectors(std::span<const glm::dvec4>(slices.turned));
+        if (scene.coordinates.density) {
+            w.key("density");
+            w.picture(scene.density.tones(), scene::Density::kColumns);
+        }
     }
     w.key("slices");
     w.beginArray();

@@ -84,6 +84,8 @@ class JsonWriter {
     void triples(std::span<const Triple> list);
     void numbers(std::span<const std::uint32_t> list);
     void lists(ListsView view);
+    /// A picture of so many columns: its rows.
+    void picture(std::span<const std::uint8_t> pixels, std::size_t columns);
 
     template <typename T>
     void member(std::string_view name, const T& content) {
@@ -130,6 +132,7 @@ class CborWriter {
     void triples(std::span<const Triple> list);
     void numbers(std::span<const std::uint32_t> list);
     void lists(ListsView view);
+    void picture(std::span<const std::uint8_t> pixels, std::size_t columns);
 
     template <typename T>
     void member(std::string_view name, const T& content) {

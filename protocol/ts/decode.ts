@@ -64,8 +64,9 @@ interface LooseSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" |
 
 function flattened(message: Message): Message {
     if (message.type !== "slices") return message;
-    const loose = message as unknown as Omit<Slices, "slices" | "coordinates"> & {
+    const loose = message as unknown as Omit<Slices, "slices" | "coordinates" | "density"> & {
         coordinates?: Loose<Float32Array>;
+        density?: Loose<Uint8Array>;
         slices: LooseSlice[];
     };
     const { scene } = loose;
@@ -73,6 +74,7 @@ function flattened(message: Message): Message {
         ...loose,
         scene: { ...scene, colors: { ...scene.colors, cells: indices(scene.colors.cells) } },
         coordinates: floats(loose.coordinates ?? []),
+        density: loose.density instanceof Uint8Array ? loose.density : Uint8Array.from((loose.density ?? []).flat()),
         slices: loose.slices.map(({ tints, seen, fill, ...slice }) => ({
             ...slice,
             vertices: floats(slice.vertices),

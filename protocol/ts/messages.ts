@@ -237,6 +237,8 @@ export interface SceneDescription {
         line_width: number;
         amplitude: number;
         named: boolean;
+        /** Of the density strip; 0 where lines are drawn. */
+        columns: number;
     };
     /** Height of the labels' text. */
     text: number;
@@ -286,6 +288,8 @@ export interface Slices {
     scene: SceneDescription;
     /** x, y, z, w of each vertex of the polytope as turned; empty where they are not shown. */
     coordinates: Float32Array;
+    /** How many of the coordinates' lines pass where, 0 … 255, row by row from the top; empty where lines are drawn. */
+    density: Uint8Array;
     slices: Slice[];
 }
 

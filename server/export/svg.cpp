@@ -63,15 +63,79 @@ struct Columns {
     double zero(std::size_t row) const { return kMargin + kAmplitude + rowStep * static_cast<double>(row); }
 };
 
+std::string opening(const std::string& name, double height) {
+    return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(kWidth) + ' ' + number(height) +
+           "\" width=\"" + number(kWidth) + "\" height=\"" + number(height) +
+           "\">\n<title>Parallel coordinates of the vertices: " + escaped(name) + "</title>\n";
+}
+
+std::array<scene::Colour, 4> axisColours() {
+    const scene::Style& style = scene::style();
+    return {style.axisX, style.axisY, style.axisZ, style.axisW};
+}
+
+/// As outlines: for each of a few tones all the places that have it, in the colours of the axes.
+std::string densityPaths(const scene::Density& density) {
+    using scene::Density;
+    constexpr int kTones = 32;
+    const auto toneAt = [&](int row, int column) {
+        return (density.tones()[static_cast<std::size_t>(row * Density::kColumns + column)] * kTones + 127) / 255;
+    };
+    std::array<std::string, kTones + 1> paths;
+    for (int column = 0; column < Density::kColumns; ++column) {
+        for (int row = 0, end = 0; row < Density::kRows; row = end) {
+            const int tone = toneAt(row, column);
+            while (end < Density::kRows && toneAt(end, column) == tone) ++end;
+            paths[static_cast<std::size_t>(tone)] +=
+                'M' + std::to_string(column) + ' ' + std::to_string(row) + "h1v" + std::to_string(end - row) + "h-1z";
+        }
+    }
+    std::string out;
+    for (int tone = 1; tone <= kTones; ++tone) {
+        const std::string& path = paths[static_cast<std::size_t>(tone)];
+        if (path.empty()) continue;
+        out += "<path fill-opacity=\"" + number(static_cast<double>(tone) / kTones) + "\" d=\"" + path + "\"/>\n";
+    }
+    return out;
+}
+
+std::string strip(const geometry::Polytope& polytope, const geometry::SliceSet& slices) {
+    using scene::Density;
+    scene::Density density;
+    density.measure(slices.turned, glm::dmat4(1), polytope.circumradius);
+    const double step = (kWidth - 2 * kMargin) / 3, bottom = kMargin + 2 * kAmplitude;
+    const std::array<scene::Colour, 4> colours = axisColours();
+    std::string out = opening(polytope.name, bottom + kMargin + kText);
+    out += "<linearGradient id=\"axes\" gradientUnits=\"userSpaceOnUse\" x1=\"0.5\" x2=\"" +
+           number(Density::kColumns - 0.5) + "\">\n";
+    for (int k = 0; k < 4; ++k)
+        out += "<stop offset=\"" + number(k / 3.0) + "\" stop-color=\"" + colour(colours[k]) + "\"/>\n";
+    // A column stands over its axis with its middle; so does a row over its value.
+    const double across = step / Density::kGap, down = 2 * kAmplitude / (Density::kRows - 1);
+    out +=
+        "</linearGradient>\n<g id=\"density\" fill=\"url(#axes)\" shape-rendering=\"crispEdges\" "
+        "transform=\"translate(" +
+        number(kMargin - across / 2) + ' ' + number(kMargin - down / 2) + ") scale(" + std::to_string(across) + ' ' +
+        std::to_string(down) + ")\">\n" + densityPaths(density) + "</g>\n";
+    for (int k = 0; k < 4; ++k) {
+        const std::string x = number(kMargin + k * step), name(1, "xyzw"[k]);
+        out += "<line id=\"" + name + "\" stroke=\"" + colour(colours[k]) + "\" stroke-width=\"1\" x1=\"" + x +
+               "\" y1=\"" + number(kMargin) + "\" x2=\"" + x + "\" y2=\"" + number(bottom) +
+               "\"/>\n<text font-family=\"DejaVu Sans, sans-serif\" font-size=\"" + number(kText) +
+               "\" text-anchor=\"middle\" fill=\"#444444\" x=\"" + x + "\" y=\"" + number(bottom + 1.3 * kText) +
+               "\">" + name + "</text>\n";
+    }
+    return out + "</svg>\n";
+}
+
 }  // namespace
 
 std::string svg(const geometry::Polytope& polytope, const geometry::SliceSet& slices) {
+    if (slices.turned.size() > scene::kMostLines) return strip(polytope, slices);
     const Columns columns(slices.turned.size());
     const double height = columns.rowStep * static_cast<double>(columns.rows) + kMargin;
     const double right = columns.left(columns.perRow - 1) + columns.step;
-    std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(kWidth) + ' ' +
-                      number(height) + "\" width=\"" + number(kWidth) + "\" height=\"" + number(height) +
-                      "\">\n<title>Parallel coordinates of the vertices: " + escaped(polytope.name) + "</title>\n";
+    std::string out = opening(polytope.name, height);
     out += "<g stroke=\"" + colour(scene::style().zeroLine) + "\" stroke-width=\"0.4\">\n";
     for (std::size_t row = 0; row < columns.rows; ++row) {
         const std::string y = number(columns.zero(row));
@@ -79,8 +143,7 @@ std::string svg(const geometry::Polytope& polytope, const geometry::SliceSet& sl
             "<line x1=\"" + number(kMargin) + "\" y1=\"" + y + "\" x2=\"" + number(right) + "\" y2=\"" + y + "\"/>\n";
     }
     out += "</g>\n";
-    const std::array<scene::Colour, 4> axes{scene::style().axisX, scene::style().axisY, scene::style().axisZ,
-                                            scene::style().axisW};
+    const std::array<scene::Colour, 4> axes = axisColours();
     const double lineStep = columns.step / 5;
     for (int axis = 0; axis < 4; ++axis) {
         out += "<g id=\"" + std::string(1, "xyzw"[axis]) + "\" stroke=\"" + colour(axes[axis]) + "\" stroke-width=\"" +

@@ -14,6 +14,8 @@ namespace oval4d::render {
 
 namespace {
 
+constexpr double kFocusReach = 0.009;  // of the focus's mark to either side of its axis, as a part of the height
+
 /// As many whole pixels as `fraction` of the picture's height, at least one.
 int wholePixels(double fraction, const scene::Scene& scene) {
     return std::max(1, static_cast<int>(std::lround(fraction * scene.viewport.height)));
@@ -37,6 +39,34 @@ void paintLabel(const scene::Stand& stand, const glm::dmat4& toView, const Lens&
     overlay.box(plate, style.background, stand.focus ? 0.8f : 0.6f, corner);
     if (stand.focus) overlay.box(plate, style.focusText, 0.16f, corner);
     overlay.text(x, baseline, size, stand.label, stand.focus ? style.focusText : style.text);
+}
+
+/// The axes of the density strip with their names, and on that of w where the focus slice is.
+void paintStripAxes(const scene::Scene& scene, Overlay& overlay) {
+    const scene::CoordinatesLayout& layout = scene.coordinates;
+    const scene::Style& style = scene::style();
+    const auto height = static_cast<double>(scene.viewport.height);
+    const std::array colours{style.axisX, style.axisY, style.axisZ, style.axisW};
+    const float thickness = std::max(1.0F, static_cast<float>(std::round(layout.lineWidth * height)));
+    const auto levelOf = [&](double value) {
+        return static_cast<float>((layout.zero + value * layout.amplitude) * height);
+    };
+    const auto middleOf = [&](int k) { return (layout.left + k * layout.lineStep + layout.lineWidth / 2) * height; };
+    const int size = wholePixels(style.textHeight * 0.85, scene);
+    const auto digits = static_cast<float>(overlay.font().digitHeight(size));
+    for (int k = 0; k < 4; ++k) {
+        const auto left = static_cast<float>(std::round(middleOf(k) - thickness / 2));
+        const scene::Colour colour = colours[static_cast<std::size_t>(k)];
+        overlay.box({left, levelOf(-1), left + thickness, levelOf(1)}, colour);
+        overlay.text(left + thickness / 2, levelOf(-1) - 1.4F * digits, size, std::string_view("xyzw").substr(k, 1),
+                     colour);
+    }
+    for (const scene::Stand& stand : scene.stands) {
+        if (!stand.focus || std::abs(stand.w) > scene.circumradius) continue;
+        const auto middle = static_cast<float>(middleOf(3)), reach = static_cast<float>(kFocusReach * height);
+        const float level = std::round(levelOf(stand.w / scene.circumradius));
+        overlay.box({middle - reach, level - thickness / 2, middle + reach, level + thickness / 2}, style.focusText);
+    }
 }
 
 }  // namespace
@@ -103,6 +133,10 @@ void paintLabels(const scene::Scene& scene, Overlay& overlay) {
 
 void paintCoordinates(const geometry::SliceSet& slices, const scene::Scene& scene, Overlay& overlay) {
     if (!scene.look.parts.coordinates) return;
+    if (scene.coordinates.density) {
+        paintStripAxes(scene, overlay);
+        return;
+    }
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene::style();
     const auto height = static_cast<double>(scene.viewport.height);

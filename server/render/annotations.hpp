@@ -14,7 +14,7 @@ void paintAxes(const scene::Scene& scene, Solids& solids, Overlay& overlay);
 /// The w under each slice, from far to near; the focus last, on a plate.
 void paintLabels(const scene::Scene& scene, Overlay& overlay);
 
-/// The polytope's vertices as turned, along the bottom.
+/// The polytope's vertices as turned, along the bottom; of very many, the axes of their density strip.
 void paintCoordinates(const geometry::SliceSet& slices, const scene::Scene& scene, Overlay& overlay);
 
 }  // namespace oval4d::render

@@ -8,6 +8,7 @@
 #include "render/overlay.hpp"
 #include "render/slices.hpp"
 #include "render/solids.hpp"
+#include "render/strip.hpp"
 
 namespace oval4d::render {
 
@@ -26,6 +27,7 @@ struct Renderer::Impl {
 
     Context context;  // first: all else lives in it
     SolidProgram flatProgram, roundProgram;
+    Strip strip;
     Overlay overlay;
     Solids solids;
     SlicePainter slicePainter;
@@ -86,6 +88,7 @@ void Renderer::draw(const geometry::Polytope& polytope, const geometry::SliceSet
     paintLabels(scene, overlay);
 
     impl_->flatProgram.draw(solids);
+    impl_->strip.draw(scene);
     overlay.draw();
     impl_->context.finish();
 }

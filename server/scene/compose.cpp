@@ -41,10 +41,24 @@ struct Room {
     double left, right, bottom, top;
 };
 
+void layOutStrip(std::size_t vertices, double aspect, CoordinatesLayout& out) {
+    constexpr double kMostStep = 0.42, kAmplitude = 0.056, kNameRoom = 1.1;
+    out = {.rows = 1, .perRow = static_cast<int>(vertices), .lineWidth = 0.0022, .amplitude = kAmplitude};
+    out.density = true;
+    out.lineStep = std::min((aspect - 4 * kMargin - out.lineWidth) / 3, kMostStep);
+    out.left = (aspect - 3 * out.lineStep - out.lineWidth) / 2;
+    out.zero = kMargin + kNameRoom * style().textHeight + kAmplitude;
+}
+
 void layOutCoordinates(std::size_t vertices, double aspect, CoordinatesLayout& out) {
     constexpr double kLeastColumn = 0.0095;
     constexpr double kMostColumn = 0.15;
+    if (vertices > kMostLines) {
+        layOutStrip(vertices, aspect, out);
+        return;
+    }
     const double width = aspect - 4 * kMargin;
+    out.density = false;
     const auto count = static_cast<double>(std::max<std::size_t>(vertices, 1));
     out.rows = std::clamp(static_cast<int>(std::ceil(count * kLeastColumn / width)), 1, 6);
     out.perRow = static_cast<int>(std::ceil(count / out.rows));
@@ -196,6 +210,11 @@ void compose(const geometry::Polytope& polytope, const geometry::Hyperplanes& pl
     out.viewport = viewport;
     layOutCoordinates(polytope.vertices.size(), aspect, out.coordinates);
     out.axes = {0.06, 0.075, 0.045};
+    if (out.showsDensity() && (out.densityFor != polytope.serial || out.densityTurn != orientation)) {
+        out.density.measure(polytope.vertices, orientation.matrix(), polytope.circumradius);
+        out.densityFor = polytope.serial;
+        out.densityTurn = orientation;
+    }
 
     Room room{kMargin + kLabelRoom, aspect - kMargin - kLabelRoom, kMargin + kLabelRoom, 1 - kMargin};
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;

@@ -14,6 +14,7 @@
 #include "geometry/polytope.hpp"
 #include "geometry/rotation.hpp"
 #include "geometry/slicer.hpp"
+#include "scene/density.hpp"
 
 namespace oval4d::scene {
 
@@ -92,7 +93,8 @@ struct Stand {
 
 /// The parallel coordinates: vertex i stands in row i / perRow, column i % perRow; its four lines x, y, z, w run
 /// from the row's zero line up or down by value · amplitude / circumradius. All lengths are fractions of the
-/// viewport's height, from its lower left corner.
+/// viewport's height, from its lower left corner. For many vertices there is a density strip instead: a single column,
+/// its lines the axes, each from −circumradius to +circumradius.
 struct CoordinatesLayout {
     int rows = 1, perRow = 1;
     double left = 0;        ///< the left edge of the first column
@@ -102,8 +104,12 @@ struct CoordinatesLayout {
     double lineStep = 0;    ///< from one of the four lines to the next
     double lineWidth = 0;
     double amplitude = 0;
-    bool named = true;  ///< P0, P1, … are written under the columns
+    bool named = true;  ///< P0, P1, … are written under the columns, or x, y, z, w under the strip's axes
+    bool density = false;
 };
+
+/// The parallel coordinates of so many vertices are drawn as lines; of more, as a density strip.
+inline constexpr std::size_t kMostLines = 300;
 
 /// The axes in the upper left corner: centre from the upper left corner and length of an axis, in fractions of the
 /// viewport's height.
@@ -176,7 +182,12 @@ struct Scene {
     double thickness = 0;           ///< ball radius per slice radius, for this polytope
     std::uint64_t composedFor = 0;  ///< the serial of the polytope that presences and thickness belong to
     CoordinatesLayout coordinates;
+    Density density;                   ///< measured where it is shown
+    std::uint64_t densityFor = 0;      ///< the serial of its polytope, and …
+    geometry::Rotation densityTurn{};  ///< … how that was turned
     AxesLayout axes;
+
+    bool showsDensity() const { return look.parts.coordinates && coordinates.density; }
 };
 
 /// Composes the picture of slices that were cut from `polytope`, turned by `orientation`; `focus` is the index n of the

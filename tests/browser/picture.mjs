@@ -50,6 +50,54 @@ for (const polytope of ["5-cell", "8-cell", "24-cell", "600-cell"]) {
     });
 }
 
+/** The part of a picture from this row on. */
+function below({ width, height, data }, top) {
+    return { width, height: height - top, data: data.subarray(4 * width * top) };
+}
+
+for (const [polytope, columns] of [
+    ["600-cell", false],
+    ["120-cell", true],
+    ["omnitruncated 120-cell", true],
+]) {
+    test(`picture: the coordinates of the ${polytope} are ${columns ? "a density strip" : "lines"} in both streams`, async () => {
+        const { page, script, errors, close } = await openWithScript();
+        await script.request({ type: "set", polytope });
+        const { revision } = await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.7, 0.3] });
+        await presented(page, revision);
+        const geometry = await picture(page);
+        const { width, height } = geometry;
+        const { scene, density } = await script.request({ type: "get", what: "slices", width, height });
+        const layout = scene.coordinates;
+        assert.equal(density.length > 0, columns);
+        assert.equal(layout.columns > 0, columns);
+        await drawBy(page, "frames");
+        const top = Math.floor((1 - layout.zero - layout.amplitude) * height);
+        const { mean, far } = compare(below(geometry, top), below(await picture(page), top));
+        assert.ok(mean < 1.5, `mean difference ${mean.toFixed(2)} of 255`);
+        assert.ok(far < 0.005, `${(100 * far).toFixed(2)} % of the pixels differ much`);
+        if (columns) {
+            // Where most lines pass the picture has the colour of the axes, where none pass the background's.
+            const at = (k) => {
+                const column = k % layout.columns;
+                const row = Math.floor(k / layout.columns);
+                const gap = (layout.columns - 1) / 3;
+                const x = (layout.left + layout.line_width / 2 + (column / gap) * layout.line_step) * height;
+                const level = 1 - (2 * row) / (density.length / layout.columns - 1);
+                return pixelAt(geometry, x, (1 - layout.zero - level * layout.amplitude) * height);
+            };
+            const background = rgb(scene.colors.background);
+            const inner = [...density.keys()].filter((k) => (k % layout.columns) % 64 > 8 && (k % layout.columns) % 64 < 56);
+            const most = inner.reduce((a, b) => (density[b] > density[a] ? b : a));
+            assert.ok(distance(at(most), background) > 60);
+            const none = inner.find((k) => density[k] === 0);
+            assert.ok(distance(at(none), background) < 8);
+        }
+        assert.deepEqual(errors, []);
+        await close();
+    });
+}
+
 const views = [
     { name: "the 5-cell as it starts", settings: {} },
     { name: "the 600-cell", settings: { polytope: "600-cell" } },

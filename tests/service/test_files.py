@@ -6,6 +6,7 @@ import http.client
 import io
 import json
 import random
+import re
 import subprocess
 import time
 from xml.etree import ElementTree
@@ -194,15 +195,32 @@ async def test_off_loads_again_as_the_same_polytope(server):
 
 
 def test_svg_is_xml_with_a_line_for_each_coordinate(server, tmp_path):
-    path = fetch_to(server, tmp_path / "coordinates.svg", f"polytope=120-cell&{TURNED}")
+    path = fetch_to(server, tmp_path / "coordinates.svg", f"polytope=600-cell&{TURNED}")
     subprocess.run(["xmllint", "--noout", str(path)], check=True, timeout=60)
     root = ElementTree.fromstring(path.read_bytes())
     space = "{http://www.w3.org/2000/svg}"
     groups = {group.get("id"): group for group in root.iter(space + "g")}
-    assert all(len(groups[axis]) == 600 for axis in "xyzw")
+    assert all(len(groups[axis]) == 120 for axis in "xyzw")
     width, height = (float(root.get(name)) for name in ("width", "height"))
     for line in root.iter(space + "line"):
         assert 0 <= float(line.get("x1")) <= width and 0 <= float(line.get("y2")) <= height
+
+
+def test_svg_of_many_vertices_is_their_density(server, tmp_path):
+    path = fetch_to(server, tmp_path / "density.svg", f"polytope=120-cell&{TURNED}")
+    assert path.stat().st_size < 300_000
+    subprocess.run(["xmllint", "--noout", str(path)], check=True, timeout=60)
+    root = ElementTree.fromstring(path.read_bytes())
+    space = "{http://www.w3.org/2000/svg}"
+    assert [line.get("id") for line in root.iter(space + "line")] == list("xyzw")
+    drawn = {}
+    for tone in root.iter(space + "path"):
+        for column, row, height in re.findall(r"M(\d+) (\d+)h1v(\d+)h-1z", tone.get("d")):
+            for place in range(int(row), int(row) + int(height)):
+                assert drawn.setdefault((int(column), place), float(tone.get("fill-opacity"))) > 0
+    assert {column for column, _ in drawn} == set(range(193)) and max(drawn.values()) == 1
+    for (column, row), opacity in drawn.items():  # with each vertex the 120-cell has the opposite one
+        assert abs(drawn.get((column, 64 - row), 0) - opacity) < 0.1
 
 
 @pytest.mark.parametrize("query, code, word", [

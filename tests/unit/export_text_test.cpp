@@ -178,6 +178,14 @@ TEST(Svg, drawsEachCoordinateOfEachVertex) {
     EXPECT_EQ(lines, 1 + 4 * p.vertices.size());
 }
 
+TEST(Svg, drawsTheDensityOfManyVertices) {
+    const std::string text = fileOf(named("120-cell"), {}, {0, 1, 1}, {.format = Format::svg});
+    EXPECT_NE(text.find("id=\"density\""), std::string::npos);
+    std::size_t lines = 0;
+    for (auto at = text.find("<line "); at != std::string::npos; at = text.find("<line ", at + 1)) ++lines;
+    EXPECT_EQ(lines, 4U) << "the axes";
+}
+
 TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     const Polytope& p = named("120-cell");
     const Rotation none;

@@ -29,7 +29,8 @@ Picture pictureOf(const std::vector<std::string>& lines) {
     const session::State& state = session.now;
     Picture picture{state.polytope, {}, {}};
     geometry::Slicer().slice(*state.polytope, state.orientation, state.hyperplanes(), picture.slices);
-    compose(*state.polytope, state.hyperplanes(), state.slices.focus, state.look, {1280, 720}, picture.scene);
+    compose(*state.polytope, state.hyperplanes(), state.slices.focus, state.look, {1280, 720}, picture.scene,
+            state.orientation);
     return picture;
 }
 
@@ -125,6 +126,34 @@ TEST(SlicesMessage, LeavesOutCoordinatesThatAreNotShown) {
     EXPECT_FALSE(fitting(messageOf(pictureOf({"set coordinates=off"}), Encoding::json)).contains("coordinates"));
 }
 
+TEST(SlicesMessage, HasTheDensityOfManyVertices) {
+    const Picture few = pictureOf({"polytope 600-cell", "rotate xw,yz 0.7 1.1"});
+    const json none = fitting(messageOf(few, Encoding::json));
+    EXPECT_FALSE(none.contains("density"));
+    EXPECT_EQ(none.at("scene").at("coordinates").at("columns"), 0);
+
+    const Picture many = pictureOf({"polytope 120-cell", "rotate xw,yz 0.7 1.1"});
+    const json message = fitting(messageOf(many, Encoding::json));
+    const auto columns = message.at("scene").at("coordinates").at("columns").get<std::size_t>();
+    EXPECT_EQ(columns, static_cast<std::size_t>(scene::Density::kColumns));
+    EXPECT_EQ(message.at("coordinates").size(), 600U);
+    std::vector<std::uint8_t> pixels;
+    for (const json& row : message.at("density")) {
+        ASSERT_EQ(row.size(), columns);
+        for (const json& pixel : row) pixels.push_back(pixel.get<std::uint8_t>());
+    }
+    const auto tones = many.scene.density.tones();
+    EXPECT_EQ(pixels, std::vector<std::uint8_t>(tones.begin(), tones.end()));
+
+    const json cbor =
+        json::from_cbor(messageOf(many, Encoding::cbor), true, true, json::cbor_tag_handler_t::store).at("density");
+    EXPECT_EQ(cbor.get_binary().subtype(), 64U);
+    EXPECT_EQ(std::vector<std::uint8_t>(cbor.get_binary()), pixels);
+
+    const json hidden = fitting(messageOf(pictureOf({"polytope 120-cell", "set coordinates=off"}), Encoding::json));
+    EXPECT_FALSE(hidden.contains("density"));
+}
+
 TEST(SlicesMessage, EmptySlicesAreEmptyLists) {
     const Picture picture = pictureOf({"focus 100"});
     const json slices = fitting(messageOf(picture, Encoding::json)).at("slices");
@@ -174,6 +203,11 @@ TEST(SlicesMessage, CborSaysTheSame) {
         const std::string cbor = messageOf(picture, Encoding::cbor);
         json message = json::from_cbor(cbor, true, true, json::cbor_tag_handler_t::store);
         message["coordinates"] = inRowsOf(4, numbersOf<float>(message.at("coordinates"), kFloat32));
+        if (message.contains("density")) {
+            const json density = numbersOf<std::uint8_t>(message.at("density"), 64);
+            message["density"] =
+                inRowsOf(message.at("scene").at("coordinates").at("columns").get<std::size_t>(), density);
+        }
         message["scene"]["colors"]["cells"] =
             numbersOf<std::uint32_t>(message.at("scene").at("colors").at("cells"), kUint32);
         for (json& slice : message["slices"]) {

@@ -51,7 +51,7 @@ struct Subject {
         const int half = count / 2;
         const geometry::Hyperplanes planes{-half, count, polytope->circumradius / std::max(half, 1)};
         geometry::Slicer().slice(*polytope, orientation, planes, slices);
-        scene::compose(*polytope, planes, 0, look, viewport, scene);
+        scene::compose(*polytope, planes, 0, look, viewport, scene, orientation);
         scene::fill(*polytope, slices, scene);
     }
 

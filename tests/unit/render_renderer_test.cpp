@@ -232,6 +232,49 @@ TEST_F(Pictures, ShowWhatIsAskedFor) {
     EXPECT_NE(drawn({.coordinates = false}), all);
 }
 
+TEST_F(Pictures, ShowTheDensityOfManyVertices) {
+    using scene::Density;
+    const Subject subject("120-cell", randomRotation(21), 3, {}, {960, 540});
+    const Image image = subject.draw(renderer());
+    const scene::CoordinatesLayout& layout = subject.scene.coordinates;
+    const scene::Style& style = scene::style();
+    const std::array colours{style.axisX, style.axisY, style.axisZ, style.axisW};
+    const double height = subject.scene.viewport.height;
+    const auto xOf = [&](double column) {
+        return static_cast<int>((layout.left + layout.lineWidth / 2 + column / Density::kGap * layout.lineStep) *
+                                height);
+    };
+    const auto yOf = [&](int row) {
+        const double level = 1 - 2.0 * row / (Density::kRows - 1);
+        return static_cast<int>((layout.zero + level * layout.amplitude) * height);
+    };
+    double sum = 0;
+    int count = 0;
+    for (int row = 1; row + 1 < Density::kRows; ++row)
+        for (int column = 3; column + 3 < Density::kColumns; ++column) {
+            if (column % Density::kGap < 3 || column % Density::kGap > Density::kGap - 3) continue;  // beside the axes
+            const double opacity =
+                subject.scene.density.tones()[static_cast<std::size_t>(row * Density::kColumns + column)] / 255.0;
+            const auto gap = static_cast<std::size_t>(column / Density::kGap);
+            const double part = column % Density::kGap / double(Density::kGap);
+            const Rgb from = rgbOf(colours[gap]), to = rgbOf(colours[gap + 1]), behind = rgbOf(style.background);
+            const Rgb drawn = pixelAt(image, xOf(column), yOf(row));
+            for (std::size_t k = 0; k < 3; ++k)
+                sum += std::abs(behind[k] + opacity * ((1 - part) * from[k] + part * to[k] - behind[k]) - drawn[k]);
+            count += 3;
+        }
+    EXPECT_LT(sum / count, 5) << "mean difference of a channel from the density in the axes' colours";
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Rgb axis = pixelAt(image, xOf(static_cast<double>(k) * Density::kGap), yOf(3));
+        EXPECT_LE(difference(axis, rgbOf(colours[k])), 1) << "axis " << k;
+    }
+    scene::Look without;
+    without.parts.coordinates = false;
+    const Subject bare("120-cell", randomRotation(21), 3, without, {960, 540});
+    const Image empty = bare.draw(renderer());
+    EXPECT_EQ(pixelAt(empty, xOf(20), yOf(5)), rgbOf(style.background));
+}
+
 TEST(ContextTest, LeavesTheRestOfMemoryAlone) {
     Context context;
     constexpr int kWidth = 37, kHeight = 21;

@@ -127,8 +127,10 @@ TEST(Coordinates, holdEveryVertexInsideTheViewport) {
         const auto& c = s.coordinates;
         EXPECT_GE(std::size_t(c.rows) * c.perRow, entry.vertices);
         EXPECT_GE(c.left, 0);
+        EXPECT_EQ(c.density, entry.vertices > scene::kMostLines);
         EXPECT_LE(c.left + c.columnStep * c.perRow, 1280.0 / 720 + 1e-9);
-        EXPECT_LE(4 * c.lineStep, c.columnStep);
+        EXPECT_LE(c.left + 3 * c.lineStep + c.lineWidth, 1280.0 / 720);
+        EXPECT_LE(c.density ? 0 : 4 * c.lineStep, c.columnStep);
         EXPECT_GT(c.lineWidth * 720, 0.7) << entry.name;  // about a pixel at least
         EXPECT_GE(c.zero - c.amplitude - (c.rows - 1) * c.rowStep, 0);
         EXPECT_LT(c.zero + c.amplitude, 0.3);

@@ -3,30 +3,18 @@
 
 import type { SceneDescription, Slice, Slices, Viewport } from "@oval4d/protocol";
 
+import { drawCoordinates } from "./coordinates";
 import type { Lens } from "./lens";
-
-const kFont = '"DejaVu Sans", Verdana, system-ui, sans-serif';
-const kLeastText = 9; // pixels of the page
+import { css, kLeastText, setFont } from "./pen";
 
 export function drawOverlay(pen: CanvasRenderingContext2D, picture: Slices, lens: Lens, viewport: Viewport): void {
     const { scene, slices } = picture;
     pen.clearRect(0, 0, viewport.width, viewport.height);
     pen.textAlign = "center";
     pen.textBaseline = "alphabetic";
-    if (scene.shown.coordinates) drawCoordinates(pen, picture.coordinates, scene, viewport);
+    if (scene.shown.coordinates) drawCoordinates(pen, picture, viewport);
     drawLabels(pen, slices, scene, lens, viewport);
     drawAxes(pen, scene, lens, viewport);
-}
-
-/** 0xRRGGBB as CSS has it. */
-function css(colour: number): string {
-    return `#${colour.toString(16).padStart(6, "0")}`;
-}
-
-/** Sets the font; returns the height of its digits. */
-function setFont(pen: CanvasRenderingContext2D, size: number): number {
-    pen.font = `${Math.max(1, Math.round(size))}px ${kFont}`;
-    return pen.measureText("0").actualBoundingBoxAscent;
 }
 
 /** The w under each slice. Where letters would be too small to read they are larger, and some are left out. */
@@ -112,48 +100,4 @@ function drawAxes(pen: CanvasRenderingContext2D, scene: SceneDescription, lens: 
     for (const axis of axes) if (axis.direction.z <= 0) paint(axis);
     ball(x, y, 0.1, css(scene.colors.text));
     for (const axis of axes) if (axis.direction.z > 0) paint(axis);
-}
-
-function drawCoordinates(
-    pen: CanvasRenderingContext2D,
-    values: Float32Array,
-    scene: SceneDescription,
-    viewport: Viewport,
-): void {
-    const { height } = viewport;
-    const { per_row: perRow, amplitude, named, ...layout } = scene.coordinates;
-    const [left, columnStep, lineStep] = [layout.left * height, layout.column_step * height, layout.line_step * height];
-    const thickness = layout.line_width * height;
-    // Lines of a pixel or more are sharpest on whole pixels.
-    const snap = (x: number): number => (thickness >= 1 ? Math.round(x) : x);
-    const zeroOf = (row: number): number => height - Math.round((layout.zero - row * layout.row_step) * height);
-    const count = values.length / 4;
-
-    pen.fillStyle = css(scene.colors.zero);
-    for (let row = 0; row * perRow < count; ++row) {
-        const columns = Math.min(perRow, count - row * perRow);
-        pen.fillRect(snap(left), zeroOf(row) - 0.5, snap((columns - 1) * columnStep + 3 * lineStep + thickness), 1);
-    }
-    const unit = (amplitude * height) / scene.circumradius;
-    for (let k = 0; k < 4; ++k) {
-        pen.fillStyle = css(scene.colors.axes[k]!);
-        pen.beginPath();
-        for (let i = 0; i < count; ++i) {
-            const x = snap(left + (i % perRow) * columnStep + k * lineStep);
-            pen.rect(x, zeroOf(Math.floor(i / perRow)), snap(thickness), -values[4 * i + k]! * unit);
-        }
-        pen.fill();
-    }
-    if (!named) return;
-    const least = columnStep > 3 * kLeastText * devicePixelRatio ? kLeastText * devicePixelRatio : 0;
-    const digits = setFont(pen, Math.max(0.85 * scene.text * height, least));
-    pen.fillStyle = css(scene.colors.text);
-    for (let i = 0; i < count; ++i) {
-        const x = left + (i % perRow) * columnStep + (3 * lineStep + thickness) / 2;
-        pen.fillText(
-            `P${i}`,
-            Math.round(x),
-            Math.round(zeroOf(Math.floor(i / perRow)) + amplitude * height + 1.4 * digits),
-        );
-    }
 }

@@ -1,0 +1,81 @@
+// The parallel coordinates along the bottom: the lines of each vertex, or of very many the density of lines.
+
+import type { SceneDescription, Slices, Viewport } from "@oval4d/protocol";
+
+import { DensityImage } from "./density_image";
+import { css, kLeastText, setFont } from "./pen";
+
+const kFocusReach = 0.009; // of the focus's mark to either side of its axis, as a part of the viewport's height
+
+const density = new DensityImage();
+
+export function drawCoordinates(pen: CanvasRenderingContext2D, picture: Slices, viewport: Viewport): void {
+    if (picture.scene.coordinates.columns > 0) drawStrip(pen, picture, viewport);
+    else drawLines(pen, picture.coordinates, picture.scene, viewport);
+}
+
+function drawLines(
+    pen: CanvasRenderingContext2D,
+    values: Float32Array,
+    scene: SceneDescription,
+    viewport: Viewport,
+): void {
+    const { height } = viewport;
+    const { per_row: perRow, amplitude, named, ...layout } = scene.coordinates;
+    const [left, columnStep, lineStep] = [layout.left * height, layout.column_step * height, layout.line_step * height];
+    const thickness = layout.line_width * height;
+    // Lines of a pixel or more are sharpest on whole pixels.
+    const snap = (x: number): number => (thickness >= 1 ? Math.round(x) : x);
+    const zeroOf = (row: number): number => height - Math.round((layout.zero - row * layout.row_step) * height);
+    const count = values.length / 4;
+
+    pen.fillStyle = css(scene.colors.zero);
+    for (let row = 0; row * perRow < count; ++row) {
+        const columns = Math.min(perRow, count - row * perRow);
+        pen.fillRect(snap(left), zeroOf(row) - 0.5, snap((columns - 1) * columnStep + 3 * lineStep + thickness), 1);
+    }
+    const unit = (amplitude * height) / scene.circumradius;
+    for (let k = 0; k < 4; ++k) {
+        pen.fillStyle = css(scene.colors.axes[k]!);
+        pen.beginPath();
+        for (let i = 0; i < count; ++i) {
+            const x = snap(left + (i % perRow) * columnStep + k * lineStep);
+            pen.rect(x, zeroOf(Math.floor(i / perRow)), snap(thickness), -values[4 * i + k]! * unit);
+        }
+        pen.fill();
+    }
+    if (!named) return;
+    const least = columnStep > 3 * kLeastText * devicePixelRatio ? kLeastText * devicePixelRatio : 0;
+    const digits = setFont(pen, Math.max(0.85 * scene.text * height, least));
+    pen.fillStyle = css(scene.colors.text);
+    for (let i = 0; i < count; ++i) {
+        const x = left + (i % perRow) * columnStep + (3 * lineStep + thickness) / 2;
+        pen.fillText(
+            `P${i}`,
+            Math.round(x),
+            Math.round(zeroOf(Math.floor(i / perRow)) + amplitude * height + 1.4 * digits),
+        );
+    }
+}
+
+function drawStrip(pen: CanvasRenderingContext2D, picture: Slices, { height }: Viewport): void {
+    const { colors, circumradius, coordinates: layout, text } = picture.scene;
+    const [zero, amplitude] = [(1 - layout.zero) * height, layout.amplitude * height];
+    const middleOf = (k: number): number => (layout.left + k * layout.line_step + layout.line_width / 2) * height;
+    density.take(picture);
+    density.draw(pen, middleOf(0), zero - amplitude, middleOf(3) - middleOf(0), 2 * amplitude);
+
+    const thickness = Math.max(1, Math.round(layout.line_width * height));
+    const digits = setFont(pen, Math.max(0.85 * text * height, kLeastText * devicePixelRatio));
+    for (let k = 0; k < 4; ++k) {
+        const left = Math.round(middleOf(k) - thickness / 2);
+        pen.fillStyle = css(colors.axes[k]!);
+        pen.fillRect(left, zero - amplitude, thickness, 2 * amplitude);
+        if (layout.named) pen.fillText("xyzw"[k]!, left + thickness / 2, Math.round(zero + amplitude + 1.4 * digits));
+    }
+    const focus = picture.slices.find((slice) => slice.focus);
+    if (!focus || Math.abs(focus.w) > circumradius) return;
+    const level = Math.round(zero - (focus.w / circumradius) * amplitude);
+    pen.fillStyle = css(colors.focus);
+    pen.fillRect(middleOf(3) - kFocusReach * height, level - thickness / 2, 2 * kFocusReach * height, thickness);
+}

@@ -1,0 +1,41 @@
+// The density of the parallel coordinates as a picture, kept and written in place.
+
+import type { Slices } from "@oval4d/protocol";
+
+export class DensityImage {
+    private readonly canvas = document.createElement("canvas");
+    private readonly pen = this.canvas.getContext("2d")!;
+    private pixels: ImageData | undefined;
+    private taken: Uint8Array | undefined;
+
+    /** Between two axes the colour passes from the one's to the other's. */
+    take({ density, scene: { colors, coordinates } }: Slices): void {
+        if (density === this.taken) return;
+        this.taken = density;
+        const { columns } = coordinates;
+        const rows = density.length / columns;
+        if (this.pixels?.width !== columns || this.pixels.height !== rows) {
+            Object.assign(this.canvas, { width: columns, height: rows });
+            this.pixels = this.pen.createImageData(columns, rows);
+        }
+        const { data } = this.pixels;
+        const gap = (columns - 1) / 3;
+        for (let column = 0; column < columns; ++column) {
+            const k = Math.min(Math.floor(column / gap), 2);
+            const part = column / gap - k;
+            const [from, to] = [colors.axes[k]!, colors.axes[k + 1]!];
+            for (let channel = 0; channel < 3; ++channel) {
+                const shift = 16 - 8 * channel;
+                const value = (1 - part) * ((from >> shift) & 255) + part * ((to >> shift) & 255);
+                for (let row = 0; row < rows; ++row) data[4 * (row * columns + column) + channel] = value;
+            }
+        }
+        for (let i = 0; i < density.length; ++i) data[4 * i + 3] = density[i]!;
+        this.pen.putImageData(this.pixels, 0, 0);
+    }
+
+    /** Its outermost pixels' middles lie on the edges of the place. */
+    draw(pen: CanvasRenderingContext2D, x: number, y: number, width: number, height: number): void {
+        pen.drawImage(this.canvas, 0.5, 0.5, this.canvas.width - 1, this.canvas.height - 1, x, y, width, height);
+    }
+}
