@@ -79,7 +79,7 @@ std::string densityPaths(const scene::Density& density) {
     using scene::Density;
     constexpr int kTones = 32;
     const auto toneAt = [&](int row, int column) {
-        return (density.tones()[static_cast<std::size_t>(row * Density::kColumns + column)] * kTones + 127) / 255;
+        return (density.tones()[Density::index(row, column)] * kTones + 127) / 255;
     };
     std::array<std::string, kTones + 1> paths;
     for (int column = 0; column < Density::kColumns; ++column) {

@@ -36,7 +36,7 @@ void Density::measure(std::span<const glm::dvec4> vertices, const glm::dmat4& tu
     const std::uint32_t most = *std::max_element(weights_.begin(), weights_.end());
     const float unit = most > 0 ? 255.0F / std::sqrt(static_cast<float>(most)) : 0;
     std::transform(weights_.begin(), weights_.end(), tones_.begin(), [unit](std::uint32_t weight) {
-        return static_cast<std::uint8_t>(unit * std::sqrt(static_cast<float>(weight)) + 0.5F);
+        return static_cast<std::uint8_t>(std::lround(unit * std::sqrt(static_cast<float>(weight))));
     });
 }
 
@@ -57,14 +57,15 @@ void Density::countColumn(int column) {
         for (std::size_t i = 0; i < size; ++i) ++tables[i % kTables][steps[i]];
     }
 
-    const auto add = [&](std::size_t rowFromBelow, std::uint32_t weight) {
-        weights_[(kRows - 1 - rowFromBelow) * kColumns + static_cast<std::size_t>(column)] += weight;
+    const auto add = [&](int rowFromBelow, std::uint32_t weight) {
+        weights_[index(kRows - 1 - rowFromBelow, column)] += weight;
     };
     for (std::uint32_t step = 0; step < kSteps; ++step) {
         std::uint32_t lines = 0;
         for (const auto& table : tables) lines += table[step];
         if (lines == 0) continue;
-        const std::uint32_t row = step / kLine, above = step % kLine;
+        const std::uint32_t above = step % kLine;
+        const int row = static_cast<int>(step / kLine);
         add(row, lines * (kLine - above));
         if (above > 0) add(row + 1, lines * above);
     }

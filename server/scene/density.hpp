@@ -3,6 +3,7 @@
 // as in Inselberg, Parallel Coordinates, ch. 2, and Artero et al., Uncovering Clusters in Crowded Parallel
 // Coordinates).
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,6 +32,10 @@ class Density {
     /// Row by row, 0 … 255: the square root of the weight, so that the few are seen beside the many; 255 is the
     /// largest.
     std::span<const std::uint8_t> tones() const { return tones_; }
+
+    static constexpr std::size_t index(int row, int column) {
+        return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column);
+    }
 
   private:
     void countColumn(int column);

@@ -253,8 +253,7 @@ TEST_F(Pictures, ShowTheDensityOfManyVertices) {
     for (int row = 1; row + 1 < Density::kRows; ++row)
         for (int column = 3; column + 3 < Density::kColumns; ++column) {
             if (column % Density::kGap < 3 || column % Density::kGap > Density::kGap - 3) continue;  // beside the axes
-            const double opacity =
-                subject.scene.density.tones()[static_cast<std::size_t>(row * Density::kColumns + column)] / 255.0;
+            const double opacity = subject.scene.density.tones()[Density::index(row, column)] / 255.0;
             const auto gap = static_cast<std::size_t>(column / Density::kGap);
             const double part = column % Density::kGap / double(Density::kGap);
             const Rgb from = rgbOf(colours[gap]), to = rgbOf(colours[gap + 1]), behind = rgbOf(style.background);

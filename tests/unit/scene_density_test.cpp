@@ -32,7 +32,7 @@ Density densityOf(const std::vector<glm::dvec4>& points, const glm::dmat4& turn 
 }
 
 std::uint32_t weightAt(const Density& density, int row, int column) {
-    return density.weights()[static_cast<std::size_t>(row * Density::kColumns + column)];
+    return density.weights()[Density::index(row, column)];
 }
 
 TEST(Density, EachColumnAddsUpToTheNumberOfVertices) {
