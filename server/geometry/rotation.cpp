@@ -67,6 +67,15 @@ Rotation::Rotation(const Turn& turn) {
     right_ = exponential(spatial, -(a + b) / 2);
 }
 
+std::optional<Rotation> Rotation::fromQuaternions(const glm::dquat& left, const glm::dquat& right) {
+    const auto unit = [](const glm::dquat& q) { return std::abs(glm::length(q) - 1) < 1e-9; };  // not NaN, too
+    if (!unit(left) || !unit(right)) return std::nullopt;
+    Rotation found;
+    found.left_ = left;
+    found.right_ = right;
+    return found;
+}
+
 Rotation Rotation::inverse() const { return {glm::conjugate(left_), glm::conjugate(right_)}; }
 
 glm::dvec4 Rotation::operator()(const glm::dvec4& v) const { return asVector(left_ * asQuaternion(v) * right_); }

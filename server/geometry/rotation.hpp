@@ -49,6 +49,9 @@ class Rotation {
     /// The rotation with this matrix (v' = M v), or nothing if M is not in SO(4) to within `tolerance`.
     static std::optional<Rotation> fromMatrix(const glm::dmat4& matrix, double tolerance = 1e-6);
 
+    /// The rotation of which `left` and `right` gave exactly these, or nothing if they are not of unit length.
+    static std::optional<Rotation> fromQuaternions(const glm::dquat& left, const glm::dquat& right);
+
     Rotation inverse() const;
     glm::dvec4 operator()(const glm::dvec4& v) const;
     glm::dmat4 matrix() const;

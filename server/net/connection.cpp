@@ -7,6 +7,7 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
+#include "net/awaited.hpp"
 #include "protocol/cpp/codec.hpp"
 #include "store/secret.hpp"
 
@@ -146,11 +147,12 @@ asio::awaitable<void> Connection::greet(protocol::Hello hello, Id id) {
         tell(fits.error(), id);
         co_return;
     }
-    const auto entered = enter(hello);
+    const auto entered = co_await enter(hello);
     if (!entered) {
         tell(entered.error(), id);
         if (entered.error().code == ErrorCode::not_found) close(close_code::kNoSession, "no such session");
         if (entered.error().code == ErrorCode::bad_token) close(close_code::kBadToken, "wrong token");
+        if (entered.error().code == ErrorCode::internal) close(close_code::kTryLater, "try again later");
         co_return;
     }
     session_ = *entered;
@@ -158,17 +160,29 @@ asio::awaitable<void> Connection::greet(protocol::Hello hello, Id id) {
 }
 
 /// The session that this client is in, from its first hello on.
-Hub::Joined Connection::enter(const protocol::Hello& hello) {
+asio::awaitable<Hub::Joined> Connection::enter(protocol::Hello hello) {
     const std::string token = hello.token.value_or("");
     if (session_) {
         if (hello.token && !store::sameSecret(token, session_->ticket().token)) {
-            return Error{ErrorCode::bad_token, "this token does not open the session"};
+            co_return Error{ErrorCode::bad_token, "this token does not open the session"};
         }
-        return session_;
+        co_return session_;
     }
-    if (!wanted_.empty()) return hub_->join({wanted_, token});
-    if (hello.token) return Error{ErrorCode::bad_token, "a token opens the session in the path /ws/{session}"};
-    return hub_->create();
+    if (wanted_.empty() && hello.token) {
+        co_return Error{ErrorCode::bad_token, "a token opens the session in the path /ws/{session}"};
+    }
+    auto begin = entrance(token);
+    co_return co_await awaited<Hub::Joined>(std::move(begin));
+}
+
+std::function<void(Hub::Done)> Connection::entrance(const std::string& token) {
+    return [hub = hub_, ticket = store::Ticket{wanted_, token}](const Hub::Done& done) {
+        if (ticket.id.empty()) {
+            hub->create(done);
+        } else {
+            hub->join(ticket, done);
+        }
+    };
 }
 
 void Connection::tell(const Error& error, Id id) {

@@ -54,7 +54,8 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
     boost::asio::awaitable<void> handle(std::string_view text);
     boost::asio::awaitable<void> carryOut(protocol::Request request);
     boost::asio::awaitable<void> greet(protocol::Hello hello, Id id);
-    Hub::Joined enter(const protocol::Hello& hello);
+    boost::asio::awaitable<Hub::Joined> enter(protocol::Hello hello);
+    std::function<void(Hub::Done)> entrance(const std::string& token);
     void tell(const protocol::Error& error, Id id);
 
     void startClosing(std::uint16_t code, std::string reason);

@@ -5,42 +5,61 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "net/live_session.hpp"
-#include "store/store.hpp"
+#include "store/keeper.hpp"
 
 namespace oval4d::net {
 
 /// Brings connections and sessions together. Every function may be called from any thread.
 class Hub : public std::enable_shared_from_this<Hub> {
   public:
-    Hub(Services services, std::unique_ptr<store::Store> store) : services_(services), store_(std::move(store)) {}
+    Hub(Services services, std::unique_ptr<store::Store> store);
 
     using Joined = protocol::Result<std::shared_ptr<LiveSession>>;
+    using Done = std::function<void(Joined)>;
 
     /// A new session, or `too_many`.
-    Joined create();
-    /// The session that the ticket opens, or `not_found` or `bad_token`.
-    Joined join(const store::Ticket& ticket);
+    void create(const Done& done);
+    /// The session that the ticket opens; or `not_found`, `bad_token`, or `internal` where the store does not answer.
+    void join(const store::Ticket& ticket, const Done& done);
     /// To be called once for each successful `create` and `join`.
     void leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer);
 
-    /// Forgets the sessions that nobody has had open for `age`, and brings the metrics up to date.
-    void tidy(Seconds age);
+    /// Has all sessions written, as they are now.
+    void saveAll();
+    const store::Keeper& keeper() const { return keeper_; }
+    /// Writes what is not yet written, for so long at most. Nothing more is to be called.
+    void stop(Seconds limit);
+
+    /// Sessions with a client.
+    std::size_t open() const;
 
   private:
     struct Live {
         std::shared_ptr<LiveSession> session;
         int clients = 0;
     };
+    struct Waiting {
+        store::Ticket ticket;
+        Done done;
+    };
 
+    store::Keeper::Listener listener();
+    std::shared_ptr<LiveSession> find(const std::string& id) const;
+    void fetched(const store::Ticket& ticket, const Done& done, store::Keeper::Fetch fetch);
+    void read(const store::Ticket& ticket, const Done& done, const store::Record& record);
+    void opened(const store::Ticket& ticket, const Done& done, protocol::Result<session::Session> value);
     std::shared_ptr<LiveSession> bringToLife(store::Ticket ticket, session::Session value);
-    void countSessions();
+    void dismiss(const std::string& id);
 
     const Services services_;
-    const std::unique_ptr<store::Store> store_;
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::map<std::string, Live, std::less<>> live_;  // guarded by mutex_
+    // guarded by mutex_: sessions that are being fetched, and who else wants them
+    std::map<std::string, std::vector<Waiting>, std::less<>> opening_;
+    store::Keeper keeper_;  // last: its thread calls the listener
 };
 
 }  // namespace oval4d::net

@@ -76,6 +76,7 @@ void LiveSession::turn() {
     lastTurn_ = now;
     changed_ = now;
     session::advance(session_, Seconds(passed).count());
+    saveSoon();
 }
 
 bool LiveSession::ready(const Client& client) const {

@@ -8,6 +8,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/use_awaitable.hpp>
 
+#include "net/awaited.hpp"
 #include "net/file_job.hpp"
 #include "net/on_pool.hpp"
 #include "protocol/cpp/codec.hpp"
@@ -25,20 +26,25 @@ const Error kFault{ErrorCode::internal, "the server failed to do this; the sessi
 
 const std::vector<std::string> kNoWarnings;
 
+// After a change, so that the store is at most a second behind.
+constexpr std::chrono::milliseconds kSaveDelay{500};
+
 Message doneMessage(LiveSession::Id id, std::uint64_t revision) {
     return textMessage(protocol::doneMessage(id, revision));
 }
 
 }  // namespace
 
-LiveSession::LiveSession(Services services, store::Ticket ticket, session::Session value)
+LiveSession::LiveSession(Services services, store::Keeper& keeper, store::Ticket ticket, session::Session value)
     : services_(services),
+      keeper_(keeper),
       ticket_(std::move(ticket)),
       strand_(asio::make_strand(services.io)),
       session_(std::move(value)),
       changed_(Clock::now()),
       turnTimer_(strand_),
-      paceTimer_(strand_) {}
+      paceTimer_(strand_),
+      saveTimer_(strand_) {}
 
 asio::awaitable<void> LiveSession::greet(std::shared_ptr<Peer> peer, protocol::Hello hello, Id id) {
     return asio::co_spawn(strand_, greetHere(std::move(peer), std::move(hello), id), asio::use_awaitable);
@@ -48,11 +54,57 @@ asio::awaitable<void> LiveSession::carryOut(std::shared_ptr<Peer> peer, protocol
     return asio::co_spawn(strand_, carryOutHere(std::move(peer), std::move(request)), asio::use_awaitable);
 }
 
-void LiveSession::leave(std::shared_ptr<Peer> peer, std::function<void(const session::Session&)> left) {
+void LiveSession::leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left) {
     asio::post(strand_, [self = shared_from_this(), peer = std::move(peer), left = std::move(left)] {
         self->clients_.erase(peer.get());
-        left(self->session_);
+        self->over_ = left(self->session_) || self->over_;
     });
+}
+
+void LiveSession::save() {
+    asio::post(strand_, [self = shared_from_this()] { self->saveHere(); });
+}
+
+void LiveSession::dismiss() {
+    asio::post(strand_, [self = shared_from_this()] {
+        self->over_ = true;
+        for (const auto& [key, client] : self->clients_) {
+            if (const auto peer = client.peer.lock()) {
+                peer->close(close_code::kStopping, "another server goes on with this session; come back");
+            }
+        }
+    });
+}
+
+void LiveSession::saveHere() {
+    if (!over_) keeper_.save(ticket_.id, session_, store::Keeper::Part::whole);
+}
+
+/// To be called after each change that the store has not been given.
+void LiveSession::saveSoon() {
+    if (saveTimerSet_ || keeper_.pace() == store::Store::Pace::at_close) return;
+    saveTimerSet_ = true;
+    saveTimer_.expires_after(kSaveDelay);
+    saveTimer_.async_wait([weak = weak_from_this()](boost::system::error_code) {
+        if (const auto self = weak.lock()) {
+            self->saveTimerSet_ = false;
+            self->saveHere();
+        }
+    });
+}
+
+/// Gives the store what has changed, and tells when it has it.
+std::function<void(std::function<void(bool)>)> LiveSession::keeping(store::Keeper::Part part) {
+    session::Session value;
+    if (part == store::Keeper::Part::whole) {
+        value = session_;
+    } else {
+        value.now = session_.now;
+        value.revision = revision();
+    }
+    return [self = shared_from_this(), part, value](const std::function<void(bool)>& written) {
+        self->keeper_.save(self->ticket_.id, value, part, written);
+    };
 }
 
 asio::awaitable<void> LiveSession::greetHere(std::shared_ptr<Peer> peer, protocol::Hello hello, Id id) {
@@ -67,7 +119,7 @@ asio::awaitable<void> LiveSession::carryOutHere(std::shared_ptr<Peer> peer, prot
         if (session::mayBuild(*command)) {
             co_await obeyPrepared(peer, *command, request.id);
         } else {
-            obey(*peer, *command, request.id, {});
+            co_await obey(peer, *command, request.id, std::nullopt);
         }
     } else if (const auto* shown = std::get_if<protocol::ShownRevision>(&request.body)) {
         if (request.id) peer->send(doneMessage(request.id, revision()));
@@ -93,7 +145,7 @@ asio::awaitable<void> LiveSession::obeyPrepared(std::shared_ptr<Peer> peer, prot
     if (failed) {
         tell(*peer, kFault, id);
     } else {
-        obey(*peer, command, id, preparation);
+        co_await obey(peer, command, id, preparation);
     }
 }
 
@@ -108,25 +160,46 @@ std::function<LiveSession::Preparation(picture::Painter&)> LiveSession::preparat
     };
 }
 
-void LiveSession::obey(Peer& peer, const protocol::Command& command, Id id, const Preparation& preparation) {
+/// Where another server may have to go on with the session, a command is acknowledged once the store has what it did.
+asio::awaitable<void> LiveSession::obey(std::shared_ptr<Peer> peer, protocol::Command command, Id id,
+                                        Preparation preparation) {
     const std::uint64_t before = revision();
-    const auto* reading = preparation ? &*preparation : nullptr;
-    try {
-        if (const auto done = session::apply(session_, command, services_.options.session, reading); !done) {
-            tell(peer, done.error(), id);
-            return;
+    if (!applied(*peer, command, id, preparation)) co_return;
+    const std::uint64_t reached = revision();
+    if (reached != before) {
+        changed_ = Clock::now();
+        saveSoon();
+        if (keeper_.pace() == store::Store::Pace::at_once) {
+            // The head has no room for what a command may have loaded.
+            const bool whole = session::mayBuild(command);
+            auto keep = keeping(whole ? store::Keeper::Part::whole : store::Keeper::Part::head);
+            if (id) {
+                const bool ours = co_await awaited<bool>(std::move(keep));
+                if (!ours) co_return;  // the client is being sent to the server whose it is now
+            } else {
+                keep([](bool) {});
+            }
         }
+    }
+    if (id) {
+        const bool warned = preparation && *preparation;
+        peer->send(textMessage(protocol::doneMessage(id, reached, warned ? (*preparation)->warnings : kNoWarnings)));
+    }
+    update();
+}
+
+/// Whether the command took effect; else the client has been told why not.
+bool LiveSession::applied(Peer& peer, const protocol::Command& command, Id id, const Preparation& preparation) {
+    try {
+        const auto* reading = preparation ? &*preparation : nullptr;
+        const auto done = session::apply(session_, command, services_.options.session, reading);
+        if (!done) tell(peer, done.error(), id);
+        return static_cast<bool>(done);
     } catch (const std::exception& fault) {
         spdlog::error("command failed session={} fault=\"{}\"", ticket_.id, fault.what());
         tell(peer, kFault, id);
-        return;
+        return false;
     }
-    if (id) {
-        const bool warned = reading != nullptr && *reading;
-        peer.send(textMessage(protocol::doneMessage(id, revision(), warned ? (*reading)->warnings : kNoWarnings)));
-    }
-    if (revision() != before) changed_ = Clock::now();
-    update();
 }
 
 asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, protocol::Get get, Id id) {

@@ -18,7 +18,7 @@
 #include "net/services.hpp"
 #include "protocol/cpp/request.hpp"
 #include "session/session.hpp"
-#include "store/store.hpp"
+#include "store/keeper.hpp"
 
 namespace oval4d::net {
 
@@ -32,7 +32,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     using Id = std::optional<double>;  ///< of a request
     using Preparation = std::optional<protocol::Result<session::Reading>>;
 
-    LiveSession(Services services, store::Ticket ticket, session::Session value);
+    LiveSession(Services services, store::Keeper& keeper, store::Ticket ticket, session::Session value);
 
     const store::Ticket& ticket() const { return ticket_; }
 
@@ -42,8 +42,15 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// Carries out one request of a client that was greeted, and returns once it is answered.
     boost::asio::awaitable<void> carryOut(std::shared_ptr<Peer> peer, protocol::Request request);
 
-    /// Forgets a client, then calls `left` with the session's value on the session's strand.
-    void leave(std::shared_ptr<Peer> peer, std::function<void(const session::Session&)> left);
+    /// Forgets a client, then calls `left` with the session's value on the session's strand; it says whether that was
+    /// the last client, with whom the session ends here.
+    void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
+
+    /// Has the whole session written.
+    void save();
+
+    /// Sends the clients away: the session goes on elsewhere.
+    void dismiss();
 
   private:
     using Clock = Pacing::Clock;
@@ -95,7 +102,12 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     std::function<Preparation(picture::Painter&)> preparationJob(const protocol::Command& command) const;
     std::function<Message(picture::Painter&)> pictureJob(const Want& want, Id id) const;
     boost::asio::awaitable<void> obeyPrepared(std::shared_ptr<Peer> peer, protocol::Command command, Id id);
-    void obey(Peer& peer, const protocol::Command& command, Id id, const Preparation& preparation);
+    boost::asio::awaitable<void> obey(std::shared_ptr<Peer> peer, protocol::Command command, Id id,
+                                      Preparation preparation);
+    bool applied(Peer& peer, const protocol::Command& command, Id id, const Preparation& preparation);
+    std::function<void(std::function<void(bool)>)> keeping(store::Keeper::Part part);
+    void saveSoon();
+    void saveHere();
     void tell(Peer& peer, const protocol::Error& error, Id id);
 
     void update();
@@ -117,6 +129,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
     // Set once.
     const Services services_;  // first: the rest is made with it
+    store::Keeper& keeper_;
     const store::Ticket ticket_;
     Strand strand_;
 
@@ -130,8 +143,9 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     std::optional<std::uint64_t> stateRevision_;
     bool busy_ = false;  ///< a job waits or runs
     std::optional<Clock::time_point> lastTurn_;
-    boost::asio::steady_timer turnTimer_, paceTimer_;
-    bool turnTimerSet_ = false, paceTimerSet_ = false;
+    boost::asio::steady_timer turnTimer_, paceTimer_, saveTimer_;
+    bool turnTimerSet_ = false, paceTimerSet_ = false, saveTimerSet_ = false;
+    bool over_ = false;  ///< not this object's to write any more
 
     // Between strand and worker.
     std::mutex orderMutex_;

@@ -46,13 +46,22 @@ Metrics::Metrics()
       bytesSent(counters(registry_, "oval4d_bytes_sent_total", "Bytes of messages sent over WebSockets").Add({})),
       slowReaders(
           counters(registry_, "oval4d_slow_readers_total", "Clients dropped because they did not read").Add({})),
+      sessionsTaken(
+          counters(registry_, "oval4d_sessions_taken_total", "Sessions with which another server went on").Add({})),
+      storeUp(gauge(registry_, "oval4d_store_up", "1 if the store of sessions answers, 0 if it fails")),
+      unsaved(gauge(registry_, "oval4d_unsaved_sessions", "Sessions whose last change is not yet in the store")),
+      workers(gauge(registry_, "oval4d_workers", "Threads that slice and draw")),
+      workerSeconds(
+          counters(registry_, "oval4d_worker_seconds_total", "Time that these threads worked, all together").Add({})),
       latency(histograms(registry_, "oval4d_change_to_picture_seconds",
                          "Time from a session's change to its picture written to a client's socket")
                   .Add({}, kBuckets)),
       errors_(counters(registry_, "oval4d_errors_total", "Errors told to clients, by code")),
       requests_(counters(registry_, "oval4d_http_requests_total", "HTTP requests answered, by status")),
       pictures_(counters(registry_, "oval4d_pictures_total", "Pictures sent to clients, by stream")),
+      storeFailures_(counters(registry_, "oval4d_store_failures_total", "Questions that the store failed to answer")),
       steps_(histograms(registry_, "oval4d_picture_step_seconds", "Time spent on a picture, by step")),
+      store_(histograms(registry_, "oval4d_store_seconds", "Time for the store's answers, by what it was asked")),
       slice_(steps_.Add({{"step", "slice"}}, kBuckets)),
       compose_(steps_.Add({{"step", "compose"}}, kBuckets)),
       write_(steps_.Add({{"step", "write"}}, kBuckets)),
@@ -78,6 +87,11 @@ void Metrics::observe(const picture::Times& times) {
     put(write_, times.write);
     put(draw_, times.draw);
     put(encode_, times.encode);
+}
+
+void Metrics::observeStore(const std::string& operation, double seconds, bool worked) {
+    store_.Add({{"operation", operation}}, kBuckets).Observe(seconds);
+    if (!worked) storeFailures_.Add({{"operation", operation}}).Increment();
 }
 
 std::string Metrics::text() const {

@@ -33,19 +33,25 @@ class Metrics {
     prometheus::Counter& messagesReceived;
     prometheus::Counter& bytesSent;  ///< over WebSockets
     prometheus::Counter& slowReaders;
-    prometheus::Histogram& latency;  ///< from a change of a session to its picture in the socket
+    prometheus::Counter& sessionsTaken;  ///< by other servers
+    prometheus::Gauge& storeUp;          ///< 1 if the store answers, else 0
+    prometheus::Gauge& unsaved;          ///< sessions whose change waits to be written
+    prometheus::Gauge& workers;
+    prometheus::Counter& workerSeconds;  ///< of work, of all workers together
+    prometheus::Histogram& latency;      ///< from a change of a session to its picture in the socket
 
     void countError(protocol::ErrorCode code);
     void countRequest(unsigned httpStatus);
     void countPicture(protocol::Stream stream);
     void observe(const picture::Times& times);
+    void observeStore(const std::string& operation, double seconds, bool worked);
 
     /// The text exposition format.
     std::string text() const;
 
   private:
-    prometheus::Family<prometheus::Counter>&errors_, &requests_, &pictures_;
-    prometheus::Family<prometheus::Histogram>& steps_;
+    prometheus::Family<prometheus::Counter>&errors_, &requests_, &pictures_, &storeFailures_;
+    prometheus::Family<prometheus::Histogram>&steps_, &store_;
     prometheus::Histogram &slice_, &compose_, &write_, &draw_, &encode_;
 };
 

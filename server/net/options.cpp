@@ -65,6 +65,15 @@ void addAccess(CLI::App& app, Options& options) {
         ->envname("OVAL4D_OPEN");
 }
 
+void addStore(CLI::App& app, Options& options) {
+    add(app, "--store", options.store,
+        "Where sessions are kept: memory; sqlite:PATH, a file in which they outlive the server; or "
+        "redis://[user:password@]host[:port][/database], by which other servers can go on with them");
+    add(app, "--kept-undo", options.keptUndo, "Steps that can be undone in a session that was kept");
+    addSeconds(app, "--store-timeout", options.storeTimeout,
+               "A Redis that does not answer for this long counts as lost");
+}
+
 void addFileLimits(CLI::App& app, exports::Limits& limits) {
     add(app, "--max-file-triangles", limits.triangles, "Most triangles of a file")->check(CLI::Range(1, 1'000'000'000));
     addBytes(app, "--max-file-bytes", limits.bytes, "Longest file");
@@ -116,6 +125,7 @@ void addTimes(CLI::App& app, Options& options) {
 void addOptions(CLI::App& app, Options& options) {
     addPlace(app, options);
     addAccess(app, options);
+    addStore(app, options);
     addLimits(app, options);
     addTimes(app, options);
 }

@@ -41,9 +41,12 @@ struct Options {
     picture::FrameLimits frame;
     exports::Limits file;
     session::Limits session;
+    std::string store = "memory";            ///< as store::StoreOptions::place has it
+    std::size_t keptUndo = 100;              ///< steps of a session's history that a store keeps
     std::size_t polytopeCache = 64U << 20U;  ///< bytes of polytopes kept without being in use
 
     Seconds sessionExpiry{1800};
+    Seconds storeTimeout{1};
     Seconds shownTimeout{1};
     Seconds writeTimeout{10};
     Seconds pingInterval{30};

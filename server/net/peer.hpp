@@ -47,7 +47,8 @@ class Peer {
 
 /// WebSocket close codes: the standard's, and from 4000 the protocol's own.
 namespace close_code {
-inline constexpr std::uint16_t kNotText = 1003, kNotJson = 1007, kPolicy = 1008, kTooLarge = 1009, kStopping = 1012;
+inline constexpr std::uint16_t kNotText = 1003, kNotJson = 1007, kPolicy = 1008, kTooLarge = 1009, kStopping = 1012,
+                               kTryLater = 1013;
 inline constexpr std::uint16_t kBadToken = 4401, kNoSession = 4404;
 }  // namespace close_code
 

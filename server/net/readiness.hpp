@@ -18,12 +18,16 @@ class Readiness {
     void warmUp(picture::Painter& painter);
 
     bool ready() const { return missing_ == 0; }
+    /// From now on the server wants no new clients.
+    void stop() { stopping_ = true; }
+    bool stopping() const { return stopping_; }
     /// Frames cannot be drawn, now or later.
     bool broken() const { return broken_; }
 
   private:
     std::atomic<std::size_t> missing_;
     std::atomic<bool> broken_ = false;
+    std::atomic<bool> stopping_ = false;
 };
 
 }  // namespace oval4d::net

@@ -203,16 +203,32 @@ asio::awaitable<Reply> Routes::file(session::Query query, exports::Format format
 }
 
 Reply Routes::readiness() const {
-    if (readiness_.ready()) return textReply("text/plain", "ready\n");
+    if (readiness_.stopping()) return textReply("text/plain", "stopping\n", 503);
+    if (readiness_.ready()) {
+        // A store that fails is no reason to send clients elsewhere: there it fails, too.
+        const std::string trouble = hub_.keeper().trouble();
+        return textReply("text/plain", trouble.empty() ? "ready\n"
+                                                       : "ready, but the store fails, and sessions stay in memory "
+                                                         "meanwhile: " +
+                                                             trouble + "\n");
+    }
     const bool broken = readiness_.broken();
     return textReply("text/plain", broken ? "frames cannot be drawn: see the log\n" : "not yet: warming up\n", 503);
 }
 
 Reply Routes::metrics() {
-    services_.metrics.jobsWaiting.Set(static_cast<double>(services_.pool.waiting()));
-    services_.metrics.memory.Set(residentBytes());
-    services_.metrics.polytopes.Set(static_cast<double>(geometry::polytopesKept()));
-    return textReply("text/plain; version=0.0.4; charset=utf-8", services_.metrics.text());
+    Metrics& shown = services_.metrics;
+    shown.sessions.Set(static_cast<double>(hub_.keeper().count()));
+    shown.openSessions.Set(static_cast<double>(hub_.open()));
+    shown.unsaved.Set(static_cast<double>(hub_.keeper().unsaved()));
+    shown.storeUp.Set(hub_.keeper().trouble().empty() ? 1 : 0);
+    shown.workers.Set(static_cast<double>(services_.pool.size()));
+    shown.workerSeconds.Increment(
+        std::max(0.0, Seconds(services_.pool.worked()).count() - shown.workerSeconds.Value()));
+    shown.jobsWaiting.Set(static_cast<double>(services_.pool.waiting()));
+    shown.memory.Set(residentBytes());
+    shown.polytopes.Set(static_cast<double>(geometry::polytopesKept()));
+    return textReply("text/plain; version=0.0.4; charset=utf-8", shown.text());
 }
 
 }  // namespace oval4d::net

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "export/wish.hpp"
+#include "net/hub.hpp"
 #include "net/peer.hpp"
 #include "net/readiness.hpp"
 #include "net/services.hpp"
@@ -30,8 +31,8 @@ Reply errorReply(const protocol::Error& error, unsigned status = 0);
 
 class Routes {
   public:
-    Routes(Services services, const WebFiles& files, const Readiness& readiness)
-        : services_(services), files_(files), readiness_(readiness) {}
+    Routes(Services services, const WebFiles& files, const Readiness& readiness, const Hub& hub)
+        : services_(services), files_(files), readiness_(readiness), hub_(hub) {}
 
     struct Inquiry {
         std::string method;
@@ -49,6 +50,7 @@ class Routes {
     const Services services_;
     const WebFiles& files_;
     const Readiness& readiness_;
+    const Hub& hub_;
 };
 
 }  // namespace oval4d::net

@@ -17,7 +17,6 @@
 #include "geometry/catalogue.hpp"
 #include "net/http_session.hpp"
 #include "net/readiness.hpp"
-#include "store/memory_store.hpp"
 #include "store/secret.hpp"
 
 namespace oval4d::net {
@@ -44,6 +43,11 @@ void raiseFileLimit() {
     setrlimit(RLIMIT_NOFILE, &limit);
 }
 
+store::StoreOptions storeOptions(const Options& options) {
+    return {options.store, std::chrono::duration_cast<store::Milliseconds>(options.sessionExpiry),
+            std::chrono::duration_cast<store::Milliseconds>(options.storeTimeout)};
+}
+
 std::string addressFor(const tcp::endpoint& endpoint) {
     const std::string address = endpoint.address().to_string();
     const std::string host = endpoint.address().is_v6() ? "[" + address + "]" : address;
@@ -59,7 +63,6 @@ class Server {
     static tcp::acceptor bound(asio::io_context& io, const Options& options);
     std::string tokenNeeded() const;
     asio::awaitable<void> listen();
-    asio::awaitable<void> tidy();
     asio::awaitable<void> stopOnSignal();
 
     Options options_;
@@ -76,7 +79,6 @@ class Server {
     std::string token_;
     Access access_;
     Routes routes_;
-    asio::steady_timer tidyTimer_;
 };
 
 Server::Server(Options options)
@@ -89,12 +91,11 @@ Server::Server(Options options)
       pool_(static_cast<int>(workers_), [this](picture::Painter& painter) { readiness_.warmUp(painter); }),
       fileMakers_(options_.fileWorkers, [](picture::Painter&) {}),
       services_{options_, io_, pool_, fileMakers_, metrics_},
-      hub_(std::make_shared<Hub>(services_, std::make_unique<store::MemoryStore>(options_.maxSessions))),
+      hub_(std::make_shared<Hub>(services_, store::openStore(storeOptions(options_)))),
       token_(tokenNeeded()),
       access_(options_.allowedHosts, options_.allowedOrigins, token_,
               acceptor_.local_endpoint().address().is_loopback()),
-      routes_(services_, files_, readiness_),
-      tidyTimer_(io_) {}
+      routes_(services_, files_, readiness_, *hub_) {}
 
 tcp::acceptor Server::bound(asio::io_context& io, const Options& options) {
     const std::string port = std::to_string(options.port);
@@ -116,7 +117,6 @@ void Server::run() {
     const std::string query = token_.empty() ? "" : "?token=" + token_;
     spdlog::info("listening url={}{}", addressFor(acceptor_.local_endpoint()), query);
     asio::co_spawn(acceptor_.get_executor(), listen(), asio::detached);
-    asio::co_spawn(acceptor_.get_executor(), tidy(), asio::detached);
     asio::co_spawn(acceptor_.get_executor(), stopOnSignal(), asio::detached);
     std::vector<std::thread> others;
     for (int i = 1; i < options_.ioThreads; ++i) others.emplace_back([this] { io_.run(); });
@@ -124,6 +124,7 @@ void Server::run() {
     for (std::thread& thread : others) thread.join();
     pool_.stop();
     fileMakers_.stop();
+    hub_->stop(options_.stopTimeout);
     spdlog::info("stopped");
 }
 
@@ -146,26 +147,24 @@ asio::awaitable<void> Server::listen() {
     }
 }
 
-asio::awaitable<void> Server::tidy() {
-    const auto interval = std::min<std::chrono::steady_clock::duration>(steady(options_.sessionExpiry) / 4, 60s);
-    for (;;) {
-        tidyTimer_.expires_after(interval);
-        if (const auto [cancelled] = co_await tidyTimer_.async_wait(kQuietly); cancelled) co_return;
-        hub_->tidy(options_.sessionExpiry);
-    }
-}
-
 asio::awaitable<void> Server::stopOnSignal() {
     asio::signal_set signals(acceptor_.get_executor(), SIGINT, SIGTERM);
     const auto [fault, number] = co_await signals.async_wait(kQuietly);
     spdlog::info("stopping signal={} connections={}", number, registry_.size());
     signals.clear();  // a second signal ends the program at once
+    readiness_.stop();
     acceptor_.close();
-    tidyTimer_.cancel();
-    registry_.stopAll();
     const auto limit = std::chrono::steady_clock::now() + steady(options_.stopTimeout);
     asio::steady_timer poll(acceptor_.get_executor());
-    while (registry_.size() > 0 && std::chrono::steady_clock::now() < limit) {
+    // What clients have seen is in the store before they are sent to other servers.
+    hub_->saveAll();
+    do {
+        poll.expires_after(2ms);
+        co_await poll.async_wait(kQuietly);
+    } while (hub_->keeper().unsaved() > 0 && hub_->keeper().trouble().empty() &&
+             std::chrono::steady_clock::now() < limit - steady(options_.stopTimeout) / 2);
+    registry_.stopAll();
+    while ((registry_.size() > 0 || hub_->open() > 0) && std::chrono::steady_clock::now() < limit) {
         poll.expires_after(10ms);
         co_await poll.async_wait(kQuietly);
     }
@@ -177,6 +176,7 @@ asio::awaitable<void> Server::stopOnSignal() {
 
 void runServer(Options options) {
     raiseFileLimit();
+    std::signal(SIGPIPE, SIG_IGN);  // hiredis writes to sockets that may have closed
     geometry::keepPolytopes(options.polytopeCache);
     Server(std::move(options)).run();
 }

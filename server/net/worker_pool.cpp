@@ -52,7 +52,9 @@ void WorkerPool::run(const Job& first) {
             job = std::move(jobs_.front());
             jobs_.pop_front();
         }
+        const auto start = std::chrono::steady_clock::now();
         job(painter);
+        worked_ += std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
     }
 }
 

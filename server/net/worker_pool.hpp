@@ -1,6 +1,8 @@
 #pragma once
 // The threads that slice and draw.
 
+#include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -35,6 +37,8 @@ class WorkerPool {
 
     std::size_t size() const { return threads_.size(); }
     std::size_t waiting() const;
+    /// The time spent on jobs, of all threads together.
+    std::chrono::nanoseconds worked() const { return std::chrono::nanoseconds(worked_); }
 
   private:
     void run(const Job& first);
@@ -44,6 +48,7 @@ class WorkerPool {
     std::condition_variable wake_;
     std::deque<Job> jobs_;   // guarded by mutex_
     bool stopping_ = false;  // guarded by mutex_
+    std::atomic<std::int64_t> worked_ = 0;
     std::vector<std::thread> threads_;
 };
 

@@ -1,68 +1,51 @@
 #include "store/memory_store.hpp"
 
-#include "store/secret.hpp"
-
 namespace oval4d::store {
 
-using protocol::Error;
-using protocol::ErrorCode;
-using protocol::Result;
-
-namespace {
-
-constexpr std::size_t kIdBytes = 10, kTokenBytes = 20;
-
-Error notFound() { return {ErrorCode::not_found, "there is no such session; it may have expired"}; }
-
-}  // namespace
-
-Result<Ticket> MemoryStore::create() {
-    Ticket ticket{randomName(kIdBytes), randomName(kTokenBytes)};
-    const std::lock_guard lock(mutex_);
-    if (kept_.size() >= capacity_) {
-        return Error{ErrorCode::too_many, "the server keeps at most " + std::to_string(capacity_) +
-                                              " sessions, and all are taken; try again later"};
-    }
-    kept_.emplace(ticket.id, Kept{ticket.token, {}, {}});
-    return ticket;
-}
-
-Result<std::monostate> MemoryStore::admit(const Ticket& ticket) const {
-    const std::lock_guard lock(mutex_);
-    const auto found = kept_.find(ticket.id);
-    if (found == kept_.end()) return notFound();
-    if (!sameSecret(ticket.token, found->second.token)) {
-        return Error{ErrorCode::bad_token, "this token does not open the session"};
-    }
-    return std::monostate{};
-}
-
-Result<session::Session> MemoryStore::open(std::string_view id) {
-    const std::lock_guard lock(mutex_);
+std::optional<std::string> MemoryStore::token(const std::string& id) {
     const auto found = kept_.find(id);
-    if (found == kept_.end() || !found->second.value) return notFound();
-    session::Session value = std::move(*found->second.value);
-    found->second.value.reset();
-    return value;
+    return found == kept_.end() ? std::nullopt : std::optional(found->second.token);
 }
 
-void MemoryStore::close(std::string_view id, session::Session value, Time now) {
-    const std::lock_guard lock(mutex_);
+std::optional<Record> MemoryStore::claim(const std::string& id) {
     const auto found = kept_.find(id);
-    if (found == kept_.end()) return;
-    found->second.value = std::move(value);
-    found->second.closed = now;
+    if (found == kept_.end()) return std::nullopt;
+    Kept& kept = found->second;
+    kept.touched = Clock::now();
+    return Record{kept.whole, kept.head, {kept.polytopes.begin(), kept.polytopes.end()}, ++kept.fence};
 }
 
-std::size_t MemoryStore::expire(Time limit) {
-    const std::lock_guard lock(mutex_);
-    return std::erase_if(
-        kept_, [limit](const auto& entry) { return entry.second.value.has_value() && entry.second.closed < limit; });
+std::vector<Saved> MemoryStore::save(std::span<const Saving> savings) {
+    std::vector<Saved> said;
+    for (const Saving& saving : savings) {
+        const auto found = kept_.find(saving.ticket.id);
+        const bool known = found != kept_.end();
+        if (known ? saving.fence < found->second.fence : saving.whole.empty()) {
+            said.push_back(known ? Saved::taken : Saved::missing);
+            continue;
+        }
+        said.push_back(Saved::yes);
+        Kept& kept = kept_[saving.ticket.id];
+        kept.token = saving.ticket.token;
+        kept.fence = saving.fence;
+        kept.touched = Clock::now();
+        if (!saving.whole.empty()) kept.whole = saving.whole;
+        if (!saving.whole.empty() || !saving.head.empty()) kept.head = saving.head;
+        for (const auto& [key, bytes] : saving.polytopes) kept.polytopes[key] = bytes;
+        for (const std::string& key : saving.dropped) kept.polytopes.erase(key);
+    }
+    return said;
 }
 
-std::size_t MemoryStore::size() const {
-    const std::lock_guard lock(mutex_);
-    return kept_.size();
+void MemoryStore::touch(std::span<const std::string> ids) {
+    for (const std::string& id : ids) {
+        if (const auto found = kept_.find(id); found != kept_.end()) found->second.touched = Clock::now();
+    }
+}
+
+std::size_t MemoryStore::expire(Milliseconds age) {
+    const auto limit = Clock::now() - age;
+    return std::erase_if(kept_, [limit](const auto& entry) { return entry.second.touched < limit; });
 }
 
 }  // namespace oval4d::store

@@ -2,7 +2,6 @@
 // Sessions kept in memory: they end with the process.
 
 #include <map>
-#include <mutex>
 
 #include "store/store.hpp"
 
@@ -10,25 +9,27 @@ namespace oval4d::store {
 
 class MemoryStore final : public Store {
   public:
-    explicit MemoryStore(std::size_t capacity) : capacity_(capacity) {}
+    using Clock = std::chrono::steady_clock;
 
-    protocol::Result<Ticket> create() override;
-    protocol::Result<std::monostate> admit(const Ticket& ticket) const override;
-    protocol::Result<session::Session> open(std::string_view id) override;
-    void close(std::string_view id, session::Session value, Time now) override;
-    std::size_t expire(Time limit) override;
-    std::size_t size() const override;
+    Pace pace() const override { return Pace::at_close; }
+    std::string name() const override { return "memory"; }
+    std::optional<std::string> token(const std::string& id) override;
+    std::optional<Record> claim(const std::string& id) override;
+    std::vector<Saved> save(std::span<const Saving> savings) override;
+    void touch(std::span<const std::string> ids) override;
+    std::size_t expire(Milliseconds age) override;
+    std::vector<std::string> pulse() override { return {}; }
+    std::size_t size() const override { return kept_.size(); }
 
   private:
     struct Kept {
-        std::string token;
-        std::optional<session::Session> value;  // none while in use
-        Time closed;
+        std::string token, whole, head;
+        std::map<std::string, std::string> polytopes;
+        Fence fence = 0;
+        Clock::time_point touched;
     };
 
-    const std::size_t capacity_;
-    mutable std::mutex mutex_;
-    std::map<std::string, Kept, std::less<>> kept_;  // guarded by mutex_
+    std::map<std::string, Kept> kept_;
 };
 
 }  // namespace oval4d::store

@@ -1,0 +1,152 @@
+"""Sessions that outlive their server: in a file of SQLite, and whatever happens to it."""
+
+import asyncio
+import contextlib
+import random
+import signal
+import sqlite3
+import subprocess
+import time
+
+import pytest
+import websockets
+from harness import DEADLINE, PROGRAM, SLOW, Server
+from wire import Client, turned_away
+
+def opened_by(client):
+    return {"session": client.welcome["session"], "token": client.welcome["token"]}
+
+
+@pytest.fixture(name="path")
+def file_path(tmp_path):
+    return tmp_path / "sessions.sqlite"
+
+
+def on_file(path, statement, *values):
+    """What the statement finds in the file, while no server has it."""
+    with contextlib.closing(sqlite3.connect(path, isolation_level=None)) as file:
+        return file.execute(statement, values).fetchall()
+
+
+def points():
+    return "".join(f"{x} {y} {z} {w}\n" for x in (-1, 1) for y in (-1, 1.5) for z in (-1, 1) for w in (-1, 1.25))
+
+
+async def test_a_session_and_its_polytopes_survive_a_restart(path):
+    with Server("--store", f"sqlite:{path}") as server:
+        async with Client(server) as client:
+            await client.request("load", name="mine", format="points", data=points())
+            await client.request("key", key="t")
+            await client.request("set", polytope="snub 24-cell", color="kind", hidden=[0])
+            await client.request("key", key="r")
+            before = await client.request("get", what="state")
+            keys = opened_by(client)
+    with Server("--store", f"sqlite:{path}") as server:
+        assert server.metric("oval4d_sessions") == 1
+        async with Client(server, **keys) as client:
+            assert {**await client.request("get", what="state"), "id": 0} == {**before, "id": 0}
+            await client.request("undo")
+            await client.request("undo")
+            state = await client.request("get", what="state")
+            assert (state["polytope"]["name"], state["polytope"]["vertices"]) == ("mine", 16)
+            names = [p["name"] for p in (await client.request("get", what="catalogue"))["polytopes"]]
+            assert "mine" in names
+        assert await turned_away(server, keys["session"], token="wrong") == ("bad_token", 4401)
+
+
+async def test_a_file_has_one_server(path):
+    with Server("--store", f"sqlite:{path}"):
+        second = subprocess.run([PROGRAM, "--port", "0", "--store", f"sqlite:{path}"], capture_output=True, text=True,
+                                timeout=DEADLINE, check=False)
+        assert second.returncode == 1
+        assert "in use by another server" in second.stderr
+
+
+@pytest.mark.parametrize("store, says", [
+    ("disk", "a store is memory, sqlite:PATH or redis://host, not 'disk'"),
+    ("redis://host:x", "the port of a Redis is a number from 1 to 65535"),
+    ("sqlite:/proc/nowhere/sessions", "unable to open"),
+])
+def test_a_store_that_cannot_be_is_refused(store, says):
+    refused = subprocess.run([PROGRAM, "--port", "0", "--store", store], capture_output=True, text=True,
+                             timeout=DEADLINE, check=False)
+    assert refused.returncode == 1
+    assert says in refused.stderr
+
+
+async def test_a_record_that_cannot_be_read_is_told_and_left(path):
+    with Server("--store", f"sqlite:{path}") as server:
+        async with Client(server) as client:
+            await client.request("key", key="t")
+            keys = opened_by(client)
+    on_file(path, "UPDATE session SET whole = ?", b"\x82\x07\x00")
+    server = Server("--store", f"sqlite:{path}")
+    try:
+        assert await turned_away(server, **keys) == ("not_found", 4404)
+        assert "session cannot be read" in server.log() and "version 7" in server.log()
+        async with Client(server) as client:  # it serves on
+            await client.request("key", key="t")
+        server.stop()
+    finally:
+        server.kill()
+    assert (b"\x82\x07\x00",) in on_file(path, "SELECT whole FROM session")
+
+
+class Presser:
+    """Presses k and K, each of which adds a step to α or β: so a state's angles tell its revision."""
+
+    def __init__(self):
+        self.keys = {}
+        self.start = None  # steps in the angles of revision 0
+        self.pressed = 0
+        self.done = [(0.0, 0)]  # when which revision was acknowledged
+        self.ending = False
+        self.killed = None  # when the server was
+
+    async def press(self, server):
+        try:
+            async with Client(server, **self.keys) as client:
+                self.keys = opened_by(client)
+                await self.check(client)
+                while True:
+                    done = await client.request("key", key="k" if self.pressed % 2 == 0 else "K")
+                    self.pressed += 1
+                    self.done.append((time.monotonic(), done["revision"]))
+                    await asyncio.sleep(random.random() / 50)
+        except (AssertionError, OSError, websockets.ConnectionClosed):
+            if server.process.poll() is None and not self.ending:
+                raise
+
+    async def check(self, client):
+        state = await client.request("get", what="state")
+        steps = round((state["alpha"] + state["beta"]) / state["step"])
+        if self.start is None:
+            self.start = steps - state["revision"]
+        assert steps - state["revision"] == self.start, "this is a state that never was"
+        if self.killed is not None:
+            safe = max(revision for at, revision in self.done if at < self.killed - 1 * SLOW)
+            assert safe <= state["revision"] <= self.done[-1][1] + 1
+            self.done = [(0.0, state["revision"])]
+
+
+async def test_killed_many_times_under_load(path):
+    """Nothing acknowledged more than a second before is lost, and the file is whole."""
+    pressers = [Presser() for _ in range(12)]
+    for round_ in range(10):
+        server = Server("--store", f"sqlite:{path}")
+        try:
+            tasks = [asyncio.ensure_future(presser.press(server)) for presser in pressers]
+            await asyncio.sleep(random.uniform(0.1, 1.8) * SLOW)
+            for task, presser in zip(tasks, pressers):
+                presser.ending = True
+                assert not task.done(), task.exception()
+            server.process.send_signal(signal.SIGKILL)
+            killed = time.monotonic()
+            await asyncio.gather(*tasks)
+        finally:
+            server.kill()
+        for presser in pressers:
+            presser.killed, presser.ending = killed, False
+        if round_ % 3 == 0:
+            assert on_file(path, "PRAGMA integrity_check") == [("ok",)]
+    assert sum(presser.pressed for presser in pressers) > 100
