@@ -152,7 +152,7 @@ json encoded(const scene::Look& look) {
 }
 
 std::vector<std::uint32_t> kindsIn(const json& value, std::size_t count) {
-    const auto kinds = value.get<std::vector<std::uint32_t>>();
+    auto kinds = value.get<std::vector<std::uint32_t>>();
     const auto unsorted = std::ranges::adjacent_find(kinds, std::greater_equal<>());
     if (unsorted != kinds.end() || (!kinds.empty() && kinds.back() >= count))
         refuse("kinds of cells that are not there");

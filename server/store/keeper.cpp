@@ -72,24 +72,19 @@ void Keeper::know(const std::string& id, Keys keys) {
 }
 
 void Keeper::save(const std::string& id, Session value, Part part, Written written) {
-    bool answered = false, ours = true;
+    bool ours = false;
     {
         const std::lock_guard lock(mutex_);
-        const auto found = held_.find(id);
-        if (found == held_.end()) {
-            ours = false;
-        } else {
+        if (const auto found = held_.find(id); found != held_.end()) {
+            ours = true;
             Held& held = found->second;
             (part == Part::head ? held.head : held.whole) = std::make_shared<const Session>(std::move(value));
             enqueue(id, held);
-            if (trouble_.empty() && written) {
-                held.waiting.push_back(std::move(written));
-                answered = true;
-            }
+            if (trouble_.empty() && written) held.waiting.push_back(std::exchange(written, nullptr));
         }
     }
     wake_.notify_one();
-    if (!answered && written) written(ours);
+    if (written) written(ours);
 }
 
 void Keeper::close(const std::string& id, Session value) {

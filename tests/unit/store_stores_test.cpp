@@ -44,9 +44,9 @@ int freePort() {
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof address;
     auto* const generic = reinterpret_cast<sockaddr*>(&address);
-    bind(socket, generic, size);
-    getsockname(socket, generic, &size);
-    close(socket);
+    (void)bind(socket, generic, size);
+    (void)getsockname(socket, generic, &size);
+    (void)close(socket);
     return ntohs(address.sin_port);
 }
 
@@ -99,13 +99,13 @@ std::unique_ptr<Store> answering(const StoreOptions& options) {
 class AnyStore : public testing::TestWithParam<std::string> {
   protected:
     void SetUp() override {
-        if (GetParam() == "memory") store_ = std::make_unique<MemoryStore>();
-        if (GetParam() == "sqlite") store_ = std::make_unique<SqliteStore>(folder_.path / "sessions.sqlite");
+        if (GetParam() == "memory") store = std::make_unique<MemoryStore>();
+        if (GetParam() == "sqlite") store = std::make_unique<SqliteStore>(folder.path / "sessions.sqlite");
         if (GetParam() == "redis") {
-            redis_ = std::make_unique<Redis>(freePort());
-            store_ = answering(redis_->options());
+            redis = std::make_unique<Redis>(freePort());
+            store = answering(redis->options());
         }
-        ASSERT_TRUE(store_) << "is redis-server installed?";
+        ASSERT_TRUE(store) << "is redis-server installed?";
     }
 
     Saving whole(Fence fence, const std::string& bytes, const std::string& id = "one") const {
@@ -114,58 +114,58 @@ class AnyStore : public testing::TestWithParam<std::string> {
     Saving head(Fence fence, const std::string& bytes) const {
         return {{"one", "secret of one"}, fence, bytes, "", {}, {}, false};
     }
-    Saved save(const Saving& saving) { return store_->save({&saving, 1}).at(0); }
+    Saved save(const Saving& saving) { return store->save({&saving, 1}).at(0); }
 
-    Folder folder_;
-    std::unique_ptr<Redis> redis_;
-    std::unique_ptr<Store> store_;
+    Folder folder;
+    std::unique_ptr<Redis> redis;
+    std::unique_ptr<Store> store;
 };
 
 INSTANTIATE_TEST_SUITE_P(Stores, AnyStore, testing::Values("memory", "sqlite", "redis"),
-                         [](const auto& store) { return store.param; });
+                         [](const auto& kind) { return kind.param; });
 
 // All bytes occur in records.
 const std::string kBytes("a\0b\r\n\xff", 6);
 
 TEST_P(AnyStore, GivesBackWhatItKept) {
-    EXPECT_FALSE(store_->token("one"));
-    EXPECT_FALSE(store_->claim("one"));
+    EXPECT_FALSE(store->token("one"));
+    EXPECT_FALSE(store->claim("one"));
     EXPECT_EQ(save(whole(1, kBytes)), Saved::yes);
-    EXPECT_EQ(store_->token("one"), "secret of one");
-    auto record = store_->claim("one");
+    EXPECT_EQ(store->token("one"), "secret of one");
+    auto record = store->claim("one");
     ASSERT_TRUE(record);
     EXPECT_EQ(record->whole, kBytes);
     EXPECT_EQ(record->head, "");
     EXPECT_EQ(record->fence, 2U);
     EXPECT_EQ(save(head(2, "newer")), Saved::yes);
-    record = store_->claim("one");
+    record = store->claim("one");
     EXPECT_EQ(record->whole + "|" + record->head, kBytes + "|newer");
     EXPECT_EQ(save(whole(3, "newest")), Saved::yes);
-    record = store_->claim("one");
+    record = store->claim("one");
     EXPECT_EQ(record->whole + "|" + record->head, "newest|") << "the head is forgotten";
-    store_->pulse();
-    EXPECT_EQ(store_->size(), 1U);
+    store->pulse();
+    EXPECT_EQ(store->size(), 1U);
 }
 
 TEST_P(AnyStore, RefusesWhoWasOvertaken) {
     EXPECT_EQ(save(whole(1, "first")), Saved::yes);
-    EXPECT_EQ(store_->claim("one")->fence, 2U);
+    EXPECT_EQ(store->claim("one")->fence, 2U);
     EXPECT_EQ(save(whole(1, "late")), Saved::taken);
     EXPECT_EQ(save(head(1, "late")), Saved::taken);
     EXPECT_EQ(save(head(2, "in time")), Saved::yes);
-    const auto record = store_->claim("one");
+    const auto record = store->claim("one");
     EXPECT_EQ(record->whole + record->head, "firstin time");
 }
 
 TEST_P(AnyStore, ASavingOfManyAnswersForEach) {
     EXPECT_EQ(save(whole(1, "a")), Saved::yes);
-    store_->claim("one");
+    store->claim("one");
     Saving headless = head(1, "x");
     headless.ticket.id = "three";
     const std::vector<Saving> savings{whole(1, "late"), whole(1, "b", "two"), headless};
-    EXPECT_EQ(store_->save(savings), (std::vector{Saved::taken, Saved::yes, Saved::missing}));
-    EXPECT_EQ(store_->claim("two")->whole, "b");
-    EXPECT_FALSE(store_->claim("three"));
+    EXPECT_EQ(store->save(savings), (std::vector{Saved::taken, Saved::yes, Saved::missing}));
+    EXPECT_EQ(store->claim("two")->whole, "b");
+    EXPECT_FALSE(store->claim("three"));
 }
 
 TEST_P(AnyStore, KeepsPolytopesBesideTheirSession) {
@@ -173,15 +173,15 @@ TEST_P(AnyStore, KeepsPolytopesBesideTheirSession) {
     saving.polytopes = {{"p", kBytes}, {"q", "bytes of q"}};
     EXPECT_EQ(save(saving), Saved::yes);
     EXPECT_EQ(save(whole(1, "other", "two")), Saved::yes);
-    auto polytopes = store_->claim("one")->polytopes;
+    auto polytopes = store->claim("one")->polytopes;
     std::ranges::sort(polytopes);
     EXPECT_EQ(polytopes, saving.polytopes);
-    EXPECT_TRUE(store_->claim("two")->polytopes.empty());
+    EXPECT_TRUE(store->claim("two")->polytopes.empty());
     saving = whole(2, "s");
     saving.polytopes = {{"r", "bytes of r"}};
     saving.dropped = {"p", "q"};
     EXPECT_EQ(save(saving), Saved::yes);
-    EXPECT_EQ(store_->claim("one")->polytopes, saving.polytopes);
+    EXPECT_EQ(store->claim("one")->polytopes, saving.polytopes);
 }
 
 TEST_P(AnyStore, ForgetsWhatNobodyTouched) {
@@ -190,13 +190,13 @@ TEST_P(AnyStore, ForgetsWhatNobodyTouched) {
     for (int i = 0; i < 6; ++i) {
         std::this_thread::sleep_for(100ms);
         const std::vector<std::string> open{"two"};
-        store_->touch(open);
-        store_->expire(300ms);
+        store->touch(open);
+        store->expire(300ms);
     }
-    EXPECT_FALSE(store_->token("one"));
-    EXPECT_TRUE(store_->token("two"));
-    store_->pulse();
-    EXPECT_EQ(store_->size(), 1U);
+    EXPECT_FALSE(store->token("one"));
+    EXPECT_TRUE(store->token("two"));
+    store->pulse();
+    EXPECT_EQ(store->size(), 1U);
 }
 
 TEST(SqliteStore, OutlivesItsServer) {
