@@ -15,6 +15,8 @@ import array
 import asyncio
 import itertools
 import json
+import random
+import re
 import struct
 import threading
 import time
@@ -29,6 +31,7 @@ except ImportError:
 
 SUBPROTOCOL = "oval4d.v1"
 PNG = b"\x89PNG\r\n\x1a\n"
+COME_BACK = {None, 1001, 1006, 1012, 1013}  # ends of a connection after which the session goes on
 
 
 class Refused(Exception):
@@ -64,11 +67,20 @@ def socket_url(url, session=None):
 
 class Client:
     """One connection. `timeout` (seconds) is for every call; `show` says whether pictures that arrive are
-    acknowledged at once, as a client does that presents them."""
+    acknowledged at once, as a client does that presents them.
+
+    A connection that breaks, or that a server ends because it stops, is made again, at once and then with growing
+    pauses, for `timeout` seconds; calls wait meanwhile. Of a call that was under way nobody knows whether it was carried
+    out: it raises Closed."""
 
     def __init__(self, url, timeout=30, show=True, headers=None):
         self.timeout = timeout
         self.show = show
+        self._url = url
+        self._headers = headers
+        self._hello = {}
+        self._away = False  # the connection is being made again
+        self._leaving = False
         self.welcome = None  # the newest message of each kind
         self.newest_state = None
         self.newest_slices = None
@@ -166,6 +178,7 @@ class Client:
         """Sends a message with an id and returns its answer; raises Refused if that is an error."""
         if type == "hello":
             self._stream = members.get("stream", "none")
+            self._hello = members
         number = next(self._ids)
         with self._change:
             self._waiting[number] = None
@@ -179,6 +192,8 @@ class Client:
             with self._change:
                 del self._waiting[number]
                 self._wants_bytes.discard(number)
+        if isinstance(answer, Closed):
+            raise answer
         if isinstance(answer, dict) and answer["type"] == "error":
             raise Refused(answer["code"], answer["message"])
         return answer
@@ -187,12 +202,14 @@ class Client:
         """Sends a message as it is: an object, text, or bytes."""
         if isinstance(message, dict):
             message = json.dumps(message)
+        self._wait_for(lambda: not self._away, None, "the server")
         try:
             self._run(self._socket.send(message))
         except websockets.ConnectionClosed:
-            self._wait_for(lambda: False, None, "")  # raises Closed, with the code
+            raise Closed(self._socket.close_code, self._socket.close_reason or "") from None
 
     def close(self):
+        self._leaving = True
         if self._loop.is_running():
             self._run(self._socket.close())
             self._reader.result(self.timeout)
@@ -216,16 +233,49 @@ class Client:
         return await websockets.connect(url, **options)
 
     async def _read(self):
-        try:
-            async for message in self._socket:
-                picture = self._receive(message)
-                if picture is not None and self.show:
-                    await self._socket.send(json.dumps({"type": "shown", "revision": picture}))
-        except websockets.ConnectionClosed:
-            pass
+        while True:
+            try:
+                async for message in self._socket:
+                    picture = self._receive(message)
+                    if picture is not None and self.show:
+                        await self._socket.send(json.dumps({"type": "shown", "revision": picture}))
+            except websockets.ConnectionClosed:
+                pass
+            end = (self._socket.close_code, self._socket.close_reason or "")
+            again = self.welcome is not None and end[0] in COME_BACK and not self._leaving
+            with self._change:
+                for number, answer in self._waiting.items():
+                    self._waiting[number] = answer or Closed(*end)
+                self._away = again
+                self.closed = None if again else end
+                self._change.notify_all()
+            if not again or not await self._return(end):
+                return
+
+    async def _return(self, end):
+        """Opens the session again, on whatever server is there; whether that was to be had."""
+        last = time.monotonic() + self.timeout
+        pause = 0.1
+        parts = urlsplit(self._url)
+        path = re.sub(r"/ws(/[^/]*)?$", "/ws/" + self.welcome["session"], parts.path)
+        url = urlunsplit((parts.scheme, parts.netloc, path, parts.query, ""))
+        while not self._leaving and time.monotonic() < last:
+            await asyncio.sleep(pause * (0.5 + random.random()))
+            pause = min(2 * pause, 5)
+            try:
+                self._socket = await self._open(url, self._headers)
+                await self._socket.send(json.dumps({**self._hello, "type": "hello", "token": self.welcome["token"]}))
+            except (OSError, websockets.WebSocketException, asyncio.TimeoutError):
+                continue
+            with self._change:
+                self._away = False
+                self._change.notify_all()
+            return True
         with self._change:
-            self.closed = (self._socket.close_code, self._socket.close_reason or "")
+            self._away = False
+            self.closed = end
             self._change.notify_all()
+        return False
 
     def _receive(self, data):
         """Takes a message in; returns its revision if it is a picture of the stream."""

@@ -59,7 +59,8 @@ interface Waiting {
 
 const kProtocol = 1;
 const kSubprotocol = `oval4d.v${kProtocol}`;
-const kFirstDelay = 0.5; // seconds, doubled at each failure
+const kAtOnce = 0.1; // seconds: after a connection that was open, another server may be there already
+const kFirstDelay = 0.5; // seconds, doubled at each further failure
 const kLongestDelay = 15;
 const kQuiet = 20; // seconds without a message before the connection is tested
 const kPatience = 8; // seconds within which a test is answered
@@ -267,7 +268,8 @@ export class Client {
         const opened = this.status.kind === "open";
         const reason =
             said || (code === 1012 ? "the server is stopping" : opened ? "the connection broke" : "no answer");
-        const seconds = Math.min(kLongestDelay, kFirstDelay * 2 ** this.failures++) * (0.75 + 0.5 * Math.random());
+        const delay = opened ? kAtOnce : Math.min(kLongestDelay, kFirstDelay * 2 ** this.failures++);
+        const seconds = delay * (0.5 + Math.random()); // not all clients at the same moment
         this.timer = setTimeout(() => this.connect(), seconds * 1000);
         this.report({ kind: "waiting", reason, seconds });
     }

@@ -14,8 +14,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// KEYS: the session, its polytopes. ARGV: this server, expiry in milliseconds, the session's id.
-constexpr const char* kClaim = R"(
+// KEYS: the session, its polytopes. ARGV: this server, expiry in milliseconds, the session's id. A full Redis allows it
+// too: what can be read can be gone on with.
+constexpr const char* kClaim = R"(#!lua flags=allow-oom
 local owner, whole, head = unpack(redis.call('HMGET', KEYS[1], 'owner', 'whole', 'head'))
 if not whole then return false end
 if owner and owner ~= '' and owner ~= ARGV[1] then

@@ -12,7 +12,7 @@ namespace oval4d::store {
 
 /// A session is a hash, and its polytopes are another; both expire by Redis's own clock. What has to happen all at once
 /// (raising the fence with a claim, comparing it with a save) is a script there. A server whose session is claimed by
-/// another finds its id in a list of its own.
+/// another finds its id in a list of its own. Needs Redis 7 or later.
 class RedisStore final : public Store {
   public:
     /// Connects at first use. Throws std::invalid_argument unless `options.place` is

@@ -30,7 +30,9 @@ class Server:
     def __init__(self, *options, **variables):
         self.log_file = tempfile.NamedTemporaryFile(prefix="oval4d-", suffix=".log")
         environment = {name: value for name, value in os.environ.items() if not name.startswith("OVAL4D")}
-        words = [str(PROGRAM), "--port", "0", "--workers", "2", "--io-threads", "2", *map(str, options)]
+        usual = [("--port", 0), ("--workers", 2), ("--io-threads", 2)]
+        words = [word for pair in usual if pair[0] not in options for word in pair]
+        words = [str(PROGRAM), *map(str, words), *map(str, options)]
         self.process = subprocess.Popen(words, env=environment | variables, stderr=self.log_file,
                                         stdin=subprocess.DEVNULL)
         try:

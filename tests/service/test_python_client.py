@@ -7,7 +7,7 @@ import threading
 from pathlib import Path
 
 import pytest
-from harness import DEADLINE
+from harness import DEADLINE, Server
 
 PYTHON = Path(__file__).resolve().parents[2] / "protocol/python"
 sys.path.insert(0, str(PYTHON))
@@ -103,6 +103,21 @@ def test_a_connection_that_ends_says_how(server):
         assert closed.value.code == 4404
     with pytest.raises(OSError):
         connect("http://127.0.0.1:1/", timeout=DEADLINE)
+
+
+def test_comes_back_to_its_session(tmp_path):
+    port = None
+    for round_ in range(3):
+        with Server("--store", f"sqlite:{tmp_path / 'sessions'}", *([] if port is None else ["--port", port])) as server:
+            if port is None:
+                port = server.port
+                oval = connect(server.url, timeout=DEADLINE)
+                session = oval.hello("geometry", encoding="cbor")["session"]
+            assert oval.key("y")["revision"] == round_ + 1
+            assert oval.state()["revision"] == round_ + 1
+            assert oval.wait(round_ + 1)
+            assert oval.welcome["session"] == session
+    oval.close()
 
 
 def test_the_example_makes_its_picture(server, tmp_path):

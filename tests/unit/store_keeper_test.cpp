@@ -77,9 +77,9 @@ class KeeperTest : public testing::Test {
     std::shared_ptr<Reins> reins = std::make_shared<Reins>();
     std::atomic<int> taken = 0, wanted = 0, back = 0;
     Keeper keeper{std::make_unique<ReinedStore>(reins),
-                   {10s, 100},
-                   {[this](const std::string&) { ++taken; }, [this](const std::string&) { ++wanted; },
-                    [this] { ++back; }, [](const char*, double, bool) {}}};
+                  {10s, 100},
+                  {[this](const std::string&) { ++taken; }, [this](const std::string&) { ++wanted; },
+                   [this] { ++back; }, [](const char*, double, bool) {}}};
 };
 
 TEST_F(KeeperTest, WhatIsWrittenIsInTheStore) {

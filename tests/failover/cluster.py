@@ -1,0 +1,96 @@
+"""Several servers, a Redis and an HAProxy on loopback: what docker/compose.yaml runs, without Docker."""
+
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/service"))
+from harness import DEADLINE, Server  # noqa: E402
+
+NOWHERE = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+
+
+def free_port():
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+def until(condition, what):
+    limit = time.monotonic() + DEADLINE
+    while not condition():
+        assert time.monotonic() < limit, f"{what} did not come about in time"
+        time.sleep(0.01)
+
+
+def answers(port):
+    with socket.socket() as one:
+        return one.connect_ex(("127.0.0.1", port)) == 0
+
+
+class Redis:
+    """A redis-server with its data in `folder`; it can be ended, paused and started again."""
+
+    def __init__(self, folder, *options, port=None):
+        self.port = port or free_port()
+        self.words = ["redis-server", "--port", str(self.port), "--bind", "127.0.0.1", "--dir", str(folder), "--save", "",
+                      "--appendonly", "yes", *options]
+        self.process = None
+        self.url = f"redis://127.0.0.1:{self.port}"
+
+    def start(self):
+        self.process = subprocess.Popen(self.words, **NOWHERE)
+        until(lambda: self.ask("PING") == "PONG", "Redis")
+
+    def ask(self, *words):
+        said = subprocess.run(["redis-cli", "-p", str(self.port), *words], capture_output=True, text=True, check=False)
+        return said.stdout.strip()
+
+    def kill(self, number=signal.SIGKILL):
+        if self.process:
+            self.process.send_signal(number)
+        if number not in (signal.SIGSTOP, signal.SIGCONT):
+            self.process.wait()
+
+    def __enter__(self):
+        self.start()
+        return self
+
+    def __exit__(self, *_):
+        self.kill()
+
+
+class Proxy:
+    """HAProxy with docker/haproxy.cfg, but for where the servers are."""
+
+    def __init__(self, folder, servers):
+        self.host, self.port = "127.0.0.1", free_port()
+        text = (ROOT / "docker/haproxy.cfg").read_text(encoding="utf-8")
+        text = text.replace("bind :8080", f"bind 127.0.0.1:{self.port}")
+        text = re.sub(r"resolvers names\n(    .*\n)+", "", text)
+        here = "\n    ".join(f"server oval4d{i} 127.0.0.1:{port}" for i, port in enumerate(servers, 1))
+        text, replaced = re.subn(r"server-template .*", here, text)
+        assert replaced == 2
+        path = folder / "haproxy.cfg"
+        path.write_text(text, encoding="utf-8")
+        subprocess.run(["haproxy", "-c", "-f", path], check=True, **NOWHERE)
+        self.process = subprocess.Popen(["haproxy", "-db", "-f", path], **NOWHERE)
+        until(lambda: answers(self.port), "HAProxy")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+        self.process.wait()
+
+
+def server(redis, port, *options):
+    return Server("--port", port, "--store", redis.url, "--log-level", "debug" if os.environ.get("DEBUG") else "info",
+                  "--workers", "1", *options)
