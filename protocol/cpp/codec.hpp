@@ -30,6 +30,8 @@ std::variant<Request, BadRequest> parseRequest(std::string_view text, int maxDep
 
 /// The `state` message of the session's present; the same text is embedded in frames.
 std::string stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id = {});
+/// The same; overwrites `out`, reusing its memory.
+void stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id, std::string& out);
 
 /// Restores a state from a `state` message, as found in a frame's iTXt chunk: the Set that brings it about.
 Result<Set> setFromState(std::string_view text);

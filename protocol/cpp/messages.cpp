@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/catalogue.hpp"
+#include "geometry/kinds.hpp"
 #include "protocol/cpp/codec.hpp"
 #include "protocol/cpp/embedded.hpp"
 #include "protocol/cpp/writer.hpp"
@@ -38,16 +39,15 @@ void writePolytope(JsonWriter& w, const geometry::Polytope& polytope) {
     w.beginObject();
     w.member("name", std::string_view(polytope.name));
     writeCounts(w, countsOf(polytope));
-    std::vector<std::uint64_t> cells(polytope.kinds.size());
-    for (const std::uint32_t kind : polytope.cellKinds) ++cells[kind];
-    const std::vector<scene::Colour> colours = scene::kindColours(cells.size());
+    std::array<std::uint64_t, geometry::kMaxKinds> cells{};
+    for (const std::uint32_t kind : polytope.cellKinds) ++cells.at(kind);
     w.key("kinds");
     w.beginArray();
-    for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (std::size_t i = 0; i < polytope.kinds.size(); ++i) {
         w.beginObject();
         w.member("name", std::string_view(polytope.kinds[i]));
-        w.member("cells", cells[i]);
-        w.member("color", colours[i]);
+        w.member("cells", cells.at(i));
+        w.member("color", scene::kindColour(i, polytope.kinds.size()));
         w.endObject();
     }
     w.endArray();
@@ -84,48 +84,50 @@ void writeLast(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
 
 }  // namespace
 
+void stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id, std::string& out) {
+    JsonWriter w(out);
+    begin(w, "state", id);
+    w.member("revision", revision);
+    writePolytope(w, *state.polytope);
+    writeMatrix(w, state.orientation.matrix());
+    w.member("alpha", state.alpha);
+    w.member("beta", state.beta);
+    w.member("step", state.step);
+    w.key("slices");
+    w.beginObject();
+    w.member("count", state.slices.count);
+    w.member("spacing", state.slices.spacing);
+    w.member("focus", state.slices.focus);
+    w.endObject();
+    w.member("view", state.look.view == scene::View::single ? "single" : "oval");
+    w.member("turning", state.turning);
+    w.key("shown");
+    w.beginObject();
+    w.member("faces", state.look.parts.faces);
+    w.member("bars", state.look.parts.bars);
+    w.member("balls", state.look.parts.balls);
+    w.member("coordinates", state.look.parts.coordinates);
+    w.endObject();
+    w.key("camera");
+    w.beginObject();
+    w.member("azimuth", state.look.orbit.azimuth);
+    w.member("elevation", state.look.orbit.elevation);
+    w.member("zoom", state.look.orbit.zoom);
+    w.endObject();
+    w.member("color", wireName(state.look.colouring));
+    w.key("hidden");
+    w.numbers(state.look.kinds.hidden);
+    w.key("faded");
+    w.numbers(state.look.kinds.faded);
+    writeLast(w, state.last);
+    w.endObject();
+}
+
 std::string stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id) {
     constexpr std::size_t kUsual = 1024;
     std::string out;
     out.reserve(kUsual);
-    {
-        JsonWriter w(out);
-        begin(w, "state", id);
-        w.member("revision", revision);
-        writePolytope(w, *state.polytope);
-        writeMatrix(w, state.orientation.matrix());
-        w.member("alpha", state.alpha);
-        w.member("beta", state.beta);
-        w.member("step", state.step);
-        w.key("slices");
-        w.beginObject();
-        w.member("count", state.slices.count);
-        w.member("spacing", state.slices.spacing);
-        w.member("focus", state.slices.focus);
-        w.endObject();
-        w.member("view", state.look.view == scene::View::single ? "single" : "oval");
-        w.member("turning", state.turning);
-        w.key("shown");
-        w.beginObject();
-        w.member("faces", state.look.parts.faces);
-        w.member("bars", state.look.parts.bars);
-        w.member("balls", state.look.parts.balls);
-        w.member("coordinates", state.look.parts.coordinates);
-        w.endObject();
-        w.key("camera");
-        w.beginObject();
-        w.member("azimuth", state.look.orbit.azimuth);
-        w.member("elevation", state.look.orbit.elevation);
-        w.member("zoom", state.look.orbit.zoom);
-        w.endObject();
-        w.member("color", wireName(state.look.colouring));
-        w.key("hidden");
-        w.numbers(state.look.kinds.hidden);
-        w.key("faded");
-        w.numbers(state.look.kinds.faded);
-        writeLast(w, state.last);
-        w.endObject();
-    }
+    stateMessage(state, revision, id, out);
     return out;
 }
 

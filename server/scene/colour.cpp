@@ -74,7 +74,9 @@ void paintByCell(const geometry::Polytope& polytope, std::vector<Colour>& out) {
 }
 
 void paintByKind(const geometry::Polytope& polytope, std::vector<Colour>& out) {
-    const std::vector<Colour> kinds = kindColours(std::max<std::size_t>(polytope.kinds.size(), 1));
+    std::vector<Colour> kinds;
+    for (std::size_t k = 0; k < std::max<std::size_t>(polytope.kinds.size(), 1); ++k)
+        kinds.push_back(kindColour(k, polytope.kinds.size()));
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = kinds[polytope.cellKinds[c]];
 }
 
@@ -94,11 +96,7 @@ Scale divergingScale() {
 
 }  // namespace
 
-std::vector<Colour> kindColours(std::size_t count) {
-    std::vector<Colour> colours(count);
-    for (std::size_t k = 0; k < count; ++k) colours[k] = distinct(k, count);
-    return colours;
-}
+Colour kindColour(std::size_t kind, std::size_t count) { return distinct(kind, count); }
 
 void CellColours::paint(const geometry::Polytope& polytope, Colouring colouring, const geometry::Rotation& orientation,
                         std::vector<Colour>& out) {

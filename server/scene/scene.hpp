@@ -117,8 +117,8 @@ struct AxesLayout {
     double x = 0, y = 0, length = 0;
 };
 
-/// The colours of so many kinds of cells, where colours tell the kind.
-std::vector<Colour> kindColours(std::size_t count);
+/// The colour of a kind of cells, where colours tell the kind, of so many.
+Colour kindColour(std::size_t kind, std::size_t count);
 
 /// Paints the cells; keeps between calls what does not turn with the polytope.
 class CellColours {

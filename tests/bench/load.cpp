@@ -1,5 +1,6 @@
 // How a running server bears up: key-to-picture latency, many sessions, a flood of keys, a client that never reads.
-//   oval4d --port 8080 --max-requests 1000000 &  load [port] [seconds]
+// Prints a line of JSON for each.
+//   oval4d --port 8080 --max-requests 1000000 --session-expiry 2 &  bench_load [port] [seconds]
 
 #include <algorithm>
 #include <boost/asio/co_spawn.hpp>
@@ -46,17 +47,30 @@ class Stage {
     std::exception_ptr fault_;
 };
 
-void head() { std::printf("%-58s %9s %9s %9s %9s\n", "", "pictures", "median ms", "p99 ms", "worst ms"); }
+void say(const std::string& what, const std::string& members) {
+    std::printf(R"({"what":"%s",%s})"
+                "\n",
+                what.c_str(), members.c_str());
+    std::fflush(stdout);
+}
+
+template <typename... Numbers>
+std::string text(const char* format, Numbers... numbers) {
+    char line[200];
+    std::snprintf(line, sizeof line, format, numbers...);
+    return line;
+}
 
 void row(const std::string& what, Latencies latencies) {
     std::ranges::sort(latencies);
     const auto at = [&latencies](double part) {
         return latencies.empty() ? 0 : 1e3 * latencies[static_cast<std::size_t>(part * double(latencies.size() - 1))];
     };
-    std::printf("%-58s %9zu %9.2f %9.2f %9.2f\n", what.c_str(), latencies.size(), at(0.5), at(0.99), at(1));
-    std::fflush(stdout);
+    say(what,
+        text(R"("pictures":%zu,"median":%.3f,"p99":%.3f,"worst":%.3f)", latencies.size(), at(0.5), at(0.99), at(1)));
 }
 
+std::string helloFor(const std::string& stream) { return R"({"type":"hello","stream":")" + stream + "\"}"; }
 std::string setPolytope(const std::string& name) { return R"({"type":"set","polytope":")" + name + "\"}"; }
 
 /// One client presses a key, waits for the picture, and presses the next.
@@ -80,7 +94,7 @@ asio::awaitable<void> pressing(Stage& stage, Endpoint server, std::string hello,
 /// One of many clients, at ten keys a second by the clock: a late picture makes the next key late, and that counts.
 asio::awaitable<void> typing(Stage& stage, Endpoint server, int number, double seconds, Latencies& latencies) {
     Client client(stage.io, server);
-    co_await client.open(R"({"type":"hello","stream":"geometry"})", true);
+    co_await client.open(helloFor("geometry"), true);
     asio::steady_timer timer(stage.io);
     auto due = Clock::now() + std::chrono::milliseconds(500 + number * 37 % 100);
     for (int i = 0; i < int(seconds * 10); ++i, due += std::chrono::milliseconds(100)) {
@@ -92,24 +106,24 @@ asio::awaitable<void> typing(Stage& stage, Endpoint server, int number, double s
     co_await client.close();
 }
 
-asio::awaitable<void> flooding(Stage& stage, Endpoint server, std::string hello, int keys) {
+asio::awaitable<void> flooding(Stage& stage, Endpoint server, std::string stream, int keys) {
     Client client(stage.io, server);
-    co_await client.open(hello, true);
+    co_await client.open(helloFor(stream), true);
     const std::uint64_t before = client.pictures();
     const auto start = Clock::now();
     for (int i = 0; i < keys; ++i) co_await client.send(R"({"type":"key","key":"y"})");
     const double sent = since(start);
     co_await client.picture(static_cast<std::uint64_t>(keys));
-    std::printf("%-58s %9llu   sent in %.0f ms, the newest seen after %.0f ms\n",
-                ("flood of " + std::to_string(keys) + " keys").c_str(),
-                static_cast<unsigned long long>(client.pictures() - before), 1e3 * sent, 1e3 * since(start));
+    say("flood of " + std::to_string(keys) + " keys, " + stream,
+        text(R"("pictures":%llu,"sent":%.1f,"seen":%.1f)", static_cast<unsigned long long>(client.pictures() - before),
+             1e3 * sent, 1e3 * since(start)));
     co_await client.close();
 }
 
 /// Asks for much and never reads, until the server is through with it.
 asio::awaitable<void> neverReading(Stage& stage, Endpoint server, double seconds) {
     Client client(stage.io, server);
-    co_await client.open(R"({"type":"hello","stream":"frames"})", false);
+    co_await client.open(helloFor("frames"), false);
     co_await client.send(setPolytope("600-cell"));
     for (int i = 0; i < 50; ++i) co_await client.send(R"({"type":"get","what":"slices"})");
     asio::steady_timer timer(stage.io,
@@ -124,7 +138,7 @@ asio::awaitable<void> memory(Stage& stage, Endpoint server, double& megabytes) {
     megabytes = at == std::string::npos ? 0 : std::atof(text.c_str() + at + std::string(kName).size()) / 1e6;
 }
 
-asio::awaitable<void> opening(Client& client) { co_await client.open(R"({"type":"hello","stream":"geometry"})", true); }
+asio::awaitable<void> opening(Client& client) { co_await client.open(helloFor("geometry"), true); }
 
 double memoryOf(Stage& stage, Endpoint server) {
     double megabytes = 0;
@@ -156,9 +170,24 @@ void besideOneThatNeverReads(Endpoint server, double seconds) {
     Stage stage;
     Latencies latencies;
     stage.spawn(neverReading(stage, server, seconds));
-    stage.spawn(pressing(stage, server, R"({"type":"hello","stream":"geometry"})", "5-cell", seconds, latencies));
+    stage.spawn(pressing(stage, server, helloFor("geometry"), "5-cell", seconds, latencies));
     stage.run();
     row("slices of the 5-cell, beside a client that never reads", latencies);
+}
+
+/// A session with the 5-cell beside others with a large polytope, each as fast as it can.
+void besideLargeOnes(Endpoint server, const std::string& stream, int others, double seconds) {
+    Stage stage;
+    Latencies latencies;
+    std::vector<Latencies> large(static_cast<std::size_t>(others));
+    for (Latencies& each : large)
+        stage.spawn(pressing(stage, server, helloFor(stream), "omnitruncated 120-cell", seconds + 1, each));
+    stage.spawn(pressing(stage, server, helloFor(stream), "5-cell", seconds, latencies));
+    stage.run();
+    row(stream + " of the 5-cell, beside " + std::to_string(others) + " of the omnitruncated 120-cell", latencies);
+    Latencies all;
+    for (const Latencies& each : large) all.insert(all.end(), each.begin(), each.end());
+    row("those " + std::to_string(others), all);
 }
 
 void idle(Endpoint server, int count) {
@@ -172,7 +201,7 @@ void idle(Endpoint server, int count) {
     }
     stage.run();
     const double with = memoryOf(stage, server);
-    std::printf("%d idle sessions: %.0f MB more than the %.0f MB before\n", count, with - before, before);
+    say(std::to_string(count) + " idle sessions", text(R"("before":%.1f,"more":%.1f)", before, with - before));
 }
 
 }  // namespace
@@ -181,28 +210,29 @@ int main(int argc, char** argv) {
     const auto port = static_cast<std::uint16_t>(argc > 1 ? std::atoi(argv[1]) : 8080);
     const double seconds = argc > 2 ? std::atof(argv[2]) : 5;
     const Endpoint server(asio::ip::make_address("127.0.0.1"), port);
-    const std::string frames = R"({"type":"hello","stream":"frames"})",
-                      json = R"({"type":"hello","stream":"geometry"})",
-                      cbor = R"({"type":"hello","stream":"geometry","encoding":"cbor"})";
-    std::printf("%u cores, 1280×720, 21 slices\n", std::thread::hardware_concurrency());
-    head();
+    const std::string cbor = R"({"type":"hello","stream":"geometry","encoding":"cbor"})";
     try {
+        // First, while the server's memory is that of a fresh one.
+        idle(server, 1000);
         for (const char* polytope : {"5-cell", "600-cell"}) {
             const std::string name = polytope;
-            pressKeys(server, "key to frame, " + name, frames, name, seconds);
-            pressKeys(server, "key to slices as JSON, " + name, json, name, seconds);
+            pressKeys(server, "key to frame, " + name, helloFor("frames"), name, seconds);
+            pressKeys(server, "key to slices as JSON, " + name, helloFor("geometry"), name, seconds);
             pressKeys(server, "key to slices as CBOR, " + name, cbor, name, seconds);
         }
         manySessions(server, 200, seconds);
         besideOneThatNeverReads(server, seconds);
-        Stage stage;
-        for (const std::string& hello : {frames, json}) {
-            stage.spawn(flooding(stage, server, hello, 1000));
+        for (const char* stream : {"frames", "geometry"}) {
+            besideLargeOnes(server, stream, 4, seconds);
+            Stage stage;
+            stage.spawn(flooding(stage, server, stream, 1000));
             stage.run();
         }
-        idle(server, 1000);
+        std::this_thread::sleep_for(std::chrono::seconds(4));  // the sessions of clients that left are forgotten
+        Stage stage;
+        say("memory after all that", text(R"("after":%.1f)", memoryOf(stage, server)));
     } catch (const std::exception& fault) {
-        std::fprintf(stderr, "load: %s\n", fault.what());
+        std::fprintf(stderr, "bench_load: %s\n", fault.what());
         return 1;
     }
 }

@@ -53,7 +53,7 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
     EXPECT_EQ(message.at("revision"), 7);
     json polytope = json::parse(R"({"name":"5-cell","vertices":5,"edges":10,"faces":10,"cells":5,
                               "kinds":[{"name":"tetrahedron","cells":5}]})");
-    polytope["kinds"][0]["color"] = scene::kindColours(1)[0];
+    polytope["kinds"][0]["color"] = scene::kindColour(0, 1);
     EXPECT_EQ(message.at("polytope"), polytope);
     EXPECT_EQ(message.at("orientation").at(0).at(3), session.now.orientation.matrix()[3][0]) << "rows";
     EXPECT_EQ(message.at("alpha"), std::numbers::pi / 36);

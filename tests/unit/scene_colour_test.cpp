@@ -57,7 +57,8 @@ TEST(CellColours, ByKindAreOneForEachKind) {
     for (std::size_t c = 0; c < colours.size(); ++c) pairs.emplace(polytope.cellKinds[c], colours[c]);
     ASSERT_EQ(pairs.size(), 2U);
     EXPECT_NE(pairs.begin()->second, pairs.rbegin()->second);
-    EXPECT_EQ(scene::kindColours(2), (std::vector<Colour>{pairs.begin()->second, pairs.rbegin()->second}));
+    EXPECT_EQ(scene::kindColour(0, 2), pairs.begin()->second);
+    EXPECT_EQ(scene::kindColour(1, 2), pairs.rbegin()->second);
 }
 
 TEST(CellColours, PlainIsOne) {

@@ -1,14 +1,54 @@
-// How long files take to read: 4OFF of growing size, and hulls of points.
+// How long polytopes take to build, and files to read: 4OFF of growing size, and hulls of points.
 
 #include <benchmark/benchmark.h>
 
+#include <array>
+#include <memory>
 #include <sstream>
 
+#include "geometry/coxeter.hpp"
 #include "geometry/import.hpp"
-#include "path.hpp"
 
 namespace oval4d::bench {
 namespace {
+
+/// Polytopes from the smallest to the largest, each from its Coxeter diagram.
+struct Subject {
+    const char* name;
+    int p, q, r;                 ///< {p, q, r}
+    std::array<bool, 4> ringed;  ///< mirrors
+
+    geometry::Diagram diagram() const { return geometry::Diagram::linear({p, 1}, {q, 1}, {r, 1}, ringed); }
+    geometry::Polytope build() const { return geometry::wythoff(name, diagram(), geometry::mirrorsOf(diagram())); }
+};
+constexpr Subject kSubjects[] = {
+    {"5-cell", 3, 3, 3, {true, false, false, false}},
+    {"8-cell", 4, 3, 3, {true, false, false, false}},
+    {"24-cell", 3, 4, 3, {true, false, false, false}},
+    {"omnitruncated 5-cell", 3, 3, 3, {true, true, true, true}},
+    {"120-cell", 5, 3, 3, {true, false, false, false}},
+    {"600-cell", 3, 3, 5, {true, false, false, false}},
+    {"omnitruncated 24-cell", 3, 4, 3, {true, true, true, true}},
+    {"truncated 120-cell", 5, 3, 3, {true, true, false, false}},
+    {"cantitruncated 120-cell", 5, 3, 3, {true, true, true, false}},
+    {"omnitruncated 120-cell", 5, 3, 3, {true, true, true, true}},
+};
+
+/// Built once and kept.
+std::shared_ptr<const geometry::Polytope> subject(std::size_t number) {
+    static std::array<std::shared_ptr<const geometry::Polytope>, std::size(kSubjects)> built;
+    auto& slot = built.at(number);
+    if (!slot) slot = std::make_shared<const geometry::Polytope>(kSubjects[number].build());
+    return slot;
+}
+
+void build(benchmark::State& state) {
+    const Subject& built = kSubjects[state.range(0)];
+    const auto& p = *subject(state.range(0));
+    state.SetLabel(built.name);
+    for (auto _ : state) benchmark::DoNotOptimize(built.build());
+    state.counters["size"] = static_cast<double>(p.vertices.size() + p.edges.size() + p.faces.size() + p.cells.size());
+}
 
 void writePoints(const geometry::Polytope& p, std::ostream& out) {
     out.precision(17);
@@ -59,6 +99,7 @@ void importPoints(benchmark::State& state) {
     read(state, geometry::FileFormat::points, text.str());
 }
 
+BENCHMARK(build)->DenseRange(0, std::ssize(kSubjects) - 1)->Unit(benchmark::kMillisecond);
 BENCHMARK(importOff4)->Arg(0)->Arg(5)->Arg(9)->Unit(benchmark::kMillisecond);
 BENCHMARK(importDuoprism)->Arg(224)->Unit(benchmark::kMillisecond);
 BENCHMARK(importPoints)->Arg(5)->Arg(4)->Arg(7)->Arg(9)->Unit(benchmark::kMillisecond);

@@ -1,0 +1,49 @@
+"""The programs that oval4d is compared with: VTK from Python, and plain JavaScript. Each gives milliseconds."""
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+FOLDER = Path(os.environ.get("OVAL4D_PEERS", ""))
+NAMES = {"5-cell": "5cell", "8-cell": "tesseract", "120-cell": "120cell", "600-cell": "600cell"}
+VTK = {
+    "peeling": ["--glyph", "mesh", "--bars", "glyph", "--blend", "peel"],
+    "fastest": ["--glyph", "impostor", "--bars", "stick", "--blend", "sorted"],
+}
+
+
+def why_no_vtk():
+    """Why VTK cannot be compared with, or None."""
+    if not (FOLDER / "vtk_oval.py").exists():
+        return "vtk_oval.py is not in $OVAL4D_PEERS"
+    if not shutil.which("xvfb-run"):
+        return "xvfb-run is missing (Debian: xvfb, xauth, python3-vtk9, python3-numpy)"
+    if subprocess.run(["/usr/bin/python3", "-c", "import vtk, numpy"], capture_output=True, check=False).returncode:
+        return "python3-vtk9 or python3-numpy is missing"
+    return None
+
+
+def why_no_js():
+    """Why JavaScript cannot be compared with, or None."""
+    if not (FOLDER / "js_slice.mjs").exists():
+        return "js_slice.mjs is not in $OVAL4D_PEERS"
+    return None if shutil.which("node") else "node is missing"
+
+
+def vtk(polytope, way, frames=11):
+    """A whole frame of 21 slices at 1280 × 720: rotate, cut, draw, read back, PNG at level 1."""
+    command = ["xvfb-run", "-a", "-s", "-screen 0 1280x720x24", "/usr/bin/python3", str(FOLDER / "vtk_oval.py"),
+               "--poly", NAMES[polytope], "--slices", "21", "--frames", str(frames), *VTK[way]]
+    done = subprocess.run(command, capture_output=True, text=True, check=True,
+                          env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"})
+    return json.loads(done.stdout.splitlines()[-1])["total1"]
+
+
+def js():
+    """Of each polytope: slicing by 21 hyperplanes, JSON.stringify, bytes of that, and the elements cut."""
+    done = subprocess.run(["node", str(FOLDER / "js_slice.mjs")], capture_output=True, text=True, check=True)
+    runs = [json.loads(line) for line in done.stdout.splitlines()]
+    ours = {theirs: name for name, theirs in NAMES.items()}
+    return {ours[run["poly"]]: run for run in runs if run["slices"] == 21}

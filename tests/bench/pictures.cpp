@@ -1,0 +1,187 @@
+// From a state to its picture, as the service makes it: medians of every step as one line of JSON.
+//   pictures POLYTOPE [SLICES] [WIDTH] [HEIGHT] [FRAMES]
+// The scene is that of the programs it is compared with: hyperplanes from w = −1 to 1 for a circumradius of 4/√10, and
+// double rotations. With FRAMES 0 nothing is drawn.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "allocations.hpp"
+#include "libpng_encoder.hpp"
+#include "picture/painter.hpp"
+#include "protocol/cpp/codec.hpp"
+#include "session/query.hpp"
+
+namespace oval4d::bench {
+namespace {
+
+using nlohmann::json;
+using protocol::Encoding;
+
+struct Job {
+    std::string polytope;
+    int slices = 21;
+    scene::Viewport viewport;
+    int frames = 60;
+};
+
+template <typename Work>
+double secondsOf(Work&& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Times of one thing, done again and again.
+class Samples {
+  public:
+    Samples() { seconds_.reserve(1U << 18U); }  // so that adding allocates nothing
+    void add(double seconds) { seconds_.push_back(seconds); }
+    double milliseconds() {
+        std::sort(seconds_.begin(), seconds_.end());
+        return 1e3 * seconds_[seconds_.size() / 2];
+    }
+
+  private:
+    std::vector<double> seconds_;
+};
+
+class Bench {
+  public:
+    explicit Bench(const Job& job) : job_(job) {
+        const auto state = session::stateFromQuery({{"polytope", job.polytope}, {"slices", std::to_string(job.slices)}},
+                                                   session::Limits{});
+        if (!state) throw std::runtime_error(state.error().message);
+        state_ = *state;
+        state_.slices.spacing = std::sqrt(10.0) / 4 * state_.polytope->circumradius / std::max(1, job.slices / 2);
+    }
+
+    json run() {
+        const geometry::Polytope& p = *state_.polytope;
+        result_ = {{"polytope", p.name},
+                   {"slices", job_.slices},
+                   {"pixels", job_.viewport.width * job_.viewport.height},
+                   {"size", p.vertices.size() + p.edges.size() + p.faces.size() + p.cells.size()}};
+        slices();
+        messages(Encoding::json, "json");
+        messages(Encoding::cbor, "cbor");
+        if (job_.frames > 0) frames();
+        return result_;
+    }
+
+  private:
+    // Calls step(i) after a warm-up, `least` times at least and for a while; notes what was allocated a step.
+    template <typename Step>
+    void repeat(const char* name, int least, Step&& step) {
+        const int warm = std::min(least, 24);
+        constexpr double kWhile = 0.15;
+        Samples unused;
+        int i = 0;
+        while (i < warm) step(i++, unused);
+        Samples whole;
+        const auto before = allocations();
+        const auto start = std::chrono::steady_clock::now();
+        const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start); };
+        while (i < warm + least || passed().count() < kWhile) step(i++, whole);
+        result_["allocations"][name] = static_cast<double>(allocations() - before) / (i - warm);
+        result_["ms"][name] = whole.milliseconds();
+    }
+
+    void cut(int i) {
+        state_.orientation = geometry::Rotation(
+            geometry::Turn{geometry::Plane::xw, 0.3 + i * std::numbers::pi / 97, 0.2 + i * std::numbers::pi / 131});
+        painter_.cut(state_, set_);
+    }
+
+    void slices() {
+        std::size_t vertices = 0, edges = 0, faces = 0, steps = 0;
+        repeat("slice", 50, [&](int i, Samples& whole) {
+            cut(i);
+            whole.add(painter_.times().slice);
+            vertices += set_.vertices.size();
+            edges += set_.edges.size();
+            faces += set_.faceOf.size();
+            ++steps;
+        });
+        result_["cut"] = {vertices / steps, edges / steps, faces / steps};
+    }
+
+    void messages(Encoding encoding, const std::string& name) {
+        Samples write;
+        std::size_t bytes = 0, steps = 0;
+        repeat(("state to " + name).c_str(), 50, [&](int i, Samples& whole) {
+            whole.add(secondsOf([&] {
+                cut(i);
+                painter_.message(state_, set_, 1, {}, job_.viewport, encoding, text_);
+            }));
+            write.add(painter_.times().write);
+            bytes += text_.size();
+            ++steps;
+        });
+        result_["ms"][name] = write.milliseconds();
+        result_["bytes"][name] = bytes / steps;
+    }
+
+    void frames() {
+        Samples compose, draw, encode, libpng;
+        std::size_t ours = 0, theirs = 0, steps = 0;
+        repeat("frame", job_.frames, [&](int i, Samples& whole) {
+            whole.add(secondsOf([&] {
+                cut(i);
+                protocol::stateMessage(state_, 1, {}, text_);
+                painter_.frame(state_, set_, text_, job_.viewport, png_);
+            }));
+            compose.add(painter_.times().compose);
+            draw.add(painter_.times().draw);
+            encode.add(painter_.times().encode);
+        });
+        for (int i = 0; i < std::min(job_.frames, 24); ++i) {
+            cut(5 * i);
+            painter_.frame(state_, set_, {}, job_.viewport, png_);
+            const LibpngFile again = encodeByLibpng(png_);
+            libpng.add(again.seconds);
+            ours += png_.size();
+            theirs += again.bytes;
+            ++steps;
+        }
+        result_["ms"]["compose"] = compose.milliseconds();
+        result_["ms"]["draw"] = draw.milliseconds();
+        result_["ms"]["encode"] = encode.milliseconds();
+        result_["ms"]["libpng"] = libpng.milliseconds();
+        result_["bytes"]["frame"] = ours / steps;
+        result_["bytes"]["libpng"] = theirs / steps;
+    }
+
+    const Job job_;
+    session::State state_ = session::initialState();
+    picture::Painter painter_;
+    geometry::SliceSet set_;
+    std::string text_;
+    std::vector<std::uint8_t> png_;
+    json result_;
+};
+
+}  // namespace
+}  // namespace oval4d::bench
+
+int main(int argc, char** argv) {
+    const auto number = [&](int i, int otherwise) { return argc > i ? std::atoi(argv[i]) : otherwise; };
+    try {
+        const oval4d::bench::Job job{
+            argc > 1 ? argv[1] : "5-cell", number(2, 21), {number(3, 1280), number(4, 720)}, number(5, 60)};
+        std::puts(oval4d::bench::Bench(job).run().dump().c_str());
+    } catch (const std::exception& fault) {
+        std::fprintf(stderr, "pictures: %s\n", fault.what());
+        return 1;
+    }
+}

@@ -1,0 +1,259 @@
+"""Tables of how fast oval4d is: report.py FOLDER-OF-THE-PROGRAMS [targets] [parts] [growth] [polytopes] [load]
+
+Whatever is compared is measured in turns, and what is reported of each turn's ratios is the median: the speed of a
+shared machine changes from minute to minute.
+"""
+
+import json
+import math
+import os
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import peers
+
+PARTS = ("targets", "parts", "growth", "polytopes", "load")
+BIN = Path(sys.argv[1])
+REGULAR = ("5-cell", "8-cell", "120-cell", "600-cell")
+GROWING = ("5-cell", "8-cell", "24-cell", "omnitruncated 5-cell", "120-cell", "600-cell", "omnitruncated 24-cell",
+           "truncated 120-cell", "cantitruncated 120-cell", "omnitruncated 120-cell")
+TURNS = 3
+
+
+def number(value):
+    """Three significant digits."""
+    if value is None:
+        return "—"
+    return f"{value:,.0f}" if abs(value) >= 100 else f"{value:.3g}"
+
+
+def table(head, rows):
+    """Prints a table; all columns but the first are right-aligned."""
+    print(f"\n| {' | '.join(head)} |\n| --- |{' --: |' * (len(head) - 1)}")
+    for row in rows:
+        print(f"| {' | '.join(cell if isinstance(cell, str) else number(cell) for cell in row)} |")
+    sys.stdout.flush()
+
+
+def pictures(polytope, slices=21, width=1280, height=720, frames=40):
+    """What bench_pictures measures."""
+    words = [polytope, slices, width, height, frames]
+    done = subprocess.run([BIN / "bench_pictures", *map(str, words)], capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def exponent(points):
+    """The slope of the least-squares line through (log size, log time)."""
+    xs, ys = [math.log(size) for size, _ in points], [math.log(ms) for _, ms in points]
+    x0, y0 = statistics.mean(xs), statistics.mean(ys)
+    return sum((x - x0) * (y - y0) for x, y in zip(xs, ys)) / sum((x - x0) ** 2 for x in xs)
+
+
+class Server:
+    """A running server that bench_load may press as hard as it can."""
+
+    def __enter__(self):
+        self.log = tempfile.NamedTemporaryFile(prefix="oval4d-", suffix=".log")
+        self.process = subprocess.Popen([BIN / "oval4d", "--port", "0", "--max-requests", "1000000",
+                                         "--session-expiry", "2"], stderr=self.log,
+                                        env={k: v for k, v in os.environ.items() if not k.startswith("OVAL4D")})
+        for _ in range(200):
+            time.sleep(0.05)
+            if found := re.search(r"listening url=\S+:(\d+)", Path(self.log.name).read_text(encoding="utf-8")):
+                self.port = found.group(1)
+                return self
+        raise RuntimeError("the server does not start")
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait()
+        self.log.close()
+
+
+def load(seconds=5):
+    """What bench_load measures, by its name."""
+    with Server() as server:
+        done = subprocess.run([BIN / "bench_load", server.port, str(seconds)], stdout=subprocess.PIPE, text=True,
+                              check=True)
+    return {row["what"]: row for row in map(json.loads, done.stdout.splitlines())}
+
+
+class Turns:
+    """Figures of ours and of others, taken in turns."""
+
+    def __init__(self):
+        self.ours, self.js, self.vtk = [], [], []
+        for _ in range(TURNS):
+            self.js.append({} if peers.why_no_js() else peers.js())
+            self.ours.append({name: pictures(name) for name in REGULAR})
+            self.vtk.append({} if peers.why_no_vtk() else
+                            {(name, way): peers.vtk(name, way) for name in REGULAR for way in peers.VTK})
+
+    def compare(self, ours, theirs):
+        """Medians of ours(turn) and theirs(turn), and of theirs ÷ ours; None where there is nothing to compare with."""
+        pairs = [(ours(i), theirs(i)) for i in range(TURNS)]
+        figure = statistics.median(our for our, _ in pairs)
+        if any(their is None for _, their in pairs):
+            return figure, None, None
+        return (figure, statistics.median(their for _, their in pairs),
+                statistics.median(their / our for our, their in pairs))
+
+    def ms(self, name, step):
+        return lambda i: self.ours[i][name]["ms"][step]
+
+    def bytes(self, name, what):
+        return lambda i: self.ours[i][name]["bytes"][what]
+
+    def js_of(self, name, what):
+        return lambda i: self.js[i].get(name, {}).get(what)
+
+    def vtk_of(self, name, way):
+        return lambda i: self.vtk[i].get((name, way))
+
+
+def targets(turns, loaded):
+    """Each target with figure, peer, ratio."""
+    rows = []
+
+    def row(what, target, figures, reached, unit=" ms"):
+        figure, peer, ratio = figures
+        rows.append([what, target, number(figure) + unit, "—" if peer is None else number(peer) + unit,
+                     number(ratio), "?" if reached is None else "yes" if reached else "**no**"])
+
+    def at_least(what, least, figures, unit=" ms"):
+        row(what, f"≥ {least} ×", figures, None if figures[2] is None else figures[2] >= least, unit)
+
+    def at_most(what, most, figure, unit):
+        row(what, f"≤ {most}{unit}", (figure, None, None), figure <= most, unit)
+
+    for name in REGULAR:
+        for way, least in (("peeling", 10), ("fastest", 5)):
+            at_least(f"whole frame, {name}, against VTK {way}", least,
+                     turns.compare(turns.ms(name, "frame"), turns.vtk_of(name, way)))
+    for name, least in (("5-cell", 18), ("600-cell", 11)):
+        at_least(f"PNG, {name}, against libpng level 1", least,
+                 turns.compare(turns.ms(name, "encode"), turns.ms(name, "libpng")))
+        figure, peer, ratio = turns.compare(turns.bytes(name, "frame"), turns.bytes(name, "libpng"))
+        row(f"PNG, {name}, size", "≤ 1.05 of libpng's", (figure, peer, 1 / ratio), 1 / ratio <= 1.05, " B")
+    for name in REGULAR:
+        at_least(f"slicing, {name}, against JavaScript", 10,
+                 turns.compare(turns.ms(name, "slice"), turns.js_of(name, "slice_ms")))
+    rate = statistics.median(sum(turn["600-cell"]["cut"]) / turn["600-cell"]["ms"]["slice"] / 1e3
+                             for turn in turns.ours)
+    row("slicing, 600-cell, elements a second", "≥ 50 million", (rate, None, None), rate >= 50, " million")
+    for name in REGULAR:
+        at_least(f"slices as JSON, {name}, against JSON.stringify", 10,
+                 turns.compare(turns.ms(name, "json"), turns.js_of(name, "json_ms")))
+        at_least(f"slices as CBOR, {name}, against our JSON", 3,
+                 turns.compare(turns.ms(name, "cbor"), turns.ms(name, "json")))
+        figure, peer, ratio = turns.compare(turns.bytes(name, "cbor"), turns.bytes(name, "json"))
+        row(f"slices as CBOR, {name}, size", "≤ 0.5 of JSON's", (figure, peer, 1 / ratio), 1 / ratio <= 0.5, " B")
+    key = loaded["key to frame, 5-cell"]
+    at_most("key to frame over a socket, 5-cell, median", 8, key["median"], " ms")
+    at_most("the same, 99th percentile in medians", 2, key["p99"] / key["median"], "")
+    at_most("1000 idle sessions", 100, loaded["1000 idle sessions"]["more"], " MB")
+    many = loaded["200 sessions at 10 keys/s, slices of the 5-cell"]
+    at_most("200 sessions at 10 keys/s, 99th percentile", 50, many["p99"], " ms")
+    for what in ("frame", "state to json", "state to cbor"):
+        worst = max(turn[name]["allocations"][what] for turn in turns.ours for name in REGULAR)
+        at_most(f"allocations, {what}", 0, math.floor(worst), "")
+    print("\n## Targets\n\nRatios are how many times faster oval4d is; for sizes, its part of the other's.")
+    table(["", "target", "oval4d", "other", "ratio", "reached"], rows)
+
+
+def parts(turns):
+    """Where the time of a picture goes."""
+    print("\n## Parts\n\n21 slices at 1280 × 720; milliseconds, JavaScript's and VTK's in brackets.")
+    rows = []
+    for name in REGULAR:
+        slicing = turns.compare(turns.ms(name, "slice"), turns.js_of(name, "slice_ms"))
+        text = turns.compare(turns.ms(name, "json"), turns.js_of(name, "json_ms"))
+        png = turns.compare(turns.ms(name, "encode"), turns.ms(name, "libpng"))
+        frame = turns.compare(turns.ms(name, "frame"), turns.vtk_of(name, "fastest"))
+        rows.append([name, *(number(turns.compare(turns.ms(name, step), lambda _: None)[0])
+                             for step in ("compose", "draw")),
+                     *(f"{number(ours)} ({number(theirs)})" for ours, theirs, _ in (slicing, png, text)),
+                     *(number(turns.compare(turns.ms(name, step), lambda _: None)[0])
+                       for step in ("cbor", "state to json", "state to cbor")),
+                     f"{number(frame[0])} ({number(frame[1])})"])
+    table(["", "scene", "render", "slice", "PNG", "JSON", "CBOR", "state to JSON", "state to CBOR", "state to PNG"], rows)
+    cut = turns.ours[0]
+    theirs = turns.js[0]
+    table(["vertices, edges, faces cut", "oval4d", "JavaScript"],
+          [[name, ", ".join(map(number, cut[name]["cut"])),
+            ", ".join(number(theirs[name][kind]) for kind in ("balls", "bars", "faces")) if theirs else "—"]
+           for name in REGULAR])
+
+
+def growth():
+    """How times grow with the polytope, the slices and the pixels."""
+    steps = ("slice", "json", "cbor", "draw", "encode", "frame")
+
+    def grow(title, runs, unit, size):
+        print(f"\n### {title}")
+        table(["", unit, *steps], [[label, size(run), *(run["ms"][step] for step in steps)] for label, run in runs])
+        for step in steps:
+            points = [(size(run), run["ms"][step]) for _, run in runs]
+            print(f"{step} ∝ {unit}^{exponent(points):.2f} (larger half: ^{exponent(points[len(points) // 2:]):.2f})  ")
+
+    print("\n## Growth\n\nMilliseconds.")
+    grow("By the polytope: 21 slices, 1280 × 720", [(name, pictures(name, frames=8)) for name in GROWING],
+         "elements cut", lambda run: sum(run["cut"]))
+    grow("By the number of slices: the 600-cell, 1280 × 720",
+         [(f"{count} slices", pictures("600-cell", count, frames=8)) for count in (1, 3, 11, 21, 51, 101, 201)],
+         "slices", lambda run: run["slices"])
+    for name in ("5-cell", "600-cell"):
+        grow(f"By pixels: the {name}, 21 slices",
+             [(f"{width} × {width * 9 // 16}", pictures(name, 21, width, width * 9 // 16, 8))
+              for width in (256, 640, 1280, 1920, 3840)], "pixels", lambda run: run["pixels"])
+
+
+def polytopes():
+    """Building polytopes and reading files."""
+    done = subprocess.run([BIN / "bench_polytopes", "--benchmark_format=json", "--benchmark_min_time=0.1"],
+                          capture_output=True, text=True, check=True)
+    runs = json.loads(done.stdout)["benchmarks"]
+    print("\n## Polytopes: building and reading")
+    table(["", "elements or bytes", "ms"],
+          [[f"{run['name'].split('/')[0]}: {run['label']}", run.get("size", run.get("bytes")), run["real_time"]]
+           for run in runs])
+    built = [(run["size"], run["real_time"]) for run in runs if run["name"].startswith("build")]
+    print(f"\nbuild ∝ elements^{exponent(built):.2f}")
+
+
+def under_load(loaded):
+    """Latencies and memory of a running server."""
+    print("\n## Load: a server and its clients on one machine\n\nMilliseconds from a key to its picture.")
+    table(["", "pictures", "median", "99th percentile", "worst"],
+          [[what, row["pictures"], row["median"], row["p99"], row["worst"]]
+           for what, row in loaded.items() if "median" in row])
+    floods = [row for row in loaded.values() if "sent" in row]
+    table(["", "pictures made", "sent after", "the newest seen after"],
+          [[row["what"], row["pictures"], row["sent"], row["seen"]] for row in floods])
+    idle, after = loaded["1000 idle sessions"], loaded["memory after all that"]["after"]
+    print(f"\nMemory: {idle['before']:.0f} MB at the start, {idle['more']:.0f} MB more with 1000 idle sessions, "
+          f"{after:.0f} MB when all clients have left.")
+
+
+def main():
+    wanted = sys.argv[2:] or PARTS
+    for name in wanted:
+        if name not in PARTS:
+            sys.exit(f"'{name}' is not one of {', '.join(PARTS)}")
+    for why in filter(None, (peers.why_no_vtk(), peers.why_no_js())):
+        print(f"No comparison: {why}.", file=sys.stderr)
+    print(f"# How fast oval4d is\n\n{os.cpu_count()} cores.")
+    turns = Turns() if {"targets", "parts"} & set(wanted) else None
+    loaded = load() if {"targets", "load"} & set(wanted) else None
+    for name in wanted:
+        {"targets": lambda: targets(turns, loaded), "parts": lambda: parts(turns), "growth": growth,
+         "polytopes": polytopes, "load": lambda: under_load(loaded)}[name]()
+
+
+if __name__ == "__main__":
+    main()
