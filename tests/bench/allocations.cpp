@@ -1,4 +1,5 @@
 // The global operator new, replaced by one that counts.
+// NOLINTBEGIN(cppcoreguidelines-no-malloc): it is made of malloc
 
 #include "allocations.hpp"
 
@@ -31,3 +32,4 @@ void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
+// NOLINTEND(cppcoreguidelines-no-malloc)

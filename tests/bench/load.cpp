@@ -187,7 +187,7 @@ void besideLargeOnes(Endpoint server, const std::string& stream, int others, dou
     row(stream + " of the 5-cell, beside " + std::to_string(others) + " of the omnitruncated 120-cell", latencies);
     Latencies all;
     for (const Latencies& each : large) all.insert(all.end(), each.begin(), each.end());
-    row("those " + std::to_string(others), all);
+    row("those " + std::to_string(others) + ", " + stream, all);
 }
 
 void idle(Endpoint server, int count) {
