@@ -18,7 +18,8 @@ std::size_t bytesOf(const Lists& lists) { return sizeof(std::uint32_t) * (lists.
 std::size_t bytesOf(const Polytope& p) {
     return sizeof p + p.vertices.size() * sizeof p.vertices[0] + p.edges.size() * sizeof p.edges[0] +
            p.faceCells.size() * sizeof p.faceCells[0] + p.cellSigns.size() +
-           p.cellKinds.size() * sizeof p.cellKinds[0] + bytesOf(p.faces) + bytesOf(p.faceEdges) + bytesOf(p.cells);
+           p.cellKinds.size() * sizeof p.cellKinds[0] + bytesOf(p.faces) + bytesOf(p.faceEdges) + bytesOf(p.edgeFaces) +
+           bytesOf(p.cells);
 }
 
 // Every polytope that anyone holds, and the ones used last.

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -231,6 +232,20 @@ void checkIndices(const Lists& lists, std::size_t below, Part owner, const char*
     }
 }
 
+void findFacesAtEdges(Polytope& p) {
+    auto& [begin, items] = p.edgeFaces;
+    begin.assign(p.edges.size() + 1, 0);
+    for (const std::uint32_t e : p.faceEdges.items) ++begin[e + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    items.resize(p.faceEdges.items.size());
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for (std::uint32_t f = 0; f < p.faces.size(); ++f) {
+        for (std::size_t i = 0; i < p.faces[f].size(); ++i) {
+            items[next[p.faceEdges[f][i]]++] = 2 * f + (directionOf(p, f, i) > 0 ? 1 : 0);
+        }
+    }
+}
+
 }  // namespace
 
 Unsound::Unsound(Part element, std::size_t number, const std::string& fault)
@@ -255,6 +270,7 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists 
     checkIndices(p.faces, p.vertices.size(), Part::face, "vertices", 3);
     checkIndices(p.cells, p.faces.size(), Part::cell, "2-faces", 4);
     findEdges(p);
+    findFacesAtEdges(p);
     for (std::size_t f = 0; f < p.faces.size() && p.convexFaces; ++f) p.convexFaces = isConvexLoop(p, p.faces[f]);
     Orienter orient(p);
     numberKinds(p, cellKinds.empty() ? kindsByShape(p) : std::move(cellKinds));

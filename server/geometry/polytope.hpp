@@ -29,14 +29,16 @@ struct Lists {
 /// Vertices, edges, 2-faces and cells, immutable once built. Indices are 0-based and 32 bits wide.
 struct Polytope {
     std::string name;
-    std::vector<glm::dvec4> vertices;                     ///< centred at the origin
-    std::vector<std::array<std::uint32_t, 2>> edges;      ///< pairs of vertices
-    Lists faces;                                          ///< each 2-face as a loop of vertices
-    Lists faceEdges;                                      ///< edge i of a 2-face joins its vertices i and i + 1
-    Lists cells;                                          ///< each cell as its 2-faces
-    std::vector<std::int8_t> cellSigns;                   ///< beside cells.items: +1 where the 2-face's loop runs
-                                                          ///< counter-clockwise seen from outside the cell, else −1;
-                                                          ///< a 2-face has opposite signs in its two cells
+    std::vector<glm::dvec4> vertices;                 ///< centred at the origin
+    std::vector<std::array<std::uint32_t, 2>> edges;  ///< pairs of vertices
+    Lists faces;                                      ///< each 2-face as a loop of vertices
+    Lists faceEdges;                                  ///< edge i of a 2-face joins its vertices i and i + 1
+    Lists edgeFaces;                                  ///< the 2-faces f at each edge, as 2 f + 1 where the loop runs
+                                                      ///< along the edge from its first vertex on, else as 2 f
+    Lists cells;                                      ///< each cell as its 2-faces
+    std::vector<std::int8_t> cellSigns;               ///< beside cells.items: +1 where the 2-face's loop runs
+                                                      ///< counter-clockwise seen from outside the cell, else −1;
+                                                      ///< a 2-face has opposite signs in its two cells
     std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face, the smaller number first
     std::vector<std::uint32_t> cellKinds;                 ///< the kind of each cell, a number into `kinds`
     std::vector<std::string> kinds;                       ///< names of the kinds of cells: "truncated tetrahedron"

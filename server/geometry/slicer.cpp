@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "geometry/ranges.hpp"
+
 // Everything is cut just above each hyperplane, where no vertex lies in the way, and then let down onto it: a point
 // cut from an edge that starts in the hyperplane falls onto that vertex, a line cut from a 2-face that stands on an
 // edge falls onto that edge, and what shrinks to nothing is left out. So the degenerate positions need no cases of
@@ -13,38 +15,16 @@
 
 namespace oval4d::geometry {
 
-namespace {
-
-// Counts one more element in hyperplanes from … to − 1, as differences that `accumulate` sums up.
-void countSpan(std::vector<std::uint32_t>& counts, std::int32_t from, std::int32_t to) {
-    if (to <= from) return;
-    counts[from] += 1;
-    counts[to] -= 1;  // wraps below zero for a while; the sums do not
-}
-
-// Turns the differences into the begin of each slice's range, the total last.
-std::uint32_t accumulate(std::vector<std::uint32_t>& begin) {
-    std::uint32_t total = 0;
-    std::uint32_t here = 0;
-    for (auto& entry : begin) {
-        here += entry;
-        entry = total;
-        total += here;
-    }
-    return begin.back();
-}
-
-}  // namespace
-
 void Slicer::slice(const Polytope& polytope, const Rotation& orientation, const Hyperplanes& planes, SliceSet& out) {
     out.planes = planes;
-    locateVertices(polytope, orientation, out);
+    const bool met = locateVertices(polytope, orientation, out);
+    if (polytope.convex && !met && convexCut_.cut(polytope, below_, out)) return;
     cutEdges(polytope, out);
     cutFaces(polytope, out);
     cutCells(polytope, out);
 }
 
-void Slicer::locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out) {
+bool Slicer::locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out) {
     const auto count = static_cast<double>(out.planes.count);
     const double inverse = 1 / out.planes.spacing;
     const double tolerance = kOnPlane * polytope.circumradius * inverse;
@@ -53,12 +33,17 @@ void Slicer::locateVertices(const Polytope& polytope, const Rotation& orientatio
     out.turned.resize(n);
     below_.resize(n);
     upTo_.resize(n);
+    bool met = false;
     for (std::size_t v = 0; v < n; ++v) {
         out.turned[v] = m * polytope.vertices[v];
         const double level = out.turned[v].w * inverse - out.planes.first;
-        below_[v] = static_cast<std::int32_t>(std::clamp(std::ceil(level - tolerance), 0.0, count));
-        upTo_[v] = static_cast<std::int32_t>(std::clamp(std::floor(level + tolerance) + 1, 0.0, count));
+        const double above = std::clamp(level - tolerance, 0.0, count);
+        const auto whole = static_cast<std::int32_t>(above);
+        below_[v] = whole + (above > whole ? 1 : 0);  // rounded up
+        upTo_[v] = static_cast<std::int32_t>(std::clamp(level + tolerance + 1, 0.0, count));
+        met |= below_[v] != upTo_[v];
     }
+    return met;
 }
 
 // Slice vertices: the polytope's vertices in the hyperplane, and the crossed edges.
@@ -73,7 +58,8 @@ void Slicer::cutEdges(const Polytope& polytope, SliceSet& out) {
         const auto [a, b] = polytope.edges[e];
         slotBegin_[e] = slots;
         slots += std::abs(below_[a] - below_[b]);
-        countSpan(out.vertexBegin, std::min(upTo_[a], upTo_[b]), std::max(below_[a], below_[b]));
+        const std::int32_t from = std::min(upTo_[a], upTo_[b]);
+        countSpan(out.vertexBegin, from, std::max({from, below_[a], below_[b]}));
     }
     const std::uint32_t total = accumulate(out.vertexBegin);
     out.vertices.resize(total);

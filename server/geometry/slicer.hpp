@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "geometry/convex_cut.hpp"
 #include "geometry/polytope.hpp"
 #include "geometry/rotation.hpp"
 
@@ -88,7 +89,8 @@ class Slicer {
         double along;
     };
 
-    void locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out);
+    // Turns the vertices and counts the hyperplanes under each; true if any lies in one.
+    bool locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out);
     void cutEdges(const Polytope& polytope, SliceSet& out);
     void cutFaces(const Polytope& polytope, SliceSet& out);
     void cutConvexFace(const Polytope& polytope, std::uint32_t face, Span above);
@@ -107,6 +109,7 @@ class Slicer {
     void traceCell(const Polytope& polytope, std::uint32_t cell);
     void placeLoops(SliceSet& out);
 
+    ConvexCut convexCut_;
     // Of each vertex: the number of hyperplanes strictly below it, and of those below it or through it. They differ
     // where it lies in a hyperplane: in number below_.
     std::vector<std::int32_t> below_, upTo_;
