@@ -1,6 +1,7 @@
 // A connection to one session, kept alive: it reconnects by itself, comes back to its session by the token, and says
 // at any time how it stands.
 
+import { Arena } from "./arena";
 import { decodeCbor, decodeText, isFile, isPng } from "./decode";
 import type { Catalogue, Done, Encoding, ErrorMessage, FileWish, Keymap, Message, Request } from "./messages";
 import type { Slices, State, Stream, Viewport, Welcome } from "./messages";
@@ -25,6 +26,8 @@ export interface Options {
     viewport?: Viewport;
     /** The session to come back to; else a new one is made. */
     credentials?: Credentials;
+    /** The arrays that `onSlices` is given may be used again for the next message: nothing is allocated for them. */
+    transient?: boolean;
     /** For runtimes without one of their own. */
     webSocket?: new (url: string, protocols: string) => WebSocket;
 
@@ -52,7 +55,7 @@ export class RequestError extends Error {
 }
 
 interface Waiting {
-    wants: "frame" | "file" | "message";
+    wants: "frame" | "file" | "slices" | "message";
     resolve(answer: unknown): void;
     reject(error: RequestError): void;
 }
@@ -78,6 +81,7 @@ export class Client {
     private lastId = 0;
     private failures = 0;
     private timer: ReturnType<typeof setTimeout> | undefined;
+    private readonly arena = new Arena();
     private heldFrame: Uint8Array | undefined;
     private heldFile: Uint8Array | undefined;
 
@@ -141,7 +145,7 @@ export class Client {
                 return;
             }
             const what = message.type === "get" ? message.what : "message";
-            const wants = what === "frame" || what === "file" ? what : "message";
+            const wants = what === "frame" || what === "file" || what === "slices" ? what : "message";
             this.waiting.set(id, { wants, resolve, reject });
             this.send({ ...message, id });
         });
@@ -171,7 +175,8 @@ export class Client {
         if (isFile(bytes)) {
             this.heldFile = bytes; // its `done` follows
         } else if (!isPng(bytes)) {
-            this.handle(decodeCbor(bytes));
+            const keep = !this.options.transient || this.awaits("slices");
+            this.handle(decodeCbor(bytes, keep ? undefined : this.arena));
         } else if (this.awaits("frame")) {
             this.passFrame();
             this.heldFrame = bytes; // whose it is, the next message says

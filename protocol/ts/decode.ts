@@ -1,10 +1,25 @@
 // Bytes and text from the server → messages. JSON and CBOR slices come out alike, in flat typed arrays.
 
-import { Decoder } from "cbor-x/decode-no-eval";
+import { addExtension, Decoder } from "cbor-x/decode-no-eval";
 
+import type { Arena, Numbers } from "./arena";
 import type { Message, Slice, Slices } from "./messages";
 
 const cbor = new Decoder({ mapsAsObjects: true, useRecords: false });
+
+let arena: Arena | undefined; // of the message that is being decoded
+
+/** An array of RFC 8746, little endian: read where it lies if it is aligned, else moved. */
+function readTyped<T>(tag: number, numbers: Numbers<T>): void {
+    const size = numbers.BYTES_PER_ELEMENT;
+    const decode = (bytes: Uint8Array<ArrayBuffer>): T =>
+        bytes.byteOffset % size === 0
+            ? new numbers(bytes.buffer, bytes.byteOffset, bytes.length / size)
+            : (arena?.take(bytes, numbers) ?? new numbers(bytes.slice().buffer, 0, bytes.length / size));
+    addExtension({ tag, decode } as Parameters<typeof addExtension>[0]);
+}
+readTyped(70, Uint32Array);
+readTyped(85, Float32Array);
 
 const kPngSignature = [0x89, 0x50, 0x4e, 0x47];
 
@@ -21,8 +36,15 @@ export function decodeText(text: string): Message {
     return flattened(JSON.parse(text) as Message);
 }
 
-export function decodeCbor(bytes: Uint8Array): Message {
-    return flattened(cbor.decode(bytes) as Message);
+/** With an arena, the arrays are valid until it is used for another message. */
+export function decodeCbor(bytes: Uint8Array, within?: Arena): Message {
+    within?.begin(bytes.length);
+    arena = within;
+    try {
+        return flattened(cbor.decode(bytes) as Message);
+    } finally {
+        arena = undefined;
+    }
 }
 
 /** The text of a PNG file's iTXt chunk with this keyword. */
@@ -50,7 +72,7 @@ type Loose<T> = T | number[] | number[][];
 interface LooseSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" | "tints" | "seen" | "fill"> {
     vertices: Loose<Float32Array>;
     edges: Loose<Uint32Array>;
-    faces: number[][] | { begin: ArrayLike<number>; corners: ArrayLike<number> };
+    faces: number[][] | Slice["faces"];
     of: Record<"vertices" | "edges" | "faces", Loose<Uint32Array>>;
     tints?: Loose<Uint32Array>;
     seen?: Record<"vertices" | "edges" | "faces", Loose<Uint32Array>>;
@@ -108,9 +130,7 @@ function indices(values: Loose<Uint32Array>): Uint32Array {
 }
 
 function loops(faces: LooseSlice["faces"]): Slice["faces"] {
-    if (!Array.isArray(faces)) {
-        return { begin: Uint32Array.from(faces.begin), corners: Uint32Array.from(faces.corners) };
-    }
+    if (!Array.isArray(faces)) return faces;
     const begin = new Uint32Array(faces.length + 1);
     faces.forEach((face, i) => (begin[i + 1] = begin[i]! + face.length));
     return { begin, corners: Uint32Array.from(faces.flat()) };

@@ -180,7 +180,8 @@ asio::awaitable<Reply> HttpSession::answer(const Request& request) {
         if (auto refused = refusal(request, tokenIn(target->query), cookie)) co_return std::move(*refused);
     }
     Routes::Inquiry inquiry{std::string(request.method_string()), std::move(*target),
-                            std::string(field(request, http::field::if_none_match))};
+                            std::string(field(request, http::field::if_none_match)),
+                            std::string(field(request, http::field::accept_encoding))};
     Reply reply = co_await front_.routes.answer(std::move(inquiry));
     if (!cookie.empty()) reply.headers.emplace_back("Set-Cookie", std::move(cookie));
     co_return reply;

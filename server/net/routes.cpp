@@ -137,10 +137,20 @@ std::function<Bytes(picture::Painter&)> frameJob(const Wish& wish, Metrics& metr
     };
 }
 
-Reply fileReply(const WebFile& file, const std::string& known) {
-    const std::vector<std::pair<std::string, std::string>> headers{{"ETag", file.etag}, {"Cache-Control", "no-cache"}};
-    if (known.find(file.etag) != std::string::npos) return {304, "", {}, headers};
-    return {200, file.type, file.bytes, headers};
+/// The page needs nothing but its own files and its own server; pictures to be saved are blobs.
+constexpr const char* kContentPolicy =
+    "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
+
+Reply fileReply(const WebFileForms& file, const Routes::Inquiry& inquiry) {
+    const WebFile& form = file.bestFor(inquiry.acceptEncoding);
+    std::vector<std::pair<std::string, std::string>> headers{{"ETag", form.etag},
+                                                             {"Cache-Control", "no-cache"},
+                                                             {"Vary", "Accept-Encoding"},
+                                                             {"Content-Security-Policy", kContentPolicy}};
+    if (inquiry.ifNoneMatch.find(form.etag) != std::string::npos) return {304, "", {}, headers};
+    if (form.coding != "identity") headers.emplace_back("Content-Encoding", form.coding);
+    return {200, file.type, form.bytes, headers};
 }
 
 }  // namespace
@@ -163,7 +173,7 @@ asio::awaitable<Reply> Routes::answer(Inquiry inquiry) {
     if (path == "/api/v1/keymap") co_return textReply(kJson, protocol::keymapMessage({}));
     if (path == "/api/v1/frame.png") co_return co_await frame(std::move(inquiry.target.query));
     if (const auto format = formatIn(path)) co_return co_await file(std::move(inquiry.target.query), *format);
-    if (const WebFile* file = files_.find(path)) co_return fileReply(*file, inquiry.ifNoneMatch);
+    if (const WebFileForms* file = files_.find(path)) co_return fileReply(*file, inquiry);
     co_return errorReply(nothingAt(path));
 }
 

@@ -37,7 +37,7 @@ class Routes {
     struct Inquiry {
         std::string method;
         Target target;
-        std::string ifNoneMatch;
+        std::string ifNoneMatch, acceptEncoding;
     };
     boost::asio::awaitable<Reply> answer(Inquiry inquiry);
 

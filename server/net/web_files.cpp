@@ -2,8 +2,12 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <array>
+#include <boost/beast/core/string.hpp>
+#include <boost/beast/http/rfc7230.hpp>
 #include <boost/crc.hpp>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <utility>
@@ -11,6 +15,8 @@
 namespace oval4d::net {
 
 namespace {
+
+constexpr std::string_view kIdentity = "identity";
 
 std::string typeOf(const std::filesystem::path& path) {
     static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kTypes{{
@@ -40,23 +46,62 @@ std::string etagOf(const std::string& content) {
     return fmt::format("\"{:016x}\"", crc.checksum());
 }
 
+/// The coding that a name's last part says; empty for a file as it is.
+std::string_view codingOf(const std::filesystem::path& path) {
+    const std::string extension = path.extension().string();
+    return extension == ".br" ? "br" : extension == ".gz" ? "gzip" : "";
+}
+
+WebFile formOf(const std::filesystem::path& path, std::string_view coding) {
+    std::ifstream in(path, std::ios::binary);
+    std::string content{std::istreambuf_iterator<char>(in), {}};
+    std::string etag = etagOf(content);
+    return {Bytes(std::move(content)), std::string(coding), std::move(etag)};
+}
+
+/// How much a coding is wanted, 0 … 1.
+double weightOf(std::string_view coding, std::string_view acceptEncoding) {
+    namespace http = boost::beast::http;
+    const bool identity = coding == kIdentity;
+    double any = identity ? 0.0005 : 0;  // what is not named is refused, but for the file as it is
+    for (const auto& [name, parameters] : http::ext_list({acceptEncoding.data(), acceptEncoding.size()})) {
+        double weight = 1;
+        for (const auto& [key, value] : parameters)
+            if (boost::beast::iequals(key, "q")) weight = std::strtod(std::string(value).c_str(), nullptr);
+        if (boost::beast::iequals(name, boost::beast::string_view(coding.data(), coding.size()))) return weight;
+        if (name == "*" && (!identity || weight == 0)) any = weight;
+    }
+    return any;
+}
+
 }  // namespace
+
+const WebFile& WebFileForms::bestFor(std::string_view acceptEncoding) const {
+    const auto best =
+        std::ranges::max_element(forms, {}, [&](const WebFile& form) { return weightOf(form.coding, acceptEncoding); });
+    if (weightOf(best->coding, acceptEncoding) > 0) return *best;
+    return *std::ranges::find(forms, kIdentity, &WebFile::coding);
+}
 
 WebFiles::WebFiles(const std::filesystem::path& root) {
     namespace fs = std::filesystem;
     std::error_code fault;
     for (const auto& entry : fs::recursive_directory_iterator(root, fault)) {
-        if (!entry.is_regular_file()) continue;
-        std::ifstream in(entry.path(), std::ios::binary);
-        std::string content{std::istreambuf_iterator<char>(in), {}};
-        std::string etag = etagOf(content);
-        files_[fmt::format("/{}", entry.path().lexically_relative(root).generic_string())] =
-            WebFile{Bytes(std::move(content)), typeOf(entry.path()), std::move(etag)};
+        const fs::path& path = entry.path();
+        if (!entry.is_regular_file() || (!codingOf(path).empty() && fs::exists(fs::path(path).replace_extension())))
+            continue;
+        WebFileForms file{typeOf(path), {formOf(path, kIdentity)}};
+        for (const char* extension : {".br", ".gz"}) {
+            const fs::path compressed = fs::path(path) += extension;
+            if (fs::exists(compressed)) file.forms.push_back(formOf(compressed, codingOf(compressed)));
+        }
+        std::ranges::sort(file.forms, {}, [](const WebFile& form) { return form.bytes.size(); });
+        files_[fmt::format("/{}", path.lexically_relative(root).generic_string())] = std::move(file);
     }
     if (find("/") == nullptr) spdlog::warn("no page: there is no index.html folder=\"{}\"", root.string());
 }
 
-const WebFile* WebFiles::find(std::string_view path) const {
+const WebFileForms* WebFiles::find(std::string_view path) const {
     const auto found = files_.find(path == "/" ? std::string_view("/index.html") : path);
     return found == files_.end() ? nullptr : &found->second;
 }

@@ -12,6 +12,7 @@ import "./connection.mjs";
 import "./links.mjs";
 import "./pointer.mjs";
 import "./phone.mjs";
+import "./performance.mjs";
 import "./accessibility.mjs";
 import "./without_webgl.mjs";
 import { runAll } from "./support/suite.mjs";

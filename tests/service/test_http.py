@@ -1,5 +1,6 @@
 """HTTP: the page, the API, the probes, and who may call."""
 
+import gzip
 import json
 
 import pytest
@@ -17,6 +18,21 @@ def a_site(tmp_path_factory):
     (root / "images").mkdir()
     (root / "images" / "icon.svg").write_text("<svg/>")
     (root.parent / "secret.txt").write_text("secret")
+    with Server("--web-root", root) as server:
+        yield server
+
+
+SCRIPT = b"export {};\n" * 20
+
+
+@pytest.fixture(name="packed_site", scope="module")
+def a_packed_site(tmp_path_factory):
+    root = tmp_path_factory.mktemp("packed")
+    (root / "index.html").write_text("<!doctype html><title>page</title>")
+    (root / "app.js").write_bytes(SCRIPT)
+    (root / "app.js.gz").write_bytes(gzip.compress(SCRIPT, mtime=0))
+    (root / "app.js.br").write_bytes(b"brotli")  # the server does not look inside
+    (root / "lone.gz").write_bytes(b"as it is")
     with Server("--web-root", root) as server:
         yield server
 
@@ -41,6 +57,38 @@ def test_a_file_is_sent_again_only_if_it_changed(site):
     assert again.status == 304 and again.body == b"" and again.getheader("ETag") == etag
     assert site.get("/app.js", If_None_Match='"other"').status == 200
     assert site.get("/style.css").getheader("ETag") != etag
+
+
+@pytest.mark.parametrize("accepted, coding", [
+    (None, None), ("", None), ("identity", None), ("deflate, zstd", None), ("gzip", "gzip"), ("GZIP", "gzip"),
+    ("br", "br"), ("gzip, deflate, br, zstd", "br"), ("gzip;q=1.0, br;q=0.5", "gzip"), ("br;q=0, gzip;q=0.1", "gzip"),
+    ("*", "br"), ("*;q=0.3, br;q=0", "gzip"), ("identity, *;q=0", None), ("gzip;q=0", None), (";;,=,q", None),
+])
+def test_a_file_is_sent_in_the_form_that_is_liked_best(packed_site, accepted, coding):
+    headers = {} if accepted is None else {"Accept_Encoding": accepted}
+    answer = packed_site.get("/app.js", **headers)
+    assert answer.status == 200 and answer.getheader("Content-Encoding") == coding
+    assert answer.getheader("Content-Type") == "text/javascript; charset=utf-8"
+    assert "Accept-Encoding" in answer.getheader("Vary")
+    assert answer.body == {None: SCRIPT, "gzip": gzip.compress(SCRIPT, mtime=0), "br": b"brotli"}[coding]
+    again = packed_site.get("/app.js", If_None_Match=answer.getheader("ETag"), **headers)
+    assert again.status == 304 and again.body == b""
+
+
+def test_forms_of_a_file_are_told_apart(packed_site):
+    tags = {packed_site.get("/app.js", Accept_Encoding=coding).getheader("ETag") for coding in ("gzip", "br", "x")}
+    assert len(tags) == 3
+    for path in ("/app.js.gz", "/app.js.br"):
+        assert packed_site.get(path).status == 404, "a form is no file of its own"
+    assert packed_site.get("/lone.gz").body == b"as it is"
+    head = packed_site.get("/app.js", method="HEAD", Accept_Encoding="br")
+    assert head.body == b"" and head.getheader("Content-Length") == "6"
+
+
+def test_the_page_may_load_nothing_from_elsewhere(site):
+    policy = dict(part.strip().split(" ", 1) for part in site.get("/").getheader("Content-Security-Policy").split(";"))
+    assert policy["default-src"] == "'none'" and policy["script-src"] == "'self'" and policy["connect-src"] == "'self'"
+    assert not any("unsafe" in sources or "*" in sources or "http" in sources for sources in policy.values())
 
 
 @pytest.mark.parametrize("path", ["/nothing", "/images", "/../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt",

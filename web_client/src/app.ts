@@ -11,6 +11,7 @@ import { ExportDialog } from "./export_dialog";
 import { listenForGestures } from "./gestures";
 import { Help } from "./help";
 import { strokeOf, strokesOf } from "./keys";
+import { Latency } from "./latency";
 import { keep, readStart, shareLink } from "./link";
 import { Loading } from "./loading";
 import { recall, remember } from "./memory";
@@ -34,15 +35,17 @@ export class App {
     private readonly notice = new Notice();
     private readonly connection = new ConnectionView();
     private readonly pace = new Pace();
+    private readonly latency = new Latency();
     private readonly begin = readStart();
     private readonly stage = new Stage(this.drawing, {
-        presented: (revision) => this.presented(revision),
+        presented: (revision, by) => this.presented(revision, by),
         resized: () => this.resized(),
         lost: () => this.setMode("frames", "The graphics card gave up: pictures come from the server now."),
     });
     private readonly client = new Client({
         url: new URL(".", location.href),
         encoding: "cbor",
+        transient: true,
         ...(this.begin.credentials && { credentials: this.begin.credentials }),
         onStatus: (status) => {
             this.connection.update(status);
@@ -61,13 +64,11 @@ export class App {
     private readonly orbit = new OrbitControl(this.client, this.stage);
     private readonly help = new Help();
     private readonly commandLine = new CommandLine(
-        (line) => this.pace.follow(this.client.request({ type: "command", line })),
+        async (line) => this.latency.command(line) || this.request({ type: "command", line }),
         () => this.drawing.focus(),
     );
     private readonly readings = new Readings((command) => this.commandLine.open(command));
-    private readonly picker = new Picker((name) =>
-        this.pace.follow(this.client.request({ type: "set", polytope: name })),
-    );
+    private readonly picker = new Picker((name) => this.request({ type: "set", polytope: name }));
     private readonly loading = new Loading(this.client);
     private readonly exporting = new ExportDialog(this.client, () => this.stage.size);
     private readonly tools = new Tools({ press: (...binding) => this.press(...binding) });
@@ -98,6 +99,7 @@ export class App {
     /** A connection has been made: the tables may be another server's by now. */
     private async opened(): Promise<void> {
         this.pace.restart();
+        this.latency.restart();
         try {
             await this.restoreView();
             this.stream();
@@ -171,10 +173,11 @@ export class App {
         this.colours.update(state);
     }
 
-    private presented(revision: number): void {
+    private presented(revision: number, by: Mode): void {
         this.client.shown(revision);
         this.pace.presented(revision);
-        this.connection.presented(this.pace.latency);
+        this.latency.presented(revision, by);
+        this.connection.presented(this.latency.last);
     }
 
     private resized(): void {
@@ -231,9 +234,15 @@ export class App {
         if (this.state) this.exporting.open(this.state);
     }
 
+    /** Asks for a change, and follows it to its picture. */
+    private async request(command: Command): Promise<void> {
+        const answer = this.client.request(command);
+        await Promise.all([this.pace.follow(answer), this.latency.follow(command.type, answer)]);
+    }
+
     private send(command: Command): void {
         this.notice.hide();
-        this.pace.follow(this.client.request(command)).catch((error: Error) => this.notice.show(error.message));
+        this.request(command).catch((error: Error) => this.notice.show(error.message));
     }
 
     private lost(reason: string): void {

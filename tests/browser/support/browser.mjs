@@ -30,8 +30,11 @@ export function common() {
     return shared;
 }
 
-/** Opens the page and waits for its first picture. `errors` collects what the console calls an error. */
-export async function openPage({ url, browser, picture = true, ...options } = {}) {
+/**
+ * Opens the page and waits for its first picture. `before` runs in the page before its own scripts, `seen` is told of
+ * each response; `errors` collects what the console calls an error.
+ */
+export async function openPage({ url, browser, picture = true, before, seen, ...options } = {}) {
     const our = await common();
     const context = await (browser ?? our.browser).newContext({ viewport: { width: 1280, height: 720 }, ...options });
     const page = await context.newPage();
@@ -39,6 +42,8 @@ export async function openPage({ url, browser, picture = true, ...options } = {}
     const errors = [];
     page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
     page.on("pageerror", (error) => errors.push(error.message));
+    if (before) await page.addInitScript(before);
+    if (seen) page.on("response", seen);
     await page.goto(url ?? our.url);
     if (picture) await presented(page, 0);
     return { page, context, errors, close: () => context.close() };

@@ -4,7 +4,7 @@
 import type { SceneDescription, Slice, Slices, Vector } from "@oval4d/protocol";
 
 /** Half-open, in the arrays of all. */
-export type Range = readonly [begin: number, end: number];
+export type Range = [begin: number, end: number];
 
 /** What belongs to one slice. */
 export interface Body {
@@ -13,6 +13,7 @@ export interface Body {
     vertices: Range;
     edges: Range;
     faces: Range;
+    distance: number; // from the eye, when last put in order
 }
 
 export class Elements {
@@ -28,12 +29,12 @@ export class Elements {
     cornerEdges = new Uint32Array(0); // the edge from each corner to the next
     normals = new Float32Array(0); // x, y, z of each face, outward
     readonly buckets = new Buckets();
+    private readonly spare: Body[] = []; // of pictures with more slices
 
     take({ slices, scene }: Slices): void {
         this.vertexCount = this.edgeCount = this.faceCount = this.cornerCount = 0;
-        this.bodies = slices
-            .filter((slice) => slice.drawn && slice.vertices.length > 0)
-            .map((slice) => this.body(slice));
+        while (this.bodies.length > 0) this.spare.push(this.bodies.pop()!);
+        for (const slice of slices) if (slice.drawn && slice.vertices.length > 0) this.bodies.push(this.body(slice));
         this.points = roomFor(this.points, 3 * this.vertexCount);
         this.edges = roomFor(this.edges, 2 * this.edgeCount);
         this.cornerBegin = roomFor(this.cornerBegin, this.faceCount + 1);
@@ -49,13 +50,13 @@ export class Elements {
         this.edgeCount += slice.edges.length / 2;
         this.faceCount += slice.faces.begin.length - 1;
         this.cornerCount += slice.faces.corners.length;
-        return {
-            slice,
-            position: slice.position,
-            vertices: [vertexCount, this.vertexCount],
-            edges: [edgeCount, this.edgeCount],
-            faces: [faceCount, this.faceCount],
-        };
+        const body = this.spare.pop() ?? emptyBody(slice);
+        body.slice = slice;
+        body.position = slice.position;
+        setRange(body.vertices, vertexCount, this.vertexCount);
+        setRange(body.edges, edgeCount, this.edgeCount);
+        setRange(body.faces, faceCount, this.faceCount);
+        return body;
     }
 
     private place({ slice, position, vertices, edges, faces }: Body, scene: SceneDescription): void {
@@ -109,6 +110,15 @@ export class Elements {
         normals[3 * f + 1] = y / length;
         normals[3 * f + 2] = z / length;
     }
+}
+
+function emptyBody(slice: Slice): Body {
+    return { slice, position: slice.position, vertices: [0, 0], edges: [0, 0], faces: [0, 0], distance: 0 };
+}
+
+function setRange(range: Range, begin: number, end: number): void {
+    range[0] = begin;
+    range[1] = end;
 }
 
 /** A counting sort of one slice's edges by a vertex: those of vertex v are items[begin[v]] … items[begin[v + 1] − 1]. */

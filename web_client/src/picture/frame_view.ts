@@ -1,15 +1,20 @@
 // Frame mode: shows pictures that the server drew.
 
+import { Decoder } from "./decoder";
+
 export class FrameView {
     private readonly context: ImageBitmapRenderingContext;
+    private decoder: Decoder | undefined;
     private bitmap: ImageBitmap | undefined;
 
     constructor(private readonly canvas: HTMLCanvasElement) {
         this.context = canvas.getContext("bitmaprenderer", { alpha: false })!;
     }
 
+    /** The file is handed over, to be decoded off this thread. */
     async take(png: Uint8Array): Promise<void> {
-        const bitmap = await createImageBitmap(new Blob([png as Uint8Array<ArrayBuffer>], { type: "image/png" }));
+        this.decoder ??= new Decoder();
+        const bitmap = await this.decoder.decode(png as Uint8Array<ArrayBuffer>);
         this.bitmap?.close();
         this.bitmap = bitmap;
     }

@@ -7,6 +7,7 @@ import type { Parts } from "@oval4d/protocol";
 
 import { type Body, Buckets, type Elements, roomFor } from "./elements";
 import type { Lens } from "./lens";
+import { sortByKey } from "./sort";
 
 const kQuad = [0, 1, 2, 2, 1, 3] as const;
 
@@ -17,7 +18,9 @@ export class PaintersOrder {
     private faceToward = new Uint8Array(0);
     private depth = new Float32Array(0); // of each vertex
     private order = new Uint32Array(0); // each slice's vertices from far to near
+    private scratch = new Uint32Array(0); // for sorting
     private rank = new Uint32Array(0); // where a vertex stands in it
+    private readonly bodies: Body[] = []; // from far to near
     private readonly bars = new Buckets(); // by the rank of the farther end
     private out = new Uint32Array(0);
     private used = 0;
@@ -32,6 +35,7 @@ export class PaintersOrder {
         this.faceToward = roomFor(this.faceToward, faceCount);
         this.depth = roomFor(this.depth, vertexCount);
         this.order = roomFor(this.order, vertexCount);
+        this.scratch = roomFor(this.scratch, vertexCount);
         this.rank = roomFor(this.rank, vertexCount);
     }
 
@@ -39,10 +43,8 @@ export class PaintersOrder {
     write(lens: Lens, out: Uint32Array<ArrayBuffer>): number {
         this.out = out;
         this.used = 0;
-        const distance = ({ position: [x, y, z] }: Body): number =>
-            Math.hypot(x - lens.eye.x, y - lens.eye.y, z - lens.eye.z);
-        const bodies = [...this.elements.bodies].sort((a, b) => distance(b) - distance(a));
-        for (const body of bodies) {
+        this.sortBodies(lens);
+        for (const body of this.bodies) {
             this.classify(body, lens);
             this.sortByDepth(body, lens);
             for (const toward of [0, 1]) {
@@ -51,6 +53,16 @@ export class PaintersOrder {
             }
         }
         return this.used;
+    }
+
+    private sortBodies({ eye }: Lens): void {
+        this.bodies.length = 0;
+        for (const body of this.elements.bodies) {
+            const [x, y, z] = body.position;
+            body.distance = Math.hypot(x - eye.x, y - eye.y, z - eye.z);
+            this.bodies.push(body);
+        }
+        this.bodies.sort((a, b) => b.distance - a.distance);
     }
 
     /** A vertex or an edge is on the side of the eye if any of its faces is. */
@@ -80,7 +92,7 @@ export class PaintersOrder {
             depth[v] = view[2]! * points[3 * v]! + view[6]! * points[3 * v + 1]! + view[10]! * points[3 * v + 2]!;
             order[v] = v;
         }
-        order.subarray(...vertices).sort((a, b) => depth[a]! - depth[b]! || a - b);
+        sortByKey(order, vertices, depth, this.scratch);
         for (let i = vertices[0]; i < vertices[1]; ++i) rank[order[i]!] = i;
         this.bars.sort(vertices, range, (e) => Math.min(rank[edges[2 * e]!]!, rank[edges[2 * e + 1]!]!));
     }

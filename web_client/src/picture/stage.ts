@@ -9,7 +9,7 @@ import { GeometryView } from "./geometry_view";
 export type Mode = "geometry" | "frames";
 
 export interface StageEvents {
-    presented(revision: number): void;
+    presented(revision: number, by: Mode): void;
     resized(size: Viewport): void;
     /** WebGL ceased to work. */
     lost(): void;
@@ -33,6 +33,8 @@ export class Stage {
     private readonly frames: FrameView;
     private readonly canvases: Record<"solids" | "overlay" | "frame", HTMLCanvasElement>;
     private unpresented: number | undefined;
+    private drawn: { revision: number; by: Mode } = { revision: 0, by: "frames" };
+    private readonly painted = new MessageChannel(); // brings a message after the browser has painted
     private scheduled = false;
     private limits: SizeLimits = {};
 
@@ -50,6 +52,7 @@ export class Stage {
             this.geometry = undefined;
             this.events.lost();
         });
+        this.painted.port1.onmessage = () => this.presented();
         this.measure();
         new ResizeObserver(() => this.measure()).observe(root);
     }
@@ -79,6 +82,7 @@ export class Stage {
         if (this.current !== "frames") return;
         const state = JSON.parse(pngText(png) ?? "{}") as Partial<State>;
         await this.frames.take(png);
+        if (this.current !== "frames") return;
         this.unpresented = state.revision;
         this.redraw();
     }
@@ -99,12 +103,17 @@ export class Stage {
         this.scheduled = false;
         if (this.current === "geometry") this.geometry?.draw(this.orbit, this.size);
         else this.frames.draw();
-        const revision = this.unpresented;
+        if (this.unpresented === undefined) return;
+        this.drawn = { revision: this.unpresented, by: this.current };
         this.unpresented = undefined;
-        if (revision === undefined) return;
+        this.painted.port2.postMessage(null);
+    }
+
+    private presented(): void {
+        const { revision, by } = this.drawn;
         this.root.dataset["revision"] = String(revision);
-        this.root.dataset["drawnBy"] = this.current;
-        this.events.presented(revision);
+        this.root.dataset["drawnBy"] = by;
+        this.events.presented(revision, by);
     }
 
     private measure(): void {
