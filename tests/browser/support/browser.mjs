@@ -38,7 +38,7 @@ export async function openPage({ url, browser, picture = true, before, seen, ...
     const our = await common();
     const context = await (browser ?? our.browser).newContext({ viewport: { width: 1280, height: 720 }, ...options });
     const page = await context.newPage();
-    page.setDefaultTimeout(15_000);
+    page.setDefaultTimeout(30_000);
     const errors = [];
     page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
     page.on("pageerror", (error) => errors.push(error.message));

@@ -1,4 +1,4 @@
-const kPatience = 15_000; // milliseconds: how long a condition may take to come true on a busy machine
+const kPatience = 30_000; // milliseconds: how long a condition may take to come true on a busy machine
 
 /** The promise's value, or an error that says what was waited for. */
 export async function within(promise, what) {

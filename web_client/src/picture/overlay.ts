@@ -17,6 +17,15 @@ export function drawOverlay(pen: CanvasRenderingContext2D, picture: Slices, lens
     drawAxes(pen, scene, lens, viewport);
 }
 
+interface Label {
+    slice: Slice;
+    x: number;
+    y: number;
+    size: number; // of the font
+    digits: number; // their height
+    half: number; // of the text's width
+}
+
 /** The w under each slice. Where letters would be too small to read they are larger, and some are left out. */
 function drawLabels(
     pen: CanvasRenderingContext2D,
@@ -26,46 +35,49 @@ function drawLabels(
     viewport: Viewport,
 ): void {
     const least = kLeastText * devicePixelRatio;
-    const taken: { x: number; y: number; half: number; height: number }[] = [];
+    const taken: Label[] = [];
     const labelled = slices.filter((slice) => slice.drawn && slice.label !== "");
     labelled.sort((a, b) => Number(b.focus) - Number(a.focus) || Math.abs(a.position[0]) - Math.abs(b.position[0]));
     for (const slice of labelled) {
         const at = lens.project(slice.label_at);
         if (!at) continue;
-        const size = scene.text * slice.label_size * viewport.height;
-        const digits = setFont(pen, Math.max(size, least));
-        const box = { ...at, half: pen.measureText(slice.label).width / 2, height: digits };
-        if (size < least) {
-            const apart = (one: typeof box): boolean =>
-                Math.abs(one.x - box.x) > one.half + box.half + digits / 2 || Math.abs(one.y - box.y) > 1.5 * digits;
+        const wanted = scene.text * slice.label_size * viewport.height;
+        const size = Math.max(wanted, least);
+        const digits = setFont(pen, size);
+        const label = { slice, ...at, size, digits, half: pen.measureText(slice.label).width / 2 };
+        if (wanted < least) {
+            const apart = (one: Label): boolean =>
+                Math.abs(one.x - label.x) > one.half + label.half + digits / 2 ||
+                Math.abs(one.y - label.y) > 1.5 * digits;
             if (!taken.every(apart)) continue;
         }
-        taken.push(box);
-        drawLabel(pen, slice, scene, box);
+        taken.push(label);
     }
+    for (const label of taken.reverse()) drawLabel(pen, scene, label); // the focus over all others
 }
 
-function drawLabel(
-    pen: CanvasRenderingContext2D,
-    { label, focus }: Slice,
-    { colors }: SceneDescription,
-    { x: middle, y, half: textHalf, height: digits }: { x: number; y: number; half: number; height: number },
-): void {
-    const x = Math.round(middle);
-    const baseline = Math.round(y + digits);
-    if (focus) {
-        const half = Math.round(textHalf + 0.7 * digits);
-        const margin = Math.round(0.55 * digits);
-        const height = digits + 2 * margin;
-        pen.fillStyle = css(colors.focus);
-        pen.globalAlpha = 0.16;
-        pen.beginPath();
-        pen.roundRect(x - half, baseline - digits - margin, 2 * half, height, height / 2);
+function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, label: Label): void {
+    const { slice, digits } = label;
+    const { focus } = slice;
+    setFont(pen, label.size);
+    const x = Math.round(label.x);
+    const baseline = Math.round(label.y + digits);
+    // A plate keeps the label legible where it lies over another slice.
+    const half = Math.round(label.half) + Math.round((focus ? 0.9 : 0.45) * digits);
+    const margin = Math.round((focus ? 0.6 : 0.35) * digits);
+    const height = digits + 2 * margin;
+    pen.beginPath();
+    pen.roundRect(x - half, baseline - digits - margin, 2 * half, height, height / 2);
+    const fill = (colour: number, opacity: number): void => {
+        pen.fillStyle = css(colour);
+        pen.globalAlpha = opacity;
         pen.fill();
-        pen.globalAlpha = 1;
-    }
+    };
+    fill(colors.background, focus ? 0.8 : 0.6);
+    if (focus) fill(colors.focus, 0.16);
+    pen.globalAlpha = 1;
     pen.fillStyle = css(focus ? colors.focus : colors.text);
-    pen.fillText(label, x, baseline);
+    pen.fillText(slice.label, x, baseline);
 }
 
 /** The x, y and z axes as the camera sees them, far ones first. */
