@@ -66,20 +66,6 @@ test("performance: geometry is drawn from buffers that are written in place", as
     await close();
 });
 
-test("performance: nothing is drawn where nothing changes", async () => {
-    const { page, close } = await openWithScript({ before: countAllocations });
-    const frames = (count) =>
-        page.evaluate(async (left) => {
-            while (left-- > 0) await new Promise(requestAnimationFrame);
-        }, count);
-    await frames(5); // the window may still be finding its size
-    const before = await countsOf(page);
-    await frames(40);
-    const after = await countsOf(page);
-    assert.equal(after.drawings, before.drawings);
-    await close();
-});
-
 test("performance: frames are decoded off the page's thread, and acknowledged once they are there", async () => {
     const { page, script, errors, close } = await openWithScript({
         before: () => {
