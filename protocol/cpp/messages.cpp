@@ -39,14 +39,12 @@ void writePolytope(JsonWriter& w, const geometry::Polytope& polytope) {
     w.beginObject();
     w.member("name", std::string_view(polytope.name));
     writeCounts(w, countsOf(polytope));
-    std::array<std::uint64_t, geometry::kMaxKinds> cells{};
-    for (const std::uint32_t kind : polytope.cellKinds) ++cells.at(kind);
     w.key("kinds");
     w.beginArray();
     for (std::size_t i = 0; i < polytope.kinds.size(); ++i) {
         w.beginObject();
-        w.member("name", std::string_view(polytope.kinds[i]));
-        w.member("cells", cells.at(i));
+        w.member("name", std::string_view(polytope.kinds[i].name));
+        w.member("cells", std::uint64_t{polytope.kinds[i].cells});
         w.member("color", scene::kindColour(i, polytope.kinds.size()));
         w.endObject();
     }

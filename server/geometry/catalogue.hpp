@@ -52,6 +52,9 @@ std::vector<std::string_view> nearestNames(std::string_view text);
 std::shared_ptr<const Polytope> polytopeOf(const Design& design);
 std::shared_ptr<const Polytope> polytopeOf(const CatalogueEntry& entry);
 
+/// The polytope of this design if it is built and kept, else nullptr; never waits for one that is being built.
+std::shared_ptr<const Polytope> polytopeIfBuilt(const Design& design);
+
 /// How alike two names are: letters to change, put in or take out (Levenshtein). Case, blanks and hyphens do not
 /// count, nor what is beyond 64 letters.
 std::size_t likeness(std::string_view one, std::string_view other);

@@ -171,7 +171,7 @@ void numberKinds(Polytope& p, const std::vector<std::uint32_t>& kinds) {
     p.kinds.clear();
     for (Kind* kind : order) {
         kind->number = static_cast<std::uint32_t>(p.kinds.size());
-        p.kinds.push_back(nameOfCell(p, kind->first));
+        p.kinds.push_back({nameOfCell(p, kind->first), kind->cells});
     }
     p.cellKinds.resize(kinds.size());
     for (std::uint32_t c = 0; c < kinds.size(); ++c) p.cellKinds[c] = found.at(kinds[c]).number;

@@ -37,6 +37,14 @@ class Library {
         return polytope;
     }
 
+    Shared find(const Design& design) {
+        const auto slot = slotOf(design.name);
+        const std::unique_lock building(slot->building, std::try_to_lock);
+        Shared polytope = building ? slot->polytope.lock() : nullptr;
+        if (polytope) remember(polytope);
+        return polytope;
+    }
+
     void keep(std::size_t bytes) {
         const std::scoped_lock lock(mutex_);
         most_ = bytes;
@@ -104,6 +112,8 @@ Library& library() {
 }  // namespace
 
 std::shared_ptr<const Polytope> polytopeOf(const Design& design) { return library().get(design); }
+
+std::shared_ptr<const Polytope> polytopeIfBuilt(const Design& design) { return library().find(design); }
 
 std::shared_ptr<const Polytope> polytopeOf(const CatalogueEntry& entry) { return polytopeOf(entry.design); }
 

@@ -26,6 +26,13 @@ struct Lists {
     bool operator==(const Lists&) const = default;
 };
 
+/// A kind of cells.
+struct CellKind {
+    std::string name;         ///< "truncated tetrahedron"
+    std::uint32_t cells = 0;  ///< how many there are
+    bool operator==(const CellKind&) const = default;
+};
+
 /// Vertices, edges, 2-faces and cells, immutable once built. Indices are 0-based and 32 bits wide.
 struct Polytope {
     std::string name;
@@ -41,7 +48,7 @@ struct Polytope {
                                                       ///< a 2-face has opposite signs in its two cells
     std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face, the smaller number first
     std::vector<std::uint32_t> cellKinds;                 ///< the kind of each cell, a number into `kinds`
-    std::vector<std::string> kinds;                       ///< names of the kinds of cells: "truncated tetrahedron"
+    std::vector<CellKind> kinds;                          ///< the kinds of cells
     std::uint64_t serial = 0;                             ///< no two built in one process share it: what caches go by
     bool convexFaces = true;                              ///< no 2-face is dented or a star
     bool convex = true;                                   ///< the boundary of a convex body

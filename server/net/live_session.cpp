@@ -24,13 +24,18 @@ namespace {
 
 const Error kFault{ErrorCode::internal, "the server failed to do this; the session is as it was"};
 
-const std::vector<std::string> kNoWarnings;
-
 // After a change, so that the store is at most a second behind.
 constexpr std::chrono::milliseconds kSaveDelay{500};
 
 Message doneMessage(LiveSession::Id id, std::uint64_t revision) {
     return textMessage(protocol::doneMessage(id, revision));
+}
+
+std::function<std::monostate(picture::Painter&)> orderOf(const std::shared_ptr<session::Workshop>& workshop) {
+    return [workshop](picture::Painter&) {
+        workshop->work();
+        return std::monostate{};
+    };
 }
 
 }  // namespace
@@ -116,11 +121,7 @@ asio::awaitable<void> LiveSession::greetHere(std::shared_ptr<Peer> peer, protoco
 
 asio::awaitable<void> LiveSession::carryOutHere(std::shared_ptr<Peer> peer, protocol::Request request) {
     if (const auto* command = std::get_if<protocol::Command>(&request.body)) {
-        if (session::mayBuild(*command)) {
-            co_await obeyPrepared(peer, *command, request.id);
-        } else {
-            co_await obey(peer, *command, request.id, std::nullopt);
-        }
+        co_await obey(peer, *command, request.id);
     } else if (const auto* shown = std::get_if<protocol::ShownRevision>(&request.body)) {
         if (request.id) peer->send(doneMessage(request.id, revision()));
         if (const auto client = clients_.find(peer.get()); client != clients_.end()) {
@@ -132,46 +133,37 @@ asio::awaitable<void> LiveSession::carryOutHere(std::shared_ptr<Peer> peer, prot
     }
 }
 
-// What takes long is done on a worker; the client's further messages wait for it, nobody else's do.
-asio::awaitable<void> LiveSession::obeyPrepared(std::shared_ptr<Peer> peer, protocol::Command command, Id id) {
-    Preparation preparation;
-    bool failed = false;
+/// What takes long is done on a worker; the client's further messages wait for it, nobody else's do. Where another
+/// server may have to go on with the session, a command is acknowledged once the store has what it did.
+asio::awaitable<void> LiveSession::obey(std::shared_ptr<Peer> peer, const protocol::Command& command, Id id) {
+    const auto workshop =
+        std::make_shared<session::Workshop>(services_.options.session, session::Workshop::Pace::later);
+    protocol::Result<std::monostate> done = kFault;
+    std::uint64_t before = 0;
+    session::PolytopePtr shown;
     try {
-        preparation = co_await onPool(services_.pool, preparationJob(command));
+        for (;;) {
+            before = revision();
+            shown = session_.now.polytope;
+            done = session::apply(session_, command, services_.options.session, *workshop);
+            if (!workshop->ordered()) break;
+            co_await onPool(services_.pool, orderOf(workshop));
+        }
     } catch (const std::exception& fault) {
         spdlog::error("command failed session={} fault=\"{}\"", ticket_.id, fault.what());
-        failed = true;
+        done = kFault;
     }
-    if (failed) {
-        tell(*peer, kFault, id);
-    } else {
-        co_await obey(peer, command, id, preparation);
+    if (!done) {
+        tell(*peer, done.error(), id);
+        co_return;
     }
-}
-
-std::function<LiveSession::Preparation(picture::Painter&)> LiveSession::preparationJob(
-    const protocol::Command& command) const {
-    session::Session bare;
-    bare.now = session_.now;
-    bare.loaded = session_.loaded;
-    bare.pendingKey = session_.pendingKey;
-    return [command, bare, &limits = services_.options.session](picture::Painter&) {
-        return session::prepare(command, bare, limits);
-    };
-}
-
-/// Where another server may have to go on with the session, a command is acknowledged once the store has what it did.
-asio::awaitable<void> LiveSession::obey(std::shared_ptr<Peer> peer, protocol::Command command, Id id,
-                                        Preparation preparation) {
-    const std::uint64_t before = revision();
-    if (!applied(*peer, command, id, preparation)) co_return;
     const std::uint64_t reached = revision();
     if (reached != before) {
         changed_ = Clock::now();
         saveSoon();
         if (keeper_.pace() == store::Store::Pace::at_once) {
             // The head has no room for what a command may have loaded.
-            const bool whole = session::mayBuild(command);
+            const bool whole = session_.now.polytope != shown;
             auto keep = keeping(whole ? store::Keeper::Part::whole : store::Keeper::Part::head);
             if (id) {
                 const bool ours = co_await awaited<bool>(std::move(keep));
@@ -181,25 +173,8 @@ asio::awaitable<void> LiveSession::obey(std::shared_ptr<Peer> peer, protocol::Co
             }
         }
     }
-    if (id) {
-        const bool warned = preparation && *preparation;
-        peer->send(textMessage(protocol::doneMessage(id, reached, warned ? (*preparation)->warnings : kNoWarnings)));
-    }
+    if (id) peer->send(textMessage(protocol::doneMessage(id, reached, workshop->warnings())));
     update();
-}
-
-/// Whether the command took effect; else the client has been told why not.
-bool LiveSession::applied(Peer& peer, const protocol::Command& command, Id id, const Preparation& preparation) {
-    try {
-        const auto* reading = preparation ? &*preparation : nullptr;
-        const auto done = session::apply(session_, command, services_.options.session, reading);
-        if (!done) tell(peer, done.error(), id);
-        return static_cast<bool>(done);
-    } catch (const std::exception& fault) {
-        spdlog::error("command failed session={} fault=\"{}\"", ticket_.id, fault.what());
-        tell(peer, kFault, id);
-        return false;
-    }
 }
 
 asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, protocol::Get get, Id id) {

@@ -18,6 +18,7 @@
 #include "net/services.hpp"
 #include "protocol/cpp/request.hpp"
 #include "session/session.hpp"
+#include "session/workshop.hpp"
 #include "store/keeper.hpp"
 
 namespace oval4d::net {
@@ -30,7 +31,6 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
     using Id = std::optional<double>;  ///< of a request
-    using Preparation = std::optional<protocol::Result<session::Reading>>;
 
     LiveSession(Services services, store::Keeper& keeper, store::Ticket ticket, session::Session value);
 
@@ -99,12 +99,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, protocol::Get get, Id id);
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, Want want, Id id);
     boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::Wish wish, Id id);
-    std::function<Preparation(picture::Painter&)> preparationJob(const protocol::Command& command) const;
     std::function<Message(picture::Painter&)> pictureJob(const Want& want, Id id) const;
-    boost::asio::awaitable<void> obeyPrepared(std::shared_ptr<Peer> peer, protocol::Command command, Id id);
-    boost::asio::awaitable<void> obey(std::shared_ptr<Peer> peer, protocol::Command command, Id id,
-                                      Preparation preparation);
-    bool applied(Peer& peer, const protocol::Command& command, Id id, const Preparation& preparation);
+    boost::asio::awaitable<void> obey(std::shared_ptr<Peer> peer, const protocol::Command& command, Id id);
     std::function<void(std::function<void(bool)>)> keeping(store::Keeper::Part part);
     void saveSoon();
     void saveHere();

@@ -53,7 +53,7 @@ void scaleSpacing(State& state, double factor) {
 }
 
 // The catalogue, then the loaded ones by name, round and round.
-void walk(State& state, int by, const Loaded& loaded) {
+Result<std::monostate> walk(State& state, int by, const Loaded& loaded, Workshop& workshop) {
     std::vector<PolytopePtr> own;
     for (const auto& [name, polytope] : loaded) own.push_back(polytope);
     const auto entries = geometry::catalogue();
@@ -72,7 +72,10 @@ void walk(State& state, int by, const Loaded& loaded) {
         i = by > 0 ? -1 : named;  // one built by its name alone: before the first, after the last
     }
     i = (i + by + all) % all;
-    show(state, i < named ? geometry::polytopeOf(entries[i]) : own[i - named]);
+    auto polytope = i < named ? workshop.polytope(entries[i].design) : Result<PolytopePtr>(own[i - named]);
+    if (!polytope) return polytope.error();
+    show(state, std::move(*polytope));
+    return std::monostate{};
 }
 
 Error noRotationYet() {
@@ -81,7 +84,8 @@ Error noRotationYet() {
 
 }  // namespace
 
-Result<std::monostate> act(State& state, const Binding& binding, const Loaded& loaded, const Limits& limits) {
+Result<std::monostate> act(State& state, const Binding& binding, const Loaded& loaded, const Limits& limits,
+                           Workshop& workshop) {
     scene::Parts& parts = state.look.parts;
     switch (binding.action) {
         case Action::rotate:
@@ -135,11 +139,9 @@ Result<std::monostate> act(State& state, const Binding& binding, const Loaded& l
             if (state.slices.count + 2 <= limits.maxSlices) setCount(state, state.slices.count + 2);
             break;
         case Action::polytope_next:
-            walk(state, 1, loaded);
-            break;
+            return walk(state, 1, loaded, workshop);
         case Action::polytope_previous:
-            walk(state, -1, loaded);
-            break;
+            return walk(state, -1, loaded, workshop);
         case Action::view:
             state.look.view = state.look.view == scene::View::oval ? scene::View::single : scene::View::oval;
             break;

@@ -7,6 +7,7 @@
 namespace oval4d::session {
 
 /// Carries out every action but undo and redo. On an error `state` is unchanged.
-protocol::Result<std::monostate> act(State& state, const Binding& binding, const Loaded& loaded, const Limits& limits);
+protocol::Result<std::monostate> act(State& state, const Binding& binding, const Loaded& loaded, const Limits& limits,
+                                     Workshop& workshop);
 
 }  // namespace oval4d::session

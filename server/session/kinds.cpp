@@ -70,12 +70,13 @@ Result<KindList> readKinds(std::string_view text) {
 Result<KindList> findKinds(std::string_view text, const geometry::Polytope& polytope) {
     KindList named;
     for (std::uint32_t kind = 0; kind < polytope.kinds.size(); ++kind) {
-        if (polytope.kinds[kind] == text) named.push_back(kind);
+        if (polytope.kinds[kind].name == text) named.push_back(kind);
     }
     if (!named.empty()) return named;
-    std::vector<std::string_view> known(polytope.kinds.begin(), polytope.kinds.end());
     const auto numbers = readKinds(text);
     if (!numbers || numbers->empty()) {
+        std::vector<std::string_view> known;
+        for (const geometry::CellKind& kind : polytope.kinds) known.emplace_back(kind.name);
         known.erase(std::unique(known.begin(), known.end()), known.end());
         return Error{ErrorCode::bad_expression, "the number or the name of a kind of cell is expected" +
                                                     (text.empty() ? "" : ", not " + inQuotes(text)) +

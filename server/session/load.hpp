@@ -1,7 +1,7 @@
 #pragma once
 // Bringing polytopes of the user's own into a session.
 
-#include "session/session.hpp"
+#include "session/workshop.hpp"
 
 namespace oval4d::session {
 

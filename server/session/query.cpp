@@ -30,7 +30,8 @@ protocol::Result<State> stateFromQuery(const Query& query, const Limits& limits,
     State state = initialState();
     if (polytope) show(state, std::move(polytope));
     for (const geometry::Turn& turn : turns) rotate(state, turn);
-    if (auto done = applySet(state, set, {}, limits); !done) return done.error();
+    Workshop workshop(limits);
+    if (auto done = applySet(state, set, {}, limits, workshop); !done) return done.error();
     return state;
 }
 

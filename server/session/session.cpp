@@ -7,8 +7,8 @@
 #include "protocol/cpp/suggest.hpp"
 #include "session/history.hpp"
 #include "session/keys.hpp"
-#include "session/load.hpp"
 #include "session/settings.hpp"
+#include "session/workshop.hpp"
 
 namespace oval4d::session {
 
@@ -22,8 +22,8 @@ using Done = Result<std::monostate>;
 // Each command works on a copy of the state, which becomes the present only if all went well.
 class Applier {
   public:
-    Applier(Session& session, const Limits& limits, const Result<Reading>* reading)
-        : session_(session), limits_(limits), reading_(reading) {}
+    Applier(Session& session, const Limits& limits, Workshop& workshop)
+        : session_(session), limits_(limits), workshop_(workshop) {}
 
     Done operator()(const protocol::Key& key) {
         std::string pending = session_.pendingKey;
@@ -42,7 +42,7 @@ class Applier {
     }
     Done operator()(const protocol::Set& command) {
         State next = session_.now;
-        if (Done done = applySet(next, command, session_.loaded, limits_); !done) return done;
+        if (Done done = applySet(next, command, session_.loaded, limits_, workshop_); !done) return done;
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
@@ -51,7 +51,7 @@ class Applier {
             return Error{ErrorCode::too_many, "a session holds at most " + std::to_string(limits_.maxLoaded) +
                                                   " loaded polytopes; load under a name that is in use to replace one"};
         }
-        const auto reading = reading_ != nullptr ? *reading_ : readPolytope(command, limits_);
+        const auto reading = workshop_.reading(command);
         if (!reading) return reading.error();
         State next = session_.now;
         show(next, reading->polytope);
@@ -80,14 +80,14 @@ class Applier {
         if (binding.action == Action::undo) return undo(session_);
         if (binding.action == Action::redo) return redo(session_);
         State next = session_.now;
-        if (Done done = act(next, binding, session_.loaded, limits_); !done) return done;
+        if (Done done = act(next, binding, session_.loaded, limits_, workshop_); !done) return done;
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
 
     Session& session_;
     const Limits& limits_;
-    const Result<Reading>* reading_;
+    Workshop& workshop_;
 };
 
 }  // namespace
@@ -110,21 +110,13 @@ double spanningSpacing(const geometry::Polytope& polytope, int count) {
     return count > 1 ? 2 * polytope.circumradius / (count - 1) : polytope.circumradius;
 }
 
-Done apply(Session& session, const protocol::Command& command, const Limits& limits, const Result<Reading>* reading) {
-    return std::visit(Applier(session, limits, reading), command);
+Done apply(Session& session, const protocol::Command& command, const Limits& limits) {
+    Workshop workshop(limits);
+    return apply(session, command, limits, workshop);
 }
 
-bool mayBuild(const protocol::Command& command) {
-    if (const auto* set = std::get_if<protocol::Set>(&command)) return set->polytope.has_value();
-    if (const auto* key = std::get_if<protocol::Key>(&command)) return key->key == "n" || key->key == "N";
-    return std::holds_alternative<protocol::Load>(command) || std::holds_alternative<protocol::CommandLine>(command);
-}
-
-std::optional<Result<Reading>> prepare(const protocol::Command& command, Session bare, const Limits& limits) {
-    if (const auto* load = std::get_if<protocol::Load>(&command)) return readPolytope(*load, limits);
-    // What it builds stays in the catalogue's cache; the session and its errors are for later.
-    (void)apply(bare, command, limits);
-    return std::nullopt;
+Done apply(Session& session, const protocol::Command& command, const Limits& limits, Workshop& workshop) {
+    return std::visit(Applier(session, limits, workshop), command);
 }
 
 void advance(Session& session, double seconds) {

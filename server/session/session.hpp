@@ -70,24 +70,14 @@ struct Session {
     bool operator==(const Session&) const = default;
 };
 
-/// A polytope read from a file, and what was repaired in it.
-struct Reading {
-    PolytopePtr polytope;
-    std::vector<std::string> warnings;
-};
+class Workshop;
 
 /// Carries out a command. On an error the session is as it was. Whatever a key can change can be undone; moving the
-/// camera is not a step of the history. A command that changes nothing leaves the revision as it is. Of a `load`,
-/// `reading` is what was read ahead, if it was.
+/// camera is not a step of the history. A command that changes nothing leaves the revision as it is. What
+/// takes long is left to `workshop`, or else done at once.
+protocol::Result<std::monostate> apply(Session& session, const protocol::Command& command, const Limits& limits);
 protocol::Result<std::monostate> apply(Session& session, const protocol::Command& command, const Limits& limits,
-                                       const protocol::Result<Reading>* reading = nullptr);
-
-/// Whether carrying out the command may build a polytope, which can take a while.
-bool mayBuild(const protocol::Command& command);
-
-/// Does ahead, on any thread, what takes long in such a command for a session that shows `now`: reads the polytope of a
-/// `load`, or sees to it that the catalogue's is built.
-std::optional<protocol::Result<Reading>> prepare(const protocol::Command& command, Session bare, const Limits& limits);
+                                       Workshop& workshop);
 
 /// Continues a turning session by `seconds`: a second turns by kTurnsPerSecond times the last rotation's angles.
 /// One history step covers the whole of a continuous turn.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -86,15 +85,14 @@ std::string suggestion(std::string_view name, const Loaded& loaded) {
 
 }  // namespace
 
-Result<PolytopePtr> findPolytope(std::string_view name, const Loaded& loaded, const Limits& limits) {
+Result<PolytopePtr> findPolytope(std::string_view name, const Loaded& loaded, const Limits& limits,
+                                 Workshop& workshop) {
     if (const auto own = loaded.find(name); own != loaded.end()) return own->second;
     auto named = geometry::designNamed(name, limits.maxVertices);
     if (const auto* design = std::get_if<geometry::Design>(&named)) {
-        try {
-            return geometry::polytopeOf(*design);
-        } catch (const std::invalid_argument& fault) {
-            named = geometry::NameError{geometry::NameError::Reason::impossible, fault.what()};
-        }
+        auto polytope = workshop.polytope(*design);
+        if (polytope || polytope.error().code != ErrorCode::unknown_polytope) return polytope;
+        named = geometry::NameError{geometry::NameError::Reason::impossible, polytope.error().message};
     }
     const auto& error = std::get<geometry::NameError>(named);
     if (error.reason == geometry::NameError::Reason::too_large) return Error{ErrorCode::too_large, error.message};
@@ -120,9 +118,10 @@ void setCount(State& state, int count) {
     state.slices.count = count;
 }
 
-Result<std::monostate> applySet(State& state, const protocol::Set& set, const Loaded& loaded, const Limits& limits) {
+Result<std::monostate> applySet(State& state, const protocol::Set& set, const Loaded& loaded, const Limits& limits,
+                                Workshop& workshop) {
     if (set.polytope) {
-        auto polytope = findPolytope(*set.polytope, loaded, limits);
+        auto polytope = findPolytope(*set.polytope, loaded, limits, workshop);
         if (!polytope) return polytope.error();
         show(state, std::move(*polytope));
     }

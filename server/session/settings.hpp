@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "session/session.hpp"
+#include "session/workshop.hpp"
 
 namespace oval4d::session {
 
@@ -20,8 +21,9 @@ inline constexpr double kMaxOrbit = 1000;    ///< azimuth and elevation, radians
 inline constexpr double kMinZoom = 0.05, kMaxZoom = 20;
 
 /// The loaded polytope of this name, or the one that geometry::designNamed finds; else `unknown_polytope` with the
-/// nearest names or what is wrong, or `too_large`. Building a large one takes up to some tenths of a second.
-protocol::Result<PolytopePtr> findPolytope(std::string_view name, const Loaded& loaded, const Limits& limits);
+/// nearest names or what is wrong, or `too_large`; or what `workshop` says.
+protocol::Result<PolytopePtr> findPolytope(std::string_view name, const Loaded& loaded, const Limits& limits,
+                                           Workshop& workshop);
 
 /// Shows another polytope: the orientation stays, the spacing keeps its ratio to the circumradius, the focus is 0, and
 /// all kinds of cells are seen.
@@ -32,7 +34,7 @@ void setCount(State& state, int count);
 
 /// Sets what `set` holds. On an error `state` is half set: work on a copy.
 protocol::Result<std::monostate> applySet(State& state, const protocol::Set& set, const Loaded& loaded,
-                                          const Limits& limits);
+                                          const Limits& limits, Workshop& workshop);
 
 /// `out_of_range` unless the angles are finite and at most kMaxAngle.
 protocol::Result<std::monostate> checkTurn(const geometry::Turn& turn);

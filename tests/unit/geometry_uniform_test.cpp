@@ -135,15 +135,16 @@ TEST_P(Uniform, hasKindsWithNames) {
     EXPECT_TRUE(std::is_sorted(cells.begin(), cells.end()));
     for (std::size_t k = 0; k < p.kinds.size(); ++k) {
         EXPECT_GT(cells[k], 0U);
-        EXPECT_EQ(shapes[k].size(), 1U) << p.kinds[k];
-        EXPECT_FALSE(p.kinds[k].starts_with("cell of")) << p.kinds[k];
+        EXPECT_EQ(cells[k], p.kinds[k].cells);
+        EXPECT_EQ(shapes[k].size(), 1U) << p.kinds[k].name;
+        EXPECT_FALSE(p.kinds[k].name.starts_with("cell of")) << p.kinds[k].name;
         EXPECT_EQ(entry.symmetryOrder % cells[k], 0U);  // an orbit's size divides the group's order
     }
 }
 
 std::map<std::string, long> cellsByName(const Polytope& p) {
     std::map<std::string, long> cells;
-    for (const auto kind : p.cellKinds) ++cells[p.kinds[kind]];
+    for (const auto kind : p.cellKinds) ++cells[p.kinds[kind].name];
     return cells;
 }
 
@@ -163,11 +164,11 @@ TEST(Kinds, ofIrregularCellsAreFewAndNamedByTheirFaces) {
     auto moved = regular.vertices;
     for (auto& v : moved) v *= factor(random);
     const Polytope p = makePolytope("crumpled", moved, regular.faces, regular.cells);
-    EXPECT_EQ(p.kinds, std::vector<std::string>{"cell of 12 faces"});  // 120 shapes would be too many
+    EXPECT_EQ(p.kinds, (std::vector<CellKind>{{"cell of 12 faces", 120}}));  // 120 shapes would be too many
     auto stretched = named("8-cell").vertices;
     for (auto& v : stretched) v.x *= 2;
     const Polytope box = makePolytope("box", stretched, named("8-cell").faces, named("8-cell").cells);
-    EXPECT_EQ(box.kinds, (std::vector<std::string>{"cube", "cell of 6 faces"}));
+    EXPECT_EQ(box.kinds, (std::vector<CellKind>{{"cube", 2}, {"cell of 6 faces", 6}}));
 }
 
 std::string asName(const testing::TestParamInfo<CatalogueEntry>& info) {
@@ -306,7 +307,7 @@ TEST(Kinds, areTheOrbitsOfTheFullSymmetryGroup) {
         const Polytope& p = named(name);
         std::vector<std::pair<std::string, long>> kinds;
         for (std::size_t k = 0; k < p.kinds.size(); ++k)
-            kinds.emplace_back(p.kinds[k], std::count(p.cellKinds.begin(), p.cellKinds.end(), k));
+            kinds.emplace_back(p.kinds[k].name, std::count(p.cellKinds.begin(), p.cellKinds.end(), k));
         return kinds;
     };
     using Kinds = std::vector<std::pair<std::string, long>>;

@@ -35,7 +35,7 @@ geometry::Polytope rectified() {
     const geometry::Branch three{3, 1};
     const auto diagram = geometry::Diagram::linear(three, three, three, {false, true, false, false});
     auto polytope = geometry::wythoff("rectified 5-cell", diagram, geometry::mirrorsOf(diagram));
-    polytope.kinds = {"octahedron", "tetrahedron"};
+    polytope.kinds = {{"octahedron"}, {"tetrahedron"}};
     for (std::size_t c = 0; c < polytope.cells.size(); ++c)
         polytope.cellKinds[c] = polytope.cells[c].size() == 8 ? 0 : 1;
     return polytope;

@@ -18,7 +18,7 @@ using scene::Kinds;
 Session withKinds() {
     auto polytope = *geometry::polytopeOf(*geometry::findEntry("24-cell"));
     polytope.name = "mixed";
-    polytope.kinds = {"cube", "hexagonal prism", "hexagonal prism", "octahedron"};
+    polytope.kinds = {{"cube", 6}, {"hexagonal prism", 6}, {"hexagonal prism", 6}, {"octahedron", 6}};
     for (std::size_t c = 0; c < polytope.cells.size(); ++c) polytope.cellKinds[c] = c % 4;
     Session session;
     session.loaded["mixed"] = std::make_shared<const geometry::Polytope>(std::move(polytope));

@@ -68,26 +68,59 @@ TEST(Load, RefusesWhatItCannotRead) {
                   Limits{.maxVertices = 4});
 }
 
+// Applies the command as a server does, and counts the orders it takes.
+int ordersOf(Session& session, const protocol::Command& command, Workshop& workshop,
+             protocol::Result<std::monostate>& done) {
+    for (int orders = 0;; ++orders) {
+        const Session before = session;
+        done = apply(session, command, Limits{}, workshop);
+        if (!workshop.ordered()) return orders;
+        EXPECT_FALSE(done);
+        EXPECT_EQ(session, before);
+        workshop.work();
+    }
+}
+
 TEST(Load, MayBeReadAhead) {
-    const protocol::Command load = Load{"mine", "points", "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n.1 .1 .1 .1\n"};
-    ASSERT_TRUE(mayBuild(load));
-    const auto reading = prepare(load, Session{}, Limits{});
-    ASSERT_TRUE(reading && *reading);
-    EXPECT_EQ((*reading)->warnings.size(), 1U);
     Session session;
-    ASSERT_TRUE(apply(session, load, Limits{}, &*reading));
-    EXPECT_EQ(session.now.polytope, (*reading)->polytope);
+    protocol::Result<std::monostate> done = std::monostate{};
+    const protocol::Command load = Load{"mine", "points", "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n.1 .1 .1 .1\n"};
+    Workshop reader(Limits{}, Workshop::Pace::later);
+    EXPECT_EQ(ordersOf(session, load, reader, done), 1);
+    EXPECT_TRUE(done);
+    EXPECT_EQ(reader.warnings().size(), 1U);
+    EXPECT_EQ(session.now.polytope->name, "mine");
     EXPECT_EQ(session.now.polytope->cellCount(), 5U);
 
-    const auto unsound = prepare(Load{"mine", "points", "1 2 3\n"}, Session{}, Limits{});
-    ASSERT_TRUE(unsound && !*unsound);
-    const auto refused = apply(session, load, Limits{}, &*unsound);
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ErrorCode::bad_polytope);
+    Workshop refuser(Limits{}, Workshop::Pace::later);
+    EXPECT_EQ(ordersOf(session, Load{"other", "points", "1 2 3\n"}, refuser, done), 1);
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().code, ErrorCode::bad_polytope);
+}
 
-    EXPECT_FALSE(mayBuild(protocol::Key{"y", false, false}));
-    EXPECT_TRUE(mayBuild(protocol::Key{"n", false, false}));
-    EXPECT_FALSE(prepare(protocol::CommandLine{"polytope 24-cell"}, Session{}, Limits{}));
+TEST(Load, PolytopesAreBuiltAheadOnlyWhereTheyAreNotBuiltYet) {
+    Session session;
+    protocol::Result<std::monostate> done = std::monostate{};
+    const protocol::Command unusual = protocol::CommandLine{"polytope 17,19-duoprism"};
+    Workshop first(Limits{}, Workshop::Pace::later);
+    EXPECT_EQ(ordersOf(session, unusual, first, done), 1);
+    EXPECT_TRUE(done);
+    EXPECT_EQ(session.now.polytope->name, "17,19-duoprism");
+    Session other;
+    Workshop second(Limits{}, Workshop::Pace::later);
+    EXPECT_EQ(ordersOf(other, unusual, second, done), 0);
+    EXPECT_EQ(other.now.polytope, session.now.polytope);
+
+    Workshop turner(Limits{}, Workshop::Pace::later);
+    EXPECT_EQ(ordersOf(session, protocol::Key{"y", false, false}, turner, done), 0);
+    Workshop walker(Limits{}, Workshop::Pace::later);
+    EXPECT_LE(ordersOf(session, protocol::Key{"N", false, false}, walker, done), 1);
+    EXPECT_TRUE(done);
+
+    // Its elements coincide: told only by building it.
+    Workshop builder(Limits{}, Workshop::Pace::later);
+    EXPECT_EQ(ordersOf(session, protocol::CommandLine{"polytope {5/2,3,3/2}"}, builder, done), 0);
+    EXPECT_FALSE(done);
 }
 
 TEST(Load, IsLimited) {
