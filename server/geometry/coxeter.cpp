@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
@@ -105,8 +106,10 @@ class SetOrbit {
     Lists lists;
     Images images;
 
-    void addOrbit(const std::vector<std::uint32_t>& seed, const Images& memberImages) {
-        add(seed);
+    /// The number of the seed, the first of its orbit; nothing if the seed is in another orbit already.
+    std::optional<std::uint32_t> addOrbit(const std::vector<std::uint32_t>& seed, const Images& memberImages) {
+        const auto first = static_cast<std::uint32_t>(lists.size());
+        if (add(seed) != first) return std::nullopt;
         std::vector<std::uint32_t> moved;
         for (std::size_t i = images.size() / kMirrors; i < lists.size(); ++i) {
             for (std::size_t mirror = 0; mirror < kMirrors; ++mirror) {
@@ -115,6 +118,7 @@ class SetOrbit {
                 images.push_back(add(moved));
             }
         }
+        return first;
     }
 
   private:
@@ -213,8 +217,9 @@ Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirror
         for (unsigned b = a + 1; b < kMirrors; ++b) {
             const Subset pair = 1U << a | 1U << b;
             if (!spansAnElement(diagram, pair)) continue;
-            faceOf.at(pair) = static_cast<std::uint32_t>(faces.lists.size());
-            faces.addOrbit(polygon(vertices.images, a, b), vertices.images);
+            const auto face = faces.addOrbit(polygon(vertices.images, a, b), vertices.images);
+            if (!face) throw std::invalid_argument("2-faces of " + name + " coincide");
+            faceOf.at(pair) = *face;
         }
     }
     SetOrbit cells;

@@ -22,7 +22,7 @@ glm::dvec4 generatingVertex(const Mirrors& mirrors, const std::array<bool, 4>& r
 /// The uniform polytope of the diagram: vertices are the orbit of the generating vertex, and each set of mirrors whose
 /// every connected part holds a ring generates one orbit of elements. A kind of cells is such an orbit, or several that
 /// a symmetry of the diagram takes to each other. Throws std::invalid_argument where the diagram makes no polytope of
-/// four dimensions, or one of more than `maxVertices` vertices.
+/// four dimensions, or one whose 2-faces coincide, or one of more than `maxVertices` vertices.
 Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirrors, std::size_t maxVertices = 100'000);
 
 }  // namespace oval4d::geometry

@@ -16,7 +16,7 @@ using protocol::Result;
 
 const Error kLater{ErrorCode::internal, "this is still being made"};
 
-Result<PolytopePtr> build(const geometry::Design& design) {
+Result<PolytopePtr> builtFrom(const geometry::Design& design) {
     try {
         return geometry::polytopeOf(design);
     } catch (const std::invalid_argument& fault) {
@@ -27,7 +27,7 @@ Result<PolytopePtr> build(const geometry::Design& design) {
 }  // namespace
 
 Result<PolytopePtr> Workshop::polytope(const geometry::Design& design) {
-    if (pace_ == Pace::at_once) return build(design);
+    if (pace_ == Pace::at_once) return builtFrom(design);
     if (polytope_ && built_ == design.name) return *polytope_;
     if (auto ready = geometry::polytopeIfBuilt(design)) return ready;
     order_ = design;
@@ -45,7 +45,7 @@ Result<Reading> Workshop::reading(const protocol::Load& load) {
 
 void Workshop::work() {
     if (const auto* design = std::get_if<geometry::Design>(&order_)) {
-        polytope_ = build(*design);
+        polytope_ = builtFrom(*design);
         built_ = design->name;
     } else if (const auto* load = std::get_if<const protocol::Load*>(&order_)) {
         reading_ = readPolytope(**load, limits_);

@@ -42,7 +42,7 @@ class Workshop {
     std::vector<std::string> warnings() const;
 
   private:
-    const Limits& limits_;
+    Limits limits_;
     Pace pace_;
     std::variant<std::monostate, geometry::Design, const protocol::Load*> order_;
     std::string built_;  ///< the name of the design that `polytope_` is of

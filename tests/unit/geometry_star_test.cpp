@@ -140,8 +140,21 @@ TEST(StarProducts, haveTheDensityOfTheirPolygons) {
     EXPECT_EQ(density("5,7-duoprism"), 1);
 }
 
+TEST(StarDiagrams, whoseElementsCoincideAreRefused) {
+    for (const char* diagram : {"x3o3o5/2x", "x5/2o5o5/2x", "x5o5/2o5x"}) {
+        const auto design = designNamed(diagram, 100'000);
+        ASSERT_TRUE(std::holds_alternative<Design>(design)) << diagram;
+        try {
+            (void)polytopeOf(std::get<Design>(design));
+            ADD_FAILURE() << diagram;
+        } catch (const std::invalid_argument& refused) {
+            EXPECT_NE(std::string_view(refused.what()).find("coincide"), std::string_view::npos) << refused.what();
+        }
+    }
+}
+
 TEST(StarKinds, areNamedAfterKeplerAndPoinsot) {
-    const auto kindOf = [](std::string_view name) { return polytopeOf(*findEntry(name))->kinds.at(0); };
+    const auto kindOf = [](std::string_view name) { return polytopeOf(*findEntry(name))->kinds.at(0).name; };
     EXPECT_EQ(kindOf("{5/2,5,3}"), "small stellated dodecahedron");
     EXPECT_EQ(kindOf("{5,5/2,5}"), "great dodecahedron");
     EXPECT_EQ(kindOf("{5/2,3,5}"), "great stellated dodecahedron");

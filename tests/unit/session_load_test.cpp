@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/catalogue.hpp"
+#include "session/workshop.hpp"
 #include "session_support.hpp"
 
 namespace oval4d::session {
@@ -119,7 +120,7 @@ TEST(Load, PolytopesAreBuiltAheadOnlyWhereTheyAreNotBuiltYet) {
 
     // Its elements coincide: told only by building it.
     Workshop builder(Limits{}, Workshop::Pace::later);
-    EXPECT_EQ(ordersOf(session, protocol::CommandLine{"polytope {5/2,3,3/2}"}, builder, done), 0);
+    EXPECT_EQ(ordersOf(session, protocol::CommandLine{"polytope x3o3o5/2x"}, builder, done), 1);
     EXPECT_FALSE(done);
 }
 
