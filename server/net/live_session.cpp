@@ -12,6 +12,7 @@
 #include "net/file_job.hpp"
 #include "net/on_pool.hpp"
 #include "protocol/cpp/codec.hpp"
+#include "session/workshop.hpp"
 
 namespace oval4d::net {
 

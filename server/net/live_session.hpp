@@ -18,7 +18,6 @@
 #include "net/services.hpp"
 #include "protocol/cpp/request.hpp"
 #include "session/session.hpp"
-#include "session/workshop.hpp"
 #include "store/keeper.hpp"
 
 namespace oval4d::net {
