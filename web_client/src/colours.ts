@@ -115,7 +115,7 @@ function kindRow({ name, cells, color }: CellKind, kind: number): HTMLElement {
         "div",
         { role: "group", "aria-label": `${name}, ${cells} of them` },
         swatch,
-        element("span", {}, name.replaceAll("hedron", "\u00ADhedron")), // where a long one may be broken
+        element("span", {}, name.replace(/(\w{9,})hedron/g, "$1\u00ADhedron")), // where a long one may be broken
         element("small", {}, count(cells)),
         element("div", { class: "presence" }, ...radios),
     );

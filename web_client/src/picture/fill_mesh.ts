@@ -80,6 +80,8 @@ export class FillMesh {
     private place({ fill, position, first }: Part, { scene }: Slices): void {
         const { points, triangles, tints, seen } = fill;
         const { colors, opacity, faded } = scene;
+        const { array: normals } = this.to;
+        const { array: rgba } = this.colour;
         for (let i = 0; i < points.length; ++i) {
             this.at.array[3 * first + i] = position[i % 3]! + scene.scale * points[i]!;
         }
@@ -93,9 +95,14 @@ export class FillMesh {
             const alpha = 255 * opacity * (seen?.[t] === kFaded ? faded : 1);
             // A triangle's values are those of its last point; none is the last of two tints.
             const item = first + c / 3;
-            this.to.array.set([nx / length, ny / length, nz / length], 3 * item);
+            normals[3 * item] = nx / length;
+            normals[3 * item + 1] = ny / length;
+            normals[3 * item + 2] = nz / length;
             this.shape.array[4 * item + 2] = kFace;
-            this.colour.array.set([tint >> 16, (tint >> 8) & 255, tint & 255, alpha], 4 * item);
+            rgba[4 * item] = tint >> 16;
+            rgba[4 * item + 1] = tint >> 8;
+            rgba[4 * item + 2] = tint;
+            rgba[4 * item + 3] = alpha;
             this.shape.array[4 * (first + a / 3) + 2] = kFace;
             this.shape.array[4 * (first + b / 3) + 2] = kFace;
         }
