@@ -21,7 +21,8 @@ double Filler::Side::at(double y) const {
     return low.x + slope * (y - low.y);
 }
 
-void Filler::fill(const SliceSet& slices, double circumradius, Fill& out) {
+void Filler::fill(const SliceSet& slices, double circumradius, Fill& out, std::size_t steps) {
+    left_ = steps;
     tiny_ = 1e-10 * circumradius;
     out.clear();
     for (std::size_t slice = 0; slice + 1 < slices.faceBegin.size(); ++slice) {
@@ -54,11 +55,38 @@ void Filler::fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t b
         }
         first += size;
     }
-    findLevels();
-    patch.winding = sweep(out);
+    const bool known = take(sides_.size() * sides_.size());
+    if (known) findLevels();
+    if (known && take(sides_.size() * levels_.size())) {
+        patch.winding = sweep(out);
+    } else {
+        fillRoughly(slices, begin, end, out);
+    }
     if (out.cornerBegin.size() - 1 == out.pieceBegin.back()) return;
     out.patches.push_back(patch);
     out.pieceBegin.push_back(static_cast<std::uint32_t>(out.cornerBegin.size() - 1));
+}
+
+// Takes steps from those that are left; false if there are too few.
+bool Filler::take(std::size_t steps) {
+    if (steps > left_) return false;
+    left_ -= steps;
+    return true;
+}
+
+void Filler::fillRoughly(const SliceSet& slices, std::uint32_t begin, std::uint32_t end, Fill& out) const {
+    std::size_t first = 0;
+    for (std::uint32_t f = begin; f < end; ++f) {
+        const std::size_t size = slices.cornerBegin[f + 1] - slices.cornerBegin[f];
+        glm::dvec3 middle(0);
+        for (std::size_t i = 0; i < size; ++i) middle += points_[first + i] / static_cast<double>(size);
+        for (std::size_t i = 0; i < size; ++i) {
+            const glm::dvec3& next = points_[first + (i + 1) % size];
+            out.corners.insert(out.corners.end(), {middle, points_[first + i], next});
+            out.cornerBegin.push_back(static_cast<std::uint32_t>(out.corners.size()));
+        }
+        first += size;
+    }
 }
 
 // The plane of the loops, from three of their corners that lie far apart; false where all are on one line.

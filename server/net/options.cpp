@@ -98,6 +98,10 @@ void addLimits(CLI::App& app, Options& options) {
     add(app, "--max-height", options.frame.maxHeight, "Greatest height of a picture, in pixels")
         ->check(CLI::Range(1, 16'384));
     add(app, "--max-pixels", options.frame.maxPixels, "Most pixels of a picture")->check(atLeastOne);
+    add(app, "--max-fill", options.maxFill,
+        "Steps that a picture may take to fill faces whose sides cross: n² + n·k for n sides that cross at k places. "
+        "Faces beyond are filled roughly")
+        ->check(atLeastOne);
     addFileLimits(app, options.file);
     add(app, "--max-slices", options.session.maxSlices, "Most slices of a session")->check(CLI::Range(1, 100'001));
     add(app, "--max-undo", options.session.maxUndo, "Steps that can be undone in a session");

@@ -9,6 +9,7 @@
 
 #include "export/export.hpp"
 #include "picture/frame_limits.hpp"
+#include "picture/painter.hpp"
 #include "session/session.hpp"
 
 namespace CLI {
@@ -39,6 +40,7 @@ struct Options {
     std::size_t maxConnections = 4096;
     int maxRequests = 2000;  ///< a second and connection
     picture::FrameLimits frame;
+    std::size_t maxFill = picture::Painter::kFillSteps;
     exports::Limits file;
     session::Limits session;
     std::string store = "memory";            ///< as store::StoreOptions::place has it

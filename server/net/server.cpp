@@ -88,7 +88,11 @@ Server::Server(Options options)
       workers_(options_.workers > 0 ? static_cast<std::size_t>(options_.workers)
                                     : std::max(1U, std::thread::hardware_concurrency())),
       readiness_(workers_),
-      pool_(static_cast<int>(workers_), [this](picture::Painter& painter) { readiness_.warmUp(painter); }),
+      pool_(static_cast<int>(workers_),
+            [this](picture::Painter& painter) {
+                painter.limitFill(options_.maxFill);
+                readiness_.warmUp(painter);
+            }),
       fileMakers_(options_.fileWorkers, [](picture::Painter&) {}),
       services_{options_, io_, pool_, fileMakers_, metrics_},
       hub_(std::make_shared<Hub>(services_, store::openStore(storeOptions(options_)))),

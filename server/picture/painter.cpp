@@ -46,7 +46,7 @@ void Painter::compose(const session::State& state, const geometry::SliceSet& sli
     times_.compose = secondsOf([&] {
         scene::compose(*state.polytope, slices.planes, state.slices.focus, state.look, viewport, scene_,
                        state.orientation);
-        scene::fill(*state.polytope, slices, scene_);
+        scene::fill(*state.polytope, slices, scene_, fillSteps_);
     });
 }
 

@@ -25,6 +25,10 @@ struct Times {
 /// Keeps a slicer, a GL context and all memory in between. One painter serves one thread, the one that first draws.
 class Painter {
   public:
+    /// What a picture may take to fill faces that cross themselves, in the steps of geometry::Filler.
+    static constexpr std::size_t kFillSteps = 20'000'000;
+    void limitFill(std::size_t steps) { fillSteps_ = steps; }
+
     /// Cuts the state's polytope. `out` is overwritten and its memory reused.
     void cut(const session::State& state, geometry::SliceSet& out);
 
@@ -45,6 +49,7 @@ class Painter {
   private:
     void compose(const session::State& state, const geometry::SliceSet& slices, scene::Viewport viewport);
 
+    std::size_t fillSteps_ = kFillSteps;
     geometry::Slicer slicer_;
     scene::Scene scene_;
     render::Image image_;

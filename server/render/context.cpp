@@ -53,6 +53,9 @@ void Context::begin(int width, int height, std::uint8_t* pixels) {
     glViewport(0, 0, width, height);
 }
 
+// glFlush would copy the whole picture.
+void Context::start() { glDeleteSync(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
+
 void Context::finish() { glFinish(); }
 
 }  // namespace oval4d::render

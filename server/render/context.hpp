@@ -21,6 +21,9 @@ class Context {
     /// picture of this size is too large for the driver.
     void begin(int width, int height, std::uint8_t* pixels);
 
+    /// Lets the driver's threads fill the pixels of what was drawn so far, and does not wait for them.
+    void start();
+
     /// Waits until the picture is drawn. Once a frame: every call copies the whole of it.
     void finish();
 

@@ -17,6 +17,13 @@ std::string fontFile() {
     return file != nullptr && *file != '\0' ? file : OVAL4D_FONT;
 }
 
+namespace {
+
+// Indices. So many are drawn at once: while the driver's threads fill their pixels, this one prepares the next.
+constexpr std::size_t kPart = 12'000;
+
+}  // namespace
+
 struct Renderer::Impl {
     explicit Impl(const std::string& font)
         : flatProgram(scene::style(), SolidProgram::Depth::flat),
@@ -40,6 +47,7 @@ void Renderer::Impl::drawLayers() {
     glClear(GL_DEPTH_BUFFER_BIT);
     glDisable(GL_BLEND);
     flatProgram.drawWithin(layers.depths, layers.faces);
+    context.start();
     glEnable(GL_BLEND);
     roundProgram.drawWithin(layers.depths, layers.frame);
     glDepthMask(GL_FALSE);
@@ -78,7 +86,12 @@ void Renderer::draw(const geometry::Polytope& polytope, const geometry::SliceSet
     solids.begin(scene::style());
     overlay.begin(scene.viewport);
     if (polytope.convex) {
-        impl_->slicePainter.paint(polytope, slices, scene, solids);
+        impl_->slicePainter.paint(polytope, slices, scene, solids, [this, &solids] {
+            if (solids.indices().size() < kPart) return;
+            impl_->flatProgram.draw(solids);
+            impl_->context.start();
+            solids.clear();
+        });
     } else {
         impl_->crossingPainter.paint(polytope, slices, scene, impl_->layers);
         impl_->drawLayers();

@@ -11,7 +11,7 @@ namespace oval4d::render {
 using geometry::SliceSet;
 
 void SlicePainter::paint(const geometry::Polytope& polytope, const SliceSet& slices, const scene::Scene& scene,
-                         Solids& out) {
+                         Solids& out, const std::function<void()>& painted) {
     const glm::dmat4 toView = scene.camera.view();
     out.lookThrough(Lens::of(scene.camera, scene.viewport));
     standOrder_.clear();
@@ -26,7 +26,10 @@ void SlicePainter::paint(const geometry::Polytope& polytope, const SliceSet& sli
         const double da = distance(a), db = distance(b);
         return da != db ? da > db : a < b;
     });
-    for (const std::uint32_t i : standOrder_) paintSlice({polytope, slices, scene, toView, i}, out);
+    for (const std::uint32_t i : standOrder_) {
+        paintSlice({polytope, slices, scene, toView, i}, out);
+        painted();
+    }
 }
 
 void SlicePainter::paintSlice(const SliceView& slice, Solids& out) {

@@ -2,6 +2,7 @@
 // The slices of a scene as shapes in painter's order.
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -18,9 +19,10 @@ namespace oval4d::render {
 /// other bars and balls. Keeps its memory from one picture to the next.
 class SlicePainter {
   public:
-    /// Adds all slices that are drawn, seen through the scene's camera.
+    /// Adds all slices that are drawn, seen through the scene's camera, and calls `painted` after each: it may draw
+    /// what there is so far, and clear it.
     void paint(const geometry::Polytope& polytope, const geometry::SliceSet& slices, const scene::Scene& scene,
-               Solids& out);
+               Solids& out, const std::function<void()>& painted);
 
   private:
     enum class Side : std::uint8_t { away, toward };

@@ -43,6 +43,10 @@ void Solids::begin(const scene::Style& style) {
     light_ = glm::normalize(glm::vec3(style.light));
     half_ = glm::normalize(light_ + glm::vec3(0, 0, 1));
     diffuse_ = static_cast<float>(style.diffuse);
+    clear();
+}
+
+void Solids::clear() {
     vertices_.clear();
     indices_.clear();
 }
@@ -171,7 +175,8 @@ layout(location = 2) in vec3 diffuseIn;
 layout(location = 3) in vec3 specularIn;
 layout(location = 4) in vec4 colourIn;
 uniform vec3 toDepth;
-out vec3 place;
+// Not for the perspective: a patch is so slender that it makes no difference, and pixels cost less.
+noperspective out vec3 place;
 flat out vec3 diffuse, specular;
 flat out vec4 colour;
 void main() {
@@ -201,7 +206,7 @@ constexpr std::string_view kRoundDepth = R"(
 std::string fragmentSource(const scene::Style& style, SolidProgram::Depth depth) {
     return R"(
 uniform vec3 toDepth;
-in vec3 place;
+noperspective in vec3 place;
 flat in vec3 diffuse, specular;
 flat in vec4 colour;
 out vec4 pixel;

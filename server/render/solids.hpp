@@ -32,6 +32,8 @@ class Solids {
     /// Starts an empty list of shapes in the light of `style`.
     void begin(const scene::Style& style);
 
+    void clear();
+
     /// What is added from now on is seen through `lens`.
     void lookThrough(const Lens& lens) { lens_ = lens; }
 

@@ -195,8 +195,10 @@ struct Scene {
 void compose(const geometry::Polytope& polytope, const geometry::Hyperplanes& planes, int focus, const Look& look,
              Viewport viewport, Scene& out, const geometry::Rotation& orientation = {});
 
-/// Fills the faces of slices, for a scene that was composed for them, where the polytope is not convex.
-void fill(const geometry::Polytope& polytope, const geometry::SliceSet& slices, Scene& scene);
+/// Fills the faces of slices, for a scene that was composed for them, where the polytope is not convex; in so many
+/// steps at most, as Filler counts them.
+void fill(const geometry::Polytope& polytope, const geometry::SliceSet& slices, Scene& scene,
+          std::size_t steps = geometry::Filler::kNoLimit);
 
 /// The cell that gives the slice's face cut from `of` its colour: the cell itself; of a 2-face in the hyperplane the
 /// first of its two cells that is not hidden.

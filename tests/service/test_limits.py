@@ -35,6 +35,37 @@ async def test_the_welcome_tells_the_limits():
             assert await client.closed() == 1009
 
 
+async def fills_of(server, **settings):
+    """The triangles of each slice's fill, as corners."""
+    async with Client(server) as client:
+        await client.request("set", **settings)
+        await client.frame(width=160, height=90)
+        slices = (await client.request("get", what="slices"))["slices"]
+        return [[[piece["fill"]["points"][i] for i in t] for t in piece["fill"]["triangles"]]
+                for piece in slices if "fill" in piece]
+
+
+def area(triangles):
+    total = 0
+    for a, b, c in triangles:
+        u, v = ([q - p for p, q in zip(a, end)] for end in (b, c))
+        total += sum((u[i - 2] * v[i - 1] - u[i - 1] * v[i - 2]) ** 2 for i in range(3)) ** 0.5 / 2
+    return total
+
+
+async def test_steps_of_filling():
+    star = {"polytope": "{5/2,5,3}", "slices": {"count": 5}}
+    with Server() as server:
+        exact = await fills_of(server, **star)
+    with Server("--max-fill", 1) as server:
+        rough = await fills_of(server, **star)
+    assert len(exact) == len(rough) > 0
+    for triangles, roughly in zip(exact, rough):
+        assert area(roughly) > 1.01 * area(triangles), "stars' cores are covered more than once"
+    failed = run("--max-fill", "0")
+    assert failed.returncode != 0 and b"max-fill" in failed.stderr + failed.stdout
+
+
 async def test_sessions():
     with Server("--max-sessions", 2) as server:
         async with Client(server), Client(server):

@@ -113,6 +113,23 @@ TEST(Fill, OfAPentagramIsItsOutlineWithTheCore) {
     EXPECT_EQ(fill.patches[0].winding, 2);
 }
 
+TEST(Fill, IsRoughWhereStepsAreFew) {
+    const SliceSet slices = flat({starPolygon(7, 3)}, {1, 0, 0}, {0, 1, 0});
+    for (const std::size_t steps : {0, 48, 49, 100}) {
+        Fill fill;
+        Filler().fill(slices, 1, fill, steps);
+        ASSERT_EQ(fill.patches.size(), 1U);
+        EXPECT_EQ(fill.patches[0].winding, 0);
+        EXPECT_EQ(fill.cornerBegin.size() - 1, 7U);
+        // From the middle of a star polygon all sides are seen: the triangles lie over each other in the core alone.
+        EXPECT_NEAR(areaOf(fill), 3.5 * std::sin(6 * std::numbers::pi / 7), 1e-9);
+    }
+    Fill fill;
+    Filler().fill(slices, 1, fill, 10'000);
+    EXPECT_EQ(fill.patches[0].winding, 3);
+    EXPECT_LT(areaOf(fill), 3.5 * std::sin(6 * std::numbers::pi / 7));
+}
+
 TEST(Fill, OfOppositeLoopsLeavesAHole) {
     std::vector<glm::dvec2> inner{{-1, -1}, {-1, 1}, {1, 1}, {1, -1}};
     const std::vector<glm::dvec2> outer{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
