@@ -95,7 +95,7 @@ void LiveSession::order(std::vector<Want> wants) {
     }
     if (busy_) return;
     busy_ = true;
-    services_.pool.post([self = shared_from_this()](picture::Painter& painter) { self->work(painter); });
+    services_.pool.post([self = shared_from_this()](picture::Painter& painter) { self->work(painter); }, lane_);
 }
 
 void LiveSession::work(picture::Painter& painter) {

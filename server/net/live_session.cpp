@@ -148,7 +148,7 @@ asio::awaitable<void> LiveSession::obey(std::shared_ptr<Peer> peer, const protoc
             shown = session_.now.polytope;
             done = session::apply(session_, command, services_.options.session, *workshop);
             if (!workshop->ordered()) break;
-            co_await onPool(services_.pool, orderOf(workshop));
+            co_await onPool(services_.pool, orderOf(workshop), lane_);
         }
     } catch (const std::exception& fault) {
         spdlog::error("command failed session={} fault=\"{}\"", ticket_.id, fault.what());
@@ -233,7 +233,7 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
     const std::uint64_t asked = revision();
     bool failed = false;
     try {
-        Message picture = co_await onPool(services_.pool, pictureJob(want, id));
+        Message picture = co_await onPool(services_.pool, pictureJob(want, id), lane_);
         peer->send(std::move(picture));
         if (want.stream == Stream::frames) peer->send(doneMessage(id, asked));
     } catch (const std::exception& fault) {

@@ -127,6 +127,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     store::Keeper& keeper_;
     const store::Ticket ticket_;
     Strand strand_;
+    const WorkerPool::LanePtr lane_ = std::make_shared<WorkerPool::Lane>();
 
     // The strand's.
     session::Session session_;

@@ -1,34 +1,53 @@
 #include "net/worker_pool.hpp"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <utility>
 
 namespace oval4d::net {
 
-WorkerPool::WorkerPool(int threads, Job first) {
-    const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
-    const unsigned count = threads > 0 ? static_cast<unsigned>(threads) : cores;
-    for (unsigned i = 0; i < count; ++i) threads_.emplace_back([this, first] { run(first); });
+namespace {
+
+using namespace std::chrono_literals;
+
+// So long after its last job a lane with short ones counts as active.
+constexpr auto kActive = 1s;
+
+std::size_t threadCount(int wanted) {
+    return wanted > 0 ? static_cast<std::size_t>(wanted) : std::max(1U, std::thread::hardware_concurrency());
+}
+
+}  // namespace
+
+WorkerPool::WorkerPool(int threads, Job first) : count_(threadCount(threads)), lastShort_(Clock::now() - kActive) {
+    for (std::size_t i = 0; i < count_; ++i) threads_.emplace_back([this, first] { run(first); });
 }
 
 WorkerPool::~WorkerPool() { stop(); }
 
-void WorkerPool::post(Job job) {
+void WorkerPool::post(Job job, LanePtr lane) {
+    if (!lane) lane = common_;
     {
         const std::lock_guard lock(mutex_);
         if (stopping_) return;
-        jobs_.push_back(std::move(job));
+        const Seconds due = std::max(now_, lane->due_);
+        const Seconds expected = lane->expected_;
+        lane->due_ = due + expected;
+        if (expected <= kLong) lastShort_ = Clock::now();
+        (expected <= kLong ? short_ : long_).emplace(due, Entry{std::move(job), std::move(lane), expected});
     }
     wake_.notify_one();
 }
 
 void WorkerPool::stop() {
     stopSource_.request_stop();
-    std::deque<Job> dropped;  // destroyed outside the lock: a job may own much
+    Queue dropped[2];  // destroyed outside the lock: a job may own much
     {
         const std::lock_guard lock(mutex_);
         stopping_ = true;
-        dropped.swap(jobs_);
+        dropped[0].swap(short_);
+        dropped[1].swap(long_);
     }
     wake_.notify_all();
     for (std::thread& thread : threads_) thread.join();
@@ -37,25 +56,65 @@ void WorkerPool::stop() {
 
 std::size_t WorkerPool::waiting() const {
     const std::lock_guard lock(mutex_);
-    return jobs_.size();
+    return short_.size() + long_.size();
+}
+
+WorkerPool::Seconds WorkerPool::worked() const {
+    const std::lock_guard lock(mutex_);
+    return worked_;
+}
+
+/// The queue whose first job is to be begun now, if any is.
+WorkerPool::Queue* WorkerPool::next() {
+    const bool held = longRunning_ + 1 >= count_ && longRunning_ > 0 && Clock::now() - lastShort_ < kActive;
+    if (long_.empty() || held) return short_.empty() ? nullptr : &short_;
+    return short_.empty() || long_.begin()->first < short_.begin()->first ? &long_ : &short_;
 }
 
 void WorkerPool::run(const Job& first) {
     picture::Painter painter;
     first(painter);
-    for (;;) {
-        Job job;
-        {
-            std::unique_lock lock(mutex_);
-            wake_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
-            if (stopping_) return;
-            job = std::move(jobs_.front());
-            jobs_.pop_front();
+    std::unique_lock lock(mutex_);
+    bool idle = true;
+    while (!stopping_) {
+        Queue* const queue = next();
+        if (queue == nullptr) {
+            wait(lock, idle);
+            continue;
         }
-        const auto start = std::chrono::steady_clock::now();
-        job(painter);
-        worked_ += std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count();
+        idle = false;
+        Entry entry = std::move(queue->begin()->second);
+        now_ = std::max(now_, queue->begin()->first);
+        queue->erase(queue->begin());
+        const bool isLong = queue == &long_;
+        longRunning_ += isLong ? 1 : 0;
+        lock.unlock();
+        const auto start = Clock::now();
+        entry.job(painter);
+        entry.job = nullptr;  // what it owns is let go outside the lock
+        const Seconds took = Clock::now() - start;
+        lock.lock();
+        longRunning_ -= isLong ? 1 : 0;
+        finish(entry, took);
+        if (!long_.empty()) wake_.notify_one();
     }
+}
+
+/// Waits for a job. A long one that is held back may begin when the short ones have been gone for long enough; and when
+/// nothing comes for a while after a burst, its memory goes back to the system.
+void WorkerPool::wait(std::unique_lock<std::mutex>& lock, bool& idle) {
+    if (idle && long_.empty()) return wake_.wait(lock);
+    if (wake_.wait_for(lock, kActive) == std::cv_status::no_timeout || idle || !long_.empty()) return;
+    idle = true;
+    lock.unlock();
+    malloc_trim(0);
+    lock.lock();
+}
+
+void WorkerPool::finish(const Entry& entry, Seconds took) {
+    worked_ += took;
+    entry.lane->due_ += took - entry.expected;
+    entry.lane->expected_ = (entry.lane->expected_ + took) / 2;
 }
 
 }  // namespace oval4d::net
