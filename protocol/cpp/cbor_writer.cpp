@@ -11,7 +11,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "typed arrays are copied as they lie in memory");
 
 constexpr std::uint8_t kUnsigned = 0, kNegative = 1, kBytes = 2, kText = 3;
-constexpr std::uint8_t kUint8Array = 64, kUint32Array = 70, kFloat32Array = 85;  // little endian
+constexpr std::uint8_t kUint8Array = 64, kUint16Array = 69, kUint32Array = 70, kFloat32Array = 85;  // little endian
 
 }  // namespace
 
@@ -30,9 +30,16 @@ void CborWriter::head(std::uint8_t major, std::uint64_t argument) {
 }
 
 void CborWriter::value(double number) {
+    if (const auto shorter = static_cast<float>(number); shorter == number) return single(shorter);
     const auto bits = std::bit_cast<std::uint64_t>(number);
     buffer_.put('\xFB');
     for (int shift = 56; shift >= 0; shift -= 8) buffer_.put(static_cast<char>(bits >> static_cast<unsigned>(shift)));
+}
+
+void CborWriter::single(float number) {
+    const auto bits = std::bit_cast<std::uint32_t>(number);
+    buffer_.put('\xFA');
+    for (int shift = 24; shift >= 0; shift -= 8) buffer_.put(static_cast<char>(bits >> static_cast<unsigned>(shift)));
 }
 
 void CborWriter::value(std::int64_t number) {
@@ -71,26 +78,46 @@ void CborWriter::floats(std::span<const V> list) {
 
 void CborWriter::vector(const glm::dvec3& v) {
     head(4, 3);  // a plain array, as short ones are
-    for (int i = 0; i < 3; ++i) value(v[i]);
+    for (int i = 0; i < 3; ++i) single(static_cast<float>(v[i]));
 }
 
 void CborWriter::vectors(std::span<const glm::dvec3> list) { floats(list); }
 void CborWriter::vectors(std::span<const glm::dvec4> list) { floats(list); }
 
+// Whole numbers less `from`, in the least width that holds them all.
+void CborWriter::integers(std::span<const std::uint32_t> list, std::uint32_t from) {
+    std::uint32_t bits = 0;
+    for (const std::uint32_t number : list) bits |= number - from;
+    if (bits <= 0xFF) {
+        integersAs<std::uint8_t>(kUint8Array, list, from);
+    } else if (bits <= 0xFFFF) {
+        integersAs<std::uint16_t>(kUint16Array, list, from);
+    } else {
+        integersAs<std::uint32_t>(kUint32Array, list, from);
+    }
+}
+
+template <typename Integer>
+void CborWriter::integersAs(std::uint8_t tag, std::span<const std::uint32_t> list, std::uint32_t from) {
+    typedArray(tag, list.size() * sizeof(Integer));
+    char* at = buffer_.at();
+    for (const std::uint32_t number : list) {
+        const auto narrow = static_cast<Integer>(number - from);
+        std::memcpy(at, &narrow, sizeof narrow);
+        at += sizeof narrow;
+    }
+    buffer_.moveTo(at);
+}
+
 void CborWriter::pairs(std::span<const Pair> list) {
-    typedArray(kUint32Array, list.size_bytes());
-    if (!list.empty()) buffer_.put({reinterpret_cast<const char*>(list.data()), list.size_bytes()});
+    integers({reinterpret_cast<const std::uint32_t*>(list.data()), 2 * list.size()}, 0);
 }
 
 void CborWriter::triples(std::span<const Triple> list) {
-    typedArray(kUint32Array, list.size_bytes());
-    if (!list.empty()) buffer_.put({reinterpret_cast<const char*>(list.data()), list.size_bytes()});
+    integers({reinterpret_cast<const std::uint32_t*>(list.data()), 3 * list.size()}, 0);
 }
 
-void CborWriter::numbers(std::span<const std::uint32_t> list) {
-    typedArray(kUint32Array, list.size_bytes());
-    if (!list.empty()) buffer_.put({reinterpret_cast<const char*>(list.data()), list.size_bytes()});
-}
+void CborWriter::numbers(std::span<const std::uint32_t> list) { integers(list, 0); }
 
 void CborWriter::picture(std::span<const std::uint8_t> pixels, std::size_t /*columns*/) {
     typedArray(kUint8Array, pixels.size());
@@ -100,14 +127,7 @@ void CborWriter::picture(std::span<const std::uint8_t> pixels, std::size_t /*col
 void CborWriter::lists(ListsView view) {
     beginObject();
     key("begin");
-    typedArray(kUint32Array, view.begin.size_bytes());
-    char* at = buffer_.at();
-    for (const std::uint32_t begin : view.begin) {
-        const std::uint32_t own = begin - view.begin[0];
-        std::memcpy(at, &own, sizeof own);
-        at += sizeof own;
-    }
-    buffer_.moveTo(at);
+    integers(view.begin, view.begin[0]);
     key("corners");
     numbers(view.items);
     endObject();

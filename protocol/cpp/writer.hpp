@@ -142,7 +142,11 @@ class CborWriter {
 
   private:
     void head(std::uint8_t major, std::uint64_t argument);
+    void single(float number);
     void typedArray(std::uint8_t tag, std::size_t bytes);
+    void integers(std::span<const std::uint32_t> list, std::uint32_t from);
+    template <typename Integer>
+    void integersAs(std::uint8_t tag, std::span<const std::uint32_t> list, std::uint32_t from);
     template <typename V>
     void floats(std::span<const V> list);
 

@@ -341,7 +341,7 @@ def from_cbor(data):
         raise ImportError("slices in CBOR need python3-cbor2")
 
     def typed(_, tag):
-        kind = {85: "f", 70: "I"}.get(tag.tag)
+        kind = {85: "f", 64: "B", 69: "H", 70: "I"}.get(tag.tag)
         return tag if kind is None else array.array(kind, tag.value)
 
     return cbor2.loads(data, tag_hook=typed)

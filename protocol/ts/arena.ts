@@ -7,7 +7,7 @@ export class Arena {
     private memory = new ArrayBuffer(0);
     private used = 0;
 
-    /** From now on the memory is that of a message of so many bytes. */
+    /** From now on the memory is that of another message, which needs so many bytes. */
     begin(bytes: number): void {
         this.used = 0;
         if (bytes > this.memory.byteLength) this.memory = new ArrayBuffer(2 ** Math.ceil(Math.log2(bytes)));
@@ -15,11 +15,17 @@ export class Arena {
 
     /** These bytes, little endian, as numbers; nothing where there is no room. */
     take<T>(bytes: Uint8Array, numbers: Numbers<T>): T | undefined {
+        const room = this.room(bytes.length / numbers.BYTES_PER_ELEMENT, numbers);
+        if (room) new Uint8Array(this.memory, this.used - bytes.length, bytes.length).set(bytes);
+        return room;
+    }
+
+    /** Room for so many numbers, if there is any. */
+    room<T>(count: number, numbers: Numbers<T>): T | undefined {
         const size = numbers.BYTES_PER_ELEMENT;
         const begin = Math.ceil(this.used / size) * size;
-        if (begin + bytes.length > this.memory.byteLength) return undefined;
-        new Uint8Array(this.memory, begin, bytes.length).set(bytes);
-        this.used = begin + bytes.length;
-        return new numbers(this.memory, begin, bytes.length / size);
+        if (begin + count * size > this.memory.byteLength) return undefined;
+        this.used = begin + count * size;
+        return new numbers(this.memory, begin, count);
     }
 }

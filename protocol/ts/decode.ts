@@ -18,6 +18,7 @@ function readTyped<T>(tag: number, numbers: Numbers<T>): void {
             : (arena?.take(bytes, numbers) ?? new numbers(bytes.slice().buffer, 0, bytes.length / size));
     addExtension({ tag, decode } as Parameters<typeof addExtension>[0]);
 }
+readTyped(69, Uint16Array);
 readTyped(70, Uint32Array);
 readTyped(85, Float32Array);
 
@@ -38,7 +39,7 @@ export function decodeText(text: string): Message {
 
 /** With an arena, the arrays are valid until it is used for another message. */
 export function decodeCbor(bytes: Uint8Array, within?: Arena): Message {
-    within?.begin(bytes.length);
+    within?.begin(6 * bytes.length); // moved, or widened from 1 byte to 4
     arena = within;
     try {
         return flattened(cbor.decode(bytes) as Message);
@@ -67,20 +68,22 @@ export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined
 }
 
 type Loose<T> = T | number[] | number[][];
+/** As wide as they must be. */
+type Integers = Uint8Array | Uint16Array | Uint32Array;
 
 /** The same slice as JSON has it: nested arrays. */
 interface LooseSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" | "tints" | "seen" | "fill"> {
     vertices: Loose<Float32Array>;
-    edges: Loose<Uint32Array>;
-    faces: number[][] | Slice["faces"];
-    of: Record<"vertices" | "edges" | "faces", Loose<Uint32Array>>;
-    tints?: Loose<Uint32Array>;
-    seen?: Record<"vertices" | "edges" | "faces", Loose<Uint32Array>>;
+    edges: Loose<Integers>;
+    faces: number[][] | { begin: Integers; corners: Integers };
+    of: Record<"vertices" | "edges" | "faces", Loose<Integers>>;
+    tints?: Loose<Integers>;
+    seen?: Record<"vertices" | "edges" | "faces", Loose<Integers>>;
     fill?: {
         points: Loose<Float32Array>;
-        triangles: Loose<Uint32Array>;
-        tints: Loose<Uint32Array>;
-        seen?: Loose<Uint32Array>;
+        triangles: Loose<Integers>;
+        tints: Loose<Integers>;
+        seen?: Loose<Integers>;
     };
 }
 
@@ -125,12 +128,16 @@ function floats(values: Loose<Float32Array>): Float32Array {
     return values instanceof Float32Array ? values : Float32Array.from((values as number[]).flat());
 }
 
-function indices(values: Loose<Uint32Array>): Uint32Array {
-    return values instanceof Uint32Array ? values : Uint32Array.from((values as number[]).flat());
+function indices(values: Loose<Integers>): Uint32Array {
+    if (values instanceof Uint32Array) return values;
+    if (!ArrayBuffer.isView(values)) return Uint32Array.from((values as number[]).flat());
+    const wide = arena?.room(values.length, Uint32Array) ?? new Uint32Array(values.length);
+    wide.set(values);
+    return wide;
 }
 
 function loops(faces: LooseSlice["faces"]): Slice["faces"] {
-    if (!Array.isArray(faces)) return faces;
+    if (!Array.isArray(faces)) return { begin: indices(faces.begin), corners: indices(faces.corners) };
     const begin = new Uint32Array(faces.length + 1);
     faces.forEach((face, i) => (begin[i + 1] = begin[i]! + face.length));
     return { begin, corners: Uint32Array.from(faces.flat()) };

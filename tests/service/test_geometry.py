@@ -126,8 +126,8 @@ async def test_the_layout_travels_with_the_slices(server):
 def plain(value):
     """Typed arrays (RFC 8746) as lists of numbers."""
     if isinstance(value, cbor2.CBORTag):
-        letter = {85: "f", 70: "I"}[value.tag]
-        return list(struct.unpack(f"<{len(value.value) // 4}{letter}", value.value))
+        letter = {85: "f", 64: "B", 69: "H", 70: "I"}[value.tag]
+        return [number for number, in struct.iter_unpack(f"<{letter}", value.value)]
     if isinstance(value, dict):
         return {name: plain(member) for name, member in value.items()}
     return [plain(item) for item in value] if isinstance(value, list) else value
