@@ -200,9 +200,9 @@ json inRowsOf(std::size_t size, const json& flat) {
 // The same of integers, which are as wide as they must be.
 json integersOf(const json& typed) {
     const std::uint64_t tag = typed.get_binary().subtype();
-    const json numbers = tag == 64   ? numbersOf<std::uint8_t>(typed, tag)
-                         : tag == 69 ? numbersOf<std::uint16_t>(typed, tag)
-                                     : numbersOf<std::uint32_t>(typed, 70);
+    json numbers = tag == 64   ? numbersOf<std::uint8_t>(typed, tag)
+                   : tag == 69 ? numbersOf<std::uint16_t>(typed, tag)
+                               : numbersOf<std::uint32_t>(typed, 70);
     const std::uint32_t most = numbers.empty() ? 0 : std::ranges::max(numbers.get<std::vector<std::uint32_t>>());
     EXPECT_EQ(tag, most < 0x100 ? 64U : most < 0x10000 ? 69U : 70U);
     return numbers;
