@@ -16,6 +16,7 @@
 
 #include "geometry/catalogue.hpp"
 #include "net/http_session.hpp"
+#include "net/processors.hpp"
 #include "net/readiness.hpp"
 #include "store/secret.hpp"
 
@@ -49,8 +50,10 @@ store::StoreOptions storeOptions(const Options& options) {
 }
 
 std::string addressFor(const tcp::endpoint& endpoint) {
-    const std::string address = endpoint.address().to_string();
-    const std::string host = endpoint.address().is_v6() ? "[" + address + "]" : address;
+    // Where it listens at all addresses, one that a browser on this machine can open.
+    const bool all = endpoint.address().is_unspecified();
+    const std::string address = all ? "localhost" : endpoint.address().to_string();
+    const std::string host = endpoint.address().is_v6() && !all ? "[" + address + "]" : address;
     return "http://" + host + ":" + std::to_string(endpoint.port()) + "/";
 }
 
@@ -86,7 +89,7 @@ Server::Server(Options options)
       acceptor_(bound(io_, options_)),
       files_(options_.webRoot),
       workers_(options_.workers > 0 ? static_cast<std::size_t>(options_.workers)
-                                    : std::max(1U, std::thread::hardware_concurrency())),
+                                    : processors()),
       readiness_(workers_),
       pool_(static_cast<int>(workers_),
             [this](picture::Painter& painter) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "net/processors.hpp"
+
 namespace oval4d::net {
 
 namespace {
@@ -15,7 +17,7 @@ using namespace std::chrono_literals;
 constexpr auto kActive = 1s;
 
 std::size_t threadCount(int wanted) {
-    return wanted > 0 ? static_cast<std::size_t>(wanted) : std::max(1U, std::thread::hardware_concurrency());
+    return wanted > 0 ? static_cast<std::size_t>(wanted) : processors();
 }
 
 }  // namespace

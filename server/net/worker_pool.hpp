@@ -37,7 +37,7 @@ class WorkerPool {
     /// A job expected to take longer than this is a long one.
     static constexpr Seconds kLong{0.015};
 
-    /// 0 threads: one a core. Each carries out `first` before any other job.
+    /// 0 threads: one for each processor to be had. Each carries out `first` before any other job.
     WorkerPool(int threads, Job first);
     ~WorkerPool();
 

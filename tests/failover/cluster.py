@@ -79,7 +79,8 @@ class Proxy:
         assert replaced == 2
         path = folder / "haproxy.cfg"
         path.write_text(text, encoding="utf-8")
-        subprocess.run(["haproxy", "-c", "-f", path], check=True, **NOWHERE)
+        checked = subprocess.run(["haproxy", "-c", "-f", path], capture_output=True, text=True, check=False)
+        assert checked.returncode == 0, checked.stderr
         self.process = subprocess.Popen(["haproxy", "-db", "-f", path], **NOWHERE)
         until(lambda: answers(self.port), "HAProxy")
 

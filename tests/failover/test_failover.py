@@ -70,10 +70,10 @@ class Session:
         if self.token is None:
             self.path, self.token = f"/ws/{welcome['session']}", welcome["token"]
             self.start = self.steps(state)
-            done = await self.ask(socket, 3, type="set", camera={"azimuth": self.number / 1000})  # whose it is
+            done = await self.ask(socket, 3, type="set", camera={"azimuth": (self.number + 1) / 1000})  # whose it is
             self.acknowledged = done["revision"]
             return
-        if self.acknowledged and abs(state["camera"]["azimuth"] - self.number / 1000) > 1e-9:
+        if self.acknowledged and abs(state["camera"]["azimuth"] - (self.number + 1) / 1000) > 1e-9:
             self.faults.append(f"session {self.number} has another's state")
         if state["revision"] < self.acknowledged:
             self.faults.append(f"session {self.number} was at {self.acknowledged} and is at {state['revision']}")
