@@ -41,7 +41,9 @@ void addPlace(CLI::App& app, Options& options) {
     add(app, "--host", options.host, "Address to listen at; any but a loopback address asks clients for a token");
     add(app, "--port", options.port, "TCP port; 0 for any free one, which the first line of the log names");
     add(app, "--web-root", options.webRoot, "Folder of the built page");
-    add(app, "--workers", options.workers, "Threads that slice and draw; 0 for one a processor, within the CPU quota of the container")->check(CLI::Range(0, 1024));
+    add(app, "--workers", options.workers,
+        "Threads that slice and draw; 0 for one a processor, within the CPU quota of the container")
+        ->check(CLI::Range(0, 1024));
     add(app, "--file-workers", options.fileWorkers, "Threads that make files; pictures do not wait for them")
         ->check(CLI::Range(1, 1024));
     add(app, "--io-threads", options.ioThreads, "Threads that read and write sockets")->check(CLI::Range(1, 64));

@@ -88,8 +88,7 @@ Server::Server(Options options)
     : options_(std::move(options)),
       acceptor_(bound(io_, options_)),
       files_(options_.webRoot),
-      workers_(options_.workers > 0 ? static_cast<std::size_t>(options_.workers)
-                                    : processors()),
+      workers_(options_.workers > 0 ? static_cast<std::size_t>(options_.workers) : processors()),
       readiness_(workers_),
       pool_(static_cast<int>(workers_),
             [this](picture::Painter& painter) {

@@ -48,6 +48,14 @@ void Keeper::stop(Milliseconds limit) {
     }
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
+    // Who still waits may own much: let go of outside the lock, and no later than the caller of this expects.
+    decltype(held_) held;
+    decltype(tasks_) tasks;
+    {
+        const std::lock_guard lock(mutex_);
+        held.swap(held_);
+        tasks.swap(tasks_);
+    }
 }
 
 Ticket Keeper::create() {
@@ -108,7 +116,8 @@ void Keeper::letGo(const std::string& id) {
 
 std::size_t Keeper::count() const {
     const std::lock_guard lock(mutex_);
-    return kept_ + created_;
+    // What many servers share is no measure of what one of them bears.
+    return pace_ == Store::Pace::at_once ? held_.size() : kept_ + created_;
 }
 
 std::size_t Keeper::unsaved() const {

@@ -74,7 +74,7 @@ class Keeper {
     /// Leaves a session that was fetched, but could not be read, as it is in the store.
     void letGo(const std::string& id);
 
-    /// Sessions kept in the store or here, about.
+    /// Sessions kept in the store or here, about; with a store that servers share, those that are here.
     std::size_t count() const;
     /// Changes that wait to be written.
     std::size_t unsaved() const;

@@ -31,7 +31,7 @@ return {fence, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 
 // KEYS: the same. ARGV: this server, expiry, fence, token, head, whole, 1 for the last saving, how many polytopes to
 // add, their keys and bytes, the keys of those to drop. Of equal fences, which only a Redis that has lost writes gives
-// out, the owner's is the right one.
+// out, the owner's is the right one. After a head comes the whole within a second, and it puts off the expiry.
 constexpr const char* kSave = R"(
 local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
 local mine = tonumber(ARGV[3])
@@ -41,13 +41,16 @@ if fence then
 elseif ARGV[6] == '' then return 2 end
 local keeper = ARGV[1]
 if ARGV[7] == '1' then keeper = '' end
-redis.call('HSET', KEYS[1], 'fence', mine, 'owner', keeper, 'token', ARGV[4], 'head', ARGV[5])
-if ARGV[6] ~= '' then redis.call('HSET', KEYS[1], 'whole', ARGV[6]) end
+redis.call('HSET', KEYS[1], 'fence', mine, 'owner', keeper, 'head', ARGV[5])
+if ARGV[6] ~= '' then
+  redis.call('HSET', KEYS[1], 'token', ARGV[4], 'whole', ARGV[6])
+  redis.call('PEXPIRE', KEYS[1], ARGV[2])
+  redis.call('PEXPIRE', KEYS[2], ARGV[2])
+end
 local last = 8 + 2 * tonumber(ARGV[8])
 for i = 9, last, 2 do redis.call('HSET', KEYS[2], ARGV[i], ARGV[i + 1]) end
+if last > 8 then redis.call('PEXPIRE', KEYS[2], ARGV[2]) end
 for i = last + 1, #ARGV do redis.call('HDEL', KEYS[2], ARGV[i]) end
-redis.call('PEXPIRE', KEYS[1], ARGV[2])
-redis.call('PEXPIRE', KEYS[2], ARGV[2])
 return 0)";
 
 constexpr auto kConnectTimeout = 1000ms;

@@ -33,8 +33,7 @@ class Server:
         usual = [("--port", 0), ("--workers", 2), ("--io-threads", 2)]
         words = [word for pair in usual if pair[0] not in options for word in pair]
         words = [str(PROGRAM), *map(str, words), *map(str, options)]
-        self.process = subprocess.Popen(words, env=environment | variables, stderr=self.log_file,
-                                        stdin=subprocess.DEVNULL)
+        self.process = self.start(words, environment | variables)
         try:
             self.url = self.wait_for(lambda: re.search(r"listening url=(\S+)", self.log())).group(1)
             parts = urllib.parse.urlsplit(self.url)
@@ -43,6 +42,9 @@ class Server:
         except BaseException:
             self.kill()
             raise
+
+    def start(self, words, environment):
+        return subprocess.Popen(words, env=environment, stderr=self.log_file, stdin=subprocess.DEVNULL)
 
     def log(self):
         return Path(self.log_file.name).read_text(encoding="utf-8", errors="replace")

@@ -1,0 +1,140 @@
+"""The image, built from docker/Dockerfile as it stands, and the server in it run as its user."""
+
+import asyncio
+import contextlib
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import warnings
+from pathlib import Path
+
+import image
+import pytest
+
+sys.path.insert(0, str(image.ROOT / "tests/service"))
+import harness  # noqa: E402
+import png  # noqa: E402
+from wire import Client  # noqa: E402
+
+SIZE = {"width": 320, "height": 180}
+
+
+@pytest.fixture(scope="module", name="built")
+def built_image():
+    why = image.missing()
+    if why:
+        warnings.warn(f"THE CONTAINER IS NOT TESTED: {why}")
+        pytest.skip(why)
+    builder = image.Builder()
+    builder.build()
+    container = builder("from", "--pull-never", image.IMAGE)
+    yield builder, container, Path(builder("mount", container))
+    builder("umount", container)
+    builder("rm", container)
+
+
+def configuration(built):
+    builder, _, _ = built
+    return json.loads(builder("inspect", "--type", "image", image.IMAGE))
+
+
+def test_its_configuration(built):
+    said = configuration(built)
+    config = said["OCIv1"]["config"]
+    assert config["User"] == "999"
+    assert config["Entrypoint"] == ["oval4d"]
+    assert "8080/tcp" in config["ExposedPorts"] and "/var/lib/oval4d" in config["Volumes"]
+    assert config["StopSignal"] == "SIGTERM"
+    assert config["Labels"]["org.opencontainers.image.licenses"] == "MIT"
+    assert "readyz" in said["Docker"]["config"]["Healthcheck"]["Test"][-1]
+
+
+def test_it_holds_what_the_server_needs_and_no_tools(built):
+    _, _, files = built
+    for tool in ("gcc", "g++", "cc", "c++", "clang", "make", "cmake", "ninja", "node", "npm", "git", "curl", "wget", "python3"):
+        for folder in ("usr/bin", "usr/local/bin", "bin"):
+            assert not (files / folder / tool).is_symlink() and not (files / folder / tool).exists(), tool
+    assert not (files / "oval4d").exists()
+    assert (files / "usr/share/oval4d/web_client/index.html").is_file()
+
+
+def test_its_size_is_told(built):
+    builder, _, files = built
+    status = (files / "var/lib/dpkg/status").read_text(encoding="utf-8")
+    sizes = {}
+    for entry in status.split("\n\n"):
+        fields = dict(re.findall(r"^([\w-]+): (.*)$", entry, re.MULTILINE))
+        if "Installed-Size" in fields:
+            sizes[fields["Package"]] = int(fields["Installed-Size"]) / 1024
+    whole = int(image.run("du", "-sm", files).split()[0])
+    parts = sorted(sizes.items(), key=lambda item: -item[1])[:6]
+    lines = [f"image: {whole} MB", *(f"  {name}: {size:.0f} MB" for name, size in parts),
+             f"  oval4d itself: {os.path.getsize(files / 'usr/bin/oval4d') / 1e6:.0f} MB"]
+    print("\n".join(lines))
+    figures = image.ROOT / "build/results/container/figures.txt"
+    figures.parent.mkdir(parents=True, exist_ok=True)
+    figures.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    assert whole < 600
+
+
+class Contained(harness.Server):
+    """The image's entry point without any options, as its user, in its files: all but the volume are read-only."""
+
+    def __init__(self, files, variables):
+        self.files = files
+        super().__init__(**variables)
+
+    def start(self, words, environment):
+        script = f"""
+            mount --bind {self.files} {self.files} && mount -o remount,bind,ro {self.files} &&
+            mount -t tmpfs -o mode=700,uid=999,gid=999 none {self.files}/var/lib/oval4d &&
+            mount --bind /dev {self.files}/dev && mount -t proc none {self.files}/proc &&
+            exec chroot --userspec=999:999 {self.files} oval4d
+        """
+        return subprocess.Popen(["unshare", "--mount", "--pid", "--fork", "--kill-child", "sh", "-c", script],
+                                env=environment, stderr=self.log_file, stdin=subprocess.DEVNULL)
+
+    def stop(self, *_):
+        os.kill(self.inside(), signal.SIGTERM)
+        return self.process.wait(harness.DEADLINE), 0
+
+    def inside(self):
+        """The server's own process; the test's is that of unshare, which waits for it."""
+        return int(image.run("pgrep", "-P", self.process.pid))
+
+
+def free_port():
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+def test_the_server_in_it_draws_what_the_one_outside_draws(built):
+    _, _, files = built
+    environment = dict(pair.split("=", 1) for pair in configuration(built)["OCIv1"]["config"]["Env"])
+
+    async def picture(server):
+        async with Client(server, stream="none", **SIZE) as client:
+            await client.request("set", polytope="24-cell")
+            for key in "yrtk2":
+                await client.request("key", key=key)
+            state = await client.request("get", what="state")
+            return {**state, "id": 0}, png.pixels(await client.frame())
+
+    with contextlib.ExitStack() as stack:
+        inside = stack.enter_context(
+            Contained(files, {**environment, "OVAL4D_PORT": str(free_port()), "OVAL4D_HOST": "127.0.0.1"}))
+        outside = stack.enter_context(harness.Server())
+        status = Path(f"/proc/{inside.inside()}/status").read_text(encoding="ascii")
+        assert re.search(r"^Uid:\s+999\s+999", status, re.MULTILINE)
+        assert asyncio.run(picture(inside)) == asyncio.run(picture(outside))
+        assert b"<title>" in inside.get("/").body
+        healthcheck = re.search(r'CMD (\["bash".*\])', (image.ROOT / "docker/Dockerfile").read_text(encoding="utf-8"))
+        done = subprocess.run(["chroot", "--userspec=999:999", files, *json.loads(healthcheck[1])], check=False,
+                              env={**environment, "OVAL4D_PORT": str(inside.port)})
+        assert done.returncode == 0
+        assert inside.metric("oval4d_sessions") == 1  # kept in the volume

@@ -1,0 +1,78 @@
+"""docker/kubernetes and docker/compose.yaml: whole, and as Kubernetes' API has it."""
+
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = ROOT / "docker/kubernetes"
+
+
+def objects():
+    files = yaml.safe_load((FOLDER / "kustomization.yaml").read_text(encoding="utf-8"))["resources"]
+    assert sorted(files) == sorted(path.name for path in FOLDER.glob("*.yaml") if path.name != "kustomization.yaml")
+    return [each for file in files for each in yaml.safe_load_all((FOLDER / file).read_text(encoding="utf-8"))]
+
+
+def one(kind, name="oval4d"):
+    return next(each for each in objects() if (each["kind"], each["metadata"]["name"]) == (kind, name))
+
+
+def faults(checked):
+    done = subprocess.run(["node", ROOT / "tests/container/manifests.mjs"], input=json.dumps(checked), text=True,
+                          capture_output=True, check=False)
+    assert not done.stderr, done.stderr
+    return done.stdout
+
+
+def test_every_object_is_as_the_api_has_it():
+    assert faults(objects()) == ""
+    wrong = one("Deployment")
+    wrong["spec"]["replicas"] = "three"
+    assert "replicas" in faults([wrong])
+
+
+def test_what_refers_to_another_finds_it():
+    pod = one("Deployment")["spec"]["template"]
+    labels = pod["metadata"]["labels"]
+    (container,) = pod["spec"]["containers"]
+    ports = {port["name"] for port in container["ports"]}
+    for name in ("oval4d", "oval4d-sessions"):
+        service = one("Service", name)["spec"]
+        assert service["selector"].items() <= labels.items() and service["ports"][0]["targetPort"] in ports
+    for path in one("Ingress")["spec"]["rules"][0]["http"]["paths"]:
+        target = path["backend"]["service"]
+        assert target["port"]["name"] in [port["name"] for port in one("Service", target["name"])["spec"]["ports"]]
+    assert one("PodDisruptionBudget")["spec"]["selector"]["matchLabels"].items() <= labels.items()
+    scaled = one("HorizontalPodAutoscaler")["spec"]["scaleTargetRef"]
+    assert one(scaled["kind"], scaled["name"])
+    store = next(variable["value"] for variable in container["env"] if variable["name"] == "OVAL4D_STORE")
+    assert one("Service", store.removeprefix("redis://"))
+
+
+def test_the_metrics_are_those_of_the_server():
+    """The autoscaler's metric is made of these by the adapter."""
+    source = (ROOT / "server/net/metrics.cpp").read_text(encoding="utf-8")
+    names = re.findall(r"oval4d_worker\w*", (FOLDER / "scaling.yaml").read_text(encoding="utf-8"))
+    assert {"oval4d_worker_seconds_total", "oval4d_workers"} <= set(names) - {"oval4d_workers_busy"}
+    for name in set(names) - {"oval4d_workers_busy"}:
+        assert f'"{name}"' in source
+
+
+def test_kustomize_takes_them():
+    if shutil.which("kubectl"):
+        done = subprocess.run(["kubectl", "kustomize", FOLDER], capture_output=True, text=True, check=True)
+        assert len(list(yaml.safe_load_all(done.stdout))) == len(objects())
+        assert "image: registry.example.org/oval4d:" in done.stdout
+
+
+def test_compose_names_what_there_is():
+    compose = yaml.safe_load((ROOT / "docker/compose.yaml").read_text(encoding="utf-8"))
+    services = compose["services"]
+    assert (ROOT / "docker" / services["oval4d"]["build"]["context"] / services["oval4d"]["build"]["dockerfile"]).is_file()
+    assert services["oval4d"]["environment"]["OVAL4D_STORE"].removeprefix("redis://") in services
+    assert "server-template oval4d 10 oval4d:8080" in (ROOT / "docker/haproxy.cfg").read_text(encoding="utf-8")
