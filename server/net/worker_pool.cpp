@@ -16,9 +16,7 @@ using namespace std::chrono_literals;
 // So long after its last job a lane with short ones counts as active.
 constexpr auto kActive = 1s;
 
-std::size_t threadCount(int wanted) {
-    return wanted > 0 ? static_cast<std::size_t>(wanted) : processors();
-}
+std::size_t threadCount(int wanted) { return wanted > 0 ? static_cast<std::size_t>(wanted) : processors(); }
 
 }  // namespace
 
