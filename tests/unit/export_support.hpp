@@ -77,7 +77,8 @@ inline const geometry::Polytope& named(std::string_view name) {
     return *geometry::polytopeOf(*geometry::findEntry(name));
 }
 
-using Polygon = std::vector<glm::dvec2>;
+using geometry::support::Polygon;
+using geometry::support::product;
 
 inline const Polygon kSquare{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
 inline const Polygon kDented{{-2, -2}, {2, -2}, {2, 0}, {0.5, 0}, {0.5, 1.5}, {-0.5, 1.5}, {-0.5, 0}, {-2, 0}};
@@ -93,45 +94,6 @@ inline Polygon pentagram() {
 /// at distance 1 and an inner corner at distance φ⁻², 36° apart.
 inline const double kPentagramArea =
     10 * 0.5 * std::sin(std::numbers::pi / 5) / (std::numbers::phi * std::numbers::phi);
-
-/// The Cartesian product of a polygon in xy and one in zw.
-inline geometry::Polytope product(const Polygon& p, const Polygon& q) {
-    const auto n = static_cast<std::uint32_t>(p.size());
-    const auto m = static_cast<std::uint32_t>(q.size());
-    const auto at = [&](std::uint32_t i, std::uint32_t j) { return (i % n) * m + j % m; };
-    std::vector<glm::dvec4> vertices;
-    for (const auto& a : p) {
-        for (const auto& b : q) vertices.emplace_back(a, b);
-    }
-    geometry::Lists faces;  // n·m quadrilaterals, then m copies of p, then n copies of q
-    for (std::uint32_t i = 0; i < n; ++i) {
-        for (std::uint32_t j = 0; j < m; ++j)
-            faces.add(std::array{at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-    std::vector<std::uint32_t> list;
-    for (std::uint32_t j = 0; j < m; ++j) {
-        list.clear();
-        for (std::uint32_t i = 0; i < n; ++i) list.push_back(at(i, j));
-        faces.add(list);
-    }
-    for (std::uint32_t i = 0; i < n; ++i) {
-        list.clear();
-        for (std::uint32_t j = 0; j < m; ++j) list.push_back(at(i, j));
-        faces.add(list);
-    }
-    geometry::Lists cells;
-    for (std::uint32_t j = 0; j < m; ++j) {
-        list = {n * m + j, n * m + (j + 1) % m};
-        for (std::uint32_t i = 0; i < n; ++i) list.push_back(i * m + j);
-        cells.add(list);
-    }
-    for (std::uint32_t i = 0; i < n; ++i) {
-        list = {n * m + m + i, n * m + m + (i + 1) % n};
-        for (std::uint32_t j = 0; j < m; ++j) list.push_back(i * m + j);
-        cells.add(list);
-    }
-    return geometry::makePolytope("product", std::move(vertices), std::move(faces), std::move(cells));
-}
 
 /// Two polytopes as one, the second moved.
 inline geometry::Polytope compound(const geometry::Polytope& a, const geometry::Polytope& b, const glm::dvec4& by) {

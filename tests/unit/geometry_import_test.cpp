@@ -16,6 +16,8 @@
 namespace oval4d::geometry {
 namespace {
 
+using support::kPentachoron;
+
 // A polytope as a 4OFF file would have it.
 std::string asOff4(const Polytope& p, const std::string& end = "\n", int digits = 17) {
     std::ostringstream out;
@@ -66,32 +68,6 @@ std::string warningsOf(const Imported& imported) {
 std::array<std::size_t, 4> countsOf(const Polytope& p) {
     return {p.vertices.size(), p.edges.size(), p.faces.size(), p.cellCount()};
 }
-
-constexpr const char* kPentachoron = R"(#before the header
-4OFF# the edges below are wrong on purpose
-5 10 7 5
-+1 1 1 -.4472136 # glued comments, signs, few digits
-1e0 -1 -1 -.4472136 255 0 0
--1 1 -1 -.4472136
-
--1	-1 1 -.4472136   
-0 0 0 1.7888544
-3 0 1 2 0.5 0.5 0.5
-3 0 1 3 12 200 7 255
-3 0 1 4#
-3 0 2 3
-3 0 2 4
-3 0 3 4
-3 1 2 3
-3 1 2 4
-3 1 3 4
-3 2 3 4
-4 0 1 3 6 255 0 0
-4 0 2 4 7
-4 1 2 5 8
-4 3 4 5 9
-4 6 7 8 9
-# the end)";
 
 TEST(Import, ReadsFilesAsTheyAre) {
     const Polytope p = sound(importOff4(kPentachoron, 100)).polytope;

@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <glm/vec2.hpp>
 
 #include "geometry/coxeter.hpp"
 #include "geometry_support.hpp"
@@ -12,8 +11,6 @@ namespace {
 
 using namespace oval4d::geometry;
 using namespace oval4d::geometry::support;
-
-using Polygon = std::vector<glm::dvec2>;
 
 /// Counts a place as often as the polygon winds around it.
 double areaOf(const Polygon& polygon) {
@@ -24,46 +21,6 @@ double areaOf(const Polygon& polygon) {
         sum += (a.x * b.y - a.y * b.x) / 2;
     }
     return sum;
-}
-
-/// The Cartesian product of a polygon in xy and one in zw: its cells are prisms over the one and over the other.
-Polytope product(const Polygon& p, const Polygon& q) {
-    const auto n = static_cast<std::uint32_t>(p.size());
-    const auto m = static_cast<std::uint32_t>(q.size());
-    const auto vertex = [&](std::uint32_t i, std::uint32_t j) { return (i % n) * m + j % m; };
-    std::vector<glm::dvec4> vertices;
-    for (const auto& a : p) {
-        for (const auto& b : q) vertices.emplace_back(a, b);
-    }
-    Lists faces;  // n·m squares, then m copies of p, then n copies of q
-    for (std::uint32_t i = 0; i < n; ++i) {
-        for (std::uint32_t j = 0; j < m; ++j) {
-            faces.add(std::array{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
-        }
-    }
-    std::vector<std::uint32_t> loop;
-    for (std::uint32_t j = 0; j < m; ++j) {
-        loop.clear();
-        for (std::uint32_t i = 0; i < n; ++i) loop.push_back(vertex(i, j));
-        faces.add(loop);
-    }
-    for (std::uint32_t i = 0; i < n; ++i) {
-        loop.clear();
-        for (std::uint32_t j = 0; j < m; ++j) loop.push_back(vertex(i, j));
-        faces.add(loop);
-    }
-    Lists cells;
-    for (std::uint32_t j = 0; j < m; ++j) {
-        loop = {n * m + j, n * m + (j + 1) % m};
-        for (std::uint32_t i = 0; i < n; ++i) loop.push_back(i * m + j);
-        cells.add(loop);
-    }
-    for (std::uint32_t i = 0; i < n; ++i) {
-        loop = {n * m + m + i, n * m + m + (i + 1) % n};
-        for (std::uint32_t j = 0; j < m; ++j) loop.push_back(i * m + j);
-        cells.add(loop);
-    }
-    return makePolytope("product", std::move(vertices), std::move(faces), std::move(cells));
 }
 
 /// Every slice edge is passed once each way by the loops around it, and every loop is closed.

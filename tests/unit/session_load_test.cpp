@@ -1,39 +1,16 @@
 #include <gtest/gtest.h>
 
 #include "geometry/catalogue.hpp"
+#include "geometry_support.hpp"
 #include "session/workshop.hpp"
 #include "session_support.hpp"
 
 namespace oval4d::session {
 namespace {
 
+using geometry::support::kPentachoron;
 using protocol::ErrorCode;
 using protocol::Load;
-
-constexpr const char* kPentachoron = R"(4OFF
-5 10 10 5
-+1 1 1 -.4472136 # glued comments, signs, few digits
-1e0 -1 -1 -.4472136 255 0 0
--1 1 -1 -.4472136
-
--1	-1 1 -.4472136   
-0 0 0 1.7888544
-3 0 1 2 0.5 0.5 0.5
-3 0 1 3 12 200 7 255
-3 0 1 4#
-3 0 2 3
-3 0 2 4
-3 0 3 4
-3 1 2 3
-3 1 2 4
-3 1 3 4
-3 2 3 4
-4 0 1 3 6 255 0 0
-4 0 2 4 7
-4 1 2 5 8
-4 3 4 5 9
-4 6 7 8 9
-# the end)";
 
 TEST(Load, ShowsThePolytopeAndKeepsIt) {
     Session session;
