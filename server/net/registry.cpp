@@ -1,6 +1,7 @@
 #include "net/registry.hpp"
 
 #include <utility>
+#include <vector>
 
 namespace oval4d::net {
 
@@ -19,9 +20,14 @@ Registry::Place::~Place() {
 }
 
 void Registry::Place::onStop(std::function<void()> stop) {
-    const std::lock_guard lock(registry_.mutex_);
-    if (registry_.stopping_) stop();
-    registry_.stops_[number_] = std::move(stop);
+    bool now = false;
+    {
+        const std::lock_guard lock(registry_.mutex_);
+        now = registry_.stopping_;
+        std::swap(registry_.stops_[number_], stop);
+        if (now) stop = registry_.stops_[number_];
+    }
+    if (now) stop();
 }
 
 std::size_t Registry::size() const {
@@ -30,11 +36,16 @@ std::size_t Registry::size() const {
 }
 
 void Registry::stopAll() {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-    for (const auto& [number, stop] : stops_) {
-        if (stop) stop();
+    // Outside the lock: what is asked to end may end at once, and give its place back.
+    std::vector<std::function<void()>> stops;
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+        for (const auto& [number, stop] : stops_) {
+            if (stop) stops.push_back(stop);
+        }
     }
+    for (const auto& stop : stops) stop();
 }
 
 }  // namespace oval4d::net
