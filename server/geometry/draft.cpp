@@ -18,6 +18,7 @@ constexpr double kThin = 1e-6;  // of the size: no polytope has less extent in a
 // How far the points are from lying in one affine subspace of this dimension (2 or 3): the largest distance from the
 // one through the points that are farthest from each other.
 double deviation(std::vector<glm::dvec4> points, int dimension) {
+    if (points.empty()) return 0;  // a cell whose 2-faces have shrunk to nothing: `build` refuses it
     const glm::dvec4 origin = points.front();
     for (auto& p : points) p -= origin;
     const auto shorter = [](const glm::dvec4& a, const glm::dvec4& b) { return glm::dot(a, a) < glm::dot(b, b); };
