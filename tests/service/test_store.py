@@ -112,7 +112,8 @@ class Presser:
                     done = await client.request("key", key="k" if self.pressed % 2 == 0 else "K")
                     self.pressed += 1
                     self.done.append((time.monotonic(), done["revision"]))
-                    await asyncio.sleep(random.random() / 50)
+                    # In all, too few for the angles to come to their bounds, 710 steps away.
+                    await asyncio.sleep(random.random() / 16 * SLOW)
         except (AssertionError, OSError, websockets.ConnectionClosed):
             if server.process.poll() is None and not self.ending:
                 raise
