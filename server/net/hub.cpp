@@ -184,10 +184,10 @@ std::shared_ptr<LiveSession> Hub::find(const std::string& id) const {
     return found == live_.end() ? nullptr : found->second.session;
 }
 
-void Hub::saveAll() {
+void Hub::saveAll(const std::shared_ptr<void>& until) {
     if (keeper_.pace() == store::Store::Pace::at_close) return;
     const std::lock_guard lock(mutex_);
-    for (const auto& [id, live] : live_) live.session->save();
+    for (const auto& [id, live] : live_) live.session->save(until);
 }
 
 void Hub::stop(Seconds limit) { keeper_.stop(std::chrono::duration_cast<store::Milliseconds>(limit)); }

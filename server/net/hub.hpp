@@ -27,8 +27,8 @@ class Hub : public std::enable_shared_from_this<Hub> {
     /// To be called once for each successful `create` and `join`.
     void leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer);
 
-    /// Has all sessions written, as they are now.
-    void saveAll();
+    /// Has all sessions written, as they are now; `until` is let go of when they are, or the store fails.
+    void saveAll(const std::shared_ptr<void>& until = {});
     const store::Keeper& keeper() const { return keeper_; }
     /// Writes what is not yet written, for so long at most. Nothing more is to be called.
     void stop(Seconds limit);

@@ -67,8 +67,9 @@ void LiveSession::leave(std::shared_ptr<Peer> peer, std::function<bool(const ses
     });
 }
 
-void LiveSession::save() {
-    asio::post(strand_, [self = shared_from_this()] { self->saveHere(); });
+void LiveSession::save(std::shared_ptr<void> until) {
+    asio::post(strand_,
+               [self = shared_from_this(), until = std::move(until)] { self->saveHere([until](bool /*written*/) {}); });
 }
 
 void LiveSession::dismiss() {
@@ -82,8 +83,8 @@ void LiveSession::dismiss() {
     });
 }
 
-void LiveSession::saveHere() {
-    if (!over_) keeper_.save(ticket_.id, session_, store::Keeper::Part::whole);
+void LiveSession::saveHere(store::Keeper::Written written) {
+    if (!over_) keeper_.save(ticket_.id, session_, store::Keeper::Part::whole, std::move(written));
 }
 
 /// To be called after each change that the store has not been given.

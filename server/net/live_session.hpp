@@ -45,8 +45,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// the last client, with whom the session ends here.
     void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
 
-    /// Has the whole session written.
-    void save();
+    /// Has the whole session written; `until` is let go of when it is, or the store fails.
+    void save(std::shared_ptr<void> until = {});
 
     /// Sends the clients away: the session goes on elsewhere.
     void dismiss();
@@ -102,7 +102,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     boost::asio::awaitable<void> obey(std::shared_ptr<Peer> peer, const protocol::Command& command, Id id);
     std::function<void(std::function<void(bool)>)> keeping(store::Keeper::Part part);
     void saveSoon();
-    void saveHere();
+    void saveHere(store::Keeper::Written written = {});
     void tell(Peer& peer, const protocol::Error& error, Id id);
 
     void update();

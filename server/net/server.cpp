@@ -13,6 +13,8 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <csignal>
 #include <thread>
+#include <utility>
+#include <variant>
 
 #include "geometry/catalogue.hpp"
 #include "net/http_session.hpp"
@@ -163,12 +165,13 @@ asio::awaitable<void> Server::stopOnSignal() {
     const auto limit = std::chrono::steady_clock::now() + steady(options_.stopTimeout);
     asio::steady_timer poll(acceptor_.get_executor());
     // What clients have seen is in the store before they are sent to other servers.
-    hub_->saveAll();
+    auto saving = std::make_shared<std::monostate>();
+    hub_->saveAll(saving);
+    const std::weak_ptr<std::monostate> saved = std::exchange(saving, nullptr);
     do {
         poll.expires_after(2ms);
         co_await poll.async_wait(kQuietly);
-    } while (hub_->keeper().unsaved() > 0 && hub_->keeper().trouble().empty() &&
-             std::chrono::steady_clock::now() < limit - steady(options_.stopTimeout) / 2);
+    } while (!saved.expired() && std::chrono::steady_clock::now() < limit - steady(options_.stopTimeout) / 2);
     registry_.stopAll();
     while ((registry_.size() > 0 || hub_->open() > 0) && std::chrono::steady_clock::now() < limit) {
         poll.expires_after(10ms);

@@ -122,8 +122,10 @@ std::size_t Keeper::count() const {
 
 std::size_t Keeper::unsaved() const {
     const std::lock_guard lock(mutex_);
-    return static_cast<std::size_t>(
-        std::ranges::count_if(held_, [](const auto& entry) { return entry.second.head || entry.second.whole; }));
+    return static_cast<std::size_t>(std::ranges::count_if(held_, [](const auto& entry) {
+        const Held& held = entry.second;
+        return held.head || held.whole || held.underway;
+    }));
 }
 
 std::string Keeper::trouble() const {
@@ -219,6 +221,7 @@ void Keeper::write() {
             if (found == held_.end()) continue;
             Held& held = found->second;
             held.queued = false;
+            held.underway = true;
             jobs.push_back({id,
                             std::exchange(held.head, nullptr),
                             std::exchange(held.whole, nullptr),
@@ -273,6 +276,7 @@ void Keeper::settle(Job& job, const Saving& saving, Saved said) {
         const auto found = held_.find(job.id);
         if (found != held_.end()) {
             Held& held = found->second;
+            held.underway = false;
             if (!std::exchange(held.saved, true)) pulseAt_ = Clock::time_point();  // there is one more
             if (held.closed && !held.queued) {
                 held_.erase(found);
@@ -298,6 +302,7 @@ void Keeper::putBack(Job& job) {
         const auto found = held_.find(job.id);
         if (found == held_.end()) return;
         Held& held = found->second;
+        held.underway = false;
         if (!held.head) held.head = std::move(job.head);
         if (!held.whole) held.whole = std::move(job.whole);
         std::ranges::move(job.waiting, std::back_inserter(held.waiting));

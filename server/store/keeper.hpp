@@ -76,7 +76,7 @@ class Keeper {
 
     /// Sessions kept in the store or here, about; with a store that servers share, those that are here.
     std::size_t count() const;
-    /// Changes that wait to be written.
+    /// Sessions of which a change is not known to be in the store.
     std::size_t unsaved() const;
     /// Why the store fails; empty if it does not.
     std::string trouble() const;
@@ -94,7 +94,8 @@ class Keeper {
         std::vector<Written> waiting;
         bool saved = false;  ///< the store has had it
         bool queued = false;
-        bool closed = false;  ///< nobody has it open: forgotten once written
+        bool underway = false;  ///< the store is being asked to write it
+        bool closed = false;    ///< nobody has it open: forgotten once written
         Clock::time_point closedAt;
     };
     /// What is written of one session at a time.

@@ -146,17 +146,17 @@ test("loading: a polytope that cannot be had again leaves the rest of the view",
     const server = await startServer();
     const { page, script, close } = await openWithScript({ url: server.url });
     await script.request({ type: "load", name: "another's", format: "off", data: simplex }); // not by this page
-    await script.request({ type: "set", alpha: 0.25 });
-    await named(page, "another's");
+    const { revision: turned } = await script.request({ type: "set", alpha: 0.25 });
+    await presented(page, turned);
     script.leave();
     await server.stop();
     await page.waitForSelector("#connection[data-kind=waiting]");
     const again = await startServer({ port: server.port });
     await page.waitForSelector("#connection[data-kind=open]");
+    await page.waitForFunction(() => /another's/.test(document.getElementById("notice").textContent));
     const second = await scriptFor(page, again.url);
     const { revision } = await second.until((one) => one.alpha === 0.25, "the rest of the view");
     await presented(page, revision);
-    await page.waitForFunction(() => /another's/.test(document.getElementById("notice").textContent));
     second.leave();
     await close();
     await again.stop();

@@ -4,6 +4,7 @@ What can be kept between runs is kept in build/container: the base, and the laye
 What was compiled before, ccache knows.
 """
 
+import json
 import os
 import shutil
 import subprocess
@@ -105,3 +106,23 @@ class Builder:
         self("build", "--layers", "--format", "docker", "--isolation", "chroot", "--pull-never", "--build-arg", f"BASE={self.base()}",
              "--ignorefile", "docker/Dockerfile.dockerignore", "--volume", f"{cache}:/root/.cache/ccache:rw",
              "--file", "docker/Dockerfile", "--tag", IMAGE, ".")
+
+
+class Built:
+    """The image and its files."""
+
+    def __init__(self, builder):
+        self.builder = builder
+
+    def __enter__(self):
+        self.builder.build()
+        self.container = self.builder("from", "--pull-never", IMAGE)
+        self.files = Path(self.builder("mount", self.container))
+        self.said = json.loads(self.builder("inspect", "--type", "image", IMAGE))
+        self.config = self.said["OCIv1"]["config"]
+        self.variables = dict(pair.split("=", 1) for pair in self.config["Env"])
+        return self
+
+    def __exit__(self, *_):
+        self.builder("umount", self.container)
+        self.builder("rm", self.container)

@@ -9,11 +9,9 @@ import signal
 import socket
 import subprocess
 import sys
-import warnings
 from pathlib import Path
 
 import image
-import pytest
 
 sys.path.insert(0, str(image.ROOT / "tests/service"))
 import harness  # noqa: E402
@@ -23,38 +21,18 @@ from wire import Client  # noqa: E402
 SIZE = {"width": 320, "height": 180}
 
 
-@pytest.fixture(scope="module", name="built")
-def built_image():
-    why = image.missing()
-    if why:
-        warnings.warn(f"THE CONTAINER IS NOT TESTED: {why}")
-        pytest.skip(why)
-    builder = image.Builder()
-    builder.build()
-    container = builder("from", "--pull-never", image.IMAGE)
-    yield builder, container, Path(builder("mount", container))
-    builder("umount", container)
-    builder("rm", container)
-
-
-def configuration(built):
-    builder, _, _ = built
-    return json.loads(builder("inspect", "--type", "image", image.IMAGE))
-
-
 def test_its_configuration(built):
-    said = configuration(built)
-    config = said["OCIv1"]["config"]
+    config = built.config
     assert config["User"] == "999"
     assert config["Entrypoint"] == ["oval4d"]
     assert "8080/tcp" in config["ExposedPorts"] and "/var/lib/oval4d" in config["Volumes"]
     assert config["StopSignal"] == "SIGTERM"
     assert config["Labels"]["org.opencontainers.image.licenses"] == "MIT"
-    assert "readyz" in said["Docker"]["config"]["Healthcheck"]["Test"][-1]
+    assert "readyz" in built.said["Docker"]["config"]["Healthcheck"]["Test"][-1]
 
 
 def test_it_holds_what_the_server_needs_and_no_tools(built):
-    _, _, files = built
+    files = built.files
     for tool in ("gcc", "g++", "cc", "c++", "clang", "make", "cmake", "ninja", "node", "npm", "git", "curl", "wget", "python3"):
         for folder in ("usr/bin", "usr/local/bin", "bin"):
             assert not (files / folder / tool).is_symlink() and not (files / folder / tool).exists(), tool
@@ -63,7 +41,7 @@ def test_it_holds_what_the_server_needs_and_no_tools(built):
 
 
 def test_its_size_is_told(built):
-    builder, _, files = built
+    files = built.files
     status = (files / "var/lib/dpkg/status").read_text(encoding="utf-8")
     sizes = {}
     for entry in status.split("\n\n"):
@@ -114,8 +92,7 @@ def free_port():
 
 
 def test_the_server_in_it_draws_what_the_one_outside_draws(built):
-    _, _, files = built
-    environment = dict(pair.split("=", 1) for pair in configuration(built)["OCIv1"]["config"]["Env"])
+    files, environment = built.files, built.variables
 
     async def picture(server):
         async with Client(server, stream="none", **SIZE) as client:

@@ -2,7 +2,6 @@
 
 import json
 import re
-import shutil
 import subprocess
 from pathlib import Path
 
@@ -64,10 +63,16 @@ def test_the_metrics_are_those_of_the_server():
 
 
 def test_kustomize_takes_them():
-    if shutil.which("kubectl"):
-        done = subprocess.run(["kubectl", "kustomize", FOLDER], capture_output=True, text=True, check=True)
-        assert len(list(yaml.safe_load_all(done.stdout))) == len(objects())
-        assert "image: registry.example.org/oval4d:" in done.stdout
+    done = subprocess.run(["kubectl", "kustomize", FOLDER], capture_output=True, text=True, check=True)
+    assert len(list(yaml.safe_load_all(done.stdout))) == len(objects())
+    assert "image: registry.example.org/oval4d:" in done.stdout
+
+
+def test_compose_takes_its_file():
+    done = subprocess.run(["docker-compose", "--file", ROOT / "docker/compose.yaml", "config"], capture_output=True, text=True,
+                          check=False)
+    assert done.returncode == 0, done.stderr
+    assert yaml.safe_load(done.stdout)["services"].keys() == {"proxy", "oval4d", "redis"}
 
 
 def test_compose_names_what_there_is():

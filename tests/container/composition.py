@@ -1,0 +1,203 @@
+"""Runs what docker/compose.yaml says without a Docker engine: each container has a network namespace and an address of its
+own, and finds the others by a name server. The servers are of the image; HAProxy and Redis are this machine's.
+"""
+
+import contextlib
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import image
+import yaml
+
+sys.path.insert(0, str(image.ROOT / "tests/service"))
+from harness import DEADLINE  # noqa: E402
+
+FILE = image.ROOT / "docker/compose.yaml"
+BRIDGE, NET = "oval4d-br", "10.213.77"
+TOOLS = ("ip", "dnsmasq", "haproxy", "redis-server", "unshare", "setpriv")
+
+
+def missing():
+    """Why there can be no such networks here, or nothing."""
+    absent = [tool for tool in TOOLS if shutil.which(tool) is None]
+    if absent:
+        return f"{' and '.join(absent)} cannot be installed"
+    try:
+        clear()
+        image.run("ip", "link", "add", BRIDGE, "type", "bridge")
+        clear()
+    except AssertionError as fault:
+        return f"this machine allows no networks of its own: {fault}"
+    return None
+
+
+def until(condition, what):
+    limit = time.monotonic() + DEADLINE
+    while not condition():
+        assert time.monotonic() < limit, f"{what} did not come about in time"
+        time.sleep(0.02)
+
+
+class Container:
+    """A process with all below it in a namespace of its own for each of: network, mounts and processes."""
+
+    def __init__(self, folder, number, service, script):
+        self.host, self.service, self.name = f"{NET}.{number}", service, f"oval4d-{number}"
+        self.log_path = folder / f"{service}-{number}.log"
+        for words in (["netns", "add", self.name],
+                      ["link", "add", self.name, "type", "veth", "peer", "name", "eth0", "netns", self.name],
+                      ["link", "set", self.name, "master", BRIDGE, "up"],
+                      ["-n", self.name, "address", "add", f"{self.host}/24", "dev", "eth0"],
+                      ["-n", self.name, "link", "set", "eth0", "up"],
+                      ["-n", self.name, "link", "set", "lo", "up"]):
+            image.run("ip", *words)
+        with open(self.log_path, "wb") as log:
+            self.process = subprocess.Popen(
+                ["ip", "netns", "exec", self.name, "unshare", "--mount", "--pid", "--fork", "--kill-child", "sh", "-ec", script],
+                stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT)
+
+    def answers(self, port):
+        assert self.process.poll() is None, self.log()
+        with socket.socket() as one:
+            one.settimeout(1)
+            return one.connect_ex((self.host, port)) == 0
+
+    def log(self):
+        return self.log_path.read_text(encoding="utf-8", errors="replace")
+
+    def stop(self, number=signal.SIGTERM):
+        """As `docker stop` does: the signal goes to the container's first process."""
+        first = image.run("pgrep", "-P", self.process.pid)
+        os.kill(int(first), number)
+        return self.process.wait(DEADLINE)
+
+    def remove(self):
+        remove(self.name)
+        self.process.wait()
+
+
+def remove(name):
+    """Ends all that runs in a namespace, and it."""
+    def inside():
+        return image.run("ip", "netns", "pids", name).split()
+
+    for process in inside():
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(int(process), signal.SIGKILL)
+    until(lambda: not inside(), "the end of a container")
+    image.run("ip", "netns", "delete", name)
+    with contextlib.suppress(AssertionError):  # it may be gone with the namespace
+        image.run("ip", "link", "delete", name)
+
+
+def clear():
+    """Leaves nothing behind, of a run before that was killed either."""
+    for line in image.run("ip", "netns", "list").splitlines():
+        if line.startswith("oval4d-"):
+            remove(line.split()[0])
+    with contextlib.suppress(AssertionError):
+        image.run("ip", "link", "delete", BRIDGE)
+
+
+class Composition:
+    """`docker compose up` and `down`. Its name server is at the bridge's own address."""
+
+    def __init__(self, folder, image_files, image_variables):
+        self.folder, self.files, self.image_variables = folder, image_files, image_variables
+        self.services = yaml.safe_load(FILE.read_text(encoding="utf-8"))["services"]
+        self.containers = []
+        self.number = 10
+        self.resolv = folder / "resolv.conf"
+        self.resolv.write_text(f"nameserver {NET}.1\n", encoding="ascii")
+        self.hosts = folder / "hosts"
+        self.hosts.touch()
+        self.names = None
+
+    def __enter__(self):
+        try:
+            for words in (["link", "add", BRIDGE, "type", "bridge"], ["address", "add", f"{NET}.1/24", "dev", BRIDGE],
+                          ["link", "set", BRIDGE, "up"]):
+                image.run("ip", *words)
+            self.names = subprocess.Popen(
+                ["setpriv", "--pdeathsig=KILL", "dnsmasq", "--keep-in-foreground", "--conf-file=/dev/null", "--no-resolv", "--no-hosts", "--user=root",
+                 f"--addn-hosts={self.hosts}", f"--listen-address={NET}.1", "--bind-interfaces", "--pid-file",
+                 "--local-ttl=1"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+            self.up("redis", self.redis())
+            for _ in range(self.services["oval4d"]["deploy"]["replicas"]):
+                self.up("oval4d", self.server())
+            self.proxy = self.up("proxy", self.haproxy())
+            self.proxy.port = int(self.services["proxy"]["ports"][0].rsplit(":", 1)[1])
+            until(lambda: self.proxy.answers(self.proxy.port), "the proxy")
+            return self
+        except BaseException:
+            self.__exit__()
+            raise
+
+    def __exit__(self, *_):
+        for container in self.containers:
+            container.remove()
+        if self.names:
+            self.names.kill()
+            self.names.wait()
+        clear()
+
+    def servers(self):
+        return [container for container in self.containers if container.service == "oval4d"]
+
+    def up(self, service, script):
+        """Starts one more container of this service; its name leads to it, too, from then on."""
+        self.number += 1
+        container = Container(self.folder, self.number, service, script)
+        self.containers.append(container)
+        self.tell()
+        return container
+
+    def scale(self):
+        """One more server."""
+        return self.up("oval4d", self.server())
+
+    def gone(self, container):
+        """Takes away a container that has ended."""
+        self.containers.remove(container)
+        container.remove()
+        self.tell()
+
+    def tell(self):
+        lines = [f"{container.host} {container.service}\n" for container in self.containers]
+        self.hosts.write_text("".join(lines), encoding="ascii")
+        self.names.send_signal(signal.SIGHUP)  # reads it again
+
+    def server(self):
+        """The image's files, which are read-only but for the volume; its user, without any rights."""
+        service = self.services["oval4d"]
+        assert service["read_only"] and service["cap_drop"] == ["ALL"] and service["security_opt"] == ["no-new-privileges:true"]
+        variables = self.image_variables | service["environment"]
+        settings = " ".join(f"{name}='{value}'" for name, value in variables.items())
+        files = self.files
+        return f"""
+            mount --bind {files} {files}
+            mount --bind {self.resolv} {files}/etc/resolv.conf
+            mount -o remount,bind,ro {files}
+            mount -t tmpfs -o mode=700,uid=999,gid=999 none {files}/var/lib/oval4d
+            mount --bind /dev {files}/dev
+            mount -t proc none {files}/proc
+            exec env -i {settings} chroot {files} setpriv --reuid 999 --regid 999 --clear-groups --no-new-privs \
+                --bounding-set=-all --inh-caps=-all oval4d
+        """
+
+    def redis(self):
+        """The image of Redis protects nothing by itself either: nobody but the others gets at its network."""
+        folder = self.folder / "redis"
+        folder.mkdir()
+        return f"cd {folder}; exec {self.services['redis']['command']} --protected-mode no"
+
+    def haproxy(self):
+        source, target, mode = self.services["proxy"]["volumes"][0].split(":")
+        assert (target, mode) == ("/usr/local/etc/haproxy/haproxy.cfg", "ro")
+        return f"mount --bind {self.resolv} /etc/resolv.conf; exec haproxy -W -db -f {Path(FILE.parent, source).resolve()}"

@@ -1,0 +1,16 @@
+"""The image, built once for all tests."""
+
+import warnings
+
+import image
+import pytest
+
+
+@pytest.fixture(scope="session", name="built")
+def built_image():
+    why = image.missing()
+    if why:
+        warnings.warn(f"THE CONTAINER IS NOT TESTED: {why}")
+        pytest.skip(why)
+    with image.Built(image.Builder()) as built:
+        yield built
