@@ -1,5 +1,6 @@
 #include "export/measure.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>

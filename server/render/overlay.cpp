@@ -1,5 +1,6 @@
 #include "render/overlay.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 

@@ -1,6 +1,7 @@
 #pragma once
 // What the painters of slices share.
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>

@@ -1,5 +1,6 @@
 #include "session/command_line.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "export/frame.hpp"
 #include "export/hull.hpp"
 #include "export/measure.hpp"

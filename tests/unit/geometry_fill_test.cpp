@@ -1,5 +1,6 @@
 // Filling by the nonzero winding rule, and which polytopes are convex.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>

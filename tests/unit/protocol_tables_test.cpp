@@ -1,5 +1,6 @@
 // The data files of protocol/, the specification and the code say the same.
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <sstream>

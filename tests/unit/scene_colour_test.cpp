@@ -1,5 +1,6 @@
 // Colours of cells, and which elements are seen where kinds of cells are hidden or faded.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
