@@ -40,6 +40,7 @@ class Builder:
     """buildah with a store of its own. Where the system's overlay does not work inside a sandbox, files are copied."""
 
     def __init__(self):
+        faults = []
         for driver in ("overlay", "vfs"):
             self.driver = driver
             try:
@@ -48,9 +49,10 @@ class Builder:
                 self("umount", container)
                 self("rm", container)
                 return
-            except AssertionError:
+            except AssertionError as fault:
+                faults.append(str(fault))
                 shutil.rmtree(KEPT / driver, ignore_errors=True)
-        raise AssertionError("buildah has no storage that works here")
+        raise AssertionError("buildah has no storage that works here: " + "; ".join(faults))
 
     def __call__(self, *words):
         KEPT.mkdir(parents=True, exist_ok=True)
