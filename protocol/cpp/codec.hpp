@@ -36,11 +36,6 @@ void stateMessage(const session::State& state, std::uint64_t revision, std::opti
 /// Restores a state from a `state` message, as found in a frame's iTXt chunk: the Set that brings it about.
 Result<Set> setFromState(std::string_view text);
 
-/// The `slices` message, JSON or CBOR (RFC 8949, typed arrays of RFC 8746), of slices that were cut from `polytope`
-/// and composed into `scene`. Overwrites `out`, reusing its memory.
-void slicesMessage(const geometry::Polytope& polytope, const geometry::SliceSet& slices, const scene::Scene& scene,
-                   std::uint64_t revision, std::optional<double> id, Encoding encoding, std::string& out);
-
 std::string errorMessage(const Error& error, std::optional<double> id);
 std::string doneMessage(std::optional<double> id, std::uint64_t revision,
                         const std::vector<std::string>& warnings = {});

@@ -1,41 +1,29 @@
 #include <algorithm>
 #include <charconv>
 
+#include "protocol/cpp/decimal.hpp"
 #include "protocol/cpp/writer.hpp"
 
 namespace oval4d::protocol {
 
 namespace {
 
-constexpr std::size_t kNumber = 32;  // more than any number takes, a separator included
+constexpr std::size_t kMost = 32;  // characters of any number
 
-char* put(char* at, double coordinate) { return std::to_chars(at, at + kNumber, static_cast<float>(coordinate)).ptr; }
-char* put(char* at, std::uint32_t index) { return std::to_chars(at, at + kNumber, index).ptr; }
+// Room for so many coordinates or indices with brackets around them.
+std::size_t roomFor(std::size_t numbers) { return (numbers + 2) * kNumberRoom; }
 
-template <typename V>
-char* putVector(char* at, const V& v) {
-    *at++ = '[';
-    for (int i = 0; i < V::length(); ++i) {
-        if (i > 0) *at++ = ',';
-        at = put(at, v[i]);
+char* putIntegers(char* at, std::span<const std::uint32_t> list) {
+    for (const std::uint32_t number : list) {
+        at = putInteger(at, number);
+        *at++ = ',';
     }
-    *at++ = ']';
     return at;
 }
 
-// "[" items "]", each item written by `write(at, item)` in at most `most` bytes.
-template <typename List, typename Write>
-void putArray(Buffer& buffer, const List& list, std::size_t most, Write write) {
-    buffer.room(2 + list.size() * (most + 1));
-    char* at = buffer.at();
-    *at++ = '[';
-    for (const auto& item : list) {
-        at = write(at, item);
-        *at++ = ',';
-    }
-    if (!list.empty()) --at;
-    *at++ = ']';
-    buffer.moveTo(at);
+char* putBetween(char* at) {
+    std::memcpy(at, "],[", 4);
+    return at + 3;
 }
 
 }  // namespace
@@ -51,30 +39,22 @@ void JsonWriter::close(char bracket) {
     comma_ = true;
 }
 
-void JsonWriter::key(std::string_view name) {
-    separate();
-    buffer_.put('"');
-    buffer_.put(name);
-    buffer_.put("\":");
-    comma_ = false;
-}
-
 void JsonWriter::value(double number) {
     separate();
-    buffer_.room(kNumber);
-    buffer_.moveTo(std::to_chars(buffer_.at(), buffer_.at() + kNumber, number).ptr);
+    buffer_.room(kMost);
+    buffer_.moveTo(std::to_chars(buffer_.at(), buffer_.at() + kMost, number).ptr);
 }
 
 void JsonWriter::value(std::uint64_t number) {
     separate();
-    buffer_.room(kNumber);
-    buffer_.moveTo(std::to_chars(buffer_.at(), buffer_.at() + kNumber, number).ptr);
+    buffer_.room(kMost);
+    buffer_.moveTo(std::to_chars(buffer_.at(), buffer_.at() + kMost, number).ptr);
 }
 
 void JsonWriter::value(std::int64_t number) {
     separate();
-    buffer_.room(kNumber);
-    buffer_.moveTo(std::to_chars(buffer_.at(), buffer_.at() + kNumber, number).ptr);
+    buffer_.room(kMost);
+    buffer_.moveTo(std::to_chars(buffer_.at(), buffer_.at() + kMost, number).ptr);
 }
 
 void JsonWriter::value(bool flag) {
@@ -87,7 +67,7 @@ void JsonWriter::null() {
     buffer_.put("null");
 }
 
-void JsonWriter::json(std::string_view text) {
+void JsonWriter::written(std::string_view text) {
     separate();
     buffer_.put(text);
 }
@@ -114,66 +94,72 @@ void JsonWriter::value(std::string_view text) {
 
 void JsonWriter::vector(const glm::dvec3& v) {
     separate();
-    buffer_.room(4 * kNumber);
-    buffer_.moveTo(putVector(buffer_.at(), v));
+    buffer_.room(roomFor(3));
+    buffer_.moveTo(putVectors(buffer_.at(), std::span(&v, 1)));
+}
+
+// "[" what `put(at)` writes of so many numbers "]"
+template <typename Put>
+void JsonWriter::array(std::size_t numbers, Put put) {
+    separate();
+    buffer_.room(roomFor(numbers));
+    char* at = buffer_.at();
+    *at++ = '[';
+    at = put(at);
+    *at++ = ']';
+    buffer_.moveTo(at);
 }
 
 void JsonWriter::vectors(std::span<const glm::dvec3> list) {
-    separate();
-    putArray(buffer_, list, 4 * kNumber, [](char* at, const glm::dvec3& v) { return putVector(at, v); });
+    array(3 * list.size(), [list](char* at) { return putVectors(at, list); });
 }
 
 void JsonWriter::vectors(std::span<const glm::dvec4> list) {
-    separate();
-    putArray(buffer_, list, 5 * kNumber, [](char* at, const glm::dvec4& v) { return putVector(at, v); });
+    array(4 * list.size(), [list](char* at) { return putVectors(at, list); });
 }
 
-void JsonWriter::pairs(std::span<const Pair> list) {
-    separate();
-    putArray(buffer_, list, 2 * kNumber, [](char* at, const Pair& pair) {
+template <std::size_t Size>
+void JsonWriter::tuples(std::span<const std::array<std::uint32_t, Size>> list) {
+    array(Size * list.size(), [list](char* at) {
+        if (list.empty()) return at;
         *at++ = '[';
-        at = put(at, pair[0]);
-        *at++ = ',';
-        at = put(at, pair[1]);
-        *at++ = ']';
-        return at;
+        for (const auto& tuple : list) at = putBetween(putIntegers(at, tuple) - 1);
+        return at - 2;
     });
 }
 
-void JsonWriter::triples(std::span<const Triple> list) {
-    separate();
-    putArray(buffer_, list, 3 * kNumber, [](char* at, const Triple& triple) {
-        *at++ = '[';
-        for (const std::uint32_t index : triple) {
-            at = put(at, index);
-            *at++ = ',';
-        }
-        at[-1] = ']';
-        return at;
-    });
-}
+void JsonWriter::pairs(std::span<const Pair> list) { tuples(list); }
+void JsonWriter::triples(std::span<const Triple> list) { tuples(list); }
 
 void JsonWriter::numbers(std::span<const std::uint32_t> list) {
-    separate();
-    putArray(buffer_, list, kNumber, [](char* at, std::uint32_t index) { return put(at, index); });
+    array(list.size(), [list](char* at) { return list.empty() ? at : putIntegers(at, list) - 1; });
 }
 
 void JsonWriter::lists(ListsView view) {
-    beginArray();
-    for (std::size_t i = 0; i + 1 < view.begin.size(); ++i) {
-        numbers(view.items.subspan(view.begin[i] - view.begin[0], view.begin[i + 1] - view.begin[i]));
-    }
-    endArray();
+    array(view.begin.size() + view.items.size(), [&view](char* at) {
+        if (view.begin.size() < 2) return at;
+        *at++ = '[';
+        for (std::size_t i = 0; i + 1 < view.begin.size(); ++i) {
+            const auto list = view.items.subspan(view.begin[i] - view.begin[0], view.begin[i + 1] - view.begin[i]);
+            at = putBetween(putIntegers(at, list) - (list.empty() ? 0 : 1));
+        }
+        return at - 2;
+    });
 }
 
 void JsonWriter::picture(std::span<const std::uint8_t> pixels, std::size_t columns) {
-    beginArray();
-    for (std::size_t at = 0; at < pixels.size(); at += columns) {
-        separate();
-        putArray(buffer_, pixels.subspan(at, columns), 3,
-                 [](char* to, std::uint8_t pixel) { return put(to, std::uint32_t{pixel}); });
-    }
-    endArray();
+    array(2 * pixels.size(), [=](char* at) {
+        if (pixels.empty()) return at;
+        *at++ = '[';
+        for (std::size_t row = 0; row < pixels.size(); row += columns) {
+            for (const std::uint8_t pixel : pixels.subspan(row, columns)) {
+                at = putInteger(at, pixel);
+                *at++ = ',';
+            }
+            at = putBetween(at - 1);
+        }
+        return at - 2;
+    });
 }
 
 }  // namespace oval4d::protocol

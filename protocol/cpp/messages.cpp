@@ -169,7 +169,7 @@ std::string welcomeMessage(std::string_view session, std::string_view token, std
         w.member("protocol", 1);
         w.member("server", "oval4d " OVAL4D_VERSION);
         w.key("limits");
-        w.json(limits);
+        w.written(limits);
         w.endObject();
     }
     return out;
@@ -223,9 +223,9 @@ std::string keymapMessage(std::optional<double> id) {
         JsonWriter w(out);
         begin(w, "keymap", id);
         w.key("groups");
-        w.json(groups);
+        w.written(groups);
         w.key("keys");
-        w.json(keys);
+        w.written(keys);
         w.endObject();
     }
     return out;

@@ -1,8 +1,7 @@
-// The `slices` message: what a client needs to draw the picture, and nothing to compute.
+#include "protocol/cpp/slices.hpp"
 
 #include <algorithm>
 
-#include "protocol/cpp/codec.hpp"
 #include "protocol/cpp/writer.hpp"
 
 namespace oval4d::protocol {
@@ -79,29 +78,27 @@ void writeCoordinatesLayout(W& w, const scene::CoordinatesLayout& layout) {
 }
 
 template <typename W>
-void writeScene(W& w, const Scene& scene) {
+void writeSetting(W&& w, const SlicesWriter::Setting& setting) {
     const scene::Style& style = scene::style();
-    w.key("scene");
-    w.beginObject();
-    w.member("view", scene.look.view == scene::View::single ? "single" : "oval");
+    w.member("view", setting.view == scene::View::single ? "single" : "oval");
     w.key("shown");
     w.beginObject();
-    w.member("faces", scene.look.parts.faces);
-    w.member("bars", scene.look.parts.bars);
-    w.member("balls", scene.look.parts.balls);
-    w.member("coordinates", scene.look.parts.coordinates);
+    w.member("faces", setting.shown.faces);
+    w.member("bars", setting.shown.bars);
+    w.member("balls", setting.shown.balls);
+    w.member("coordinates", setting.shown.coordinates);
     w.endObject();
     w.key("viewport");
     w.beginObject();
-    w.member("width", scene.viewport.width);
-    w.member("height", scene.viewport.height);
+    w.member("width", setting.viewport.width);
+    w.member("height", setting.viewport.height);
     w.endObject();
-    writeCamera(w, scene.camera);
-    w.member("scale", scene.scale);
-    w.member("circumradius", scene.circumradius);
-    w.member("ball", scene.ballRadius);
-    w.member("bar", scene.barRadius);
-    w.member("opacity", scene.faceOpacity);
+    writeCamera(w, setting.camera);
+    w.member("scale", setting.scale);
+    w.member("circumradius", setting.circumradius);
+    w.member("ball", setting.ball);
+    w.member("bar", setting.bar);
+    w.member("opacity", setting.opacity);
     w.member("faded", scene::opacityOf(scene::Presence::faded));
     w.key("light");
     w.beginObject();
@@ -111,16 +108,14 @@ void writeScene(W& w, const Scene& scene) {
     w.member("specular", style.specular);
     w.member("shininess", style.shininess);
     w.endObject();
-    writeColours(w, style, scene.cellColours);
     w.key("axes");
     w.beginObject();
-    w.member("x", scene.axes.x);
-    w.member("y", scene.axes.y);
-    w.member("length", scene.axes.length);
+    w.member("x", setting.axes.x);
+    w.member("y", setting.axes.y);
+    w.member("length", setting.axes.length);
     w.endObject();
-    writeCoordinatesLayout(w, scene.coordinates);
+    writeCoordinatesLayout(w, setting.coordinates);
     w.member("text", style.textHeight);
-    w.endObject();
 }
 
 template <typename T>
@@ -203,12 +198,7 @@ void writeFill(W& w, const Polytope& polytope, const Scene& scene, std::size_t i
 }
 
 template <typename W>
-void writeSlice(W& w, const Polytope& polytope, const SliceSet& slices, std::size_t i, const Scene& scene) {
-    const scene::Stand& stand = scene.stands[i];
-    const std::uint32_t v0 = slices.vertexBegin[i], v1 = slices.vertexBegin[i + 1];
-    const std::uint32_t e0 = slices.edgeBegin[i], e1 = slices.edgeBegin[i + 1];
-    const std::uint32_t f0 = slices.faceBegin[i], f1 = slices.faceBegin[i + 1];
-    w.beginObject();
+void writeStand(W&& w, const scene::Stand& stand) {
     w.member("index", stand.index);
     w.member("w", stand.w);
     writeVector(w, "position", stand.position);
@@ -217,6 +207,16 @@ void writeSlice(W& w, const Polytope& polytope, const SliceSet& slices, std::siz
     w.member("label_size", stand.labelSize);
     w.member("focus", stand.focus);
     w.member("drawn", stand.drawn);
+}
+
+template <typename W>
+void writeSlice(W& w, std::string_view stand, const Polytope& polytope, const SliceSet& slices, std::size_t i,
+                const Scene& scene) {
+    const std::uint32_t v0 = slices.vertexBegin[i], v1 = slices.vertexBegin[i + 1];
+    const std::uint32_t e0 = slices.edgeBegin[i], e1 = slices.edgeBegin[i + 1];
+    const std::uint32_t f0 = slices.faceBegin[i], f1 = slices.faceBegin[i + 1];
+    w.beginObject();
+    w.written(stand);
     w.key("vertices");
     w.vectors(part(slices.vertices, v0, v1));
     w.key("edges");
@@ -239,14 +239,23 @@ void writeSlice(W& w, const Polytope& polytope, const SliceSet& slices, std::siz
     w.endObject();
 }
 
+}  // namespace
+
 template <typename W>
-void writeMessage(W&& w, const Polytope& polytope, const SliceSet& slices, const Scene& scene, std::uint64_t revision,
-                  std::optional<double> id) {
+void SlicesWriter::writeMessage(W&& w, Texts& texts, const Polytope& polytope, const SliceSet& slices,
+                                const Scene& scene, std::uint64_t revision, std::optional<double> id) {
     w.beginObject();
     w.member("type", "slices");
     if (id) w.member("id", *id);
     w.member("revision", revision);
-    writeScene(w, scene);
+    w.key("scene");
+    w.beginObject();
+    const Setting setting{scene.look.view,   scene.look.parts,   scene.viewport,   scene.camera,
+                          scene.scale,       scene.circumradius, scene.ballRadius, scene.barRadius,
+                          scene.faceOpacity, scene.axes,         scene.coordinates};
+    w.written(texts.setting.of(setting, [&](std::string& out) { writeSetting(W(out), setting); }));
+    writeColours(w, scene::style(), scene.cellColours);
+    w.endObject();
     if (scene.look.parts.coordinates) {
         w.key("coordinates");
         w.vectors(std::span<const glm::dvec4>(slices.turned));
@@ -257,19 +266,22 @@ void writeMessage(W&& w, const Polytope& polytope, const SliceSet& slices, const
     }
     w.key("slices");
     w.beginArray();
-    for (std::size_t i = 0; i < scene.stands.size(); ++i) writeSlice(w, polytope, slices, i, scene);
+    texts.stands.resize(scene.stands.size());
+    for (std::size_t i = 0; i < scene.stands.size(); ++i) {
+        const scene::Stand& stand = scene.stands[i];
+        const auto text = texts.stands[i].of(stand, [&](std::string& out) { writeStand(W(out), stand); });
+        writeSlice(w, text, polytope, slices, i, scene);
+    }
     w.endArray();
     w.endObject();
 }
 
-}  // namespace
-
-void slicesMessage(const Polytope& polytope, const SliceSet& slices, const Scene& scene, std::uint64_t revision,
-                   std::optional<double> id, Encoding encoding, std::string& out) {
+void SlicesWriter::write(const Polytope& polytope, const SliceSet& slices, const Scene& scene, std::uint64_t revision,
+                         std::optional<double> id, Encoding encoding, std::string& out) {
     if (encoding == Encoding::cbor) {
-        writeMessage(CborWriter(out), polytope, slices, scene, revision, id);
+        writeMessage(CborWriter(out), cbor_, polytope, slices, scene, revision, id);
     } else {
-        writeMessage(JsonWriter(out), polytope, slices, scene, revision, id);
+        writeMessage(JsonWriter(out), json_, polytope, slices, scene, revision, id);
     }
 }
 

@@ -21,8 +21,8 @@ struct ListsView {
     std::span<const std::uint32_t> begin, items;
 };
 
-/// Appends to a string through a pointer: the string is filled to its capacity first and cut to size at the end, so
-/// that nothing is allocated once it has been large enough.
+/// Writes over a string through a pointer: the string is made longer where need be and cut to size at the end. So
+/// nothing is allocated once it has been large enough, nor filled for a text that is as long as the last one.
 class Buffer {
   public:
     explicit Buffer(std::string& out);
@@ -62,7 +62,18 @@ class JsonWriter {
     void endObject() { close('}'); }
     void beginArray() { open('['); }
     void endArray() { close(']'); }
-    void key(std::string_view name);
+    void key(std::string_view name) {  // here, where most names are known
+        buffer_.room(name.size() + 4);
+        char* at = buffer_.at();
+        if (comma_) *at++ = ',';
+        *at++ = '"';
+        std::memcpy(at, name.data(), name.size());
+        at += name.size();
+        *at++ = '"';
+        *at++ = ':';
+        buffer_.moveTo(at);
+        comma_ = false;
+    }
 
     void value(double number);
     void value(std::uint64_t number);
@@ -73,8 +84,8 @@ class JsonWriter {
     void value(std::string_view text);
     void value(const char* text) { value(std::string_view(text)); }
     void null();
-    /// A value that is JSON text already.
-    void json(std::string_view text);
+    /// A value, or members of an object, as another writer wrote them.
+    void written(std::string_view text);
 
     /// Arrays of numbers. Coordinates are written as precisely as a float has them.
     void vector(const glm::dvec3& v);
@@ -96,6 +107,10 @@ class JsonWriter {
   private:
     void open(char bracket);
     void close(char bracket);
+    template <typename Put>
+    void array(std::size_t numbers, Put put);
+    template <std::size_t Size>
+    void tuples(std::span<const std::array<std::uint32_t, Size>> list);
     void separate() {
         if (comma_) buffer_.put(',');
         comma_ = true;
@@ -124,6 +139,7 @@ class CborWriter {
     void value(bool flag) { buffer_.put(flag ? '\xF5' : '\xF4'); }
     void value(std::string_view text);
     void value(const char* text) { value(std::string_view(text)); }
+    void written(std::string_view text) { buffer_.put(text); }
 
     void vector(const glm::dvec3& v);
     void vectors(std::span<const glm::dvec3> list);

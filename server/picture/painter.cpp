@@ -2,8 +2,6 @@
 
 #include <chrono>
 
-#include "protocol/cpp/codec.hpp"
-
 namespace oval4d::picture {
 
 namespace {
@@ -27,7 +25,7 @@ void Painter::message(const session::State& state, const geometry::SliceSet& sli
                       std::string& out) {
     compose(state, slices, viewport);
     times_.write =
-        secondsOf([&] { protocol::slicesMessage(*state.polytope, slices, scene_, revision, id, encoding, out); });
+        secondsOf([&] { slicesWriter_.write(*state.polytope, slices, scene_, revision, id, encoding, out); });
 }
 
 void Painter::frame(const session::State& state, const geometry::SliceSet& slices, std::string_view stateText,

@@ -10,6 +10,7 @@
 
 #include "geometry/slicer.hpp"
 #include "protocol/cpp/request.hpp"
+#include "protocol/cpp/slices.hpp"
 #include "render/image.hpp"
 #include "render/renderer.hpp"
 #include "scene/scene.hpp"
@@ -52,6 +53,7 @@ class Painter {
     std::size_t fillSteps_ = kFillSteps;
     geometry::Slicer slicer_;
     scene::Scene scene_;
+    protocol::SlicesWriter slicesWriter_;
     render::Image image_;
     std::optional<render::Renderer> renderer_;  // made at the first frame: geometry needs no GL
     render::PngEncoder encoder_;

@@ -77,6 +77,7 @@ struct Camera {
     glm::dmat4 view() const;
     /// OpenGL clip space, the shift included.
     glm::dmat4 projection(double aspect) const;
+    bool operator==(const Camera&) const = default;
 };
 
 /// One slice in the world.
@@ -89,6 +90,7 @@ struct Stand {
     double labelSize = 1;    ///< of the label, as a part of Style::textHeight
     bool focus = false;
     bool drawn = true;  ///< false in the single view for all but the focus
+    bool operator==(const Stand&) const = default;
 };
 
 /// The parallel coordinates: vertex i stands in row i / perRow, column i % perRow; its four lines x, y, z, w run
@@ -106,6 +108,7 @@ struct CoordinatesLayout {
     double amplitude = 0;
     bool named = true;  ///< P0, P1, … are written under the columns, or x, y, z, w under the strip's axes
     bool density = false;
+    bool operator==(const CoordinatesLayout&) const = default;
 };
 
 /// The parallel coordinates of so many vertices are drawn as lines; of more, as a density strip.
@@ -115,6 +118,7 @@ inline constexpr std::size_t kMostLines = 300;
 /// viewport's height.
 struct AxesLayout {
     double x = 0, y = 0, length = 0;
+    bool operator==(const AxesLayout&) const = default;
 };
 
 /// The colour of a kind of cells, where colours tell the kind, of so many.

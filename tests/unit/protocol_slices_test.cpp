@@ -5,6 +5,7 @@
 
 #include "geometry/catalogue.hpp"
 #include "geometry/slicer.hpp"
+#include "protocol/cpp/slices.hpp"
 #include "protocol_support.hpp"
 #include "session/session.hpp"
 
@@ -37,7 +38,7 @@ Picture pictureOf(const std::vector<std::string>& lines) {
 
 std::string messageOf(const Picture& picture, Encoding encoding) {
     std::string out = "what was there before";
-    slicesMessage(*picture.polytope, picture.slices, picture.scene, 7, 3, encoding, out);
+    SlicesWriter().write(*picture.polytope, picture.slices, picture.scene, 7, 3, encoding, out);
     return out;
 }
 
@@ -170,12 +171,32 @@ TEST(SlicesMessage, EmptySlicesAreEmptyLists) {
 TEST(SlicesMessage, ReusesItsMemory) {
     const Picture picture = pictureOf({"polytope 24-cell", "rotate xw 0.5"});
     std::string out;
-    slicesMessage(*picture.polytope, picture.slices, picture.scene, 1, {}, Encoding::json, out);
+    SlicesWriter().write(*picture.polytope, picture.slices, picture.scene, 1, {}, Encoding::json, out);
     const std::string first = out;
     const char* memory = out.data();
-    slicesMessage(*picture.polytope, picture.slices, picture.scene, 1, {}, Encoding::json, out);
+    SlicesWriter().write(*picture.polytope, picture.slices, picture.scene, 1, {}, Encoding::json, out);
     EXPECT_EQ(out, first);
     EXPECT_EQ(static_cast<const void*>(out.data()), memory);
+}
+
+// What a writer keeps from one message to the next must never show.
+TEST(SlicesMessage, DoesNotDependOnTheMessagesBefore) {
+    std::vector<Picture> pictures;
+    for (const char* line :
+         {"rotate xw 0.5", "rotate xw 0.7", "focus 3", "view single", "set slices=5", "set spacing=0.3",
+          "set coordinates=off", "set balls=off", "polytope 8-cell", "color kind"}) {
+        pictures.push_back(pictureOf({line}));
+    }
+    SlicesWriter writer;
+    for (int round = 0; round < 2; ++round) {
+        for (const Picture& picture : pictures) {
+            for (const Encoding encoding : {Encoding::json, Encoding::cbor}) {
+                std::string out;
+                writer.write(*picture.polytope, picture.slices, picture.scene, 7, 3, encoding, out);
+                ASSERT_EQ(out, messageOf(picture, encoding));
+            }
+        }
+    }
 }
 
 // A typed array of RFC 8746 as an array of its numbers.
