@@ -9,6 +9,7 @@
 #include "export_command.hpp"
 #include "net/options.hpp"
 #include "net/server.hpp"
+#include "picture/drawing_process.hpp"
 #include "render_command.hpp"
 
 namespace {
@@ -36,12 +37,15 @@ int main(int argc, char** argv) {
     oval4d::ExportOptions exportOptions;
     CLI::App* exporting = app.add_subcommand("export", "Write a slice or the oval as a file for other programs");
     oval4d::addExportOptions(*exporting, exportOptions);
+    const CLI::App* draw = app.add_subcommand(oval4d::picture::kDrawingCommand)->group("");  // the server's own
     app.require_subcommand(0, 1);
     CLI11_PARSE(app, argc, argv);
 
     startLog(options.logLevel);
     try {
-        if (*render) {
+        if (*draw) {
+            oval4d::picture::serveDrawing(oval4d::picture::kDrawingSocket);
+        } else if (*render) {
             oval4d::renderPicture(*render, renderOptions);
         } else if (*exporting) {
             oval4d::exportFile(*exporting, exportOptions);

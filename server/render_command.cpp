@@ -22,10 +22,8 @@ void renderPicture(const CLI::App& app, const RenderOptions& options) {
     const auto viewport = valueOf(picture::checked({options.width, options.height}, {}));
     const auto state = stateOf(queryOf(app.remaining()));
     picture::Painter painter;
-    geometry::SliceSet slices;
     std::vector<std::uint8_t> png;
-    painter.cut(state, slices);
-    painter.frame(state, slices, protocol::stateMessage(state, 0), viewport, png);
+    painter.frame(state, protocol::stateMessage(state, 0), viewport, png);
     writeOutput(options.output, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 

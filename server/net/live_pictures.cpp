@@ -108,7 +108,7 @@ void LiveSession::work(picture::Painter& painter) {
     Outcome outcome{job.revision, job.cut, {}, {}};
     for (const Want& want : job.wants) {
         try {
-            if (!outcome.cut) outcome.cut = cut(painter, job.state, job.revision, job.changed);
+            if (!serves(outcome.cut, want)) outcome.cut = cut(painter, job.state, job.revision, job.changed, want);
             outcome.bodies.emplace_back(want, draw(painter, *outcome.cut, want, {}));
             services_.metrics.observe(painter.times());
         } catch (const std::exception& fault) {
@@ -215,20 +215,21 @@ void LiveSession::watchPacing() {
 }
 
 LiveSession::CutPtr LiveSession::cut(picture::Painter& painter, const session::State& state, std::uint64_t revision,
-                                     Clock::time_point changed) {
+                                     Clock::time_point changed, const Want& want) {
     auto made = std::make_shared<Cut>();
     made->state = state;
     made->revision = revision;
     made->changed = changed;
     made->stateText = Bytes(protocol::stateMessage(state, revision));
-    painter.cut(state, made->slices);
+    made->sliced = want.stream != Stream::frames;
+    if (made->sliced) painter.cut(state, made->slices);
     return made;
 }
 
 Message LiveSession::draw(picture::Painter& painter, const Cut& cut, const Want& want, Id id) {
     if (want.stream == Stream::frames) {
         std::vector<std::uint8_t> png;
-        painter.frame(cut.state, cut.slices, cut.stateText.view(), want.viewport, png);
+        painter.frame(cut.state, cut.stateText.view(), want.viewport, png);
         return {Bytes(std::move(png)), true};
     }
     std::string text;

@@ -249,7 +249,7 @@ std::function<Message(picture::Painter&)> LiveSession::pictureJob(const Want& wa
     const CutPtr known = cut_ && cut_->revision == revision() ? cut_ : nullptr;
     return [known, state = session_.now, asked = revision(), changed = changed_, want, id,
             &metrics = services_.metrics](picture::Painter& painter) {
-        const CutPtr whole = known ? known : cut(painter, state, asked, changed);
+        const CutPtr whole = serves(known, want) ? known : cut(painter, state, asked, changed, want);
         Message drawn = draw(painter, *whole, want, id);
         metrics.observe(painter.times());
         return drawn;

@@ -67,12 +67,13 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
         Pacing pacing;
         bool stateUnderWay = false;  ///< with no stream: a `state` message is not yet written
     };
-    /// One revision, cut. Never changes once made.
+    /// One revision, cut if anybody wants slices. Never changes once made.
     struct Cut {
         session::State state;
         std::uint64_t revision = 0;
         Clock::time_point changed;  ///< when the session came to this revision
         Bytes stateText;
+        bool sliced = false;
         geometry::SliceSet slices;
     };
     using CutPtr = std::shared_ptr<const Cut>;
@@ -119,7 +120,10 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     // On a worker.
     void work(picture::Painter& painter);
     static CutPtr cut(picture::Painter& painter, const session::State& state, std::uint64_t revision,
-                      Clock::time_point changed);
+                      Clock::time_point changed, const Want& want);
+    static bool serves(const CutPtr& cut, const Want& want) {
+        return cut && (cut->sliced || want.stream == protocol::Stream::frames);
+    }
     static Message draw(picture::Painter& painter, const Cut& cut, const Want& want, Id id);
 
     // Set once.

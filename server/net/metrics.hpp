@@ -26,6 +26,7 @@ class Metrics {
     prometheus::Gauge& sessions;      ///< kept in the store
     prometheus::Gauge& openSessions;  ///< those with a client
     prometheus::Gauge& jobsWaiting;
+    prometheus::Counter& drawingDeaths;  ///< processes that drew, and died of it
     prometheus::Gauge& filesUnderWay;  ///< being made
     prometheus::Histogram& fileTime;   ///< from the start of making one to its end
     prometheus::Gauge& memory;         ///< bytes of this process that are resident

@@ -10,10 +10,9 @@ namespace oval4d::net {
 void Readiness::warmUp(picture::Painter& painter) {
     try {
         const session::State state = session::initialState();
-        geometry::SliceSet slices;
         std::vector<std::uint8_t> png;
-        painter.cut(state, slices);
-        painter.frame(state, slices, "", {}, png);
+        painter.warmUp();
+        painter.frame(state, "", {}, png);
         (void)geometry::findEntry("");  // the tables of names
         if (--missing_ == 0) spdlog::info("ready");
     } catch (const std::exception& fault) {

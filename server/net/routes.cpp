@@ -129,10 +129,8 @@ std::optional<exports::Format> formatIn(std::string_view path) {
 
 std::function<Bytes(picture::Painter&)> frameJob(const Wish& wish, Metrics& metrics) {
     return [wish, &metrics](picture::Painter& painter) {
-        geometry::SliceSet slices;
         std::vector<std::uint8_t> png;
-        painter.cut(wish.state, slices);
-        painter.frame(wish.state, slices, protocol::stateMessage(wish.state, 0), wish.viewport, png);
+        painter.frame(wish.state, protocol::stateMessage(wish.state, 0), wish.viewport, png);
         metrics.observe(painter.times());
         return Bytes(std::move(png));
     };

@@ -20,6 +20,7 @@
 #include "net/http_session.hpp"
 #include "net/processors.hpp"
 #include "net/readiness.hpp"
+#include "picture/drawer.hpp"
 #include "store/secret.hpp"
 
 namespace oval4d::net {
@@ -67,6 +68,7 @@ class Server {
   private:
     static tcp::acceptor bound(asio::io_context& io, const Options& options);
     std::string tokenNeeded() const;
+    void lament(const std::string& end);
     asio::awaitable<void> listen();
     asio::awaitable<void> stopOnSignal();
 
@@ -78,6 +80,7 @@ class Server {
     WebFiles files_;
     std::size_t workers_;
     Readiness readiness_;
+    picture::Studio studio_;
     WorkerPool pool_, fileMakers_;
     Services services_;
     std::shared_ptr<Hub> hub_;
@@ -92,9 +95,12 @@ Server::Server(Options options)
       files_(options_.webRoot),
       workers_(options_.workers > 0 ? static_cast<std::size_t>(options_.workers) : processors()),
       readiness_(workers_),
+      studio_(
+          processors(), {options_.maxFill, options_.polytopeCache}, [this] { return pool_.waiting() > 0; },
+          [this](const std::string& end) { lament(end); }),
       pool_(static_cast<int>(workers_),
             [this](picture::Painter& painter) {
-                painter.limitFill(options_.maxFill);
+                painter.leaveDrawingTo(std::make_unique<picture::Drawer>(studio_));
                 readiness_.warmUp(painter);
             }),
       fileMakers_(options_.fileWorkers, [](picture::Painter&) {}),
@@ -119,6 +125,11 @@ tcp::acceptor Server::bound(asio::io_context& io, const Options& options) {
 std::string Server::tokenNeeded() const {
     if (options_.open || !options_.token.empty()) return options_.open ? std::string() : options_.token;
     return acceptor_.local_endpoint().address().is_loopback() ? std::string() : store::randomName(kTokenBytes);
+}
+
+void Server::lament(const std::string& end) {
+    metrics_.drawingDeaths.Increment();
+    spdlog::error("a process that draws has died end=\"{}\"", end);
 }
 
 void Server::run() {

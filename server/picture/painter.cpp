@@ -1,6 +1,9 @@
 #include "picture/painter.hpp"
 
 #include <chrono>
+#include <utility>
+
+#include "picture/drawer.hpp"
 
 namespace oval4d::picture {
 
@@ -15,6 +18,9 @@ double secondsOf(Work&& work) {
 
 }  // namespace
 
+Painter::Painter() = default;
+Painter::~Painter() = default;
+
 void Painter::cut(const session::State& state, geometry::SliceSet& out) {
     times_ = {};
     times_.slice = secondsOf([&] { slicer_.slice(*state.polytope, state.orientation, state.hyperplanes(), out); });
@@ -28,16 +34,35 @@ void Painter::message(const session::State& state, const geometry::SliceSet& sli
         secondsOf([&] { slicesWriter_.write(*state.polytope, slices, scene_, revision, id, encoding, out); });
 }
 
-void Painter::frame(const session::State& state, const geometry::SliceSet& slices, std::string_view stateText,
-                    scene::Viewport viewport, std::vector<std::uint8_t>& out) {
-    warmUp();
-    compose(state, slices, viewport);
-    times_.draw = secondsOf([&] { renderer_->draw(*state.polytope, slices, scene_, image_); });
-    times_.encode = secondsOf([&] { encoder_.encode(image_, stateText, out); });
-}
+void Painter::leaveDrawingTo(std::unique_ptr<Drawer> drawer) { drawer_ = std::move(drawer); }
 
 void Painter::warmUp() {
-    if (!renderer_) renderer_.emplace();
+    if (drawer_) {
+        drawer_->warmUp();
+    } else if (!renderer_) {
+        renderer_.emplace();
+    }
+}
+
+void Painter::draw(const session::State& state, scene::Viewport viewport, std::span<std::uint8_t> pixels) {
+    warmUp();
+    cut(state, slices_);
+    compose(state, slices_, viewport);
+    times_.draw = secondsOf([&] { renderer_->draw(*state.polytope, slices_, scene_, pixels); });
+}
+
+void Painter::frame(const session::State& state, std::string_view stateText, scene::Viewport viewport,
+                    std::vector<std::uint8_t>& out, const std::function<void()>& drawn) {
+    render::ImageView image(viewport.width, viewport.height, {});
+    if (drawer_) {
+        image.pixels = drawer_->draw(state, viewport, times_);
+    } else {
+        pixels_.resize(render::bytesOf(viewport));
+        draw(state, viewport, pixels_);
+        image.pixels = pixels_;
+    }
+    if (drawn) drawn();
+    times_.encode = secondsOf([&] { encoder_.encode(image, stateText, out); });
 }
 
 void Painter::compose(const session::State& state, const geometry::SliceSet& slices, scene::Viewport viewport) {

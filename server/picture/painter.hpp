@@ -3,7 +3,10 @@
 // for `oval4d render` alike.
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,9 +26,14 @@ struct Times {
     double slice = 0, compose = 0, write = 0, draw = 0, encode = 0;
 };
 
+class Drawer;
+
 /// Keeps a slicer, a GL context and all memory in between. One painter serves one thread, the one that first draws.
 class Painter {
   public:
+    Painter();
+    ~Painter();
+
     /// What a picture may take to fill faces that cross themselves, in the steps of geometry::Filler.
     static constexpr std::size_t kFillSteps = 20'000'000;
     void limitFill(std::size_t steps) { fillSteps_ = steps; }
@@ -37,12 +45,20 @@ class Painter {
     void message(const session::State& state, const geometry::SliceSet& slices, std::uint64_t revision,
                  std::optional<double> id, scene::Viewport viewport, protocol::Encoding encoding, std::string& out);
 
-    /// The picture as a PNG file, with `stateText` (a `state` message) inside. Throws std::runtime_error if no GL
-    /// context can be had.
-    void frame(const session::State& state, const geometry::SliceSet& slices, std::string_view stateText,
-               scene::Viewport viewport, std::vector<std::uint8_t>& out);
+    /// The state's picture as a PNG file, with `stateText` (a `state` message) inside. `drawn` is called, if there is
+    /// one, when all that is left to do is to encode. Throws std::runtime_error if it cannot be drawn, above all where
+    /// no GL context can be had.
+    void frame(const session::State& state, std::string_view stateText, scene::Viewport viewport,
+               std::vector<std::uint8_t>& out, const std::function<void()>& drawn = {});
 
-    /// Makes the GL context and compiles its shaders, so that the first frame is as fast as the next.
+    /// From now on frames are drawn by `drawer`.
+    void leaveDrawingTo(std::unique_ptr<Drawer> drawer);
+
+    /// Draws the state's picture into `pixels`, as Renderer::draw has it.
+    void draw(const session::State& state, scene::Viewport viewport, std::span<std::uint8_t> pixels);
+
+    /// Compiles the shaders, so that the first frame is as fast as the next. Throws std::runtime_error if no GL context
+    /// can be had.
     void warmUp();
 
     const Times& times() const { return times_; }
@@ -51,10 +67,12 @@ class Painter {
     void compose(const session::State& state, const geometry::SliceSet& slices, scene::Viewport viewport);
 
     std::size_t fillSteps_ = kFillSteps;
+    std::unique_ptr<Drawer> drawer_;
     geometry::Slicer slicer_;
+    geometry::SliceSet slices_;
     scene::Scene scene_;
     protocol::SlicesWriter slicesWriter_;
-    render::Image image_;
+    std::vector<std::uint8_t> pixels_;
     std::optional<render::Renderer> renderer_;  // made at the first frame: geometry needs no GL
     render::PngEncoder encoder_;
     Times times_;

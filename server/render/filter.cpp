@@ -77,7 +77,7 @@ void differ(const std::uint8_t* row, const std::uint8_t* above, std::uint8_t* ou
 
 }  // namespace
 
-void filterRows(const Image& image, std::vector<std::uint8_t>& out) {
+void filterRows(const ImageView& image, std::vector<std::uint8_t>& out) {
     const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
     out.resize((3 * width + 1) * height);
     std::uint8_t* at = out.data();

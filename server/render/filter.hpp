@@ -11,6 +11,6 @@ namespace oval4d::render {
 /// Turns the image upside down, drops alpha and takes from each pixel what PNG's filter "Paeth" predicts from its
 /// neighbours to the left, above and between them, in one pass (the first row has nothing above: filter "sub"). `out`
 /// gets height rows of 1 + 3 · width bytes; its memory is reused.
-void filterRows(const Image& image, std::vector<std::uint8_t>& out);
+void filterRows(const ImageView& image, std::vector<std::uint8_t>& out);
 
 }  // namespace oval4d::render

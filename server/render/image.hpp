@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/scene.hpp"
+
 namespace oval4d::render {
 
 /// RGBA, 8 bits a channel, rows from the bottom up as OpenGL leaves them, no padding.
@@ -14,11 +16,25 @@ struct Image {
     std::vector<std::uint8_t> pixels;
 };
 
+inline std::size_t bytesOf(scene::Viewport viewport) {
+    return 4 * static_cast<std::size_t>(viewport.width) * static_cast<std::size_t>(viewport.height);
+}
+
+/// The same pixels, wherever they lie.
+struct ImageView {
+    int width = 0, height = 0;
+    std::span<const std::uint8_t> pixels;
+
+    ImageView(int imageWidth, int imageHeight, std::span<const std::uint8_t> at)
+        : width(imageWidth), height(imageHeight), pixels(at) {}
+    ImageView(const Image& image) : ImageView(image.width, image.height, image.pixels) {}
+};
+
 /// Writes `image` as an 8-bit RGB PNG file (alpha is dropped), the text `state` (UTF-8) in an uncompressed iTXt
 /// chunk keyed "oval4d", first after IHDR. `out` is overwritten and its memory reused. One encoder serves one thread.
 class PngEncoder {
   public:
-    void encode(const Image& image, std::string_view state, std::vector<std::uint8_t>& out);
+    void encode(const ImageView& image, std::string_view state, std::vector<std::uint8_t>& out);
 
   private:
     std::vector<std::uint8_t> filtered_, levelBuffer_;

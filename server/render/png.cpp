@@ -76,7 +76,7 @@ void deflate(Bytes& in, Bytes& levelBuffer, Bytes& out) {
 
 }  // namespace
 
-void PngEncoder::encode(const Image& image, std::string_view state, std::vector<std::uint8_t>& out) {
+void PngEncoder::encode(const ImageView& image, std::string_view state, std::vector<std::uint8_t>& out) {
     const std::size_t size = (static_cast<std::size_t>(image.width) * 3 + 1) * static_cast<std::size_t>(image.height);
     if (image.width < 1 || image.height < 1 ||
         image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4)

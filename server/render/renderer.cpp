@@ -1,6 +1,7 @@
 #include "render/renderer.hpp"
 
 #include <cstdlib>
+#include <stdexcept>
 
 #include "render/annotations.hpp"
 #include "render/context.hpp"
@@ -69,12 +70,18 @@ Renderer::~Renderer() = default;
 
 void Renderer::draw(const geometry::Polytope& polytope, const geometry::SliceSet& slices, const scene::Scene& scene,
                     Image& out) {
-    Solids& solids = impl_->solids;
-    Overlay& overlay = impl_->overlay;
     out.width = scene.viewport.width;
     out.height = scene.viewport.height;
-    out.pixels.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * 4);
-    impl_->context.begin(out.width, out.height, out.pixels.data());
+    out.pixels.resize(bytesOf(scene.viewport));
+    draw(polytope, slices, scene, std::span(out.pixels));
+}
+
+void Renderer::draw(const geometry::Polytope& polytope, const geometry::SliceSet& slices, const scene::Scene& scene,
+                    std::span<std::uint8_t> pixels) {
+    if (pixels.size() != bytesOf(scene.viewport)) throw std::invalid_argument("the picture has no place to go");
+    Solids& solids = impl_->solids;
+    Overlay& overlay = impl_->overlay;
+    impl_->context.begin(scene.viewport.width, scene.viewport.height, pixels.data());
 
     const scene::Colour background = scene::style().background;
     const auto channel = [&](int shift) { return static_cast<float>(background >> shift & 255) / 255; };

@@ -1,7 +1,9 @@
 #pragma once
 // Draws a scene with OSMesa.
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "geometry/slicer.hpp"
@@ -24,7 +26,11 @@ class Renderer {
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Draws `slices` as `scene` places them. `out` is resized to the scene's viewport and overwritten.
+    /// Draws `slices` as `scene` places them. `pixels` is overwritten: as in an Image of the scene's viewport.
+    void draw(const geometry::Polytope& polytope, const geometry::SliceSet& slices, const scene::Scene& scene,
+              std::span<std::uint8_t> pixels);
+
+    /// The same; `out` is resized.
     void draw(const geometry::Polytope& polytope, const geometry::SliceSet& slices, const scene::Scene& scene,
               Image& out);
 

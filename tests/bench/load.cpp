@@ -190,6 +190,20 @@ void besideLargeOnes(Endpoint server, const std::string& stream, int others, dou
     row("those " + std::to_string(others) + ", " + stream, all);
 }
 
+/// Many sessions at once, each as fast as it can.
+void allAtOnce(Endpoint server, const std::string& polytope, int count, double seconds) {
+    Stage stage;
+    std::vector<Latencies> each(static_cast<std::size_t>(count));
+    for (Latencies& latencies : each)
+        stage.spawn(pressing(stage, server, helloFor("frames"), polytope, seconds, latencies));
+    stage.run();
+    Latencies all;
+    for (const Latencies& latencies : each) all.insert(all.end(), latencies.begin(), latencies.end());
+    const std::string what = "frames of the " + polytope + ", " + std::to_string(count) + " sessions at once";
+    say(what + ", all together", text(R"("rate":%.1f)", static_cast<double>(all.size()) / seconds));
+    row(what, all);
+}
+
 void idle(Endpoint server, int count) {
     Stage stage;
     const double before = memoryOf(stage, server);
@@ -220,6 +234,7 @@ int main(int argc, char** argv) {
             pressKeys(server, "key to slices as JSON, " + name, helloFor("geometry"), name, seconds);
             pressKeys(server, "key to slices as CBOR, " + name, cbor, name, seconds);
         }
+        for (const char* polytope : {"5-cell", "600-cell"}) allAtOnce(server, polytope, 4, seconds);
         manySessions(server, 200, seconds);
         besideOneThatNeverReads(server, seconds);
         for (const char* stream : {"frames", "geometry"}) {

@@ -97,9 +97,13 @@ class Bench {
         result_["ms"][name] = whole.milliseconds();
     }
 
-    void cut(int i) {
+    void turn(int i) {
         state_.orientation = geometry::Rotation(
             geometry::Turn{geometry::Plane::xw, 0.3 + i * std::numbers::pi / 97, 0.2 + i * std::numbers::pi / 131});
+    }
+
+    void cut(int i) {
+        turn(i);
         painter_.cut(state_, set_);
     }
 
@@ -137,17 +141,17 @@ class Bench {
         std::size_t ours = 0, theirs = 0, steps = 0;
         repeat("frame", job_.frames, [&](int i, Samples& whole) {
             whole.add(secondsOf([&] {
-                cut(i);
+                turn(i);
                 protocol::stateMessage(state_, 1, {}, text_);
-                painter_.frame(state_, set_, text_, job_.viewport, png_);
+                painter_.frame(state_, text_, job_.viewport, png_);
             }));
             compose.add(painter_.times().compose);
             draw.add(painter_.times().draw);
             encode.add(painter_.times().encode);
         });
         for (int i = 0; i < std::min(job_.frames, 24); ++i) {
-            cut(5 * i);
-            painter_.frame(state_, set_, {}, job_.viewport, png_);
+            turn(5 * i);
+            painter_.frame(state_, {}, job_.viewport, png_);
             const LibpngFile again = encodeByLibpng(png_);
             libpng.add(again.seconds);
             ours += png_.size();

@@ -1,0 +1,49 @@
+#include "picture/drawer.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace oval4d::picture {
+
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+// So long after pictures came at the same time they are expected to do so again.
+constexpr auto kCrowded = 100ms;
+constexpr std::size_t kMostThreads = 8;  // more would wait for the one that prepares their work
+
+}  // namespace
+
+Studio::Studio(std::size_t cores, DrawingLimits limits, std::function<bool()> crowded, OnDeath died)
+    : limits_(limits), crowded_(std::move(crowded)), died_(std::move(died)) {
+    if (cores > 1) soloist_.emplace(static_cast<int>(std::min(cores, kMostThreads)), limits_, died_);
+}
+
+Drawer::Drawer(Studio& studio) : studio_(studio), own_(0, studio.limits_, studio.died_) {}
+
+void Drawer::warmUp() {
+    own_.warmUp();
+    const std::lock_guard lock(studio_.soloing_);
+    if (studio_.soloist_ && !std::exchange(studio_.warm_, true)) studio_.soloist_->warmUp();
+}
+
+std::span<const std::uint8_t> Drawer::draw(const session::State& state, scene::Viewport viewport, Times& times) {
+    struct Counted {
+        std::atomic<int>& drawing;
+        const bool alone = drawing++ == 0;
+        ~Counted() { --drawing; }
+    } const counted{studio_.drawing_};
+    const auto now = Clock::now().time_since_epoch();
+    if (!counted.alone || studio_.crowded_()) {
+        studio_.lastCrowded_ = now;
+    } else if (now - studio_.lastCrowded_.load() > kCrowded) {
+        const std::unique_lock lock(studio_.soloing_, std::try_to_lock);
+        if (lock && studio_.soloist_) return studio_.soloist_->draw(state, viewport, pixels_, times);
+    }
+    return own_.draw(state, viewport, pixels_, times);
+}
+
+}  // namespace oval4d::picture

@@ -1,0 +1,53 @@
+#pragma once
+// Which process draws.
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+
+#include "picture/drawing_process.hpp"
+
+namespace oval4d::picture {
+
+/// What the drawers of a server share. For a picture that is alone there is a process with as many threads as there
+/// are cores, so that it is drawn soonest. Of pictures at the same time each is drawn by a process without threads:
+/// there are more of them in a second than of such as wait for each other's threads.
+class Studio {
+  public:
+    /// `crowded` tells whether pictures wait; it is called by any thread. Throws std::runtime_error.
+    Studio(std::size_t cores, DrawingLimits limits, std::function<bool()> crowded, OnDeath died);
+
+  private:
+    friend class Drawer;
+    const DrawingLimits limits_;
+    const std::function<bool()> crowded_;
+    const OnDeath died_;
+    std::atomic<int> drawing_ = 0;  // how many drawers are at it
+    std::atomic<std::chrono::steady_clock::duration> lastCrowded_{};  // since the clock's epoch
+    std::mutex soloing_;
+    std::optional<DrawingProcess> soloist_;  // guarded by soloing_; nothing where there is but one core
+    bool warm_ = false;                      // guarded by soloing_
+};
+
+/// A worker's way to its pictures. One drawer serves one thread.
+class Drawer {
+  public:
+    explicit Drawer(Studio& studio);
+
+    /// Waits until shaders are compiled. Throws std::runtime_error.
+    void warmUp();
+
+    /// As DrawingProcess::draw; the pixels stay until the next picture.
+    std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, Times& times);
+
+  private:
+    Studio& studio_;
+    SharedPixels pixels_;
+    DrawingProcess own_;
+};
+
+}  // namespace oval4d::picture

@@ -1,0 +1,162 @@
+#include "picture/drawing_channel.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include "picture/bytes.hpp"
+
+// The structured bindings name every member of what they take apart: with a new one they do not compile.
+
+namespace oval4d::picture {
+
+namespace {
+
+template <typename Archive, typename Lists>
+void visitLists(Archive& archive, Lists& lists) {
+    auto& [begin, items] = lists;
+    archive(begin), archive(items);
+}
+
+template <typename Archive, typename Polytope>
+void visitPolytope(Archive& archive, Polytope& polytope) {
+    auto& [name, vertices, edges, faces, faceEdges, edgeFaces, cells, cellSigns, faceCells, cellKinds, kinds, serial,
+           convexFaces, convex, circumradius] = polytope;
+    archive(name), archive(vertices), archive(edges);
+    for (auto* lists : {&faces, &faceEdges, &edgeFaces, &cells}) visitLists(archive, *lists);
+    archive(cellSigns), archive(faceCells), archive(cellKinds);
+    archive(serial), archive(convexFaces), archive(convex), archive(circumradius);
+}
+
+template <typename Archive, typename Look>
+void visitLook(Archive& archive, Look& look) {
+    auto& [view, parts, orbit, colouring, kinds] = look;
+    auto& [hidden, faded] = kinds;
+    archive(view), archive(parts), archive(orbit), archive(colouring), archive(hidden), archive(faded);
+}
+
+struct Head {
+    Said said;
+    std::uint64_t size;
+};
+
+// Room for one file that travels along with bytes.
+struct alignas(cmsghdr) Luggage {
+    char bytes[CMSG_SPACE(sizeof(int))];
+};
+
+}  // namespace
+
+void encodeOrder(const session::State& state, scene::Viewport viewport, const DrawingLimits& limits, std::string& out) {
+    out.clear();
+    BytesOut archive(out);
+    archive(state.polytope->serial), archive(state.orientation.left()), archive(state.orientation.right());
+    archive(state.slices), visitLook(archive, state.look);
+    archive(viewport), archive(limits);
+}
+
+void decodeOrder(std::string_view bytes, Order& out) {
+    BytesIn archive(bytes);
+    glm::dquat left, right;
+    archive(out.polytope), archive(left), archive(right);
+    archive(out.state.slices), visitLook(archive, out.state.look);
+    archive(out.viewport), archive(out.limits);
+    const auto orientation = geometry::Rotation::fromQuaternions(left, right);
+    if (!orientation) throw std::runtime_error("a message between processes has no rotation");
+    out.state.orientation = *orientation;
+}
+
+void encodePolytope(const geometry::Polytope& polytope, std::string& out) {
+    out.clear();
+    BytesOut archive(out);
+    visitPolytope(archive, polytope);
+    archive(polytope.kinds.size());
+    for (const auto& [name, cells] : polytope.kinds) archive(name), archive(cells);
+}
+
+void decodePolytope(std::string_view bytes, geometry::Polytope& out) {
+    BytesIn archive(bytes);
+    visitPolytope(archive, out);
+    std::size_t kinds = 0;
+    archive(kinds);
+    for (out.kinds.clear(); out.kinds.size() < kinds;) {
+        auto& [name, cells] = out.kinds.emplace_back();
+        archive(name), archive(cells);
+    }
+}
+
+DrawingChannel::~DrawingChannel() { close(socket_); }
+
+bool DrawingChannel::send(Said said, std::string_view body, int file) const {
+    Head head{said, body.size()};
+    std::array parts{iovec{&head, sizeof head}, iovec{const_cast<char*>(body.data()), body.size()}};
+    msghdr message{};
+    message.msg_iov = parts.data();
+    message.msg_iovlen = parts.size();
+    Luggage luggage{};
+    if (file != kNoFile) {
+        message.msg_control = luggage.bytes;
+        message.msg_controllen = sizeof luggage.bytes;
+        cmsghdr* const tag = CMSG_FIRSTHDR(&message);
+        tag->cmsg_level = SOL_SOCKET;
+        tag->cmsg_type = SCM_RIGHTS;
+        tag->cmsg_len = CMSG_LEN(sizeof file);
+        std::memcpy(CMSG_DATA(tag), &file, sizeof file);
+    }
+    for (std::size_t left = sizeof head + body.size(); left > 0;) {
+        const ssize_t result = sendmsg(socket_, &message, MSG_NOSIGNAL);
+        if (result < 0 && errno == EINTR) continue;
+        if (result <= 0) return false;
+        left -= static_cast<std::size_t>(result);
+        message.msg_control = nullptr;
+        message.msg_controllen = 0;
+        auto sent = static_cast<std::size_t>(result);
+        for (iovec& part : parts) {
+            const std::size_t taken = std::min(sent, part.iov_len);
+            part = {static_cast<char*>(part.iov_base) + taken, part.iov_len - taken};
+            sent -= taken;
+        }
+    }
+    return true;
+}
+
+bool DrawingChannel::receive(Said& said, std::string& body, int& file) const {
+    file = kNoFile;
+    const auto read = [&](void* to, std::size_t size) {
+        for (auto* at = static_cast<char*>(to); size > 0;) {
+            iovec part{at, size};
+            Luggage luggage{};
+            msghdr message{};
+            message.msg_iov = &part;
+            message.msg_iovlen = 1;
+            message.msg_control = luggage.bytes;
+            message.msg_controllen = sizeof luggage.bytes;
+            const ssize_t got = recvmsg(socket_, &message, MSG_WAITALL | MSG_CMSG_CLOEXEC);
+            if (got < 0 && errno == EINTR) continue;
+            if (got <= 0) return false;
+            if (const cmsghdr* tag = CMSG_FIRSTHDR(&message); tag != nullptr && tag->cmsg_type == SCM_RIGHTS)
+                std::memcpy(&file, CMSG_DATA(tag), sizeof file);
+            at += got;
+            size -= static_cast<std::size_t>(got);
+        }
+        return true;
+    };
+    Head head{};
+    if (!read(&head, sizeof head)) return false;
+    said = head.said;
+    body.resize(head.size);
+    return read(body.data(), body.size());
+}
+
+bool DrawingChannel::wait(std::chrono::milliseconds time) const {
+    pollfd what{socket_, POLLIN, 0};
+    return poll(&what, 1, static_cast<int>(time.count())) != 0;
+}
+
+}  // namespace oval4d::picture

@@ -1,0 +1,167 @@
+// How many pictures a second one process makes, from state to PNG file, as fast as it can.
+//   drawing POLYTOPE DRAWERS ENCODERS SECONDS
+// DRAWERS threads draw, each with a context of its own, and encode what they have drawn; with ENCODERS 1 another thread
+// for each encodes while the next picture is drawn. Says "ready" when all is warm, and begins at a line of input, so
+// that several processes can begin at once. llvmpipe's own threads: LP_NUM_THREADS.
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "geometry/slicer.hpp"
+#include "render/image.hpp"
+#include "render/renderer.hpp"
+#include "scene/scene.hpp"
+#include "session/query.hpp"
+
+namespace oval4d::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+session::State stateOf(const std::string& polytope) {
+    const auto state = session::stateFromQuery({{"polytope", polytope}, {"slices", "21"}}, session::Limits{});
+    if (!state) throw std::runtime_error(state.error().message);
+    session::State made = *state;
+    made.slices.spacing = std::sqrt(10.0) / 4 * made.polytope->circumradius / 10;
+    return made;
+}
+
+/// Passes images from a thread to another, two at most.
+class Handover {
+  public:
+    void put(render::Image& image) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [this] { return !full_; });
+        std::swap(image, image_);
+        full_ = true;
+        changed_.notify_all();
+    }
+    bool take(render::Image& image) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [this] { return full_ || over_; });
+        if (!full_) return false;
+        std::swap(image, image_);
+        full_ = false;
+        changed_.notify_all();
+        return true;
+    }
+    void end() {
+        const std::lock_guard lock(mutex_);
+        over_ = true;
+        changed_.notify_all();
+    }
+
+  private:
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    render::Image image_;
+    bool full_ = false, over_ = false;
+};
+
+class Drawer {
+  public:
+    explicit Drawer(const session::State& state) : state_(state) {}
+
+    void draw(int i) {
+        state_.orientation = geometry::Rotation(
+            geometry::Turn{geometry::Plane::xw, 0.3 + i * std::numbers::pi / 97, 0.2 + i * std::numbers::pi / 131});
+        slicer_.slice(*state_.polytope, state_.orientation, state_.hyperplanes(), set_);
+        scene::compose(*state_.polytope, set_.planes, state_.slices.focus, state_.look, {}, scene_, state_.orientation);
+        scene::fill(*state_.polytope, set_, scene_);
+        renderer_.draw(*state_.polytope, set_, scene_, image);
+    }
+    void encode() { encoder_.encode(image, "", png_); }
+
+    render::Image image;
+
+  private:
+    session::State state_;
+    geometry::Slicer slicer_;
+    geometry::SliceSet set_;
+    scene::Scene scene_;
+    render::Renderer renderer_;
+    render::PngEncoder encoder_;
+    std::vector<std::uint8_t> png_;
+};
+
+/// Latencies of the pictures made until `end`.
+void draw(const session::State& state, bool pipelined, std::atomic<int>& cold, const std::atomic<bool>& begun,
+          double seconds, std::vector<double>& latencies) {
+    Drawer drawer(state);
+    for (int i = 0; i < 12; ++i) drawer.draw(i), drawer.encode();
+    --cold;
+    cold.notify_all();
+    begun.wait(false);
+    const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+    std::optional<std::thread> encoding;
+    Handover handover;
+    if (pipelined) {
+        encoding.emplace([&handover] {
+            render::PngEncoder encoder;
+            render::Image image;
+            std::vector<std::uint8_t> png;
+            while (handover.take(image)) encoder.encode(image, "", png);
+        });
+    }
+    for (int i = 12; Clock::now() < end; ++i) {
+        const auto start = Clock::now();
+        drawer.draw(i);
+        if (pipelined) {
+            handover.put(drawer.image);
+        } else {
+            drawer.encode();
+        }
+        latencies.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    }
+    handover.end();
+    if (encoding) encoding->join();
+}
+
+void run(const std::string& polytope, int drawers, bool pipelined, double seconds) {
+    const session::State state = stateOf(polytope);
+    std::vector<std::vector<double>> latencies(static_cast<std::size_t>(drawers));
+    std::vector<std::thread> threads;
+    std::atomic<int> cold = drawers;
+    std::atomic<bool> begun = false;
+    for (auto& each : latencies)
+        threads.emplace_back([&] { draw(state, pipelined, cold, begun, seconds, each); });
+    for (int left = cold; left > 0; left = cold) cold.wait(left);
+    std::puts("ready");
+    std::fflush(stdout);
+    (void)std::getchar();
+    begun = true;
+    begun.notify_all();
+    for (std::thread& thread : threads) thread.join();
+    std::vector<double> all;
+    for (const auto& each : latencies) all.insert(all.end(), each.begin(), each.end());
+    std::ranges::sort(all);
+    std::printf(R"({"rate":%.1f,"median":%.3f})"
+                "\n",
+                static_cast<double>(all.size()) / seconds, 1e3 * all[all.size() / 2]);
+}
+
+}  // namespace
+}  // namespace oval4d::bench
+
+int main(int argc, char** argv) {
+    const auto number = [&](int i, double otherwise) { return argc > i ? std::atof(argv[i]) : otherwise; };
+    try {
+        oval4d::bench::run(argc > 1 ? argv[1] : "5-cell", static_cast<int>(number(2, 1)), number(3, 0) != 0,
+                           number(4, 1));
+    } catch (const std::exception& fault) {
+        std::fprintf(stderr, "drawing: %s\n", fault.what());
+        return 1;
+    }
+}
