@@ -36,8 +36,8 @@ Metrics::Metrics()
       sessions(gauge(registry_, "oval4d_sessions", "Sessions kept, with or without a client")),
       openSessions(gauge(registry_, "oval4d_open_sessions", "Sessions with a client")),
       jobsWaiting(gauge(registry_, "oval4d_jobs_waiting", "Jobs waiting for a worker")),
-      drawingDeaths(counters(registry_, "oval4d_drawing_deaths_total",
-                             "Processes that drew, died, and were replaced").Add({})),
+      drawingDeaths(
+          counters(registry_, "oval4d_drawing_deaths_total", "Processes that drew, died, and were replaced").Add({})),
       filesUnderWay(gauge(registry_, "oval4d_files_under_way", "Files being made")),
       fileTime(histograms(registry_, "oval4d_file_seconds", "Time to make a file").Add({}, kFileBuckets)),
       memory(gauge(registry_, "process_resident_memory_bytes", "Memory of this process that is resident")),

@@ -27,10 +27,10 @@ class Metrics {
     prometheus::Gauge& openSessions;  ///< those with a client
     prometheus::Gauge& jobsWaiting;
     prometheus::Counter& drawingDeaths;  ///< processes that drew, and died of it
-    prometheus::Gauge& filesUnderWay;  ///< being made
-    prometheus::Histogram& fileTime;   ///< from the start of making one to its end
-    prometheus::Gauge& memory;         ///< bytes of this process that are resident
-    prometheus::Gauge& polytopes;      ///< bytes of polytopes kept for when they are asked for again
+    prometheus::Gauge& filesUnderWay;    ///< being made
+    prometheus::Histogram& fileTime;     ///< from the start of making one to its end
+    prometheus::Gauge& memory;           ///< bytes of this process that are resident
+    prometheus::Gauge& polytopes;        ///< bytes of polytopes kept for when they are asked for again
     prometheus::Counter& messagesReceived;
     prometheus::Counter& bytesSent;  ///< over WebSockets
     prometheus::Counter& slowReaders;

@@ -100,6 +100,7 @@ Server::Server(Options options)
           [this](const std::string& end) { lament(end); }),
       pool_(static_cast<int>(workers_),
             [this](picture::Painter& painter) {
+                painter.limitFill(options_.maxFill);
                 painter.leaveDrawingTo(std::make_unique<picture::Drawer>(studio_));
                 readiness_.warmUp(painter);
             }),

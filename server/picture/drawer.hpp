@@ -26,7 +26,7 @@ class Studio {
     const DrawingLimits limits_;
     const std::function<bool()> crowded_;
     const OnDeath died_;
-    std::atomic<int> drawing_ = 0;  // how many drawers are at it
+    std::atomic<int> drawing_ = 0;                                    // how many drawers are at it
     std::atomic<std::chrono::steady_clock::duration> lastCrowded_{};  // since the clock's epoch
     std::mutex soloing_;
     std::optional<DrawingProcess> soloist_;  // guarded by soloing_; nothing where there is but one core

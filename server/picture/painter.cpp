@@ -53,7 +53,7 @@ void Painter::draw(const session::State& state, scene::Viewport viewport, std::s
 
 void Painter::frame(const session::State& state, std::string_view stateText, scene::Viewport viewport,
                     std::vector<std::uint8_t>& out, const std::function<void()>& drawn) {
-    render::ImageView image(viewport.width, viewport.height, {});
+    render::ImageView image{viewport.width, viewport.height, {}};
     if (drawer_) {
         image.pixels = drawer_->draw(state, viewport, times_);
     } else {

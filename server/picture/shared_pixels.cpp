@@ -19,7 +19,7 @@ void check(bool done) {
 }
 
 struct stat statusOf(int file) {
-    struct stat status {};
+    struct stat status{};
     check(fstat(file, &status) == 0);
     return status;
 }

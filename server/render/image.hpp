@@ -24,10 +24,6 @@ inline std::size_t bytesOf(scene::Viewport viewport) {
 struct ImageView {
     int width = 0, height = 0;
     std::span<const std::uint8_t> pixels;
-
-    ImageView(int imageWidth, int imageHeight, std::span<const std::uint8_t> at)
-        : width(imageWidth), height(imageHeight), pixels(at) {}
-    ImageView(const Image& image) : ImageView(image.width, image.height, image.pixels) {}
 };
 
 /// Writes `image` as an 8-bit RGB PNG file (alpha is dropped), the text `state` (UTF-8) in an uncompressed iTXt
@@ -35,6 +31,9 @@ struct ImageView {
 class PngEncoder {
   public:
     void encode(const ImageView& image, std::string_view state, std::vector<std::uint8_t>& out);
+    void encode(const Image& image, std::string_view state, std::vector<std::uint8_t>& out) {
+        encode(ImageView{image.width, image.height, image.pixels}, state, out);
+    }
 
   private:
     std::vector<std::uint8_t> filtered_, levelBuffer_;

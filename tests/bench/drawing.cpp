@@ -135,8 +135,7 @@ void run(const std::string& polytope, int drawers, bool pipelined, double second
     std::vector<std::thread> threads;
     std::atomic<int> cold = drawers;
     std::atomic<bool> begun = false;
-    for (auto& each : latencies)
-        threads.emplace_back([&] { draw(state, pipelined, cold, begun, seconds, each); });
+    for (auto& each : latencies) threads.emplace_back([&] { draw(state, pipelined, cold, begun, seconds, each); });
     for (int left = cold; left > 0; left = cold) cold.wait(left);
     std::puts("ready");
     std::fflush(stdout);

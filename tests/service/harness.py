@@ -79,6 +79,18 @@ class Server:
                 return float(line.rsplit(" ", 1)[1])
         return 0.0
 
+    def drawing(self):
+        """The numbers of its processes that draw, while they live."""
+        children = []
+        for file in Path("/proc").glob("[0-9]*/stat"):
+            try:
+                state, parent = file.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()[:2]
+            except OSError:
+                continue  # it has ended meanwhile
+            if int(parent) == self.process.pid and state != "Z":
+                children.append(int(file.parent.name))
+        return children
+
     def memory(self):
         """Resident bytes."""
         pages = Path(f"/proc/{self.process.pid}/statm").read_text(encoding="ascii").split()[1]

@@ -17,21 +17,8 @@ LONG = {"polytope": "omnitruncated 120-cell", "slices": {"count": 101}}
 LARGE = {"width": 2400, "height": 1350}
 
 
-def drawing(parent):
-    """The living children of this process."""
-    children = []
-    for file in Path("/proc").glob("[0-9]*/stat"):
-        try:
-            state, ppid = file.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()[:2]
-        except OSError:
-            continue  # it has ended meanwhile
-        if int(ppid) == parent and state != "Z":
-            children.append(int(file.parent.name))
-    return children
-
-
 def kill_all(server, number=signal.SIGKILL):
-    pids = drawing(server.process.pid)
+    pids = server.drawing()
     for pid in pids:
         os.kill(pid, number)
     return len(pids)
@@ -86,13 +73,13 @@ async def test_a_picture_that_kills_its_process_again_and_again_is_refused_and_t
 async def test_they_end_with_the_server_and_not_before():
     server = Server()
     try:
-        pids = drawing(server.process.pid)
+        pids = server.drawing()
         assert len(pids) >= 2
         kill_all(server, signal.SIGTERM)  # as a terminal or a container sends it to all
         kill_all(server, signal.SIGINT)
         async with Client(server, stream="none", **SIZE) as client:
             await client.frame()
-        assert drawing(server.process.pid) == pids and server.metric(DEATHS) == 0
+        assert server.drawing() == pids and server.metric(DEATHS) == 0
         server.kill()
         for pid in pids:
             for _ in range(500):
@@ -130,6 +117,6 @@ async def test_no_connection_is_kept_open_by_them():
             kill_all(server)
             done = await client.request("key", key="r")
             await client.frame_of(done["revision"])
-            for pid in drawing(server.process.pid):
+            for pid in server.drawing():
                 files = [os.readlink(file) for file in Path(f"/proc/{pid}/fd").iterdir()]
                 assert sum(name.startswith("socket:") for name in files) == 1, files

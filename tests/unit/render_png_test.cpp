@@ -198,8 +198,8 @@ TEST(Png, OneEncoderServesManySizes) {
 
 TEST(Png, RefusesAnImageWithPixelsMissing) {
     Bytes file;
-    EXPECT_THROW(PngEncoder().encode({0, 0, {}}, "", file), std::invalid_argument);
-    EXPECT_THROW(PngEncoder().encode({2, 2, Bytes(15)}, "", file), std::invalid_argument);
+    EXPECT_THROW(PngEncoder().encode(Image{0, 0, {}}, "", file), std::invalid_argument);
+    EXPECT_THROW(PngEncoder().encode(Image{2, 2, Bytes(15)}, "", file), std::invalid_argument);
 }
 
 /// The prediction as PNG's specification defines it.
@@ -216,7 +216,7 @@ TEST(Png, FilterIsPaethInEveryRowAndStaysInside) {
     for (int width = 1; width <= 20; ++width) {
         const Image image = makeImage(width, kRows, Kind::noise, random);
         Bytes rows;
-        filterRows(image, rows);
+        filterRows({image.width, image.height, image.pixels}, rows);
         const std::size_t stride = 3 * static_cast<std::size_t>(width) + 1;
         ASSERT_EQ(rows.size(), kRows * stride);
         for (int y = 0; y < kRows; ++y) {
