@@ -1,5 +1,5 @@
 #pragma once
-// The usual case of a cut, made fast: a convex polytope, and no vertex in a hyperplane.
+// The usual case of a cut, made fast: a convex polytope.
 
 #include <array>
 #include <cstdint>
@@ -18,40 +18,55 @@ struct SliceSet;
 class ConvexCut {
   public:
     /// Fills `out`, whose hyperplanes and turned vertices are there. `below` has for each vertex the number of
-    /// hyperplanes under it. False, and `out` is of no use, where rounding errors in the vertices make it so that a
-    /// hyperplane cuts a 2-face or a cell twice.
-    bool cut(const Polytope& polytope, std::span<const std::int32_t> below, SliceSet& out);
+    /// hyperplanes strictly under it. By hyperplane, where vertices lie in it, `exact` has its slice, as a set of one;
+    /// it is empty where none does. False, and `out` is of no use, where rounding errors in the vertices make it so
+    /// that a hyperplane cuts a 2-face or a cell twice.
+    bool cut(const Polytope& polytope, std::span<const std::int32_t> below, std::span<SliceSet* const> exact,
+             SliceSet& out);
 
   private:
     // Hyperplanes from … to − 1 cross the element.
     struct Span {
         std::int32_t from, to;
     };
-    // The section of a 2-face: the slice vertices where its loop goes up through the hyperplane and where it comes
-    // down, and the slice's own number of the edge between them.
-    struct Line {
-        std::array<std::uint32_t, 2> ends;
-        std::uint32_t edge;
-    };
-    // Around a cell's section: the next slice vertex, and the edge to it.
+    // A slice vertex and a slice edge, by their numbers in their slice.
     struct Step {
-        std::uint32_t to, edge;
+        std::uint32_t vertex, edge;
     };
+    // The section of a 2-face: a slice edge, to where its loop goes up through the hyperplane and to where it comes
+    // down.
+    using Line = std::array<Step, 2>;
 
-    void cutEdges(const Polytope& polytope, std::span<const std::int32_t> below, SliceSet& out);
-    bool cutFaces(const Polytope& polytope, std::span<const std::int32_t> below, SliceSet& out);
-    void findEnds(const Polytope& polytope, std::span<const std::int32_t> below);
+    void cutEdges(const Polytope& polytope, const std::int32_t* below, SliceSet& out);
+    bool cutFaces(const Polytope& polytope, const std::int32_t* below, SliceSet& out);
+    void findEnds(const Polytope& polytope, const std::int32_t* below);
     bool cutCells(const Polytope& polytope, SliceSet& out);
+    void insert(std::size_t plane, const SliceSet& slice, SliceSet& out) const;
     void link(const Polytope& polytope, std::uint32_t cell);
+    Step* stepsOf(std::int32_t plane) { return steps_.data() + static_cast<std::size_t>(plane) * mostVertices_; }
+
+    // From counted differences in `begin` to where each slice's elements begin, and where they are written; a slice in
+    // exact_ has count(slice).
+    template <typename Count>
+    void layOut(std::vector<std::uint32_t>& begin, std::vector<std::uint32_t>& place, Count count);
 
     std::vector<double> levels_;                         // w of each hyperplane
     std::vector<std::uint32_t> crossedEdges_, crossed_;  // the numbers of the elements that are cut at all
-    std::vector<std::uint32_t> pointBegin_, point_;  // of edge e above its lower end: from point_[pointBegin_[e]] on
+    std::uint32_t crossings_ = 0;                        // of the loops of 2-faces
+    // Of an edge, a 2-face in hyperplane k: at pointAt_[edge] + k in points_ (numbers of slice vertices), at
+    // lineAt_[face] + k in lines_.
+    std::vector<std::int32_t> pointAt_, lineAt_;
+    std::vector<std::uint32_t> points_;
+    std::vector<Line> lines_;
     std::vector<Span> faceSpan_, cellSpan_;
-    std::vector<std::int32_t> lineBegin_;
-    std::vector<Line> lines_;  // of 2-face f in hyperplane k: lines_[lineBegin_[f] + k]
-    std::vector<std::uint32_t> start_, cursor_, cornerCursor_;  // by hyperplane
-    std::vector<Step> steps_;                                   // by slice vertex
+    std::span<SliceSet* const> exact_;
+    std::vector<std::uint32_t> elsewhere_;  // elements of slices in exact_
+    // By hyperplane: where the elements of its slice go, and the next one.
+    std::vector<std::uint32_t> vertexPlace_, edgePlace_, facePlace_, cornerPlace_, cursor_, cornerCursor_;
+    std::vector<std::uint32_t> cornerBegin_;  // by hyperplane: the corners of its slice
+    std::uint32_t mostVertices_ = 0;          // of a slice
+    std::vector<Step> steps_;                 // by hyperplane and vertex: how the section of the cell at hand goes on
+    std::vector<std::uint32_t> start_;        // by hyperplane: where it starts
 };
 
 }  // namespace oval4d::geometry

@@ -17,14 +17,51 @@ namespace oval4d::geometry {
 
 void Slicer::slice(const Polytope& polytope, const Rotation& orientation, const Hyperplanes& planes, SliceSet& out) {
     out.planes = planes;
-    const bool met = locateVertices(polytope, orientation, out);
-    if (polytope.convex && !met && convexCut_.cut(polytope, below_, out)) return;
+    locateVertices(polytope, orientation, out);
+    if (!polytope.convex || !cutConvex(polytope, out)) cutAny(polytope, out);
+}
+
+void Slicer::cutAny(const Polytope& polytope, SliceSet& out) {
     cutEdges(polytope, out);
     cutFaces(polytope, out);
     cutCells(polytope, out);
 }
 
-bool Slicer::locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out) {
+// Where few hyperplanes meet vertices, the slices in those alone are cut the general way.
+bool Slicer::cutConvex(const Polytope& polytope, SliceSet& out) {
+    constexpr std::size_t kFew = 4;  // a slice in so many
+    const std::size_t n = polytope.vertices.size();
+    exact_.assign(out.planes.count, nullptr);
+    std::size_t met = 0;
+    for (std::size_t v = 0; v < n; ++v) {
+        if (below_[v] == upTo_[v] || exact_[below_[v]] != nullptr) continue;
+        if (++met * kFew > exact_.size()) return false;
+        if (singles_.size() < met) singles_.emplace_back();
+        exact_[below_[v]] = &singles_[met - 1];
+    }
+    if (met > 0) {
+        allBelow_ = below_;
+        allUpTo_ = upTo_;
+        for (std::int32_t k = 0; k < out.planes.count; ++k) {
+            if (exact_[k] == nullptr) continue;
+            SliceSet& single = *exact_[k];
+            for (std::size_t v = 0; v < n; ++v) {
+                below_[v] = std::clamp(allBelow_[v] - k, 0, 1);
+                upTo_[v] = std::clamp(allUpTo_[v] - k, 0, 1);
+            }
+            single.planes = {out.planes.first + k, 1, out.planes.spacing};
+            single.turned.swap(out.turned);
+            cutAny(polytope, single);
+            single.turned.swap(out.turned);
+        }
+        below_.swap(allBelow_);
+        upTo_.swap(allUpTo_);
+    }
+    if (met == 0) exact_.clear();
+    return convexCut_.cut(polytope, below_, exact_, out);
+}
+
+void Slicer::locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out) {
     const auto count = static_cast<double>(out.planes.count);
     const double inverse = 1 / out.planes.spacing;
     const double tolerance = kOnPlane * polytope.circumradius * inverse;
@@ -33,7 +70,6 @@ bool Slicer::locateVertices(const Polytope& polytope, const Rotation& orientatio
     out.turned.resize(n);
     below_.resize(n);
     upTo_.resize(n);
-    bool met = false;
     for (std::size_t v = 0; v < n; ++v) {
         out.turned[v] = m * polytope.vertices[v];
         const double level = out.turned[v].w * inverse - out.planes.first;
@@ -41,9 +77,7 @@ bool Slicer::locateVertices(const Polytope& polytope, const Rotation& orientatio
         const auto whole = static_cast<std::int32_t>(above);
         below_[v] = whole + (above > whole ? 1 : 0);  // rounded up
         upTo_[v] = static_cast<std::int32_t>(std::clamp(level + tolerance + 1, 0.0, count));
-        met |= below_[v] != upTo_[v];
     }
-    return met;
 }
 
 // Slice vertices: the polytope's vertices in the hyperplane, and the crossed edges.
@@ -87,11 +121,11 @@ void Slicer::cutEdges(const Polytope& polytope, SliceSet& out) {
         }
         const glm::dvec4& a = out.turned[lower];
         const glm::dvec4 along = out.turned[upper] - a;
-        const double perRise = 1 / along.w;
+        const glm::dvec3 perRise = glm::dvec3(along) * (1 / along.w);
         for (; k < below_[upper]; ++k) {
             const std::uint32_t point = cursor_[k]++;
             *slot++ = point;
-            out.vertices[point] = glm::dvec3(a) + (out.planes.w(k) - a.w) * perRise * glm::dvec3(along);
+            out.vertices[point] = glm::dvec3(a) + (out.planes.w(k) - a.w) * perRise;
             out.vertexOf[point] = e;
         }
     }

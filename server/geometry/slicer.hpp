@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <utility>
 #include <vector>
@@ -89,8 +90,10 @@ class Slicer {
         double along;
     };
 
-    // Turns the vertices and counts the hyperplanes under each; true if any lies in one.
-    bool locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out);
+    // Turns the vertices and counts the hyperplanes under each.
+    void locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out);
+    void cutAny(const Polytope& polytope, SliceSet& out);
+    bool cutConvex(const Polytope& polytope, SliceSet& out);
     void cutEdges(const Polytope& polytope, SliceSet& out);
     void cutFaces(const Polytope& polytope, SliceSet& out);
     void cutConvexFace(const Polytope& polytope, std::uint32_t face, Span above);
@@ -110,6 +113,9 @@ class Slicer {
     void placeLoops(SliceSet& out);
 
     ConvexCut convexCut_;
+    std::deque<SliceSet> singles_;                  // slices in hyperplanes that meet vertices
+    std::vector<SliceSet*> exact_;                  // by hyperplane: of these, or none
+    std::vector<std::int32_t> allBelow_, allUpTo_;  // those of all hyperplanes, while one is cut
     // Of each vertex: the number of hyperplanes strictly below it, and of those below it or through it. They differ
     // where it lies in a hyperplane: in number below_.
     std::vector<std::int32_t> below_, upTo_;

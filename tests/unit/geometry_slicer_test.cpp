@@ -315,41 +315,94 @@ TEST(Slicer, keepsItsMemory) {
     EXPECT_EQ(s.vertices.capacity(), capacity);
 }
 
+void expectSame(const SliceSet& s, const SliceSet& t) {
+    EXPECT_EQ(s.vertexBegin, t.vertexBegin);
+    EXPECT_EQ(s.vertices, t.vertices);
+    EXPECT_EQ(s.vertexOf, t.vertexOf);
+    EXPECT_EQ(s.edgeBegin, t.edgeBegin);
+    EXPECT_EQ(s.edges, t.edges);
+    EXPECT_EQ(s.edgeOf, t.edgeOf);
+    EXPECT_EQ(s.faceBegin, t.faceBegin);
+    EXPECT_EQ(s.cornerBegin, t.cornerBegin);
+    EXPECT_EQ(s.corners, t.corners);
+    EXPECT_EQ(s.cornerEdges, t.cornerEdges);
+    EXPECT_EQ(s.faceOf, t.faceOf);
+}
+
 /// What is known of convex polytopes changes how they are cut, not what comes out.
-TEST(Slicer, CutsConvexPolytopesAsAnyOther) {
-    for (const char* name : {"5-cell", "8-cell", "24-cell", "120-cell", "600-cell", "snub 24-cell", "truncated 5-cell",
-                             "5,7-duoprism", "cuboctahedral prism"}) {
-        const auto polytope = polytopeOf(*findEntry(name));
-        ASSERT_TRUE(polytope->convex);
-        Polytope any = *polytope;
-        any.convex = false;
-        Slicer slicer;
-        Slicer slicerOfAny;
-        SliceSet s;
-        SliceSet t;
-        std::mt19937 random(9);
-        for (const int count : {21, 1, 101}) {
-            for (int trial = 0; trial < 4; ++trial) {
-                SCOPED_TRACE(testing::Message() << name << ", " << count << " slices, trial " << trial);
-                const Rotation orientation = randomRotation(random);
-                const Hyperplanes planes{-(count / 2), count, 1.8 * polytope->circumradius / count};
-                slicer.slice(*polytope, orientation, planes, s);
-                slicerOfAny.slice(any, orientation, planes, t);
-                EXPECT_EQ(s.vertexBegin, t.vertexBegin);
-                EXPECT_EQ(s.vertices, t.vertices);
-                EXPECT_EQ(s.vertexOf, t.vertexOf);
-                EXPECT_EQ(s.edgeBegin, t.edgeBegin);
-                EXPECT_EQ(s.edges, t.edges);
-                EXPECT_EQ(s.edgeOf, t.edgeOf);
-                EXPECT_EQ(s.faceBegin, t.faceBegin);
-                EXPECT_EQ(s.cornerBegin, t.cornerBegin);
-                EXPECT_EQ(s.corners, t.corners);
-                EXPECT_EQ(s.cornerEdges, t.cornerEdges);
-                EXPECT_EQ(s.faceOf, t.faceOf);
-            }
+class ConvexSlices : public testing::TestWithParam<const char*> {
+  protected:
+    // Cuts the polytope as it is, and as if it might not be convex; returns in how many slices vertices lie.
+    int expectSameAsAny(const Rotation& orientation, const Hyperplanes& planes) {
+        slicer.slice(p, orientation, planes, s);
+        slicerOfAny.slice(any, orientation, planes, t);
+        expectSame(s, t);
+        int met = 0;
+        for (int i = 0; i < planes.count; ++i) {
+            const auto of = std::span(s.vertexOf).subspan(s.vertexBegin[i], s.vertexCount(i));
+            met += std::any_of(of.begin(), of.end(), [&](auto each) { return each >= p.edges.size(); }) ? 1 : 0;
+        }
+        return met;
+    }
+
+    const Polytope& p = named(GetParam());
+    Polytope any = [this] {
+        Polytope other = p;
+        other.convex = false;
+        return other;
+    }();
+    std::mt19937 random{9};
+    Slicer slicer, slicerOfAny;
+    SliceSet s, t;
+};
+
+TEST_P(ConvexSlices, areThoseOfAnyPolytope) {
+    ASSERT_TRUE(p.convex);
+    for (const int count : {21, 1, 101}) {
+        for (int trial = 0; trial < 4; ++trial) {
+            SCOPED_TRACE(testing::Message() << count << " slices, trial " << trial);
+            expectSameAsAny(randomRotation(random), {-(count / 2), count, 1.8 * p.circumradius / count});
         }
     }
 }
+
+TEST_P(ConvexSlices, inHyperplanesThroughVerticesAreThoseOfAnyPolytope) {
+    std::set<int> met;
+    for (int trial = 0; trial < 60; ++trial) {
+        SCOPED_TRACE(testing::Message() << "trial " << trial);
+        Rotation orientation;
+        switch (trial % 4) {
+            case 0:  // what lies in the plane yz stays in w = 0
+                orientation = Rotation(Turn{Plane::xw, 0.1 + 0.37 * trial, 0.2 + 0.11 * trial});
+                break;
+            case 1:
+                orientation = Rotation(Turn{kPlanes.at(random() % 6), 0.3 + 0.2 * trial, {}});
+                break;
+            case 2:
+                orientation = ontoW(p.vertices[random() % p.vertices.size()]);
+                break;
+            default:
+                orientation = randomRotation(random);
+        }
+        // A hyperplane through the origin, or one through some vertex.
+        const glm::dvec4 vertex = orientation(p.vertices[random() % p.vertices.size()]);
+        const int count = trial % 3 == 0 ? 41 : 21;
+        const double spacing = trial % 2 == 0 ? 1.9 * p.circumradius / count : std::abs(vertex.w) / (1 + trial % 5);
+        if (spacing < 0.01 * p.circumradius) continue;
+        met.insert(expectSameAsAny(orientation, {-(count / 2), count, spacing}));
+        ASSERT_FALSE(HasFailure());
+    }
+    EXPECT_GE(met.size(), 2U) << "slices with vertices in more and in fewer hyperplanes";
+}
+
+INSTANTIATE_TEST_SUITE_P(Some, ConvexSlices,
+                         testing::Values("5-cell", "8-cell", "24-cell", "120-cell", "600-cell", "snub 24-cell",
+                                         "truncated 5-cell", "5,7-duoprism", "cuboctahedral prism"),
+                         [](const auto& i) {
+                             std::string name(i.param);
+                             std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+                             return "the_" + name;
+                         });
 
 /// A 2-face whose corners on a straight side waver by rounding is cut twice there; that is nobody's harm.
 TEST(Slicer, TakesConvexPolytopesThatAreNotQuite) {
