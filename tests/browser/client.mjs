@@ -94,6 +94,7 @@ test("client: it comes back to its session by itself", async () => {
     proxy.cut();
     await unanswered;
     await waiting;
+    proxy.mend();
     await again;
     assert.equal(client.credentials.session, session);
     assert.equal((await client.request({ type: "get", what: "state" })).polytope.name, "16-cell");

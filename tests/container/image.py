@@ -6,6 +6,7 @@ What was compiled before, ccache knows.
 
 import json
 import os
+import resource
 import shutil
 import subprocess
 from pathlib import Path
@@ -77,6 +78,8 @@ class Builder:
         for file in Path("/etc/apt/apt.conf.d").glob("99*"):
             shutil.copy(file, files / "etc/apt/apt.conf.d")
         authorities = list(Path("/usr/local/share/ca-certificates").glob("*.crt"))
+        if "NODE_EXTRA_CA_CERTS" in os.environ:
+            authorities.append(Path(os.environ["NODE_EXTRA_CA_CERTS"]))
         if authorities:  # the packages come by a proxy of this machine's own
             (files / "usr/local/share/ca-certificates").mkdir(parents=True, exist_ok=True)
             for file in authorities:
@@ -105,7 +108,10 @@ class Builder:
     def build_here(self):
         cache = Path(run("ccache", "--get-config", "cache_dir"))
         cache.mkdir(parents=True, exist_ok=True)
-        self("build", "--layers", "--format", "docker", "--isolation", "chroot", "--pull-never", "--build-arg", f"BASE={self.base()}",
+        # Limits of the build's own would have to be allowed.
+        limits = [f"--ulimit={name}={soft}:{hard}" for name, (soft, hard) in
+                  (("nofile", resource.getrlimit(resource.RLIMIT_NOFILE)), ("nproc", resource.getrlimit(resource.RLIMIT_NPROC)))]
+        self("build", *limits, "--layers", "--format", "docker", "--isolation", "chroot", "--pull-never", "--build-arg", f"BASE={self.base()}",
              "--ignorefile", "docker/Dockerfile.dockerignore", "--volume", f"{cache}:/root/.cache/ccache:rw",
              "--file", "docker/Dockerfile", "--tag", IMAGE, ".")
 

@@ -7,6 +7,7 @@ import { atEnd } from "./suite.mjs";
 export async function startProxy(target, prefix, extraHeaders = {}) {
     const { hostname, port } = new URL(target);
     const sockets = new Set();
+    let broken = false;
     const outside = []; // what was asked for that is not under the prefix
     const inner = (url) => {
         if (url.startsWith(`${prefix}/`)) return url.slice(prefix.length);
@@ -26,7 +27,7 @@ export async function startProxy(target, prefix, extraHeaders = {}) {
     });
     server.on("upgrade", (incoming, socket, head) => {
         const path = inner(incoming.url);
-        if (path === undefined) return socket.destroy();
+        if (path === undefined || broken) return socket.destroy();
         const onward = connect(Number(port), hostname, () => {
             const lines = [`${incoming.method} ${path} HTTP/1.1`];
             for (let i = 0; i < incoming.rawHeaders.length; i += 2) {
@@ -49,8 +50,14 @@ export async function startProxy(target, prefix, extraHeaders = {}) {
     return {
         url: `http://127.0.0.1:${server.address().port}${prefix}/`,
         outside,
-        /** Breaks all WebSockets, as a network does. */
-        cut: () => sockets.forEach((socket) => socket.destroy()),
+        /** Breaks all WebSockets, as a network does, and lets none through until it is mended. */
+        cut() {
+            broken = true;
+            sockets.forEach((socket) => socket.destroy());
+        },
+        mend() {
+            broken = false;
+        },
         async stop() {
             this.cut();
             server.closeAllConnections();
