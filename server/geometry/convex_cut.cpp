@@ -15,6 +15,8 @@ namespace oval4d::geometry {
 
 bool ConvexCut::cut(const Polytope& polytope, std::span<const std::int32_t> below, std::span<SliceSet* const> exact,
                     SliceSet& out) {
+    const std::size_t most = std::max({polytope.edges.size(), polytope.faces.size(), below.size()});
+    if (most > kMost || out.planes.count > static_cast<int>(kMost)) return false;
     exact_ = exact;
     levels_.resize(out.planes.count);
     for (int k = 0; k < out.planes.count; ++k) levels_[k] = out.planes.w(k);
@@ -68,20 +70,18 @@ void ConvexCut::insert(std::size_t plane, const SliceSet& slice, SliceSet& out) 
 
 void ConvexCut::cutEdges(const Polytope& polytope, const std::int32_t* below, SliceSet& out) {
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
-    pointAt_.resize(edges);
     crossedEdges_.resize(edges);
     out.vertexBegin.assign(out.planes.count + 1, 0);
     crossings_ = 0;
-    std::int32_t points = 0;
+    std::uint32_t points = 0;
     std::size_t crossed = 0;
     for (std::uint32_t e = 0; e < edges; ++e) {
         const std::int32_t a = below[polytope.edges[e][0]], b = below[polytope.edges[e][1]];
         const std::int32_t from = std::min(a, b), to = std::max(a, b);
         countSpan(out.vertexBegin, from, to);
-        pointAt_[e] = points - from;
         points += to - from;
         crossings_ += (to - from) * (polytope.edgeFaces.begin[e + 1] - polytope.edgeFaces.begin[e]);
-        crossedEdges_[crossed] = e;
+        crossedEdges_[crossed] = {e, a < b ? 1U : 0U, static_cast<Small>(from), static_cast<Small>(to)};
         crossed += from != to ? 1 : 0;
     }
     crossedEdges_.resize(crossed);
@@ -95,19 +95,17 @@ void ConvexCut::cutEdges(const Polytope& polytope, const std::int32_t* below, Sl
     std::uint32_t* cursor = cursor_.data();
     glm::dvec3* vertices = out.vertices.data();
     std::uint32_t* vertexOf = out.vertexOf.data();
-    for (const std::uint32_t e : crossedEdges_) {
-        auto [lower, upper] = polytope.edges[e];
-        if (below[lower] > below[upper]) std::swap(lower, upper);
-        const glm::dvec4& a = out.turned[lower];
-        const glm::dvec4 along = out.turned[upper] - a;
+    Small* point = points_.data();
+    for (const CrossedEdge crossing : crossedEdges_) {
+        const auto& edge = polytope.edges[crossing.edge];
+        const glm::dvec4& a = out.turned[edge[1 - crossing.rises]];
+        const glm::dvec4 along = out.turned[edge[crossing.rises]] - a;
         const glm::dvec3 perRise = glm::dvec3(along) * (1 / along.w);
-        std::uint32_t* point = points_.data() + pointAt_[e];
-        const std::int32_t to = below[upper];
-        for (std::int32_t k = below[lower]; k < to; ++k) {
+        for (std::int32_t k = crossing.from; k < crossing.to; ++k) {
             const std::uint32_t number = cursor[k]++;
-            point[k] = number - first[k];
+            *point++ = static_cast<Small>(number - first[k]);
             vertices[number] = glm::dvec3(a) + (levels[k] - a.w) * perRise;
-            vertexOf[number] = e;
+            vertexOf[number] = crossing.edge;
         }
     }
     mostVertices_ = 0;
@@ -117,8 +115,7 @@ void ConvexCut::cutEdges(const Polytope& polytope, const std::int32_t* below, Sl
 bool ConvexCut::cutFaces(const Polytope& polytope, const std::int32_t* below, SliceSet& out) {
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     faceSpan_.resize(faces);
-    lineAt_.resize(faces);
-    crossed_.resize(faces);
+    crossedFaces_.resize(faces);
     out.edgeBegin.assign(out.planes.count + 1, 0);
     std::int32_t lines = 0;
     std::size_t crossed = 0;
@@ -131,14 +128,13 @@ bool ConvexCut::cutFaces(const Polytope& polytope, const std::int32_t* below, Sl
             to = std::max(to, below[*vertex]);
         }
         countSpan(out.edgeBegin, from, to);
-        faceSpan_[f] = {from, to};
-        lineAt_[f] = lines - from;
+        faceSpan_[f] = {lines - from, static_cast<Small>(from), static_cast<Small>(to)};
         lines += to - from;
-        crossed_[crossed] = f;
+        crossedFaces_[crossed] = f;
         crossed += from != to ? 1 : 0;
     }
     if (crossings_ != 2 * static_cast<std::uint32_t>(lines)) return false;
-    crossed_.resize(crossed);
+    crossedFaces_.resize(crossed);
     cornerBegin_ = out.edgeBegin;
     for (std::uint32_t& difference : cornerBegin_) difference *= 2;  // an edge bounds two faces
     layOut(cornerBegin_, cornerPlace_, [](const SliceSet& slice) { return slice.corners.size(); });
@@ -147,18 +143,20 @@ bool ConvexCut::cutFaces(const Polytope& polytope, const std::int32_t* below, Sl
     out.edges.resize(edgePlace_.back());
     out.edgeOf.resize(edgePlace_.back());
     lines_.resize(lines);
-    findEnds(polytope, below);
+    findEnds(polytope);
     const std::uint32_t* first = edgePlace_.data();
     std::uint32_t* cursor = cursor_.data();
     auto* sliceEdges = out.edges.data();
     std::uint32_t* edgeOf = out.edgeOf.data();
-    for (const std::uint32_t f : crossed_) {
-        const Span span = faceSpan_[f];
-        Line* lineOf = lines_.data() + lineAt_[f];
+    for (const std::uint32_t f : crossedFaces_) {
+        const FaceSpan span = faceSpan_[f];
+        Line* lineOf = lines_.data() + span.at;
         for (std::int32_t k = span.from; k < span.to; ++k) {
-            Line& line = lineOf[k];
             const std::uint32_t edge = cursor[k]++;
-            line[0].edge = line[1].edge = edge - first[k];
+            const auto number = static_cast<Small>(edge - first[k]);
+            Line& line = lineOf[k];
+            line[0].edge = number;
+            line[1].edge = number;
             sliceEdges[edge] = {line[0].vertex, line[1].vertex};
             edgeOf[edge] = f;
         }
@@ -167,40 +165,39 @@ bool ConvexCut::cutFaces(const Polytope& polytope, const std::int32_t* below, Sl
 }
 
 // The loop of a 2-face goes up through each hyperplane once and comes down once.
-void ConvexCut::findEnds(const Polytope& polytope, const std::int32_t* below) {
+void ConvexCut::findEnds(const Polytope& polytope) {
     Line* lines = lines_.data();
-    for (const std::uint32_t e : crossedEdges_) {
-        const std::int32_t a = below[polytope.edges[e][0]], b = below[polytope.edges[e][1]];
-        const std::int32_t from = std::min(a, b), to = std::max(a, b);
-        const std::uint32_t rises = a < b ? 1 : 0;
-        const std::uint32_t* points = points_.data() + pointAt_[e];
-        for (const std::uint32_t side : polytope.edgeFaces[e]) {
-            const std::uint32_t comesDown = rises ^ (side & 1U);
-            Line* line = lines + lineAt_[side >> 1U];
-            for (std::int32_t k = from; k < to; ++k) line[k][comesDown].vertex = points[k];
+    const FaceSpan* spans = faceSpan_.data();
+    const Small* points = points_.data();
+    for (const CrossedEdge edge : crossedEdges_) {
+        points -= edge.from;
+        for (const std::uint32_t side : polytope.edgeFaces[edge.edge]) {
+            const std::uint32_t comesDown = edge.rises ^ (side & 1U);
+            Line* line = lines + spans[side >> 1U].at;
+            for (std::int32_t k = edge.from; k < edge.to; ++k) line[k][comesDown].vertex = points[k];
         }
+        points += edge.to;
     }
 }
 
 bool ConvexCut::cutCells(const Polytope& polytope, SliceSet& out) {
     const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
-    cellSpan_.resize(cells);
-    crossed_.resize(cells);
+    crossedCells_.resize(cells);
     out.faceBegin.assign(out.planes.count + 1, 0);
     std::size_t crossed = 0;
     const std::uint32_t* bound = polytope.cells.items.data();
     for (std::uint32_t c = 0; c < cells; ++c) {
         const std::uint32_t* end = polytope.cells.items.data() + polytope.cells.begin[c + 1];
-        Span span = faceSpan_[*bound];
+        Small from = faceSpan_[*bound].from, to = faceSpan_[*bound].to;
         while (++bound != end) {
-            span = {std::min(span.from, faceSpan_[*bound].from), std::max(span.to, faceSpan_[*bound].to)};
+            from = std::min(from, faceSpan_[*bound].from);
+            to = std::max(to, faceSpan_[*bound].to);
         }
-        countSpan(out.faceBegin, span.from, span.to);
-        cellSpan_[c] = span;
-        crossed_[crossed] = c;
-        crossed += span.from != span.to ? 1 : 0;
+        countSpan(out.faceBegin, from, to);
+        crossedCells_[crossed] = {c, from, to};
+        crossed += from != to ? 1 : 0;
     }
-    crossed_.resize(crossed);
+    crossedCells_.resize(crossed);
     layOut(out.faceBegin, facePlace_, [](const SliceSet& slice) { return slice.faceOf.size(); });
     cursor_ = facePlace_;
     cornerCursor_ = cornerPlace_;
@@ -212,22 +209,21 @@ bool ConvexCut::cutCells(const Polytope& polytope, SliceSet& out) {
     steps_.resize(static_cast<std::size_t>(out.planes.count) * mostVertices_);
     std::uint32_t* cursor = cursor_.data();
     std::uint32_t* cornerCursor = cornerCursor_.data();
-    const std::uint32_t* start = start_.data();
+    const Small* start = start_.data();
     std::uint32_t* faceOf = out.faceOf.data();
     std::uint32_t* cornerBegin = out.cornerBegin.data();
-    for (const std::uint32_t c : crossed_) {
-        link(polytope, c);
-        const Span span = cellSpan_[c];
-        for (std::int32_t k = span.from; k < span.to; ++k) {
+    for (const CrossedCell crossing : crossedCells_) {
+        link(polytope, crossing.cell);
+        const Step* steps = stepsOf(crossing.from);
+        for (std::int32_t k = crossing.from; k < crossing.to; ++k, steps += mostVertices_) {
             const std::uint32_t face = cursor[k]++;
             const std::uint32_t begin = cornerCursor[k];
-            faceOf[face] = c;
+            faceOf[face] = crossing.cell;
             cornerBegin[face] = begin;
-            const Step* steps = stepsOf(k);
             std::uint32_t* corner = out.corners.data() + begin;
             std::uint32_t* edge = out.cornerEdges.data() + begin;
-            const std::uint32_t home = start[k];
-            std::uint32_t vertex = home;
+            const Small home = start[k];
+            Small vertex = home;
             do {
                 const Step step = steps[vertex];
                 *corner++ = vertex;
@@ -246,16 +242,15 @@ bool ConvexCut::cutCells(const Polytope& polytope, SliceSet& out) {
 // The lines cut from the cell's 2-faces, end to start, each in the direction that the 2-face has in this cell. The
 // sections begin with the first 2-face.
 inline void ConvexCut::link(const Polytope& polytope, std::uint32_t cell) {
-    std::uint32_t* start = start_.data();
+    Small* start = start_.data();
     const std::size_t stride = mostVertices_;
     for (std::uint32_t at = polytope.cells.begin[cell + 1]; at-- > polytope.cells.begin[cell];) {
-        const std::uint32_t f = polytope.cells.items[at];
         const std::size_t outward = polytope.cellSigns[at] > 0 ? 1 : 0;
-        const Span span = faceSpan_[f];
-        const Line* line = lines_.data() + lineAt_[f];
+        const FaceSpan span = faceSpan_[polytope.cells.items[at]];
+        const Line* line = lines_.data() + span.at;
         Step* steps = stepsOf(span.from);
         for (std::int32_t k = span.from; k < span.to; ++k, steps += stride) {
-            const std::uint32_t from = line[k][1 - outward].vertex;
+            const Small from = line[k][1 - outward].vertex;
             steps[from] = line[k][outward];
             start[k] = from;
         }

@@ -20,18 +20,32 @@ class ConvexCut {
     /// Fills `out`, whose hyperplanes and turned vertices are there. `below` has for each vertex the number of
     /// hyperplanes strictly under it. By hyperplane, where vertices lie in it, `exact` has its slice, as a set of one;
     /// it is empty where none does. False, and `out` is of no use, where rounding errors in the vertices make it so
-    /// that a hyperplane cuts a 2-face or a cell twice.
+    /// that a hyperplane cuts a 2-face or a cell twice, or where there is too much of something.
     bool cut(const Polytope& polytope, std::span<const std::int32_t> below, std::span<SliceSet* const> exact,
              SliceSet& out);
 
   private:
-    // Hyperplanes from … to − 1 cross the element.
-    struct Span {
-        std::int32_t from, to;
+    // What is smaller stays nearer to the processor: much of the time is waiting for memory.
+    using Small = std::uint16_t;
+    static constexpr std::size_t kMost = 0x7FFF;
+
+    // Hyperplanes from … to − 1 cross the edge, which rises from its first vertex to its second or the other way.
+    struct CrossedEdge {
+        std::uint32_t edge : 31, rises : 1;
+        Small from, to;
+    };
+    // Hyperplanes from … to − 1 cross the 2-face; its line in hyperplane k is lines_[at + k].
+    struct FaceSpan {
+        std::int32_t at;
+        Small from, to;
+    };
+    struct CrossedCell {
+        std::uint32_t cell;
+        Small from, to;
     };
     // A slice vertex and a slice edge, by their numbers in their slice.
     struct Step {
-        std::uint32_t vertex, edge;
+        Small vertex, edge;
     };
     // The section of a 2-face: a slice edge, to where its loop goes up through the hyperplane and to where it comes
     // down.
@@ -39,7 +53,7 @@ class ConvexCut {
 
     void cutEdges(const Polytope& polytope, const std::int32_t* below, SliceSet& out);
     bool cutFaces(const Polytope& polytope, const std::int32_t* below, SliceSet& out);
-    void findEnds(const Polytope& polytope, const std::int32_t* below);
+    void findEnds(const Polytope& polytope);
     bool cutCells(const Polytope& polytope, SliceSet& out);
     void insert(std::size_t plane, const SliceSet& slice, SliceSet& out) const;
     void link(const Polytope& polytope, std::uint32_t cell);
@@ -50,15 +64,14 @@ class ConvexCut {
     template <typename Count>
     void layOut(std::vector<std::uint32_t>& begin, std::vector<std::uint32_t>& place, Count count);
 
-    std::vector<double> levels_;                         // w of each hyperplane
-    std::vector<std::uint32_t> crossedEdges_, crossed_;  // the numbers of the elements that are cut at all
-    std::uint32_t crossings_ = 0;                        // of the loops of 2-faces
-    // Of an edge, a 2-face in hyperplane k: at pointAt_[edge] + k in points_ (numbers of slice vertices), at
-    // lineAt_[face] + k in lines_.
-    std::vector<std::int32_t> pointAt_, lineAt_;
-    std::vector<std::uint32_t> points_;
+    std::vector<double> levels_;  // w of each hyperplane
+    std::vector<CrossedEdge> crossedEdges_;
+    std::vector<Small> points_;    // the slice vertices of the crossed edges, one after the other
+    std::uint32_t crossings_ = 0;  // of the loops of 2-faces
+    std::vector<FaceSpan> faceSpan_;
+    std::vector<std::uint32_t> crossedFaces_;
     std::vector<Line> lines_;
-    std::vector<Span> faceSpan_, cellSpan_;
+    std::vector<CrossedCell> crossedCells_;
     std::span<SliceSet* const> exact_;
     std::vector<std::uint32_t> elsewhere_;  // elements of slices in exact_
     // By hyperplane: where the elements of its slice go, and the next one.
@@ -66,7 +79,7 @@ class ConvexCut {
     std::vector<std::uint32_t> cornerBegin_;  // by hyperplane: the corners of its slice
     std::uint32_t mostVertices_ = 0;          // of a slice
     std::vector<Step> steps_;                 // by hyperplane and vertex: how the section of the cell at hand goes on
-    std::vector<std::uint32_t> start_;        // by hyperplane: where it starts
+    std::vector<Small> start_;                // by hyperplane: where it starts
 };
 
 }  // namespace oval4d::geometry

@@ -85,7 +85,9 @@ void Slicer::cutEdges(const Polytope& polytope, SliceSet& out) {
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     const auto vertices = static_cast<std::uint32_t>(polytope.vertices.size());
     out.vertexBegin.assign(out.planes.count + 1, 0);
-    for (std::uint32_t v = 0; v < vertices; ++v) countSpan(out.vertexBegin, below_[v], upTo_[v]);
+    for (std::uint32_t v = 0; v < vertices; ++v) {
+        if (below_[v] != upTo_[v]) countSpan(out.vertexBegin, below_[v], upTo_[v]);
+    }
     slotBegin_.resize(edges);
     std::uint32_t slots = 0;
     for (std::uint32_t e = 0; e < edges; ++e) {
@@ -93,7 +95,8 @@ void Slicer::cutEdges(const Polytope& polytope, SliceSet& out) {
         slotBegin_[e] = slots;
         slots += std::abs(below_[a] - below_[b]);
         const std::int32_t from = std::min(upTo_[a], upTo_[b]);
-        countSpan(out.vertexBegin, from, std::max({from, below_[a], below_[b]}));
+        const std::int32_t to = std::max(below_[a], below_[b]);
+        if (from < to) countSpan(out.vertexBegin, from, to);
     }
     const std::uint32_t total = accumulate(out.vertexBegin);
     out.vertices.resize(total);
@@ -134,22 +137,26 @@ void Slicer::cutEdges(const Polytope& polytope, SliceSet& out) {
 // Slice edges: the polytope's edges in the hyperplane, and the crossed 2-faces.
 void Slicer::cutFaces(const Polytope& polytope, SliceSet& out) {
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
+    twice_.resize(below_.size());
+    for (std::size_t v = 0; v < below_.size(); ++v) twice_[v] = below_[v] + upTo_[v];
     up_.resize(out.planes.count);
     down_.resize(out.planes.count);
     faceSpan_.resize(faces);
     lyingIn_.resize(faces);
     lineBegin_.resize(faces + 1);
     lines_.clear();
+    const std::uint32_t* vertex = polytope.faces.items.data();
     for (std::uint32_t f = 0; f < faces; ++f) {
-        const auto loop = polytope.faces[f];
-        Span above{below_[loop[0]], below_[loop[0]]};
-        std::int32_t leastUpTo = upTo_[loop[0]];
-        std::int32_t mostUpTo = leastUpTo;
-        for (const std::uint32_t v : loop) {
-            above = {std::min(above.from, below_[v]), std::max(above.to, below_[v])};
-            leastUpTo = std::min(leastUpTo, upTo_[v]);
-            mostUpTo = std::max(mostUpTo, upTo_[v]);
+        const std::uint32_t* end = polytope.faces.items.data() + polytope.faces.begin[f + 1];
+        std::int32_t least = twice_[*vertex];
+        std::int32_t most = least;
+        while (++vertex != end) {
+            least = std::min(least, twice_[*vertex]);
+            most = std::max(most, twice_[*vertex]);
         }
+        const Span above{least / 2, most / 2};
+        const std::int32_t leastUpTo = (least + 1) / 2;
+        const std::int32_t mostUpTo = (most + 1) / 2;
         faceSpan_[f] = {leastUpTo, above.to};
         lyingIn_[f] = above.from == above.to && leastUpTo == mostUpTo && leastUpTo > above.to ? above.to : kNoPlane;
         lineBegin_[f] = static_cast<std::uint32_t>(lines_.size());
@@ -235,8 +242,12 @@ void Slicer::numberEdges(const Polytope& polytope, SliceSet& out) {
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     out.edgeBegin.assign(out.planes.count + 1, 0);
-    for (const auto& edge : polytope.edges) {
-        if (liesInOne(edge)) countSpan(out.edgeBegin, below_[edge[0]], below_[edge[0]] + 1);
+    lyingEdges_.clear();
+    for (std::uint32_t e = 0; e < edges; ++e) {
+        if (!liesInOne(polytope.edges[e])) continue;
+        lyingEdges_.push_back(e);
+        const std::int32_t plane = below_[polytope.edges[e][0]];
+        countSpan(out.edgeBegin, plane, plane + 1);
     }
     for (const Line& line : lines_) {
         if (line.edge == kFresh) countSpan(out.edgeBegin, line.plane, line.plane + 1);
@@ -252,9 +263,9 @@ void Slicer::numberEdges(const Polytope& polytope, SliceSet& out) {
         out.edgeOf[number] = of;
         return number;
     };
-    for (std::uint32_t e = 0; e < edges; ++e) {
+    for (const std::uint32_t e : lyingEdges_) {
         const auto [a, b] = polytope.edges[e];
-        if (liesInOne({a, b})) edgeLine_[e] = add(below_[a], vertexPoint_[a], vertexPoint_[b], faces + e);
+        edgeLine_[e] = add(below_[a], vertexPoint_[a], vertexPoint_[b], faces + e);
     }
     for (std::uint32_t f = 0; f < faces; ++f) {
         for (std::uint32_t i = lineBegin_[f]; i < lineBegin_[f + 1]; ++i) {

@@ -118,12 +118,13 @@ class Slicer {
     std::vector<std::int32_t> allBelow_, allUpTo_;  // those of all hyperplanes, while one is cut
     // Of each vertex: the number of hyperplanes strictly below it, and of those below it or through it. They differ
     // where it lies in a hyperplane: in number below_.
-    std::vector<std::int32_t> below_, upTo_;
-    std::vector<std::uint32_t> vertexPoint_;  // the slice vertex of a vertex that lies in a hyperplane
+    std::vector<std::int32_t> below_, upTo_, twice_;  // twice_: their sum
+    std::vector<std::uint32_t> vertexPoint_;          // the slice vertex of a vertex that lies in a hyperplane
     // A slot is an edge just above a hyperplane: of edge e above k, slotBegin_[e] + k − below_[lower end].
     std::vector<std::uint32_t> slotBegin_, slotPoint_;
-    std::vector<std::uint32_t> edgeLine_;  // the slice edge of an edge that lies in a hyperplane
-    std::vector<Line> lines_;              // of 2-face f: from lineBegin_[f]
+    std::vector<std::uint32_t> lyingEdges_;  // those that lie in a hyperplane
+    std::vector<std::uint32_t> edgeLine_;    // the slice edge of an edge that lies in a hyperplane
+    std::vector<Line> lines_;                // of 2-face f: from lineBegin_[f]
     std::vector<std::uint32_t> lineBegin_;
     std::vector<Span> faceSpan_, cellSpan_;                       // strictly crossed
     std::vector<std::int32_t> lyingIn_;                           // the hyperplane that a whole 2-face lies in

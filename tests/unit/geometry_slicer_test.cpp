@@ -404,6 +404,25 @@ INSTANTIATE_TEST_SUITE_P(Some, ConvexSlices,
                              return "the_" + name;
                          });
 
+/// Numbers within a slice may be too large for the fast way; its slices must not be.
+TEST(Slicer, CutsConvexPolytopesOfManyElements) {
+    Polygon polygon;
+    for (int i = 0; i < 130; ++i) polygon.emplace_back(std::cos(2 * pi * i / 130), std::sin(2 * pi * i / 130));
+    const Polytope p = product(polygon, polygon);
+    ASSERT_GT(p.edges.size(), 0x8000U);
+    ASSERT_TRUE(p.convex);
+    std::mt19937 random(17);
+    Slicer slicer;
+    SliceSet s;
+    slicer.slice(p, randomRotation(random), {-1, 3, 0.4}, s);
+    for (int i = 0; i < 3; ++i) {
+        const Counts c = countsOf(s, i);
+        EXPECT_GT(c.faces, 100U);
+        EXPECT_EQ(c.vertices + c.faces, c.edges + 2);
+        EXPECT_GT(volumeOf(s, i), 0);
+    }
+}
+
 /// A 2-face whose corners on a straight side waver by rounding is cut twice there; that is nobody's harm.
 TEST(Slicer, TakesConvexPolytopesThatAreNotQuite) {
     Polytope p = *polytopeOf(*findEntry("120-cell"));
