@@ -16,7 +16,8 @@ CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 
 def admesh(path):
     """What admesh says of an STL file."""
-    done = subprocess.run(["admesh", str(path)], capture_output=True, text=True, timeout=120, check=True)
+    done = subprocess.run(["admesh", str(path)], capture_output=True, text=True, timeout=120, check=True,
+                          errors="replace")  # 0.98.5 prints beyond the end of the header
     number = {}
     for name, value in re.findall(r"^(.*?)\s+:\s+(-?[\d.]+)", done.stdout, re.MULTILINE):
         number[name.strip()] = float(value)
