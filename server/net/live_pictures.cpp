@@ -41,7 +41,8 @@ void LiveSession::update() {
         if (!client.pacing.free()) continue;
         if (const Message* body = bodyOf(client.want, revision())) {
             deliver(client, *body);
-        } else if (std::ranges::find(missing, client.want) == missing.end()) {
+        } else if (!comes(client.want, revision()) && client.pacing.free(coming(client.want)) &&
+                   std::ranges::find(missing, client.want) == missing.end()) {
             missing.push_back(client.want);
         }
     }
@@ -58,7 +59,8 @@ void LiveSession::turn() {
         lastTurn_.reset();
         return;
     }
-    if (busy_ || std::ranges::none_of(clients_, [this](const auto& entry) { return ready(entry.second); })) return;
+    if (drawing_ != 0 || std::ranges::none_of(clients_, [this](const auto& entry) { return ready(entry.second); }))
+        return;
     const auto now = Clock::now();
     if (lastTurn_ && now - *lastTurn_ < kTurnInterval) {
         if (turnTimerSet_) return;
@@ -80,21 +82,31 @@ void LiveSession::turn() {
 }
 
 bool LiveSession::ready(const Client& client) const {
-    if (client.pacing.newest() != revision()) return false;
-    return client.want.stream == Stream::none ? !client.stateUnderWay : client.pacing.free();
+    if (client.pacing.newest() != revision() && !comes(client.want, revision())) return false;
+    return client.want.stream == Stream::none ? !client.stateUnderWay : client.pacing.free(coming(client.want));
 }
 
-/// Replaces the waiting job, or posts one. A running job is let be: when it ends, `update` looks again.
+std::size_t LiveSession::coming(const Want& want) const {
+    return static_cast<std::size_t>(std::ranges::count(coming_, want, &Coming::want));
+}
+
+bool LiveSession::comes(const Want& want, std::uint64_t ofRevision) const {
+    return std::ranges::any_of(coming_,
+                               [&](const Coming& each) { return each.want == want && each.revision == ofRevision; });
+}
+
+/// Replaces the waiting job, or posts one. One that is being drawn is let be: when it is drawn, `update` looks again.
 void LiveSession::order(std::vector<Want> wants) {
     const CutPtr known = cut_ && cut_->revision == revision() ? cut_ : nullptr;
-    Order next{session_.now, revision(), changed_, known, std::move(wants)};
+    const bool first = drawing_ == 0;
+    Order next{first ? jobs_ + 1 : drawing_, session_.now, revision(), changed_, known, std::move(wants)};
     {
         const std::lock_guard lock(orderMutex_);
-        if (busy_ && !order_) return;
+        if (!first && !order_) return;
         order_ = std::move(next);
     }
-    if (busy_) return;
-    busy_ = true;
+    if (!first) return;
+    drawing_ = ++jobs_;
     services_.pool.post([self = shared_from_this()](picture::Painter& painter) { self->work(painter); }, lane_);
 }
 
@@ -105,11 +117,13 @@ void LiveSession::work(picture::Painter& painter) {
         job = std::move(*order_);
         order_.reset();
     }
-    Outcome outcome{job.revision, job.cut, {}, {}};
+    Outcome outcome{job.job, job.revision, job.cut, {}, {}};
     for (const Want& want : job.wants) {
         try {
             if (!serves(outcome.cut, want)) outcome.cut = cut(painter, job.state, job.revision, job.changed, want);
-            outcome.bodies.emplace_back(want, draw(painter, *outcome.cut, want, {}));
+            std::function<void()> whenDrawn;
+            if (&want == &job.wants.back()) whenDrawn = [this, &job, &want] { tellDrawn(job, want); };
+            outcome.bodies.emplace_back(want, draw(painter, *outcome.cut, want, {}, whenDrawn));
             services_.metrics.observe(painter.times());
         } catch (const std::exception& fault) {
             spdlog::error("picture failed session={} revision={} fault=\"{}\"", ticket_.id, job.revision, fault.what());
@@ -121,15 +135,26 @@ void LiveSession::work(picture::Painter& painter) {
     });
 }
 
+/// On a worker: all that is left of this job is to encode its last picture.
+void LiveSession::tellDrawn(const Order& job, const Want& want) {
+    asio::post(strand_, [self = shared_from_this(), done = Coming{job.job, job.revision, want}] {
+        if (self->drawing_ == done.job) self->drawing_ = 0;
+        self->coming_.push_back(done);
+        self->update();
+    });
+}
+
 /// Takes what a worker made. Though the session may have moved on, it is newer than what its clients have: under a
 /// flood of changes they see every picture that there is time to make.
 void LiveSession::finish(Outcome outcome) {
-    busy_ = false;
-    if (outcome.cut && outcome.cut != cut_) {
+    if (drawing_ == outcome.job) drawing_ = 0;
+    std::erase_if(coming_, [&](const Coming& each) { return each.job == outcome.job; });
+    const bool late = outcome.cut && cut_ && outcome.cut->revision < cut_->revision;
+    if (outcome.cut && outcome.cut != cut_ && !late) {
         cut_ = outcome.cut;
         bodies_.clear();
     }
-    std::ranges::move(outcome.bodies, std::back_inserter(bodies_));
+    if (!late) std::ranges::move(outcome.bodies, std::back_inserter(bodies_));
     for (auto& [key, client] : clients_) {
         if (client.want.stream == Stream::none || !client.pacing.free()) continue;
         if (client.pacing.newest() && *client.pacing.newest() >= outcome.revision) continue;
@@ -226,10 +251,11 @@ LiveSession::CutPtr LiveSession::cut(picture::Painter& painter, const session::S
     return made;
 }
 
-Message LiveSession::draw(picture::Painter& painter, const Cut& cut, const Want& want, Id id) {
+Message LiveSession::draw(picture::Painter& painter, const Cut& cut, const Want& want, Id id,
+                          const std::function<void()>& drawn) {
     if (want.stream == Stream::frames) {
         std::vector<std::uint8_t> png;
-        painter.frame(cut.state, cut.stateText.view(), want.viewport, png);
+        painter.frame(cut.state, cut.stateText.view(), want.viewport, png, drawn);
         return {Bytes(std::move(png)), true};
     }
     std::string text;

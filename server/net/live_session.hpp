@@ -24,8 +24,8 @@ namespace oval4d::net {
 
 /// Keeps the session's value and its clients on a strand. Every command is applied as it comes; pictures follow as
 /// fast as workers make them and clients show them, always of the newest state: a session has at most one job
-/// running, and one waiting whose state is replaced by each newer one. What one revision looks like is worked out
-/// once and shared by all clients that want the same.
+/// that is drawn, and one waiting whose state is replaced by each newer one; while a picture is encoded, the next may
+/// be drawn. What one revision looks like is worked out once and shared by all clients that want the same.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
@@ -80,13 +80,20 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     using Bodies = std::vector<std::pair<Want, Message>>;
     /// What a worker is to do.
     struct Order {
+        std::uint64_t job = 0;  ///< its number
         session::State state;
         std::uint64_t revision = 0;
         Clock::time_point changed;
         CutPtr cut;  ///< if this revision was cut before
         std::vector<Want> wants;
     };
+    /// A picture that is drawn, and not yet here.
+    struct Coming {
+        std::uint64_t job = 0, revision = 0;
+        Want want;
+    };
     struct Outcome {
+        std::uint64_t job = 0;
         std::uint64_t revision = 0;
         CutPtr cut;
         Bodies bodies;
@@ -115,16 +122,20 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void watchPacing();
     const Message* bodyOf(const Want& want, std::uint64_t ofRevision) const;
     bool ready(const Client& client) const;
+    std::size_t coming(const Want& want) const;
+    bool comes(const Want& want, std::uint64_t ofRevision) const;
     std::uint64_t revision() const { return session_.revision; }
 
     // On a worker.
     void work(picture::Painter& painter);
+    void tellDrawn(const Order& job, const Want& want);
     static CutPtr cut(picture::Painter& painter, const session::State& state, std::uint64_t revision,
                       Clock::time_point changed, const Want& want);
     static bool serves(const CutPtr& cut, const Want& want) {
         return cut && (cut->sliced || want.stream == protocol::Stream::frames);
     }
-    static Message draw(picture::Painter& painter, const Cut& cut, const Want& want, Id id);
+    static Message draw(picture::Painter& painter, const Cut& cut, const Want& want, Id id,
+                        const std::function<void()>& drawn = {});
 
     // Set once.
     const Services services_;  // first: the rest is made with it
@@ -141,7 +152,9 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     Bodies bodies_;              ///< of cut_
     Bytes stateText_;            ///< of stateRevision_, for clients without a stream
     std::optional<std::uint64_t> stateRevision_;
-    bool busy_ = false;  ///< a job waits or runs
+    std::uint64_t jobs_ = 0;      ///< how many there have been
+    std::uint64_t drawing_ = 0;   ///< the one that waits or is being drawn, if any
+    std::vector<Coming> coming_;  ///< what is drawn and being encoded, meanwhile
     std::optional<Clock::time_point> lastTurn_;
     boost::asio::steady_timer turnTimer_, paceTimer_, saveTimer_;
     bool turnTimerSet_ = false, paceTimerSet_ = false, saveTimerSet_ = false;

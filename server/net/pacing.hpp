@@ -15,7 +15,8 @@ class Pacing {
     using Clock = std::chrono::steady_clock;
     static constexpr std::size_t kInFlight = 2;
 
-    bool free() const { return unshown_.size() < kInFlight; }
+    /// Whether there is room for one more besides `coming` that are not yet sent.
+    bool free(std::size_t coming = 0) const { return unshown_.size() + coming < kInFlight; }
     /// The newest revision sent, if any.
     std::optional<std::uint64_t> newest() const { return newest_; }
 
