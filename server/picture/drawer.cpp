@@ -13,6 +13,8 @@ using Clock = std::chrono::steady_clock;
 
 // So long after pictures came at the same time they are expected to do so again.
 constexpr auto kCrowded = 100ms;
+// A picture that takes longer to draw is a large one; seconds.
+constexpr double kLarge = 0.004;
 constexpr std::size_t kMostThreads = 8;  // more would wait for the one that prepares their work
 
 }  // namespace
@@ -31,6 +33,12 @@ void Drawer::warmUp() {
 }
 
 std::span<const std::uint8_t> Drawer::draw(const session::State& state, scene::Viewport viewport, Times& times) {
+    const auto drawn = drawBest(state, viewport, times);
+    studio_.lastTook_ = times.draw;
+    return drawn;
+}
+
+std::span<const std::uint8_t> Drawer::drawBest(const session::State& state, scene::Viewport viewport, Times& times) {
     struct Counted {
         std::atomic<int>& drawing;
         const bool alone = drawing++ == 0;
@@ -39,7 +47,7 @@ std::span<const std::uint8_t> Drawer::draw(const session::State& state, scene::V
     const auto now = Clock::now().time_since_epoch();
     if (!counted.alone || studio_.crowded_()) {
         studio_.lastCrowded_ = now;
-    } else if (now - studio_.lastCrowded_.load() > kCrowded) {
+    } else if (now - studio_.lastCrowded_.load() > kCrowded && studio_.lastTook_ > kLarge) {
         const std::unique_lock lock(studio_.soloing_, std::try_to_lock);
         if (lock && studio_.soloist_) return studio_.soloist_->draw(state, viewport, pixels_, times);
     }

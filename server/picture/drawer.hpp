@@ -13,9 +13,10 @@
 
 namespace oval4d::picture {
 
-/// What the drawers of a server share. For a picture that is alone there is a process with as many threads as there
-/// are cores, so that it is drawn soonest. Of pictures at the same time each is drawn by a process without threads:
-/// there are more of them in a second than of such as wait for each other's threads.
+/// What the drawers of a server share. For a large picture that is alone there is a process with as many threads as
+/// there are cores, so that it is drawn soonest. Of pictures at the same time each is drawn by a process without
+/// threads: there are more of them in a second than of such as wait for each other's threads. So are small ones, which
+/// are done before threads are awake.
 class Studio {
   public:
     /// `crowded` tells whether pictures wait; it is called by any thread. Throws std::runtime_error.
@@ -28,6 +29,7 @@ class Studio {
     const OnDeath died_;
     std::atomic<int> drawing_ = 0;                                    // how many drawers are at it
     std::atomic<std::chrono::steady_clock::duration> lastCrowded_{};  // since the clock's epoch
+    std::atomic<double> lastTook_ = 0;                                // seconds to draw the last picture
     std::mutex soloing_;
     std::optional<DrawingProcess> soloist_;  // guarded by soloing_; nothing where there is but one core
     bool warm_ = false;                      // guarded by soloing_
@@ -45,6 +47,8 @@ class Drawer {
     std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, Times& times);
 
   private:
+    std::span<const std::uint8_t> drawBest(const session::State& state, scene::Viewport viewport, Times& times);
+
     Studio& studio_;
     SharedPixels pixels_;
     DrawingProcess own_;
