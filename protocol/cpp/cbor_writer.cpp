@@ -11,7 +11,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "typed arrays are copied as they lie in memory");
 
 constexpr std::uint8_t kUnsigned = 0, kNegative = 1, kBytes = 2, kText = 3;
-constexpr std::uint8_t kUint8Array = 64, kUint16Array = 69, kUint32Array = 70, kFloat32Array = 85;  // little endian
+constexpr std::uint8_t kUint8Array = 64, kUint16Array = 69, kUint32Array = 70, kFloat32Array = 85,
+                       kFloat64Array = 86;  // little endian
 
 }  // namespace
 
@@ -29,17 +30,19 @@ void CborWriter::head(std::uint8_t major, std::uint64_t argument) {
     buffer_.moveTo(at);
 }
 
-void CborWriter::value(double number) {
-    if (const auto shorter = static_cast<float>(number); shorter == number) return single(shorter);
-    const auto bits = std::bit_cast<std::uint64_t>(number);
-    buffer_.put('\xFB');
-    for (int shift = 56; shift >= 0; shift -= 8) buffer_.put(static_cast<char>(bits >> static_cast<unsigned>(shift)));
+template <typename Word>
+void CborWriter::bigEndian(char first, Word word) {
+    buffer_.put(first);
+    for (std::size_t i = sizeof word; i-- > 0;) buffer_.put(static_cast<char>(word >> 8 * i));
 }
 
-void CborWriter::single(float number) {
-    const auto bits = std::bit_cast<std::uint32_t>(number);
-    buffer_.put('\xFA');
-    for (int shift = 24; shift >= 0; shift -= 8) buffer_.put(static_cast<char>(bits >> static_cast<unsigned>(shift)));
+void CborWriter::value(double number) {
+    const auto shorter = static_cast<float>(number);
+    if (shorter == number) {
+        bigEndian('\xFA', std::bit_cast<std::uint32_t>(shorter));
+    } else {
+        bigEndian('\xFB', std::bit_cast<std::uint64_t>(number));
+    }
 }
 
 void CborWriter::value(std::int64_t number) {
@@ -76,33 +79,32 @@ void CborWriter::floats(std::span<const V> list) {
     buffer_.moveTo(at);
 }
 
-void CborWriter::vector(const glm::dvec3& v) {
-    head(4, 3);  // a plain array, as short ones are
-    for (int i = 0; i < 3; ++i) single(static_cast<float>(v[i]));
+void CborWriter::doubles(std::span<const double> list) {
+    typedArray(kFloat64Array, list.size_bytes());
+    if (!list.empty()) buffer_.put({reinterpret_cast<const char*>(list.data()), list.size_bytes()});
 }
-
 void CborWriter::vectors(std::span<const glm::dvec3> list) { floats(list); }
 void CborWriter::vectors(std::span<const glm::dvec4> list) { floats(list); }
 
-// Whole numbers less `from`, in the least width that holds them all.
-void CborWriter::integers(std::span<const std::uint32_t> list, std::uint32_t from) {
+// In the least width that holds them all.
+void CborWriter::numbers(std::span<const std::uint32_t> list) {
     std::uint32_t bits = 0;
-    for (const std::uint32_t number : list) bits |= number - from;
+    for (const std::uint32_t number : list) bits |= number;
     if (bits <= 0xFF) {
-        integersAs<std::uint8_t>(kUint8Array, list, from);
+        integersAs<std::uint8_t>(kUint8Array, list);
     } else if (bits <= 0xFFFF) {
-        integersAs<std::uint16_t>(kUint16Array, list, from);
+        integersAs<std::uint16_t>(kUint16Array, list);
     } else {
-        integersAs<std::uint32_t>(kUint32Array, list, from);
+        integersAs<std::uint32_t>(kUint32Array, list);
     }
 }
 
 template <typename Integer>
-void CborWriter::integersAs(std::uint8_t tag, std::span<const std::uint32_t> list, std::uint32_t from) {
+void CborWriter::integersAs(std::uint8_t tag, std::span<const std::uint32_t> list) {
     typedArray(tag, list.size() * sizeof(Integer));
     char* at = buffer_.at();
     for (const std::uint32_t number : list) {
-        const auto narrow = static_cast<Integer>(number - from);
+        const auto narrow = static_cast<Integer>(number);
         std::memcpy(at, &narrow, sizeof narrow);
         at += sizeof narrow;
     }
@@ -110,27 +112,16 @@ void CborWriter::integersAs(std::uint8_t tag, std::span<const std::uint32_t> lis
 }
 
 void CborWriter::pairs(std::span<const Pair> list) {
-    integers({reinterpret_cast<const std::uint32_t*>(list.data()), 2 * list.size()}, 0);
+    numbers({reinterpret_cast<const std::uint32_t*>(list.data()), 2 * list.size()});
 }
 
 void CborWriter::triples(std::span<const Triple> list) {
-    integers({reinterpret_cast<const std::uint32_t*>(list.data()), 3 * list.size()}, 0);
+    numbers({reinterpret_cast<const std::uint32_t*>(list.data()), 3 * list.size()});
 }
-
-void CborWriter::numbers(std::span<const std::uint32_t> list) { integers(list, 0); }
 
 void CborWriter::picture(std::span<const std::uint8_t> pixels, std::size_t /*columns*/) {
     typedArray(kUint8Array, pixels.size());
     if (!pixels.empty()) buffer_.put({reinterpret_cast<const char*>(pixels.data()), pixels.size()});
-}
-
-void CborWriter::lists(ListsView view) {
-    beginObject();
-    key("begin");
-    integers(view.begin, view.begin[0]);
-    key("corners");
-    numbers(view.items);
-    endObject();
 }
 
 }  // namespace oval4d::protocol

@@ -1,7 +1,5 @@
 #include "protocol/cpp/slices.hpp"
 
-#include <algorithm>
-
 #include "protocol/cpp/writer.hpp"
 
 namespace oval4d::protocol {
@@ -18,12 +16,6 @@ void writeNumbers(W& w, std::string_view name, std::initializer_list<double> lis
     w.beginArray();
     for (const double number : list) w.value(number);
     w.endArray();
-}
-
-template <typename W>
-void writeVector(W& w, std::string_view name, const glm::dvec3& v) {
-    w.key(name);
-    w.vector(v);
 }
 
 template <typename W>
@@ -118,131 +110,10 @@ void writeSetting(W&& w, const SlicesWriter::Setting& setting) {
     w.member("text", style.textHeight);
 }
 
-template <typename T>
-std::span<const T> part(const std::vector<T>& all, std::uint32_t begin, std::uint32_t end) {
-    return std::span<const T>(all).subspan(begin, end - begin);
-}
-
-// The cell that gives each face its colour, where "of" does not say it.
-template <typename W>
-void writeTints(W& w, const Polytope& polytope, const scene::Presences& presences,
-                std::span<const std::uint32_t> faceOf) {
-    const auto cells = static_cast<std::uint32_t>(polytope.cellCount());
-    if (std::all_of(faceOf.begin(), faceOf.end(), [cells](std::uint32_t of) { return of < cells; })) return;
-    std::vector<std::uint32_t> tints(faceOf.begin(), faceOf.end());
-    for (std::uint32_t& tint : tints) tint = scene::tintOf(polytope, presences, tint);
-    w.key("tints");
-    w.numbers(tints);
-}
-
-// How much is seen of each element, where not all of everything is.
-template <typename W>
-void writePresences(W& w, const scene::Presences& presences, const SliceSet& slices, std::size_t i) {
-    if (presences.all()) return;
-    const auto write = [&](std::string_view name, std::span<const std::uint32_t> of,
-                           const std::vector<scene::Presence>& by) {
-        std::vector<std::uint32_t> list;
-        for (const std::uint32_t element : of) list.push_back(static_cast<std::uint32_t>(by[element]));
-        w.key(name);
-        w.numbers(list);
-    };
-    w.key("seen");
-    w.beginObject();
-    write("vertices", part(slices.vertexOf, slices.vertexBegin[i], slices.vertexBegin[i + 1]), presences.vertices);
-    write("edges", part(slices.edgeOf, slices.edgeBegin[i], slices.edgeBegin[i + 1]), presences.edges);
-    write("faces", part(slices.faceOf, slices.faceBegin[i], slices.faceBegin[i + 1]), presences.faces);
-    w.endObject();
-}
-
-// What to draw instead of the faces of a slice that need not be convex.
-struct Fill {
-    std::vector<glm::dvec3> points;
-    std::vector<Triple> triangles;
-    std::vector<std::uint32_t> tints, seen;
-};
-
-template <typename W>
-void writeFill(W& w, const Polytope& polytope, const Scene& scene, std::size_t i) {
-    const geometry::Fill& from = scene.fill;
-    if (from.empty() || from.patchBegin[i] == from.patchBegin[i + 1]) return;
-    Fill fill;
-    for (std::uint32_t p = from.patchBegin[i]; p < from.patchBegin[i + 1]; ++p) {
-        const std::uint32_t of = from.patches[p].of;
-        const scene::Presence presence = scene.presences.face(of);
-        if (presence == scene::Presence::hidden) continue;
-        const std::uint32_t tint = scene::tintOf(polytope, scene.presences, of);
-        for (std::uint32_t k = from.pieceBegin[p]; k < from.pieceBegin[p + 1]; ++k) {
-            const auto first = static_cast<std::uint32_t>(fill.points.size());
-            const auto corners = part(from.corners, from.cornerBegin[k], from.cornerBegin[k + 1]);
-            fill.points.insert(fill.points.end(), corners.begin(), corners.end());
-            for (std::uint32_t c = 2; c < corners.size(); ++c) {
-                fill.triangles.push_back({first, first + c - 1, first + c});
-                fill.tints.push_back(tint);
-                fill.seen.push_back(static_cast<std::uint32_t>(presence));
-            }
-        }
-    }
-    w.key("fill");
-    w.beginObject();
-    w.key("points");
-    w.vectors(std::span<const glm::dvec3>(fill.points));
-    w.key("triangles");
-    w.triples(fill.triangles);
-    w.key("tints");
-    w.numbers(fill.tints);
-    if (!scene.presences.all()) {
-        w.key("seen");
-        w.numbers(fill.seen);
-    }
-    w.endObject();
-}
-
-template <typename W>
-void writeStand(W&& w, const scene::Stand& stand) {
-    w.member("index", stand.index);
-    w.member("w", stand.w);
-    writeVector(w, "position", stand.position);
-    w.member("label", std::string_view(stand.label));
-    writeVector(w, "label_at", stand.labelAt);
-    w.member("label_size", stand.labelSize);
-    w.member("focus", stand.focus);
-    w.member("drawn", stand.drawn);
-}
-
-template <typename W>
-void writeSlice(W& w, std::string_view stand, const Polytope& polytope, const SliceSet& slices, std::size_t i,
-                const Scene& scene) {
-    const std::uint32_t v0 = slices.vertexBegin[i], v1 = slices.vertexBegin[i + 1];
-    const std::uint32_t e0 = slices.edgeBegin[i], e1 = slices.edgeBegin[i + 1];
-    const std::uint32_t f0 = slices.faceBegin[i], f1 = slices.faceBegin[i + 1];
-    w.beginObject();
-    w.written(stand);
-    w.key("vertices");
-    w.vectors(part(slices.vertices, v0, v1));
-    w.key("edges");
-    w.pairs(part(slices.edges, e0, e1));
-    w.key("faces");
-    w.lists(
-        {part(slices.cornerBegin, f0, f1 + 1), part(slices.corners, slices.cornerBegin[f0], slices.cornerBegin[f1])});
-    w.key("of");
-    w.beginObject();
-    w.key("vertices");
-    w.numbers(part(slices.vertexOf, v0, v1));
-    w.key("edges");
-    w.numbers(part(slices.edgeOf, e0, e1));
-    w.key("faces");
-    w.numbers(part(slices.faceOf, f0, f1));
-    w.endObject();
-    writeTints(w, polytope, scene.presences, part(slices.faceOf, f0, f1));
-    writePresences(w, scene.presences, slices, i);
-    writeFill(w, polytope, scene, i);
-    w.endObject();
-}
-
 }  // namespace
 
 template <typename W>
-void SlicesWriter::writeMessage(W&& w, Texts& texts, const Polytope& polytope, const SliceSet& slices,
+void SlicesWriter::writeMessage(W&& w, Kept<Setting>& kept, const Polytope& polytope, const SliceSet& slices,
                                 const Scene& scene, std::uint64_t revision, std::optional<double> id) {
     w.beginObject();
     w.member("type", "slices");
@@ -253,7 +124,7 @@ void SlicesWriter::writeMessage(W&& w, Texts& texts, const Polytope& polytope, c
     const Setting setting{scene.look.view,   scene.look.parts,   scene.viewport,   scene.camera,
                           scene.scale,       scene.circumradius, scene.ballRadius, scene.barRadius,
                           scene.faceOpacity, scene.axes,         scene.coordinates};
-    w.written(texts.setting.of(setting, [&](std::string& out) { writeSetting(W(out), setting); }));
+    w.written(kept.of(setting, [&](std::string& out) { writeSetting(W(out), setting); }));
     writeColours(w, scene::style(), scene.cellColours);
     w.endObject();
     if (scene.look.parts.coordinates) {
@@ -265,23 +136,16 @@ void SlicesWriter::writeMessage(W&& w, Texts& texts, const Polytope& polytope, c
         }
     }
     w.key("slices");
-    w.beginArray();
-    texts.stands.resize(scene.stands.size());
-    for (std::size_t i = 0; i < scene.stands.size(); ++i) {
-        const scene::Stand& stand = scene.stands[i];
-        const auto text = texts.stands[i].of(stand, [&](std::string& out) { writeStand(W(out), stand); });
-        writeSlice(w, text, polytope, slices, i, scene);
-    }
-    w.endArray();
+    writeSlices(w, polytope, slices, scene);
     w.endObject();
 }
 
 void SlicesWriter::write(const Polytope& polytope, const SliceSet& slices, const Scene& scene, std::uint64_t revision,
                          std::optional<double> id, Encoding encoding, std::string& out) {
     if (encoding == Encoding::cbor) {
-        writeMessage(CborWriter(out), cbor_, polytope, slices, scene, revision, id);
+        writeMessage(CborWriter(out), cborSetting_, polytope, slices, scene, revision, id);
     } else {
-        writeMessage(JsonWriter(out), json_, polytope, slices, scene, revision, id);
+        writeMessage(JsonWriter(out), jsonSetting_, polytope, slices, scene, revision, id);
     }
 }
 

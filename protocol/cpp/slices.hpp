@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,9 @@
 #include "scene/scene.hpp"
 
 namespace oval4d::protocol {
+
+class CborWriter;
+class JsonWriter;
 
 /// A text with what it was written from, used again as long as that is the same.
 template <typename From>
@@ -54,16 +58,20 @@ class SlicesWriter {
     };
 
   private:
-    struct Texts {
-        Kept<Setting> setting;
-        std::vector<Kept<scene::Stand>> stands;
-    };
-
     template <typename W>
-    void writeMessage(W&& w, Texts& texts, const geometry::Polytope& polytope, const geometry::SliceSet& slices,
+    void writeMessage(W&& w, Kept<Setting>& kept, const geometry::Polytope& polytope, const geometry::SliceSet& slices,
                       const scene::Scene& scene, std::uint64_t revision, std::optional<double> id);
+    void writeSlices(JsonWriter& w, const geometry::Polytope& polytope, const geometry::SliceSet& slices,
+                     const scene::Scene& scene);
+    void writeSlices(CborWriter& w, const geometry::Polytope& polytope, const geometry::SliceSet& slices,
+                     const scene::Scene& scene);
+    // How long the ranges are that begin so; the last one ends them.
+    void writeSizes(CborWriter& w, std::string_view name, std::span<const std::uint32_t> begin);
 
-    Texts json_, cbor_;
+    Kept<Setting> jsonSetting_, cborSetting_;
+    std::vector<Kept<scene::Stand>> stands_;   // of JSON
+    Kept<std::vector<scene::Stand>> columns_;  // of CBOR
+    std::vector<std::uint32_t> sizes_;
 };
 
 }  // namespace oval4d::protocol

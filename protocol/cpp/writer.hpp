@@ -141,13 +141,12 @@ class CborWriter {
     void value(const char* text) { value(std::string_view(text)); }
     void written(std::string_view text) { buffer_.put(text); }
 
-    void vector(const glm::dvec3& v);
+    void doubles(std::span<const double> list);
     void vectors(std::span<const glm::dvec3> list);
     void vectors(std::span<const glm::dvec4> list);
     void pairs(std::span<const Pair> list);
     void triples(std::span<const Triple> list);
     void numbers(std::span<const std::uint32_t> list);
-    void lists(ListsView view);
     void picture(std::span<const std::uint8_t> pixels, std::size_t columns);
 
     template <typename T>
@@ -158,11 +157,11 @@ class CborWriter {
 
   private:
     void head(std::uint8_t major, std::uint64_t argument);
-    void single(float number);
+    template <typename Word>
+    void bigEndian(char first, Word word);
     void typedArray(std::uint8_t tag, std::size_t bytes);
-    void integers(std::span<const std::uint32_t> list, std::uint32_t from);
     template <typename Integer>
-    void integersAs(std::uint8_t tag, std::span<const std::uint32_t> list, std::uint32_t from);
+    void integersAs(std::uint8_t tag, std::span<const std::uint32_t> list);
     template <typename V>
     void floats(std::span<const V> list);
 

@@ -336,12 +336,55 @@ def png_state(png):
 
 
 def from_cbor(data):
-    """A slices message in CBOR; its typed arrays become array.array of floats or integers."""
+    """A slices message in CBOR, with its slices one by one; typed arrays become array.array of floats or integers."""
     if cbor2 is None:
         raise ImportError("slices in CBOR need python3-cbor2")
 
     def typed(_, tag):
-        kind = {85: "f", 64: "B", 69: "H", 70: "I"}.get(tag.tag)
+        kind = {85: "f", 86: "d", 64: "B", 69: "H", 70: "I"}.get(tag.tag)
         return tag if kind is None else array.array(kind, tag.value)
 
-    return cbor2.loads(data, tag_hook=typed)
+    message = cbor2.loads(data, tag_hook=typed)
+    message["slices"] = _slices_of(message["slices"])
+    return message
+
+
+def _rows(flat, sizes, width=1):
+    """Consecutive parts of an array, each of so many items of some numbers."""
+    ends = list(itertools.accumulate(sizes, initial=0))
+    return [flat[width * begin : width * end] for begin, end in zip(ends, ends[1:])]
+
+
+def _slices_of(columns):
+    """In CBOR each property of all slices is one array."""
+    counts = columns["counts"]
+    threes = [3] * len(columns["index"])
+
+    def of_each(lists):
+        rows = [_rows(lists[name], counts[name]) for name in lists]
+        return [dict(zip(lists, row)) for row in zip(*rows)]
+
+    sides = _rows(columns["sides"], counts["faces"])
+    properties = {name: columns[name] for name in ("index", "w", "label", "label_size", "focus", "drawn")}
+    properties |= {name: [row.tolist() for row in _rows(columns[name], threes)] for name in ("position", "label_at")}
+    properties["vertices"] = _rows(columns["vertices"], counts["vertices"], 3)
+    properties["edges"] = _rows(columns["edges"], counts["edges"], 2)
+    properties["faces"] = [{"begin": array.array("I", itertools.accumulate(own, initial=0)), "corners": corners}
+                           for own, corners in zip(sides, _rows(columns["corners"], map(sum, sides)))]
+    properties["of"] = of_each(columns["of"])
+    if "seen" in columns:
+        properties["seen"] = of_each(columns["seen"])
+    slices = [dict(zip(properties, row)) for row in zip(*properties.values())]
+    if "tints" in columns:
+        for piece, tints in zip(slices, _rows(columns["tints"], counts["faces"])):
+            if tints != piece["of"]["faces"]:
+                piece["tints"] = tints
+    if "fill" in columns:
+        fill = columns["fill"]
+        points, triangles = fill["counts"]["points"], fill["counts"]["triangles"]
+        parts = {"points": _rows(fill["points"], points, 3), "triangles": _rows(fill["triangles"], triangles, 3)}
+        parts |= {name: _rows(fill[name], triangles) for name in ("tints", "seen") if name in fill}
+        for piece, row in zip(slices, zip(*parts.values())):
+            if row[1]:
+                piece["fill"] = dict(zip(parts, row))
+    return slices

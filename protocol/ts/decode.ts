@@ -3,6 +3,7 @@
 import { addExtension, Decoder } from "cbor-x/decode-no-eval";
 
 import type { Arena, Numbers } from "./arena";
+import { rowsOf, type Columns, type Integers } from "./columns";
 import type { Message, Slice, Slices } from "./messages";
 
 const cbor = new Decoder({ mapsAsObjects: true, useRecords: false });
@@ -21,6 +22,7 @@ function readTyped<T>(tag: number, numbers: Numbers<T>): void {
 readTyped(69, Uint16Array);
 readTyped(70, Uint32Array);
 readTyped(85, Float32Array);
+readTyped(86, Float64Array);
 
 const kPngSignature = [0x89, 0x50, 0x4e, 0x47];
 
@@ -68,23 +70,16 @@ export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined
 }
 
 type Loose<T> = T | number[] | number[][];
-/** As wide as they must be. */
-type Integers = Uint8Array | Uint16Array | Uint32Array;
 
-/** The same slice as JSON has it: nested arrays. */
+/** A slice as JSON has it: nested arrays. */
 interface LooseSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" | "tints" | "seen" | "fill"> {
-    vertices: Loose<Float32Array>;
-    edges: Loose<Integers>;
-    faces: number[][] | { begin: Integers; corners: Integers };
-    of: Record<"vertices" | "edges" | "faces", Loose<Integers>>;
-    tints?: Loose<Integers>;
-    seen?: Record<"vertices" | "edges" | "faces", Loose<Integers>>;
-    fill?: {
-        points: Loose<Float32Array>;
-        triangles: Loose<Integers>;
-        tints: Loose<Integers>;
-        seen?: Loose<Integers>;
-    };
+    vertices: number[][];
+    edges: number[][];
+    faces: number[][];
+    of: Record<"vertices" | "edges" | "faces", number[]>;
+    tints?: number[];
+    seen?: Record<"vertices" | "edges" | "faces", number[]>;
+    fill?: { points: number[][]; triangles: number[][]; tints: number[]; seen?: number[] };
 }
 
 function flattened(message: Message): Message {
@@ -92,36 +87,44 @@ function flattened(message: Message): Message {
     const loose = message as unknown as Omit<Slices, "slices" | "coordinates" | "density"> & {
         coordinates?: Loose<Float32Array>;
         density?: Loose<Uint8Array>;
-        slices: LooseSlice[];
+        slices: LooseSlice[] | Columns;
     };
-    const { scene } = loose;
+    const { scene, slices } = loose;
     return {
         ...loose,
         scene: { ...scene, colors: { ...scene.colors, cells: indices(scene.colors.cells) } },
         coordinates: floats(loose.coordinates ?? []),
         density: loose.density instanceof Uint8Array ? loose.density : Uint8Array.from((loose.density ?? []).flat()),
-        slices: loose.slices.map(({ tints, seen, fill, ...slice }) => ({
-            ...slice,
-            vertices: floats(slice.vertices),
-            edges: indices(slice.edges),
-            faces: loops(slice.faces),
-            of: ofAll(slice.of),
-            ...(tints && { tints: indices(tints) }),
-            ...(seen && { seen: ofAll(seen) }),
-            ...(fill && {
-                fill: {
-                    points: floats(fill.points),
-                    triangles: indices(fill.triangles),
-                    tints: indices(fill.tints),
-                    ...(fill.seen && { seen: indices(fill.seen) }),
-                },
-            }),
-        })),
+        slices: Array.isArray(slices) ? slices.map(flattenedSlice) : rowsOf(slices, room),
+    };
+}
+
+function flattenedSlice({ tints, seen, fill, ...slice }: LooseSlice): Slice {
+    return {
+        ...slice,
+        vertices: floats(slice.vertices),
+        edges: indices(slice.edges),
+        faces: loops(slice.faces),
+        of: ofAll(slice.of),
+        ...(tints && { tints: indices(tints) }),
+        ...(seen && { seen: ofAll(seen) }),
+        ...(fill && {
+            fill: {
+                points: floats(fill.points),
+                triangles: indices(fill.triangles),
+                tints: indices(fill.tints),
+                ...(fill.seen && { seen: indices(fill.seen) }),
+            },
+        }),
     };
 }
 
 function ofAll(lists: LooseSlice["of"]): Slice["of"] {
     return { vertices: indices(lists.vertices), edges: indices(lists.edges), faces: indices(lists.faces) };
+}
+
+function room(count: number): Uint32Array {
+    return arena?.room(count, Uint32Array) ?? new Uint32Array(count);
 }
 
 function floats(values: Loose<Float32Array>): Float32Array {
@@ -131,13 +134,12 @@ function floats(values: Loose<Float32Array>): Float32Array {
 function indices(values: Loose<Integers>): Uint32Array {
     if (values instanceof Uint32Array) return values;
     if (!ArrayBuffer.isView(values)) return Uint32Array.from((values as number[]).flat());
-    const wide = arena?.room(values.length, Uint32Array) ?? new Uint32Array(values.length);
+    const wide = room(values.length);
     wide.set(values);
     return wide;
 }
 
-function loops(faces: LooseSlice["faces"]): Slice["faces"] {
-    if (!Array.isArray(faces)) return { begin: indices(faces.begin), corners: indices(faces.corners) };
+function loops(faces: number[][]): Slice["faces"] {
     const begin = new Uint32Array(faces.length + 1);
     faces.forEach((face, i) => (begin[i + 1] = begin[i]! + face.length));
     return { begin, corners: Uint32Array.from(faces.flat()) };

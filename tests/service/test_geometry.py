@@ -2,9 +2,7 @@
 
 import itertools
 import math
-import struct
 
-import cbor2
 import pytest
 from wire import Client
 
@@ -121,37 +119,3 @@ async def test_the_layout_travels_with_the_slices(server):
         done = await client.request("key", key="o")
         single = await client.slices(done["revision"])
         assert [p["index"] for p in single["slices"] if p["drawn"]] == [0]
-
-
-def plain(value):
-    """Typed arrays (RFC 8746) as lists of numbers."""
-    if isinstance(value, cbor2.CBORTag):
-        letter = {85: "f", 64: "B", 69: "H", 70: "I"}[value.tag]
-        return [number for number, in struct.iter_unpack(f"<{letter}", value.value)]
-    if isinstance(value, dict):
-        return {name: plain(member) for name, member in value.items()}
-    return [plain(item) for item in value] if isinstance(value, list) else value
-
-
-def groups(flat, size):
-    return [list(group) for group in zip(*[iter(flat)] * size)]
-
-
-async def test_cbor_says_the_same_as_json(server):
-    async with Client(server, stream="geometry", encoding="cbor") as client:
-        done = await client.request("set", polytope="24-cell")
-        binary = plain(await client.slices(done["revision"]))
-        await client.request("hello", stream="none", encoding="json")
-        text = await client.request("get", what="slices")
-        assert binary["revision"] == text["revision"] == done["revision"]
-        for got, point in zip(groups(binary["coordinates"], 4), text["coordinates"]):
-            assert got == pytest.approx(point, abs=1e-6)
-        assert len(binary["slices"]) == len(text["slices"])
-        assert binary["scene"]["camera"] == pytest.approx(text["scene"]["camera"], rel=1e-9, abs=1e-9)
-        for piece, other in zip(binary["slices"], text["slices"]):
-            assert piece["index"] == other["index"] and piece["of"] == other["of"]
-            assert groups(piece["edges"], 2) == other["edges"]
-            begin, corners = piece["faces"]["begin"], piece["faces"]["corners"]
-            assert [corners[a:b] for a, b in zip(begin, begin[1:])] == other["faces"]
-            for got, point in zip(groups(piece["vertices"], 3), other["vertices"]):
-                assert got == pytest.approx(point, abs=1e-6)

@@ -1,5 +1,6 @@
 """The client of protocol/python, as a script uses it."""
 
+import array
 import os
 import subprocess
 import sys
@@ -80,6 +81,74 @@ def test_waits_for_what_another_client_does(server, stream):
             if stream == "frames":
                 assert png_state(one.newest_frame)["revision"] == 50
                 assert one.key("2") == {"type": "done", "id": one.state()["id"] - 1, "revision": 51}
+
+
+def plain(value):
+    """Typed arrays as lists."""
+    if isinstance(value, array.array):
+        return value.tolist()
+    if isinstance(value, dict):
+        return {name: plain(member) for name, member in value.items()}
+    return [plain(item) for item in value] if isinstance(value, list) else value
+
+
+def nested(message):
+    """A slices message that was CBOR, as JSON has it."""
+    def groups(flat, size):
+        return [list(group) for group in zip(*[iter(flat)] * size)]
+
+    message = plain(message)
+    if "coordinates" in message:
+        message["coordinates"] = groups(message["coordinates"], 4)
+    if "density" in message:
+        message["density"] = groups(message["density"], message["scene"]["coordinates"]["columns"])
+    for piece in message["slices"]:
+        begin, corners = piece["faces"]["begin"], piece["faces"]["corners"]
+        piece["vertices"] = groups(piece["vertices"], 3)
+        piece["edges"] = groups(piece["edges"], 2)
+        piece["faces"] = [corners[a:b] for a, b in zip(begin, begin[1:])]
+        if "fill" in piece:
+            piece["fill"] |= {name: groups(piece["fill"][name], 3) for name in ("points", "triangles")}
+    return message
+
+
+def expect_alike(got, expected):
+    """Equal, but for what float32 cannot tell apart."""
+    if isinstance(expected, dict):
+        assert got.keys() == expected.keys()
+        for name, member in expected.items():
+            expect_alike(got[name], member)
+    elif isinstance(expected, list):
+        assert len(got) == len(expected)
+        for item, other in zip(got, expected):
+            expect_alike(item, other)
+    elif isinstance(expected, float):
+        assert got == pytest.approx(expected, rel=1e-6, abs=1e-30)
+    else:
+        assert got == expected
+
+
+@pytest.mark.parametrize("lines", [
+    ["polytope 5-cell"],
+    ["polytope 8-cell"],                                              # whole cells in hyperplanes: tints
+    ["polytope 120-cell", "rotate xw,yz 0.3 0.4"],                    # a density strip
+    ["polytope truncated tesseract", "hide 1", "rotate xw 0.2"],      # not all is seen
+    ["polytope grand 600-cell", "set slices=3", "rotate xw 0.2"],     # filled
+    ["polytope 5-cell", "focus 100"],                                 # nothing
+])
+def test_cbor_says_the_same_as_json(server, lines):
+    with connect(server.url, timeout=DEADLINE) as oval:
+        oval.hello()
+        for line in lines:
+            oval.command(line)
+        text = oval.slices()
+        oval.hello(encoding="cbor")
+        packed = oval.slices()
+    assert packed.pop("id") > text.pop("id")
+    expect_alike(nested(packed), text)
+    kinds = {kind for piece in text["slices"] for kind in ("tints", "seen", "fill") if kind in piece}
+    assert kinds == {"polytope 8-cell": {"tints"}, "polytope truncated tesseract": {"seen"},
+                     "polytope grand 600-cell": {"fill"}}.get(lines[0], set())
 
 
 def test_cbor(server):

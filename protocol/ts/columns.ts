@@ -1,0 +1,117 @@
+// The slices of a message in CBOR: each property of all slices in one array.
+
+import type { Slice, Vector } from "./messages";
+
+/** As wide as they must be. */
+export type Integers = Uint8Array | Uint16Array | Uint32Array;
+
+type OfEach<T> = Record<"vertices" | "edges" | "faces", T>;
+
+export interface Columns {
+    index: number[];
+    w: Float64Array;
+    position: Float32Array;
+    label: string[];
+    label_at: Float32Array;
+    label_size: Float64Array;
+    focus: boolean[];
+    drawn: boolean[];
+    /** How many each slice has. */
+    counts: OfEach<Integers>;
+    vertices: Float32Array;
+    edges: Integers;
+    /** The corners of each face. */
+    sides: Integers;
+    corners: Integers;
+    of: OfEach<Integers>;
+    tints?: Integers;
+    seen?: OfEach<Integers>;
+    fill?: {
+        counts: Record<"points" | "triangles", Integers>;
+        points: Float32Array;
+        triangles: Integers;
+        tints: Integers;
+        seen?: Integers;
+    };
+}
+
+/** Makes room for so many integers. */
+export type Room = (count: number) => Uint32Array;
+
+type Range = [begin: number, end: number];
+
+/** Ranges that follow on each other. */
+function ranges(sizes: Integers): Range[] {
+    let end = 0;
+    return Array.from(sizes, (size) => [end, (end += size)]);
+}
+
+function vector(flat: Float32Array, i: number): Vector {
+    return [flat[3 * i]!, flat[3 * i + 1]!, flat[3 * i + 2]!];
+}
+
+/** The slices one by one. Their arrays are parts of the columns' and of others from `room`. */
+export function rowsOf(columns: Columns, room: Room): Slice[] {
+    const wide = (integers: Integers): Uint32Array => {
+        if (integers instanceof Uint32Array) return integers;
+        const all = room(integers.length);
+        all.set(integers);
+        return all;
+    };
+    const wideOfEach = (lists: OfEach<Integers>): OfEach<Uint32Array> => {
+        return { vertices: wide(lists.vertices), edges: wide(lists.edges), faces: wide(lists.faces) };
+    };
+    const partOfEach = (lists: OfEach<Uint32Array>, i: number): OfEach<Uint32Array> => ({
+        vertices: lists.vertices.subarray(...vertices[i]!),
+        edges: lists.edges.subarray(...edges[i]!),
+        faces: lists.faces.subarray(...faces[i]!),
+    });
+    const { counts, sides, fill } = columns;
+    const [vertices, edges, faces] = [ranges(counts.vertices), ranges(counts.edges), ranges(counts.faces)];
+    const [ends, corners, of] = [wide(columns.edges), wide(columns.corners), wideOfEach(columns.of)];
+    const tints = columns.tints && wide(columns.tints);
+    const seen = columns.seen && wideOfEach(columns.seen);
+    const filled = fill && fillsOf(fill, wide);
+    let corner = 0;
+    const loops = ([first, last]: Range): Slice["faces"] => {
+        const begin = room(last - first + 1);
+        begin[0] = 0;
+        for (let face = first; face < last; ++face) begin[face - first + 1] = begin[face - first]! + sides[face]!;
+        return { begin, corners: corners.subarray(corner, (corner += begin[last - first]!)) };
+    };
+    return columns.index.map((index, i) => {
+        const slice: Slice = {
+            index,
+            w: columns.w[i]!,
+            position: vector(columns.position, i),
+            label: columns.label[i]!,
+            label_at: vector(columns.label_at, i),
+            label_size: columns.label_size[i]!,
+            focus: columns.focus[i]!,
+            drawn: columns.drawn[i]!,
+            vertices: columns.vertices.subarray(3 * vertices[i]![0], 3 * vertices[i]![1]),
+            edges: ends.subarray(2 * edges[i]![0], 2 * edges[i]![1]),
+            faces: loops(faces[i]!),
+            of: partOfEach(of, i),
+        };
+        const own = tints?.subarray(...faces[i]!);
+        if (own?.some((tint, face) => tint !== slice.of.faces[face])) slice.tints = own;
+        if (seen) slice.seen = partOfEach(seen, i);
+        if (filled?.[i]!.triangles.length) slice.fill = filled[i];
+        return slice;
+    });
+}
+
+function fillsOf(fill: NonNullable<Columns["fill"]>, wide: (list: Integers) => Uint32Array): NonNullable<Slice["fill"]>[] {
+    const [points, triangles] = [ranges(fill.counts.points), ranges(fill.counts.triangles)];
+    const [corners, tints, seen] = [wide(fill.triangles), wide(fill.tints), fill.seen && wide(fill.seen)];
+    return points.map(([first, last], i) => {
+        const [begin, end] = triangles[i]!;
+        return {
+            points: fill.points.subarray(3 * first, 3 * last),
+            triangles: corners.subarray(3 * begin, 3 * end),
+            tints: tints.subarray(begin, end),
+            ...(seen && { seen: seen.subarray(begin, end) }),
+        };
+    });
+}
