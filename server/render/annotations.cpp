@@ -94,8 +94,10 @@ void paintAxes(const scene::Scene& scene, Solids& solids, Overlay& overlay) {
         char name;
     };
     std::array axes{Axis{turn[0], style.axisX, 'x'}, Axis{turn[1], style.axisY, 'y'}, Axis{turn[2], style.axisZ, 'z'}};
-    std::stable_sort(axes.begin(), axes.end(),
-                     [](const Axis& a, const Axis& b) { return a.direction.z < b.direction.z; });
+    // Not std::stable_sort, which allocates.
+    std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) {
+        return a.direction.z != b.direction.z ? a.direction.z < b.direction.z : a.name < b.name;
+    });
     solids.lookThrough(lens);
     bool originPainted = false;
     const auto paintOrigin = [&] {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 
 #include <glm/geometric.hpp>
 
@@ -24,11 +25,19 @@ void CrossingPainter::paint(const geometry::Polytope& polytope, const geometry::
     const auto radius = static_cast<float>(scene.ballRadius);
     out.depths = {std::max(depths.from - radius, static_cast<float>(scene.camera.near)), depths.to + radius};
 
-    const auto nearer = [](const Item& a, const Item& b) { return a.depth < b.depth; };
-    const auto farther = [](const Item& a, const Item& b) { return a.depth > b.depth; };
-    std::stable_sort(faces_.begin(), faces_.end(), nearer);
-    std::stable_sort(frame_.begin(), frame_.end(), farther);
-    std::stable_sort(faded_.begin(), faded_.end(), farther);
+    // Equal depths are kept in one order, so that equal scenes give equal pictures; std::stable_sort would allocate.
+    const auto before = [](const Item& a, const Item& b) {
+        return std::tie(a.slice, a.kind, a.number) < std::tie(b.slice, b.kind, b.number);
+    };
+    const auto nearer = [&](const Item& a, const Item& b) {
+        return a.depth != b.depth ? a.depth < b.depth : before(a, b);
+    };
+    const auto farther = [&](const Item& a, const Item& b) {
+        return a.depth != b.depth ? a.depth > b.depth : before(a, b);
+    };
+    std::sort(faces_.begin(), faces_.end(), nearer);
+    std::sort(frame_.begin(), frame_.end(), farther);
+    std::sort(faded_.begin(), faded_.end(), farther);
     const Lens lens = Lens::of(scene.camera, scene.viewport);
     const Frame frame(scene);
     const auto paintAll = [&](const std::vector<Item>& items, Solids& solids) {

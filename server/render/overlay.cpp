@@ -38,7 +38,7 @@ void main() {
     vec2 q = abs(fromCentre) - box.xy + box.z;
     float outside = length(max(q, 0.0)) + min(max(q.x, q.y), 0.0) - box.z;
     float coverage = clamp(0.5 - outside, 0.0, 1.0) * texelFetch(glyphs, ivec2(texel), 0).r;
-    pixel = vec4(colour.rgb, colour.a * coverage);
+    pixel = vec4(colour.rgb, 1.0) * (colour.a * coverage);
 }
 )";
 

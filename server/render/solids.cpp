@@ -217,7 +217,8 @@ void main() {
     )" + highlight(style.shininess) +
            "vec3 lit = colour.rgb * (" + std::to_string(style.ambient) + " + max(dot(n, diffuse), 0.0)) + " +
            std::to_string(style.specular) + R"( * h;
-    pixel = vec4(lit, colour.a * clamp(q * place.z + 0.5, 0.0, 1.0));
+    float alpha = colour.a * clamp(q * place.z + 0.5, 0.0, 1.0);
+    pixel = vec4(min(lit, 1.0) * alpha, alpha);
 )" + std::string(depth == SolidProgram::Depth::round ? kRoundDepth : "") +
            "}\n";
 }

@@ -35,7 +35,7 @@ in vec2 texel;
 in vec3 colour;
 uniform sampler2D density;
 out vec4 pixel;
-void main() { pixel = vec4(colour, texture(density, texel).r); }
+void main() { pixel = vec4(colour, 1.0) * texture(density, texel).r; }
 )";
 
 constexpr Attribute kAttributes[] = {{2, GL_FLOAT, offsetof(Corner, at)},
