@@ -1,4 +1,4 @@
-"""Tables of how fast oval4d is: report.py FOLDER-OF-THE-PROGRAMS [targets] [parts] [growth] [polytopes] [load]
+"""Tables of how fast oval4d is: report.py FOLDER-OF-THE-PROGRAMS [targets] [parts] [growth] [polytopes] [drawing] [load]
 
 Whatever is compared is measured in turns, and what is reported of each turn's ratios is the median: the speed of a
 shared machine changes from minute to minute.
@@ -15,9 +15,10 @@ import tempfile
 import time
 from pathlib import Path
 
+import drawing
 import peers
 
-PARTS = ("targets", "parts", "growth", "polytopes", "load")
+PARTS = ("targets", "parts", "growth", "polytopes", "drawing", "load")
 BIN = Path(sys.argv[1])
 REGULAR = ("5-cell", "8-cell", "120-cell", "600-cell")
 GROWING = ("5-cell", "8-cell", "24-cell", "omnitruncated 5-cell", "120-cell", "600-cell", "omnitruncated 24-cell",
@@ -226,12 +227,22 @@ def polytopes():
     print(f"\nbuild ∝ elements^{exponent(built):.2f}")
 
 
+def two_cores():
+    """Pictures a second by the ways to use cores."""
+    print("\n## Drawing: state to PNG, as fast as can be\n\nThreads are llvmpipe's own.")
+    for polytope in ("5-cell", "600-cell"):
+        table([polytope, "pictures a second", "of the first way's", "ms a picture"],
+              drawing.rows(BIN / "bench_drawing", polytope))
+
+
 def under_load(loaded):
     """Latencies and memory of a running server."""
     print("\n## Load: a server and its clients on one machine\n\nMilliseconds from a key to its picture.")
     table(["", "pictures", "median", "99th percentile", "worst"],
           [[what, row["pictures"], row["median"], row["p99"], row["worst"]]
            for what, row in loaded.items() if "median" in row])
+    table(["", "frames a second"],
+          [[what, row["rate"]] for what, row in loaded.items() if "rate" in row])
     floods = [row for row in loaded.values() if "sent" in row]
     table(["", "pictures made", "sent after", "the newest seen after"],
           [[row["what"], row["pictures"], row["sent"], row["seen"]] for row in floods])
@@ -252,7 +263,7 @@ def main():
     loaded = load() if {"targets", "load"} & set(wanted) else None
     for name in wanted:
         {"targets": lambda: targets(turns, loaded), "parts": lambda: parts(turns), "growth": growth,
-         "polytopes": polytopes, "load": lambda: under_load(loaded)}[name]()
+         "polytopes": polytopes, "drawing": two_cores, "load": lambda: under_load(loaded)}[name]()
 
 
 if __name__ == "__main__":
