@@ -5,8 +5,8 @@
 
 #include "store/store.hpp"
 
-struct redisContext;
-struct redisReply;
+struct redisContext;  // NOLINT(readability-identifier-naming)
+struct redisReply;    // NOLINT(readability-identifier-naming)
 
 namespace oval4d::store {
 
