@@ -108,9 +108,9 @@ class Builder:
     def build_here(self):
         cache = Path(run("ccache", "--get-config", "cache_dir"))
         cache.mkdir(parents=True, exist_ok=True)
-        # Limits of the build's own would have to be allowed.
-        limits = [f"--ulimit={name}={soft}:{hard}" for name, (soft, hard) in
-                  (("nofile", resource.getrlimit(resource.RLIMIT_NOFILE)), ("nproc", resource.getrlimit(resource.RLIMIT_NPROC)))]
+        # Its own limits would be higher than what may be allowed here, or lower than what may be asked for.
+        limits = [f"--ulimit={name}={min(most, resource.getrlimit(kind)[1])}" for name, kind, most in
+                  (("nofile", resource.RLIMIT_NOFILE, 20_000), ("nproc", resource.RLIMIT_NPROC, 32_768))]
         self("build", *limits, "--layers", "--format", "docker", "--isolation", "chroot", "--pull-never", "--build-arg", f"BASE={self.base()}",
              "--ignorefile", "docker/Dockerfile.dockerignore", "--volume", f"{cache}:/root/.cache/ccache:rw",
              "--file", "docker/Dockerfile", "--tag", IMAGE, ".")
