@@ -44,6 +44,12 @@ def until(condition, what):
         time.sleep(0.02)
 
 
+def answers(host, port):
+    with socket.socket() as one:
+        one.settimeout(1)
+        return one.connect_ex((host, port)) == 0
+
+
 class Container:
     """A process with all below it in a namespace of its own for each of: network, mounts and processes."""
 
@@ -64,9 +70,7 @@ class Container:
 
     def answers(self, port):
         assert self.process.poll() is None, self.log()
-        with socket.socket() as one:
-            one.settimeout(1)
-            return one.connect_ex((self.host, port)) == 0
+        return answers(self.host, port)
 
     def log(self):
         return self.log_path.read_text(encoding="utf-8", errors="replace")
@@ -128,6 +132,7 @@ class Composition:
                 ["setpriv", "--pdeathsig=KILL", "dnsmasq", "--keep-in-foreground", "--conf-file=/dev/null", "--no-resolv", "--no-hosts", "--user=root",
                  f"--addn-hosts={self.hosts}", f"--listen-address={NET}.1", "--bind-interfaces", "--pid-file",
                  "--local-ttl=1"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+            until(lambda: answers(f"{NET}.1", 53), "the name server")  # before, a signal would end it
             self.up("redis", self.redis())
             for _ in range(self.services["oval4d"]["deploy"]["replicas"]):
                 self.up("oval4d", self.server())
