@@ -25,8 +25,8 @@ namespace {
 
 const Error kFault{ErrorCode::internal, "the server failed to do this; the session is as it was"};
 
-// After a change, so that the store is at most a second behind.
-constexpr std::chrono::milliseconds kSaveDelay{500};
+// After a change. The store is to be at most a second behind, also where the machine is busy.
+constexpr std::chrono::milliseconds kSaveDelay{250};
 
 Message doneMessage(LiveSession::Id id, std::uint64_t revision) {
     return textMessage(protocol::doneMessage(id, revision));
