@@ -68,7 +68,7 @@ class Server {
   private:
     static tcp::acceptor bound(asio::io_context& io, const Options& options);
     std::string tokenNeeded() const;
-    void lament(const std::string& end);
+    void drawingDied(const std::string& end);
     asio::awaitable<void> listen();
     asio::awaitable<void> stopOnSignal();
 
@@ -97,14 +97,14 @@ Server::Server(Options options)
       readiness_(workers_),
       studio_(
           processors(), {options_.maxFill, options_.polytopeCache}, [this] { return pool_.waiting() > 0; },
-          [this](const std::string& end) { lament(end); }),
-      pool_(static_cast<int>(workers_),
+          [this](const std::string& end) { drawingDied(end); }),
+      pool_(workers_,
             [this](picture::Painter& painter) {
                 painter.limitFill(options_.maxFill);
                 painter.leaveDrawingTo(std::make_unique<picture::Drawer>(studio_));
                 readiness_.warmUp(painter);
             }),
-      fileMakers_(options_.fileWorkers, [](picture::Painter&) {}),
+      fileMakers_(static_cast<std::size_t>(options_.fileWorkers), [](picture::Painter&) {}),
       services_{options_, io_, pool_, fileMakers_, metrics_},
       hub_(std::make_shared<Hub>(services_, store::openStore(storeOptions(options_)))),
       token_(tokenNeeded()),
@@ -128,7 +128,7 @@ std::string Server::tokenNeeded() const {
     return acceptor_.local_endpoint().address().is_loopback() ? std::string() : store::randomName(kTokenBytes);
 }
 
-void Server::lament(const std::string& end) {
+void Server::drawingDied(const std::string& end) {
     metrics_.drawingDeaths.Increment();
     spdlog::error("a process that draws has died end=\"{}\"", end);
 }

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "net/processors.hpp"
-
 namespace oval4d::net {
 
 namespace {
@@ -16,11 +14,9 @@ using namespace std::chrono_literals;
 // So long after its last job a lane with short ones counts as active.
 constexpr auto kActive = 1s;
 
-std::size_t threadCount(int wanted) { return wanted > 0 ? static_cast<std::size_t>(wanted) : processors(); }
-
 }  // namespace
 
-WorkerPool::WorkerPool(int threads, Job first) : count_(threadCount(threads)), lastShort_(Clock::now() - kActive) {
+WorkerPool::WorkerPool(std::size_t threads, Job first) : count_(threads), lastShort_(Clock::now() - kActive) {
     for (std::size_t i = 0; i < count_; ++i) threads_.emplace_back([this, first] { run(first); });
 }
 

@@ -37,8 +37,8 @@ class WorkerPool {
     /// A job expected to take longer than this is a long one.
     static constexpr Seconds kLong{0.015};
 
-    /// 0 threads: one for each processor to be had. Each carries out `first` before any other job.
-    WorkerPool(int threads, Job first);
+    /// Each thread carries out `first` before any other job.
+    WorkerPool(std::size_t threads, Job first);
     ~WorkerPool();
 
     /// A job must not throw. After `stop` it is dropped. All jobs without a lane share one.

@@ -6,17 +6,15 @@ import contextlib
 import os
 import shutil
 import signal
-import socket
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import image
 import yaml
 
 sys.path.insert(0, str(image.ROOT / "tests/service"))
-from harness import DEADLINE  # noqa: E402
+from harness import DEADLINE, answers, until  # noqa: E402
 
 FILE = image.ROOT / "docker/compose.yaml"
 BRIDGE, NET = "oval4d-br", "10.213.77"
@@ -35,19 +33,6 @@ def missing():
     except AssertionError as fault:
         return f"this machine allows no networks of its own: {fault}"
     return None
-
-
-def until(condition, what):
-    limit = time.monotonic() + DEADLINE
-    while not condition():
-        assert time.monotonic() < limit, f"{what} did not come about in time"
-        time.sleep(0.02)
-
-
-def answers(host, port):
-    with socket.socket() as one:
-        one.settimeout(1)
-        return one.connect_ex((host, port)) == 0
 
 
 class Container:

@@ -6,7 +6,6 @@ import json
 import os
 import re
 import signal
-import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -85,12 +84,6 @@ class Contained(harness.Server):
         return int(image.run("pgrep", "-P", self.process.pid))
 
 
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
-
-
 def test_the_server_in_it_draws_what_the_one_outside_draws(built):
     files, environment = built.files, built.variables
 
@@ -104,7 +97,7 @@ def test_the_server_in_it_draws_what_the_one_outside_draws(built):
 
     with contextlib.ExitStack() as stack:
         inside = stack.enter_context(
-            Contained(files, {**environment, "OVAL4D_PORT": str(free_port()), "OVAL4D_HOST": "127.0.0.1"}))
+            Contained(files, {**environment, "OVAL4D_PORT": str(harness.free_port()), "OVAL4D_HOST": "127.0.0.1"}))
         outside = stack.enter_context(harness.Server())
         status = Path(f"/proc/{inside.inside()}/status").read_text(encoding="ascii")
         assert re.search(r"^Uid:\s+999\s+999", status, re.MULTILINE)

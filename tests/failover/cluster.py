@@ -3,35 +3,15 @@
 import os
 import re
 import signal
-import socket
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/service"))
-from harness import DEADLINE, Server  # noqa: E402
+from harness import Server, answers, free_port, until  # noqa: E402
 
 NOWHERE = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-
-
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
-
-
-def until(condition, what):
-    limit = time.monotonic() + DEADLINE
-    while not condition():
-        assert time.monotonic() < limit, f"{what} did not come about in time"
-        time.sleep(0.01)
-
-
-def answers(port):
-    with socket.socket() as one:
-        return one.connect_ex(("127.0.0.1", port)) == 0
 
 
 class Redis:
@@ -82,7 +62,7 @@ class Proxy:
         checked = subprocess.run(["haproxy", "-c", "-f", path], capture_output=True, text=True, check=False)
         assert checked.returncode == 0, checked.stderr
         self.process = subprocess.Popen(["haproxy", "-db", "-f", path], **NOWHERE)
-        until(lambda: answers(self.port), "HAProxy")
+        until(lambda: answers(self.host, self.port), "HAProxy")
 
     def __enter__(self):
         return self

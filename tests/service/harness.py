@@ -5,6 +5,7 @@ import http.client
 import os
 import re
 import signal
+import socket
 import subprocess
 import tempfile
 import time
@@ -22,6 +23,27 @@ def _sanitized():
 # Deadlines are multiplied by this: sanitizers and busy machines are slow, and no test waits longer than it must.
 SLOW = float(os.environ.get("OVAL4D_TEST_SLOW") or (6 if _sanitized() else 1))
 DEADLINE = 20 * SLOW
+
+
+def free_port():
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+def answers(host, port):
+    """Whether anybody listens there."""
+    with socket.socket() as one:
+        one.settimeout(1)
+        return one.connect_ex((host, port)) == 0
+
+
+def until(condition, what):
+    """Waits for it, which is called `what`."""
+    limit = time.monotonic() + DEADLINE
+    while not condition():
+        assert time.monotonic() < limit, f"{what} did not come about in time"
+        time.sleep(0.01)
 
 
 class Server:
