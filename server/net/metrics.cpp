@@ -28,6 +28,11 @@ prometheus::Family<Histogram>& histograms(prometheus::Registry& registry, const 
     return prometheus::BuildHistogram().Name(name).Help(help).Register(registry);
 }
 
+prometheus::Counter& drawingLosses(prometheus::Registry& registry, const char* cause) {
+    return counters(registry, "oval4d_drawing_losses_total", "Processes that drew, were lost, and replaced")
+        .Add({{"cause", cause}});
+}
+
 }  // namespace
 
 Metrics::Metrics()
@@ -36,8 +41,8 @@ Metrics::Metrics()
       sessions(gauge(registry_, "oval4d_sessions", "Sessions kept, with or without a client")),
       openSessions(gauge(registry_, "oval4d_open_sessions", "Sessions with a client")),
       jobsWaiting(gauge(registry_, "oval4d_jobs_waiting", "Jobs waiting for a worker")),
-      drawingDeaths(
-          counters(registry_, "oval4d_drawing_deaths_total", "Processes that drew, died, and were replaced").Add({})),
+      drawingDeaths(drawingLosses(registry_, "died")),
+      drawingHangs(drawingLosses(registry_, "hung")),
       filesUnderWay(gauge(registry_, "oval4d_files_under_way", "Files being made")),
       fileTime(histograms(registry_, "oval4d_file_seconds", "Time to make a file").Add({}, kFileBuckets)),
       memory(gauge(registry_, "process_resident_memory_bytes", "Memory of this process that is resident")),

@@ -27,6 +27,7 @@ class Metrics {
     prometheus::Gauge& openSessions;  ///< those with a client
     prometheus::Gauge& jobsWaiting;
     prometheus::Counter& drawingDeaths;  ///< processes that drew, and died of it
+    prometheus::Counter& drawingHangs;   ///< those that did not answer, and were killed
     prometheus::Gauge& filesUnderWay;    ///< being made
     prometheus::Histogram& fileTime;     ///< from the start of making one to its end
     prometheus::Gauge& memory;           ///< bytes of this process that are resident

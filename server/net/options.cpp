@@ -118,6 +118,8 @@ void addLimits(CLI::App& app, Options& options) {
 void addTimes(CLI::App& app, Options& options) {
     addSeconds(app, "--session-expiry", options.sessionExpiry,
                "A session that nobody has open is forgotten after this");
+    addSeconds(app, "--draw-timeout", options.drawTimeout,
+               "A process that takes longer to draw a picture is killed, and the picture drawn by another");
     addSeconds(app, "--shown-timeout", options.shownTimeout,
                "A picture sent counts as shown after this, though the client does not say so");
     addSeconds(app, "--write-timeout", options.writeTimeout, "A client that reads nothing for this long is dropped");

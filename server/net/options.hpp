@@ -49,6 +49,7 @@ struct Options {
 
     Seconds sessionExpiry{1800};
     Seconds storeTimeout{1};
+    Seconds drawTimeout{60};
     Seconds shownTimeout{1};
     Seconds writeTimeout{10};
     Seconds pingInterval{30};

@@ -68,7 +68,7 @@ class Server {
   private:
     static tcp::acceptor bound(asio::io_context& io, const Options& options);
     std::string tokenNeeded() const;
-    void drawingDied(const std::string& end);
+    void drawingLost(const picture::Loss& loss);
     asio::awaitable<void> listen();
     asio::awaitable<void> stopOnSignal();
 
@@ -95,13 +95,15 @@ Server::Server(Options options)
       files_(options_.webRoot),
       workers_(options_.workers > 0 ? static_cast<std::size_t>(options_.workers) : processors()),
       readiness_(workers_),
-      studio_(
-          processors(), {options_.maxFill, options_.polytopeCache}, [this] { return pool_.waiting() > 0; },
-          [this](const std::string& end) { drawingDied(end); }),
+      studio_(processors(),
+              {{options_.maxFill, options_.polytopeCache},
+               options_.drawTimeout,
+               [this](const picture::Loss& loss) { drawingLost(loss); }},
+              [this] { return pool_.waiting() > 0; }),
       pool_(workers_,
             [this](picture::Painter& painter) {
                 painter.limitFill(options_.maxFill);
-                painter.leaveDrawingTo(std::make_unique<picture::Drawer>(studio_));
+                painter.leaveDrawingTo(std::make_unique<picture::Drawer>(studio_, pool_.stopToken()));
                 readiness_.warmUp(painter);
             }),
       fileMakers_(static_cast<std::size_t>(options_.fileWorkers), [](picture::Painter&) {}),
@@ -128,9 +130,9 @@ std::string Server::tokenNeeded() const {
     return acceptor_.local_endpoint().address().is_loopback() ? std::string() : store::randomName(kTokenBytes);
 }
 
-void Server::drawingDied(const std::string& end) {
-    metrics_.drawingDeaths.Increment();
-    spdlog::error("a process that draws has died end=\"{}\"", end);
+void Server::drawingLost(const picture::Loss& loss) {
+    (loss.hung ? metrics_.drawingHangs : metrics_.drawingDeaths).Increment();
+    spdlog::error("a process that draws was lost how=\"{}\"", loss.how);
 }
 
 void Server::run() {
@@ -198,6 +200,7 @@ asio::awaitable<void> Server::stopOnSignal() {
 void runServer(Options options) {
     raiseFileLimit();
     std::signal(SIGPIPE, SIG_IGN);  // hiredis writes to sockets that may have closed
+    std::signal(SIGCHLD, SIG_DFL);  // where it is ignored, the number of a process that has ended may be another's
     geometry::keepPolytopes(options.polytopeCache);
     Server(std::move(options)).run();
 }

@@ -14,6 +14,13 @@ using namespace std::chrono_literals;
 // So long after its last job a lane with short ones counts as active.
 constexpr auto kActive = 1s;
 
+void carryOut(const WorkerPool::Job& job, picture::Painter& painter) {
+    try {
+        job(painter);
+    } catch (const picture::GivenUp&) {  // nobody waits for it any more
+    }
+}
+
 }  // namespace
 
 WorkerPool::WorkerPool(std::size_t threads, Job first) : count_(threads), lastShort_(Clock::now() - kActive) {
@@ -69,7 +76,7 @@ WorkerPool::Queue* WorkerPool::next() {
 
 void WorkerPool::run(const Job& first) {
     picture::Painter painter;
-    first(painter);
+    carryOut(first, painter);
     std::unique_lock lock(mutex_);
     bool idle = true;
     while (!stopping_) {
@@ -86,7 +93,7 @@ void WorkerPool::run(const Job& first) {
         longRunning_ += isLong ? 1 : 0;
         lock.unlock();
         const auto start = Clock::now();
-        entry.job(painter);
+        carryOut(entry.job, painter);
         entry.job = nullptr;  // what it owns is let go outside the lock
         const Seconds took = Clock::now() - start;
         lock.lock();

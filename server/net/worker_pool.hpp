@@ -41,10 +41,11 @@ class WorkerPool {
     WorkerPool(std::size_t threads, Job first);
     ~WorkerPool();
 
-    /// A job must not throw. After `stop` it is dropped. All jobs without a lane share one.
+    /// A job must not throw, but picture::GivenUp after `stop`. After `stop` it is dropped. All jobs without a lane
+    /// share one.
     void post(Job job, LanePtr lane = nullptr);
 
-    /// Finishes the jobs that are running and drops the others.
+    /// Finishes the jobs that are running, or lets them give up, and drops the others.
     void stop();
 
     /// Asks long jobs to end, from `stop` on.

@@ -19,17 +19,20 @@ constexpr std::size_t kMostThreads = 8;  // more would wait for the one that pre
 
 }  // namespace
 
-Studio::Studio(std::size_t cores, DrawingLimits limits, std::function<bool()> crowded, OnDeath died)
-    : limits_(limits), crowded_(std::move(crowded)), died_(std::move(died)) {
-    if (cores > 1) soloist_.emplace(static_cast<int>(std::min(cores, kMostThreads)), limits_, died_);
+Studio::Studio(std::size_t cores, DrawingTerms terms, std::function<bool()> crowded)
+    : terms_(std::move(terms)), crowded_(std::move(crowded)) {
+    if (cores < 2) return;
+    soloist_.emplace(static_cast<int>(std::min(cores, kMostThreads)), terms_);
+    soloist_->start();
 }
 
-Drawer::Drawer(Studio& studio) : studio_(studio), own_(0, studio.limits_, studio.died_) {}
+Drawer::Drawer(Studio& studio, std::stop_token stop)
+    : studio_(studio), stop_(std::move(stop)), own_(0, studio.terms_) {}
 
 void Drawer::warmUp() {
-    own_.warmUp();
-    const std::lock_guard lock(studio_.soloing_);
-    if (studio_.soloist_ && !std::exchange(studio_.warm_, true)) studio_.soloist_->warmUp();
+    own_.warmUp(stop_);
+    const std::unique_lock lock(studio_.soloing_, std::try_to_lock);
+    if (lock && studio_.soloist_) studio_.soloist_->warmUp(stop_);
 }
 
 std::span<const std::uint8_t> Drawer::draw(const session::State& state, scene::Viewport viewport, Times& times) {
@@ -44,14 +47,15 @@ std::span<const std::uint8_t> Drawer::drawBest(const session::State& state, scen
         const bool alone = drawing++ == 0;
         ~Counted() { --drawing; }
     } const counted{studio_.drawing_};
+    if (!pixels_) pixels_.emplace();
     const auto now = Clock::now().time_since_epoch();
     if (!counted.alone || studio_.crowded_()) {
         studio_.lastCrowded_ = now;
     } else if (now - studio_.lastCrowded_.load() > kCrowded && studio_.lastTook_ > kLarge) {
         const std::unique_lock lock(studio_.soloing_, std::try_to_lock);
-        if (lock && studio_.soloist_) return studio_.soloist_->draw(state, viewport, pixels_, times);
+        if (lock && studio_.soloist_) return studio_.soloist_->draw(state, viewport, *pixels_, times, stop_);
     }
-    return own_.draw(state, viewport, pixels_, times);
+    return own_.draw(state, viewport, *pixels_, times, stop_);
 }
 
 }  // namespace oval4d::picture

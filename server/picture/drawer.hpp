@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <stop_token>
 
 #include "picture/drawing_process.hpp"
 
@@ -20,25 +21,24 @@ namespace oval4d::picture {
 class Studio {
   public:
     /// `crowded` tells whether pictures wait; it is called by any thread. Throws std::runtime_error.
-    Studio(std::size_t cores, DrawingLimits limits, std::function<bool()> crowded, OnDeath died);
+    Studio(std::size_t cores, DrawingTerms terms, std::function<bool()> crowded);
 
   private:
     friend class Drawer;
-    const DrawingLimits limits_;
+    const DrawingTerms terms_;
     const std::function<bool()> crowded_;
-    const OnDeath died_;
     std::atomic<int> drawing_ = 0;                                    // how many drawers are at it
     std::atomic<std::chrono::steady_clock::duration> lastCrowded_{};  // since the clock's epoch
     std::atomic<double> lastTook_ = 0;                                // seconds to draw the last picture
     std::mutex soloing_;
     std::optional<DrawingProcess> soloist_;  // guarded by soloing_; nothing where there is but one core
-    bool warm_ = false;                      // guarded by soloing_
 };
 
 /// A worker's way to its pictures. One drawer serves one thread.
 class Drawer {
   public:
-    explicit Drawer(Studio& studio);
+    /// When `stop` says so, all that waits throws GivenUp.
+    Drawer(Studio& studio, std::stop_token stop);
 
     /// Waits until shaders are compiled. Throws std::runtime_error.
     void warmUp();
@@ -50,7 +50,8 @@ class Drawer {
     std::span<const std::uint8_t> drawBest(const session::State& state, scene::Viewport viewport, Times& times);
 
     Studio& studio_;
-    SharedPixels pixels_;
+    const std::stop_token stop_;
+    std::optional<SharedPixels> pixels_;  // made when first wanted, since that may fail
     DrawingProcess own_;
 };
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "picture/bytes.hpp"
@@ -51,6 +52,36 @@ struct alignas(cmsghdr) Luggage {
     char bytes[CMSG_SPACE(sizeof(int))];
 };
 
+// How long it may take until a stop is noticed.
+constexpr std::chrono::milliseconds kNotice{100};
+
+/// Whether `event` came in time.
+bool waitFor(int socket, short event, const Patience& patience) {
+    using std::chrono::milliseconds;
+    const milliseconds longest =
+        patience.stop.stop_possible() ? kNotice : milliseconds(std::numeric_limits<int>::max());
+    for (pollfd what{socket, event, 0};;) {
+        const auto left = std::chrono::ceil<milliseconds>(patience.until - Patience::Clock::now());
+        if (poll(&what, 1, static_cast<int>(std::clamp(left, milliseconds(0), longest).count())) > 0) return true;
+        if (left.count() <= 0 || patience.stop.stop_requested()) return false;
+    }
+}
+
+/// Makes a system call that moves bytes, until it has `moved` some.
+template <typename Call>
+Passage moveSome(int socket, short event, const Patience& patience, std::size_t& moved, Call call) {
+    for (;;) {
+        const ssize_t result = call();
+        if (result > 0) {
+            moved = static_cast<std::size_t>(result);
+            return Passage::whole;
+        }
+        if (result < 0 && errno == EINTR) continue;
+        if (result == 0 || errno != EAGAIN) return Passage::closed;
+        if (!waitFor(socket, event, patience)) return Passage::late;
+    }
+}
+
 }  // namespace
 
 void encodeOrder(const session::State& state, scene::Viewport viewport, const DrawingLimits& limits, std::string& out) {
@@ -93,7 +124,7 @@ void decodePolytope(std::string_view bytes, geometry::Polytope& out) {
 
 DrawingChannel::~DrawingChannel() { close(socket_); }
 
-bool DrawingChannel::send(Said said, std::string_view body, int file) const {
+Passage DrawingChannel::send(Said said, std::string_view body, int file, const Patience& patience) const {
     Head head{said, body.size()};
     std::array parts{iovec{&head, sizeof head}, iovec{const_cast<char*>(body.data()), body.size()}};
     msghdr message{};
@@ -109,25 +140,25 @@ bool DrawingChannel::send(Said said, std::string_view body, int file) const {
         tag->cmsg_len = CMSG_LEN(sizeof file);
         std::memcpy(CMSG_DATA(tag), &file, sizeof file);
     }
+    const auto call = [&] { return sendmsg(socket_, &message, MSG_NOSIGNAL | MSG_DONTWAIT); };
     for (std::size_t left = sizeof head + body.size(); left > 0;) {
-        const ssize_t result = sendmsg(socket_, &message, MSG_NOSIGNAL);
-        if (result < 0 && errno == EINTR) continue;
-        if (result <= 0) return false;
-        left -= static_cast<std::size_t>(result);
+        std::size_t sent = 0;
+        const Passage passage = moveSome(socket_, POLLOUT, patience, sent, call);
+        if (passage != Passage::whole) return passage;
+        left -= sent;
         message.msg_control = nullptr;
         message.msg_controllen = 0;
-        auto sent = static_cast<std::size_t>(result);
         for (iovec& part : parts) {
             const std::size_t taken = std::min(sent, part.iov_len);
             part = {static_cast<char*>(part.iov_base) + taken, part.iov_len - taken};
             sent -= taken;
         }
     }
-    return true;
+    return Passage::whole;
 }
 
-bool DrawingChannel::receive(Said& said, std::string& body, int& file) const {
-    file = kNoFile;
+Passage DrawingChannel::receive(Said& said, std::string& body, int* file, const Patience& patience) const {
+    if (file != nullptr) *file = kNoFile;
     const auto read = [&](void* to, std::size_t size) {
         for (auto* at = static_cast<char*>(to); size > 0;) {
             iovec part{at, size};
@@ -135,28 +166,28 @@ bool DrawingChannel::receive(Said& said, std::string& body, int& file) const {
             msghdr message{};
             message.msg_iov = &part;
             message.msg_iovlen = 1;
-            message.msg_control = luggage.bytes;
-            message.msg_controllen = sizeof luggage.bytes;
-            const ssize_t got = recvmsg(socket_, &message, MSG_WAITALL | MSG_CMSG_CLOEXEC);
-            if (got < 0 && errno == EINTR) continue;
-            if (got <= 0) return false;
+            if (file != nullptr) {
+                message.msg_control = luggage.bytes;
+                message.msg_controllen = sizeof luggage.bytes;
+            }
+            const auto call = [&] { return recvmsg(socket_, &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC); };
+            std::size_t got = 0;
+            const Passage passage = moveSome(socket_, POLLIN, patience, got, call);
+            if (passage != Passage::whole) return passage;
             if (const cmsghdr* tag = CMSG_FIRSTHDR(&message); tag != nullptr && tag->cmsg_type == SCM_RIGHTS)
-                std::memcpy(&file, CMSG_DATA(tag), sizeof file);
+                std::memcpy(file, CMSG_DATA(tag), sizeof *file);
             at += got;
-            size -= static_cast<std::size_t>(got);
+            size -= got;
         }
-        return true;
+        return Passage::whole;
     };
     Head head{};
-    if (!read(&head, sizeof head)) return false;
+    if (const Passage passage = read(&head, sizeof head); passage != Passage::whole) return passage;
     said = head.said;
     body.resize(head.size);
     return read(body.data(), body.size());
 }
 
-bool DrawingChannel::wait(std::chrono::milliseconds time) const {
-    pollfd what{socket_, POLLIN, 0};
-    return poll(&what, 1, static_cast<int>(time.count())) != 0;
-}
+bool DrawingChannel::wait(const Patience& patience) const { return waitFor(socket_, POLLIN, patience); }
 
 }  // namespace oval4d::picture

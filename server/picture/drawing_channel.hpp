@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <stop_token>
 #include <string>
 #include <string_view>
 
@@ -41,6 +42,20 @@ void decodeOrder(std::string_view bytes, Order& out);
 void encodePolytope(const geometry::Polytope& polytope, std::string& out);
 void decodePolytope(std::string_view bytes, geometry::Polytope& out);
 
+/// How long the other end is waited for: for ever, unless something is said here.
+struct Patience {
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point until = Clock::time_point::max();
+    std::stop_token stop;  ///< noticed within a tenth of a second
+};
+
+/// What became of a message.
+enum class Passage {
+    whole,   ///< it has passed
+    closed,  ///< nobody is at the other end any more
+    late,    ///< patience has ended before; the channel is of no more use
+};
+
 /// One end of the pair, closed when this is destroyed. Messages are of any length.
 class DrawingChannel {
   public:
@@ -51,13 +66,13 @@ class DrawingChannel {
 
     static constexpr int kNoFile = -1;
 
-    /// False if nobody is at the other end any more. `file` stays open, and is sent along as another for the same.
-    bool send(Said said, std::string_view body = {}, int file = kNoFile) const;
-    /// `file` is then the receiver's to close, if there came one.
-    bool receive(Said& said, std::string& body, int& file) const;
+    /// `file` stays open, and is sent along as another for the same.
+    Passage send(Said said, std::string_view body = {}, int file = kNoFile, const Patience& patience = {}) const;
+    /// Where a file is wanted, `file` becomes one that is the receiver's to close, or kNoFile.
+    Passage receive(Said& said, std::string& body, int* file = nullptr, const Patience& patience = {}) const;
 
-    /// Whether anything, be it the end, came within this time.
-    bool wait(std::chrono::milliseconds time) const;
+    /// Whether anything, be it the end, came in time.
+    bool wait(const Patience& patience) const;
 
   private:
     int socket_;

@@ -11,11 +11,18 @@
 #include <csignal>
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
+#include <thread>
 #include <utility>
+
+#include "protocol/cpp/suggest.hpp"
 
 namespace oval4d::picture {
 
 namespace {
+
+using namespace std::chrono_literals;
+using Clock = Patience::Clock;
 
 constexpr const char* kThreadsVariable = "LP_NUM_THREADS=";
 
@@ -39,18 +46,31 @@ class Environment {
     throw std::runtime_error(std::string("no process for drawing can be started: ") + std::strerror(error));
 }
 
-}  // namespace
+// A process that nobody talks to any more ends within this, or is killed. One that was killed may not end for longer,
+// as where a debugger holds it: it can do no more harm, and is not waited for.
+constexpr auto kMoment = 1s;
 
-DrawingProcess::DrawingProcess(int threads, DrawingLimits limits, OnDeath died)
-    : threads_(threads), limits_(limits), died_(std::move(died)) {
-    start();
+/// Whether it ends within a moment.
+bool ends(pid_t process, int& status) {
+    const auto limit = Clock::now() + kMoment;
+    for (auto pause = 100us;; pause *= 2) {
+        if (waitpid(process, &status, WNOHANG) != 0) return true;
+        if (Clock::now() > limit) return false;
+        std::this_thread::sleep_for(pause);
+    }
 }
 
+}  // namespace
+
+DrawingProcess::DrawingProcess(int threads, DrawingTerms terms) : threads_(threads), terms_(std::move(terms)) {}
+
 DrawingProcess::~DrawingProcess() {
-    if (channel_) bury();
+    if (channel_) end(false);
 }
 
 void DrawingProcess::start() {
+    if (channel_) return;
+    std::erase_if(unburied_, [](pid_t each) { return waitpid(each, nullptr, WNOHANG) != 0; });
     int sockets[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) fail(errno);
     channel_ = std::make_unique<DrawingChannel>(sockets[0]);
@@ -72,51 +92,82 @@ void DrawingProcess::start() {
     fail(error);
 }
 
-/// Waits for the process's end, which is near.
-void DrawingProcess::bury() {
+/// Ends it: as it stands, or when it has had a moment to end by itself. Returns how that was.
+std::string DrawingProcess::end(bool atOnce) {
     channel_.reset();
+    ready_ = false;
     int status = 0;
-    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    if (atOnce || !ends(process_, status)) {
+        kill(process_, SIGKILL);
+        if (!ends(process_, status)) unburied_.push_back(process_);
     }
-    end_ = WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
+    return WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
                                : "status " + std::to_string(WEXITSTATUS(status));
 }
 
-void DrawingProcess::warmUp() {
-    if (!channel_) start();
-    if (!listen(Said::ready, nullptr)) throw std::runtime_error("a process that was to draw has died: " + end_);
+Patience DrawingProcess::patience(const std::stop_token& stop) const {
+    return {Clock::now() + std::chrono::duration_cast<Clock::duration>(terms_.timeout), stop};
+}
+
+/// Carries out `talk` with a process that is ready. It may have been lost before, of something else; a talk that two
+/// are lost at is not tried again.
+template <typename Talk>
+void DrawingProcess::attempt(const std::stop_token& stop, Talk talk) {
+    Loss loss;
+    for (int losses = 0; losses < 2; ++losses) {
+        start();
+        Passage passage = Passage::whole;
+        try {
+            if (!ready_) {
+                passage = listen(Said::ready, nullptr, patience(stop));
+                if (passage == Passage::whole && said_ == Said::failed) throw std::runtime_error(body_);
+                ready_ = passage == Passage::whole;
+            }
+            if (ready_) passage = talk(patience(stop));
+        } catch (...) {
+            end(true);  // what it has yet to say would be taken for an answer to what it is asked next
+            throw;
+        }
+        if (passage == Passage::whole) return;
+        const std::string how = end(passage == Passage::late);
+        if (stop.stop_requested()) throw GivenUp();
+        loss = passage == Passage::closed
+                   ? Loss{false, "died: " + how}
+                   : Loss{true, "hung: no answer in " + protocol::shortest(terms_.timeout.count()) + " s"};
+        terms_.onLoss(loss);
+    }
+    throw std::runtime_error("two processes were lost at this, the second " + loss.how);
+}
+
+/// Until it says what is wanted, or why it has failed: see `said_`.
+Passage DrawingProcess::listen(Said wanted, const session::State* state, const Patience& patience) {
+    for (;;) {
+        Passage passage = channel_->receive(said_, body_, nullptr, patience);
+        if (passage != Passage::whole || said_ == wanted || said_ == Said::failed) return passage;
+        if (said_ != Said::polytope_missing || state == nullptr)
+            throw std::runtime_error("a process that draws speaks out of turn");
+        encodePolytope(*state->polytope, body_);
+        passage = channel_->send(Said::polytope, body_, DrawingChannel::kNoFile, patience);
+        if (passage != Passage::whole) return passage;
+    }
+}
+
+void DrawingProcess::warmUp(const std::stop_token& stop) {
+    attempt(stop, [](const Patience&) { return Passage::whole; });
 }
 
 std::span<const std::uint8_t> DrawingProcess::draw(const session::State& state, scene::Viewport viewport,
-                                                   SharedPixels& pixels, Times& times) {
-    encodeOrder(state, viewport, limits_, order_);
+                                                   SharedPixels& pixels, Times& times, const std::stop_token& stop) {
+    encodeOrder(state, viewport, terms_.limits, order_);
     const auto drawn = pixels.take(render::bytesOf(viewport));
-    // It may have died before, of something else; a picture that kills it twice is not tried again.
-    for (int deaths = 0; deaths < 2; ++deaths) {
-        if (!channel_) start();
-        channel_->send(Said::order, order_, pixels.file());
-        if (!listen(Said::drawn, &state)) continue;
-        if (body_.size() != sizeof times) throw std::runtime_error("a message between processes is cut short");
-        std::memcpy(&times, body_.data(), sizeof times);
-        return drawn;
-    }
-    throw std::runtime_error("the process that drew this picture died of it: " + end_);
-}
-
-/// Until it says what is wanted; false if it dies.
-bool DrawingProcess::listen(Said wanted, const session::State* state) {
-    Said said{};
-    for (int file = DrawingChannel::kNoFile; channel_->receive(said, body_, file);) {
-        if (said == wanted) return true;
-        if (said == Said::failed) throw std::runtime_error(body_);
-        if (said == Said::polytope_missing) {
-            encodePolytope(*state->polytope, body_);
-            channel_->send(Said::polytope, body_);
-        }
-    }
-    bury();
-    died_(end_);
-    return false;
+    attempt(stop, [&](const Patience& patience) {
+        const Passage sent = channel_->send(Said::order, order_, pixels.file(), patience);
+        return sent == Passage::whole ? listen(Said::drawn, &state, patience) : sent;
+    });
+    if (said_ == Said::failed) throw std::runtime_error(body_);
+    if (body_.size() != sizeof times) throw std::runtime_error("a message between processes is cut short");
+    std::memcpy(&times, body_.data(), sizeof times);
+    return drawn;
 }
 
 }  // namespace oval4d::picture

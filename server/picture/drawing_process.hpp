@@ -4,11 +4,14 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <string>
+#include <vector>
 
 #include "picture/drawing_channel.hpp"
 #include "picture/painter.hpp"
@@ -23,39 +26,54 @@ inline constexpr int kDrawingSocket = 3;
 /// That process from within: carries out the orders that come through this socket until its other end is closed.
 void serveDrawing(int socket);
 
-/// What was the end of a process, for the log.
-using OnDeath = std::function<void(const std::string&)>;
+/// A process that was lost: it died, or it hung and was killed.
+struct Loss {
+    bool hung;
+    std::string how;  ///< for the log
+};
 
-/// One such process: this program, and started again when it has died. It ends with this object, or with the program.
-/// One object serves one thread at a time.
+/// What a server asks of such processes.
+struct DrawingTerms {
+    DrawingLimits limits;
+    std::chrono::duration<double> timeout;    ///< it hangs if it takes longer to begin, or for a picture
+    std::function<void(const Loss&)> onLoss;  ///< called by any thread
+};
+
+/// One such process: this program, started when it is wanted, and again when it was lost. It ends with this object, or
+/// with the program. One object serves one thread at a time. All that waits throws GivenUp, or std::runtime_error: with
+/// the fault of the drawing, if two processes were lost one after the other, or if none can be started.
 class DrawingProcess {
   public:
-    /// Starts it. `threads` are llvmpipe's where LP_NUM_THREADS does not say how many; 0: none but the process's own.
-    /// `died` is called whenever the process is found dead. Throws std::runtime_error.
-    DrawingProcess(int threads, DrawingLimits limits, OnDeath died);
+    /// `threads` are llvmpipe's where LP_NUM_THREADS does not say how many; 0: none but the process's own.
+    DrawingProcess(int threads, DrawingTerms terms);
     ~DrawingProcess();
     DrawingProcess(const DrawingProcess&) = delete;
     DrawingProcess& operator=(const DrawingProcess&) = delete;
 
-    /// Waits until its shaders are compiled.
-    void warmUp();
+    /// Starts it, if it is not running, and does not wait. Throws std::runtime_error.
+    void start();
 
-    /// Draws the state's picture: RGBA, rows from the bottom up. Throws std::runtime_error with the fault of the
-    /// drawing, or if the process has died of this picture twice.
+    /// Waits until its shaders are compiled.
+    void warmUp(const std::stop_token& stop);
+
+    /// Draws the state's picture: RGBA, rows from the bottom up.
     std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, SharedPixels& pixels,
-                                       Times& times);
+                                       Times& times, const std::stop_token& stop);
 
   private:
-    bool listen(Said wanted, const session::State* state);
-    void start();
-    void bury();
+    template <typename Talk>
+    void attempt(const std::stop_token& stop, Talk talk);
+    Patience patience(const std::stop_token& stop) const;
+    Passage listen(Said wanted, const session::State* state, const Patience& patience);
+    std::string end(bool atOnce);
 
     const int threads_;
-    const DrawingLimits limits_;
-    const OnDeath died_;
+    const DrawingTerms terms_;
     std::unique_ptr<DrawingChannel> channel_;  // null: not running
+    bool ready_ = false;
     pid_t process_ = 0;
-    std::string end_;  // of the last one
+    std::vector<pid_t> unburied_;  // killed, and not yet ended
+    Said said_{};                  // what it said last
     std::string order_, body_;
 };
 

@@ -1,12 +1,14 @@
 // A drawing process, from within.
 
 #include <malloc.h>
+#include <sys/prctl.h>
 
 #include <algorithm>
 #include <csignal>
 #include <list>
 #include <map>
 #include <memory>
+#include <stdexcept>
 
 #include "picture/drawing_process.hpp"
 
@@ -64,10 +66,12 @@ class Service {
   private:
     /// After a burst, memory goes back to the system.
     bool next(Said& said) {
-        if (!channel_.wait(1s)) malloc_trim(0);
+        if (!channel_.wait({Patience::Clock::now() + 1s, {}})) malloc_trim(0);
         int file = DrawingChannel::kNoFile;
-        if (!channel_.receive(said, body_, file)) return false;
-        if (file == DrawingChannel::kNoFile) return true;
+        if (channel_.receive(said, body_, &file) != Passage::whole) return false;
+        if (said != Said::order) return true;
+        // The system drops a file that this process has no room for.
+        if (file == DrawingChannel::kNoFile) throw std::runtime_error("an order came without pixels to draw into");
         auto pixels = std::make_unique<SharedPixels>(file);
         pixels_ = pixels->number();
         files_.try_emplace(pixels_, std::move(pixels));
@@ -114,6 +118,7 @@ void serveDrawing(int socket) {
     // It is for the server to say when to end, though these come to all processes of a terminal or a container.
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGTERM, SIG_IGN);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // one that hangs or is stopped does not find its socket closed
     Service(socket).run();
 }
 

@@ -26,6 +26,9 @@ struct Times {
     double slice = 0, compose = 0, write = 0, draw = 0, encode = 0;
 };
 
+/// What is thrown where a picture is waited for when a stop is asked for. No std::exception: it is no fault to report.
+struct GivenUp {};
+
 class Drawer;
 
 /// Keeps a slicer, a GL context and all memory in between. One painter serves one thread, the one that first draws.

@@ -46,6 +46,14 @@ def until(condition, what):
         time.sleep(0.01)
 
 
+def has_ended(pid):
+    """Also where nobody has asked for its status."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rsplit(") ", 1)[1].startswith("Z")
+    except FileNotFoundError:
+        return True
+
+
 class Server:
     """One running server on a port of its own. `options` are command-line words, `variables` its environment's."""
 
@@ -106,12 +114,25 @@ class Server:
         children = []
         for file in Path("/proc").glob("[0-9]*/stat"):
             try:
-                state, parent = file.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()[:2]
+                parent = file.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()[1]
+                # One that ends, or is yet to begin, has other words or none.
+                if int(parent) == self.process.pid and file.with_name("cmdline").read_bytes() == b"oval4d\0draw\0":
+                    children.append(int(file.parent.name))
             except OSError:
                 continue  # it has ended meanwhile
-            if int(parent) == self.process.pid and state != "Z":
-                children.append(int(file.parent.name))
         return children
+
+    def signal_drawing(self, number):
+        """To all of them; their numbers."""
+        pids = self.drawing()
+        for pid in pids:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, number)
+        return pids
+
+    def files(self):
+        """What the server has open."""
+        return [os.readlink(file) for file in Path(f"/proc/{self.process.pid}/fd").iterdir()]
 
     def memory(self):
         """Resident bytes."""

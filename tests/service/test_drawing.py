@@ -2,34 +2,52 @@
 
 import asyncio
 import os
+import re
+import resource
 import signal
+import socket
+import struct
+import subprocess
 from pathlib import Path
 
 import png
 import pytest
-from harness import Server
+from harness import DEADLINE, PROGRAM, Server, has_ended, until
 from wire import Client, Refused
 
 SIZE = {"width": 480, "height": 270}
-DEATHS = "oval4d_drawing_deaths_total"
+DEATHS = 'oval4d_drawing_losses_total{cause="died"}'
 # A picture that takes long enough to be met in the making.
 LONG = {"polytope": "omnitruncated 120-cell", "slices": {"count": 101}}
 LARGE = {"width": 2400, "height": 1350}
 
 
-def has_ended(pid):
-    """Also where nobody has asked for its status."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rsplit(") ", 1)[1].startswith("Z")
-    except FileNotFoundError:
-        return True
+class Ignoring(Server):
+    """Begun by a program that ignores the ends of its own processes, which is inherited."""
+
+    def start(self, words, environment):
+        before = signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+        try:
+            return super().start(words, environment)
+        finally:
+            signal.signal(signal.SIGCHLD, before)
 
 
-def kill_all(server, number=signal.SIGKILL):
-    pids = server.drawing()
-    for pid in pids:
-        os.kill(pid, number)
-    return len(pids)
+def seconds_of(pid):
+    """Of a processor."""
+    fields = Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+async def signal_the_one_at_work(server, number):
+    """To the process that draws now; which that is. It may have drawn by then."""
+    started = {pid: seconds_of(pid) for pid in server.drawing()}
+    while True:
+        for pid, seconds in started.items():
+            if seconds_of(pid) > seconds + 0.02:
+                os.kill(pid, number)
+                return pid
+        await asyncio.sleep(0.002)
 
 
 async def test_pictures_go_on_when_the_processes_that_draw_them_are_killed():
@@ -39,7 +57,7 @@ async def test_pictures_go_on_when_the_processes_that_draw_them_are_killed():
             done = await client.request("key", key="r")
             await client.frame_of(done["revision"])
             assert server.metric(DEATHS) == 0
-            assert kill_all(server) >= 2
+            assert len(server.signal_drawing(signal.SIGKILL)) >= 2
             done = await client.request("undo")
             again = await client.frame_of(done["revision"])
             assert png.pixels(again) == png.pixels(first)
@@ -52,11 +70,10 @@ async def test_a_picture_is_drawn_again_when_its_process_is_killed_at_it():
         async with Client(server, stream="none", **SIZE) as client:
             await client.request("set", **LONG)
             whole = await client.frame(**LARGE)
-            asked = asyncio.ensure_future(client.frame(**LARGE))
-            await asyncio.sleep(0.1)
-            assert not asked.done() and kill_all(server) >= 1
-            assert png.pixels(await asked) == png.pixels(whole)
-            assert server.metric(DEATHS) >= 1
+            while server.metric(DEATHS) == 0:
+                asked = asyncio.ensure_future(client.frame(**LARGE))
+                await signal_the_one_at_work(server, signal.SIGKILL)
+                assert png.pixels(await asked) == png.pixels(whole)
 
 
 async def test_a_picture_that_kills_its_process_again_and_again_is_refused_and_the_session_goes_on():
@@ -67,7 +84,7 @@ async def test_a_picture_that_kills_its_process_again_and_again_is_refused_and_t
             await client.request("set", **LONG)
             asked = asyncio.ensure_future(client.frame(**LARGE))
             while not asked.done():
-                kill_all(server)
+                server.signal_drawing(signal.SIGKILL)
                 await asyncio.sleep(0.02)
             with pytest.raises(Refused, match="internal"):
                 await asked
@@ -83,17 +100,13 @@ async def test_they_end_with_the_server_and_not_before():
     try:
         pids = server.drawing()
         assert len(pids) >= 2
-        kill_all(server, signal.SIGTERM)  # as a terminal or a container sends it to all
-        kill_all(server, signal.SIGINT)
+        server.signal_drawing(signal.SIGTERM)  # as a terminal or a container sends it to all
+        server.signal_drawing(signal.SIGINT)
         async with Client(server, stream="none", **SIZE) as client:
             await client.frame()
         assert server.drawing() == pids and server.metric(DEATHS) == 0
         server.kill()
-        for _ in range(500):
-            if all(map(has_ended, pids)):
-                break
-            await asyncio.sleep(0.02)
-        assert all(map(has_ended, pids))
+        until(lambda: all(map(has_ended, pids)), "the end of the processes")
     finally:
         server.kill()
 
@@ -121,9 +134,45 @@ async def test_no_connection_is_kept_open_by_them():
     with Server() as server:
         async with Client(server, stream="frames", **SIZE) as client:
             await client.frame_of(0)
-            kill_all(server)
+            server.signal_drawing(signal.SIGKILL)
             done = await client.request("key", key="r")
             await client.frame_of(done["revision"])
             for pid in server.drawing():
                 files = [os.readlink(file) for file in Path(f"/proc/{pid}/fd").iterdir()]
                 assert sum(name.startswith("socket:") for name in files) == 1, files
+
+
+async def test_one_that_has_no_room_for_a_picture_draws_none(tmp_path):
+    """The system drops a file that is sent to a process which may open no more."""
+    ours, theirs = socket.socketpair()
+    with ours, theirs, open(tmp_path / "log", "wb") as log:
+        drawing = subprocess.Popen([PROGRAM, "draw"], stderr=log, preexec_fn=lambda: os.dup2(theirs.fileno(), 3),
+                                   pass_fds=[3])
+        ours.settimeout(DEADLINE)
+        assert struct.unpack("=I4xQ", ours.recv(16)) == (0, 0)  # it is ready
+        ours.sendall(struct.pack("=I4xQ", 1, 0))  # an order, as yet without anything
+        assert drawing.wait(DEADLINE) == 1
+    assert b"an order came without pixels to draw into" in (tmp_path / "log").read_bytes()
+
+
+@pytest.mark.parametrize("files", range(8, 20, 3))
+def test_a_server_that_may_open_too_few_files_says_so(files, tmp_path):
+    def limit():
+        resource.setrlimit(resource.RLIMIT_NOFILE, (files, files))
+
+    with open(tmp_path / "log", "wb") as log:
+        words = [PROGRAM, "--port", "0", "--workers", "4"]
+        server = subprocess.Popen(words, stderr=log, preexec_fn=limit)
+    until(lambda: server.poll() is not None or re.search("ready|cannot be drawn", (tmp_path / "log").read_text()), "it")
+    server.terminate()
+    assert server.wait(DEADLINE) in (0, 1)
+    assert "Too many open files" in (tmp_path / "log").read_text()
+
+
+async def test_their_ends_are_seen_though_whoever_began_the_server_ignored_such():
+    with Ignoring() as server:
+        async with Client(server, stream="none", **SIZE) as client:
+            await client.frame()
+            server.signal_drawing(signal.SIGKILL)
+            await client.frame()
+        assert 'how="died: signal 9"' in server.log()

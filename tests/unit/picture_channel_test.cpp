@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -24,6 +25,8 @@ std::pair<int, int> socketPair() {
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) throw std::runtime_error("no sockets");
     return {sockets[0], sockets[1]};
 }
+
+Patience soon() { return {Patience::Clock::now() + 5ms, {}}; }
 
 session::PolytopePtr catalogued(const char* name) { return geometry::polytopeOf(*geometry::findEntry(name)); }
 
@@ -91,13 +94,13 @@ TEST(DrawingChannel, LongMessagesArriveWholeWithTheirFile) {
     written[999'999] = 42;
     const std::string text(5'000'000, 'x');  // many times what a socket holds
     std::thread sending([&] {
-        EXPECT_TRUE(sender.send(Said::order, text, pixels.file()));
-        EXPECT_TRUE(sender.send(Said::ready));
+        EXPECT_EQ(sender.send(Said::order, text, pixels.file()), Passage::whole);
+        EXPECT_EQ(sender.send(Said::ready), Passage::whole);
     });
     Said said{};
     std::string body;
     int file = DrawingChannel::kNoFile;
-    EXPECT_TRUE(receiver.receive(said, body, file));
+    EXPECT_EQ(receiver.receive(said, body, &file), Passage::whole);
     sending.join();
     EXPECT_EQ(said, Said::order);
     EXPECT_EQ(body, text);
@@ -105,7 +108,7 @@ TEST(DrawingChannel, LongMessagesArriveWholeWithTheirFile) {
     SharedPixels seen(file);
     EXPECT_EQ(seen.number(), pixels.number());
     EXPECT_EQ(seen.see(1'000'000)[999'999], 42);
-    EXPECT_TRUE(receiver.receive(said, body, file));
+    EXPECT_EQ(receiver.receive(said, body, &file), Passage::whole);
     EXPECT_EQ(said, Said::ready);
     EXPECT_TRUE(body.empty());
     EXPECT_EQ(file, DrawingChannel::kNoFile);
@@ -114,14 +117,58 @@ TEST(DrawingChannel, LongMessagesArriveWholeWithTheirFile) {
 TEST(DrawingChannel, KnowsWhenNobodyIsThere) {
     const auto [here, there] = socketPair();
     const DrawingChannel channel(here);
-    EXPECT_FALSE(channel.wait(1ms));
+    EXPECT_FALSE(channel.wait(soon()));
     close(there);
-    EXPECT_TRUE(channel.wait(1ms));
+    EXPECT_TRUE(channel.wait(soon()));
     Said said{};
     std::string body;
-    int file = DrawingChannel::kNoFile;
-    EXPECT_FALSE(channel.receive(said, body, file));
-    EXPECT_FALSE(channel.send(Said::ready));
+    EXPECT_EQ(channel.receive(said, body), Passage::closed);
+    EXPECT_EQ(channel.send(Said::ready), Passage::closed);
+}
+
+TEST(DrawingChannel, WaitsForNoneThatHangs) {
+    const auto [here, there] = socketPair();
+    const DrawingChannel channel(here), hanging(there);
+    Said said{};
+    std::string body;
+    EXPECT_EQ(channel.receive(said, body, nullptr, soon()), Passage::late);
+    // It reads nothing of what does not fit into the socket.
+    const std::string text(5'000'000, 'x');
+    EXPECT_EQ(channel.send(Said::polytope, text, DrawingChannel::kNoFile, soon()), Passage::late);
+    // It hangs amid a message: the other end has its head, and the first of its bytes.
+    EXPECT_EQ(hanging.receive(said, body, nullptr, soon()), Passage::late);
+    EXPECT_EQ(said, Said::polytope);
+}
+
+TEST(DrawingChannel, WaitsNoLongerWhenAskedToStop) {
+    const auto [here, there] = socketPair();
+    const DrawingChannel channel(here), hanging(there);
+    std::stop_source stop;
+    std::thread stopping([&] {
+        std::this_thread::sleep_for(20ms);
+        stop.request_stop();
+    });
+    Said said{};
+    std::string body;
+    EXPECT_EQ(channel.receive(said, body, nullptr, {Patience::Clock::time_point::max(), stop.get_token()}),
+              Passage::late);
+    stopping.join();
+}
+
+TEST(DrawingChannel, FilesThatNobodyWantsAreDropped) {
+    const auto [here, there] = socketPair();
+    const DrawingChannel sender(here), receiver(there);
+    Said said{};
+    std::string body;
+    const int before = dup(0);
+    close(before);
+    SharedPixels pixels;
+    EXPECT_EQ(sender.send(Said::order, "1", pixels.file()), Passage::whole);
+    EXPECT_EQ(receiver.receive(said, body), Passage::whole);
+    EXPECT_EQ(body, "1");
+    const int after = dup(0);  // the lowest number that is free
+    EXPECT_EQ(after, before + 1);
+    close(after);
 }
 
 TEST(SharedPixels, AreSeenThroughAllSizes) {
