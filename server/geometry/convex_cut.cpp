@@ -1,124 +1,135 @@
 #include "geometry/convex_cut.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <utility>
 
-#include "geometry/ranges.hpp"
 #include "geometry/slicer.hpp"
-
-// Whether an element is cut is as good as random, and a branch on it costs more than the work that it saves: elements
-// are listed without branches first, and the lists gone through. What is read in a loop that writes is copied out of
-// its vector before: the compiler has to take every number that is written for one of those.
 
 namespace oval4d::geometry {
 
-bool ConvexCut::cut(const Polytope& polytope, std::span<const std::int32_t> below, std::span<SliceSet* const> exact,
-                    SliceSet& out) {
-    const std::size_t most = std::max({polytope.edges.size(), polytope.faces.size(), below.size()});
-    if (most > kMost || out.planes.count > static_cast<int>(kMost)) return false;
-    exact_ = exact;
-    levels_.resize(out.planes.count);
-    for (int k = 0; k < out.planes.count; ++k) levels_[k] = out.planes.w(k);
-    cutEdges(polytope, below.data(), out);
-    if (!cutFaces(polytope, below.data(), out) || !cutCells(polytope, out)) return false;
-    out.vertices.resize(out.vertexBegin.back());
-    out.vertexOf.resize(out.vertexBegin.back());
-    out.edges.resize(out.edgeBegin.back());
-    out.edgeOf.resize(out.edgeBegin.back());
-    out.faceOf.resize(out.faceBegin.back());
-    out.cornerBegin.resize(out.faceBegin.back() + 1);
-    out.cornerBegin.back() = cornerBegin_.back();
-    out.corners.resize(cornerBegin_.back());
-    out.cornerEdges.resize(cornerBegin_.back());
-    for (std::size_t k = 0; k < exact_.size(); ++k) {
-        if (exact_[k] != nullptr) insert(k, *exact_[k], out);
-    }
-    return true;
+namespace {
+
+SliceSize operator+(SliceSize a, SliceSize b) {
+    return {a.vertices + b.vertices, a.edges + b.edges, a.faces + b.faces, a.corners + b.corners};
 }
 
-template <typename Count>
-void ConvexCut::layOut(std::vector<std::uint32_t>& begin, std::vector<std::uint32_t>& place, Count count) {
-    if (exact_.empty()) {
-        accumulate(begin);
-        place = begin;
-        return;
-    }
-    elsewhere_.resize(exact_.size());
-    for (std::size_t k = 0; k < exact_.size(); ++k) {
-        elsewhere_[k] = exact_[k] == nullptr ? kOwn : static_cast<std::uint32_t>(count(*exact_[k]));
-    }
-    accumulate(begin, elsewhere_, place);
+void resize(SliceSet& set, SliceSize size) {
+    set.vertices.resize(size.vertices);
+    set.vertexOf.resize(size.vertices);
+    set.edges.resize(size.edges);
+    set.edgeOf.resize(size.edges);
+    set.faceOf.resize(size.faces);
+    set.cornerBegin.resize(size.faces + 1);
+    set.corners.resize(size.corners);
+    set.cornerEdges.resize(size.corners);
 }
 
-void ConvexCut::insert(std::size_t plane, const SliceSet& slice, SliceSet& out) const {
+void beginSlice(SliceSet& set, int slice, SliceSize at) {
+    set.vertexBegin[slice] = at.vertices;
+    set.edgeBegin[slice] = at.edges;
+    set.faceBegin[slice] = at.faces;
+}
+
+// Makes what `items` has from `begin` on, `size` of them, stand there `times` times.
+template <typename Item>
+void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::size_t times) {
+    Item* first = items.data() + begin;
+    for (std::size_t done = size; done < size * times; done *= 2) {
+        std::copy_n(first, std::min(done, size * times - done), first + done);
+    }
+}
+
+SliceSize sizeOf(const SliceSet& set) {
+    return {set.vertexBegin.back(), set.edgeBegin.back(), set.faceBegin.back(), set.cornerBegin.back()};
+}
+
+SliceSize insert(const SliceSet& slice, SliceSize at, SliceSet& out) {
+    const SliceSize size = sizeOf(slice);
     const auto copy = [](const auto& from, auto& to, std::size_t begin) {
         std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(begin));
     };
-    copy(slice.vertices, out.vertices, out.vertexBegin[plane]);
-    copy(slice.vertexOf, out.vertexOf, out.vertexBegin[plane]);
-    copy(slice.edges, out.edges, out.edgeBegin[plane]);
-    copy(slice.edgeOf, out.edgeOf, out.edgeBegin[plane]);
-    copy(slice.faceOf, out.faceOf, out.faceBegin[plane]);
-    const std::uint32_t begin = cornerBegin_[plane];
-    copy(slice.corners, out.corners, begin);
-    copy(slice.cornerEdges, out.cornerEdges, begin);
-    for (std::size_t f = 0; f < slice.faceOf.size(); ++f) {
-        out.cornerBegin[out.faceBegin[plane] + f] = begin + slice.cornerBegin[f];
-    }
+    copy(slice.vertices, out.vertices, at.vertices);
+    copy(slice.vertexOf, out.vertexOf, at.vertices);
+    copy(slice.edges, out.edges, at.edges);
+    copy(slice.edgeOf, out.edgeOf, at.edges);
+    copy(slice.faceOf, out.faceOf, at.faces);
+    copy(slice.corners, out.corners, at.corners);
+    copy(slice.cornerEdges, out.cornerEdges, at.corners);
+    copy(slice.cornerBegin, out.cornerBegin, at.faces);
+    for (std::size_t f = 0; f < size.faces; ++f) out.cornerBegin[at.faces + f] += at.corners;
+    return size;
 }
 
-void ConvexCut::cutEdges(const Polytope& polytope, const std::int32_t* below, SliceSet& out) {
+}  // namespace
+
+bool ConvexCut::cut(const Polytope& polytope, Levels levels, std::span<SliceSet* const> touching, SliceSet& out) {
+    const int planes = out.planes.count;
+    findSteps(polytope, levels, planes);
+    if (!findElements(polytope, levels.below.data(), touching, out)) return false;
+    SliceSize at;
+    for (std::size_t step = 0; step + 1 < steps_.size(); ++step) {
+        int k = steps_[step];
+        const int end = steps_[step + 1];
+        rise(polytope, levels.below.data(), out.turned, k);
+        const SliceSize size = sizeOfSlice();
+        if (met_[k]) {
+            beginSlice(out, k, at);
+            if (!touching.empty() && touching[k] != nullptr) {
+                at = at + insert(*touching[k], at, out);
+            } else {
+                if (!write(k, k + 1, at, out)) return false;
+                at = at + settling_.settle(polytope, k, at, size, out);
+            }
+            ++k;
+        }
+        if (k < end && !write(k, end, at, out)) return false;
+        for (; k < end; ++k, at = at + size) beginSlice(out, k, at);
+    }
+    beginSlice(out, planes, at);
+    resize(out, at);
+    out.cornerBegin.back() = at.corners;
+    return true;
+}
+
+// Where hyperplanes rise over vertices, or into them.
+void ConvexCut::findSteps(const Polytope& polytope, Levels levels, int planes) {
+    risen_.assign(planes + 1, false);
+    met_.assign(planes + 1, false);
+    bool settles = false;
+    for (std::size_t v = 0; v < levels.below.size(); ++v) {
+        const bool lies = levels.below[v] != levels.upTo[v];
+        risen_[levels.below[v]] = true;
+        met_[levels.below[v]] |= lies;
+        settles = settles || lies;
+    }
+    steps_.assign(1, 0);
+    for (int k = 1; k < planes; ++k) {
+        if (risen_[k]) steps_.push_back(k);
+    }
+    steps_.push_back(planes);
+    if (settles) settling_.begin(polytope, levels);
+}
+
+// Which hyperplanes cut each element; and makes room for all that is to come.
+bool ConvexCut::findElements(const Polytope& polytope, const std::int32_t* below, std::span<SliceSet* const> touching,
+                             SliceSet& out) {
+    const int planes = out.planes.count;
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
-    crossedEdges_.resize(edges);
-    out.vertexBegin.assign(out.planes.count + 1, 0);
-    crossings_ = 0;
-    std::uint32_t points = 0;
-    std::size_t crossed = 0;
+    const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
+    const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
+    SliceSize total;
+    std::uint32_t ends = 0;
+    edges_.clear(edges, planes);
     for (std::uint32_t e = 0; e < edges; ++e) {
         const std::int32_t a = below[polytope.edges[e][0]], b = below[polytope.edges[e][1]];
         const std::int32_t from = std::min(a, b), to = std::max(a, b);
-        countSpan(out.vertexBegin, from, to);
-        points += to - from;
-        crossings_ += (to - from) * (polytope.edgeFaces.begin[e + 1] - polytope.edgeFaces.begin[e]);
-        crossedEdges_[crossed] = {e, a < b ? 1U : 0U, static_cast<Small>(from), static_cast<Small>(to)};
-        crossed += from != to ? 1 : 0;
+        total.vertices += to - from;
+        ends += (to - from) * (polytope.edgeFaces.begin[e + 1] - polytope.edgeFaces.begin[e]);
+        edges_.add(e, from, to);
     }
-    crossedEdges_.resize(crossed);
-    layOut(out.vertexBegin, vertexPlace_, [](const SliceSet& slice) { return slice.vertices.size(); });
-    cursor_ = vertexPlace_;
-    out.vertices.resize(vertexPlace_.back());
-    out.vertexOf.resize(vertexPlace_.back());
-    points_.resize(points);
-    const double* levels = levels_.data();
-    const std::uint32_t* first = vertexPlace_.data();
-    std::uint32_t* cursor = cursor_.data();
-    glm::dvec3* vertices = out.vertices.data();
-    std::uint32_t* vertexOf = out.vertexOf.data();
-    Small* point = points_.data();
-    for (const CrossedEdge crossing : crossedEdges_) {
-        const auto& edge = polytope.edges[crossing.edge];
-        const glm::dvec4& a = out.turned[edge[1 - crossing.rises]];
-        const glm::dvec4 along = out.turned[edge[crossing.rises]] - a;
-        const glm::dvec3 perRise = glm::dvec3(along) * (1 / along.w);
-        for (std::int32_t k = crossing.from; k < crossing.to; ++k) {
-            const std::uint32_t number = cursor[k]++;
-            *point++ = static_cast<Small>(number - first[k]);
-            vertices[number] = glm::dvec3(a) + (levels[k] - a.w) * perRise;
-            vertexOf[number] = crossing.edge;
-        }
-    }
-    mostVertices_ = 0;
-    for (int k = 0; k < out.planes.count; ++k) mostVertices_ = std::max(mostVertices_, cursor_[k] - vertexPlace_[k]);
-}
+    edges_.sort(steps_);
 
-bool ConvexCut::cutFaces(const Polytope& polytope, const std::int32_t* below, SliceSet& out) {
-    const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
+    faces_.clear(faces, planes);
     faceSpan_.resize(faces);
-    crossedFaces_.resize(faces);
-    out.edgeBegin.assign(out.planes.count + 1, 0);
-    std::int32_t lines = 0;
-    std::size_t crossed = 0;
     const std::uint32_t* vertex = polytope.faces.items.data();
     for (std::uint32_t f = 0; f < faces; ++f) {
         const std::uint32_t* end = polytope.faces.items.data() + polytope.faces.begin[f + 1];
@@ -127,134 +138,151 @@ bool ConvexCut::cutFaces(const Polytope& polytope, const std::int32_t* below, Sl
             from = std::min(from, below[*vertex]);
             to = std::max(to, below[*vertex]);
         }
-        countSpan(out.edgeBegin, from, to);
-        faceSpan_[f] = {lines - from, static_cast<Small>(from), static_cast<Small>(to)};
-        lines += to - from;
-        crossedFaces_[crossed] = f;
-        crossed += from != to ? 1 : 0;
+        faceSpan_[f] = {from, to};
+        total.edges += to - from;
+        faces_.add(f, from, to);
     }
-    if (crossings_ != 2 * static_cast<std::uint32_t>(lines)) return false;
-    crossedFaces_.resize(crossed);
-    cornerBegin_ = out.edgeBegin;
-    for (std::uint32_t& difference : cornerBegin_) difference *= 2;  // an edge bounds two faces
-    layOut(cornerBegin_, cornerPlace_, [](const SliceSet& slice) { return slice.corners.size(); });
-    layOut(out.edgeBegin, edgePlace_, [](const SliceSet& slice) { return slice.edges.size(); });
-    cursor_ = edgePlace_;
-    out.edges.resize(edgePlace_.back());
-    out.edgeOf.resize(edgePlace_.back());
-    lines_.resize(lines);
-    findEnds(polytope);
-    const std::uint32_t* first = edgePlace_.data();
-    std::uint32_t* cursor = cursor_.data();
-    auto* sliceEdges = out.edges.data();
-    std::uint32_t* edgeOf = out.edgeOf.data();
-    for (const std::uint32_t f : crossedFaces_) {
-        const FaceSpan span = faceSpan_[f];
-        Line* lineOf = lines_.data() + span.at;
-        for (std::int32_t k = span.from; k < span.to; ++k) {
-            const std::uint32_t edge = cursor[k]++;
-            const auto number = static_cast<Small>(edge - first[k]);
-            Line& line = lineOf[k];
-            line[0].edge = number;
-            line[1].edge = number;
-            sliceEdges[edge] = {line[0].vertex, line[1].vertex};
-            edgeOf[edge] = f;
-        }
-    }
-    return true;
-}
+    if (ends != 2 * total.edges) return false;
+    faces_.sort(steps_);
+    total.corners = 2 * total.edges;  // an edge bounds two faces
 
-// The loop of a 2-face goes up through each hyperplane once and comes down once.
-void ConvexCut::findEnds(const Polytope& polytope) {
-    Line* lines = lines_.data();
-    const FaceSpan* spans = faceSpan_.data();
-    const Small* points = points_.data();
-    for (const CrossedEdge edge : crossedEdges_) {
-        points -= edge.from;
-        for (const std::uint32_t side : polytope.edgeFaces[edge.edge]) {
-            const std::uint32_t comesDown = edge.rises ^ (side & 1U);
-            Line* line = lines + spans[side >> 1U].at;
-            for (std::int32_t k = edge.from; k < edge.to; ++k) line[k][comesDown].vertex = points[k];
-        }
-        points += edge.to;
-    }
-}
-
-bool ConvexCut::cutCells(const Polytope& polytope, SliceSet& out) {
-    const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
-    crossedCells_.resize(cells);
-    out.faceBegin.assign(out.planes.count + 1, 0);
-    std::size_t crossed = 0;
+    cells_.clear(cells, planes);
     const std::uint32_t* bound = polytope.cells.items.data();
     for (std::uint32_t c = 0; c < cells; ++c) {
         const std::uint32_t* end = polytope.cells.items.data() + polytope.cells.begin[c + 1];
-        Small from = faceSpan_[*bound].from, to = faceSpan_[*bound].to;
+        Span span = faceSpan_[*bound];
         while (++bound != end) {
-            from = std::min(from, faceSpan_[*bound].from);
-            to = std::max(to, faceSpan_[*bound].to);
+            span.from = std::min(span.from, faceSpan_[*bound].from);
+            span.to = std::max(span.to, faceSpan_[*bound].to);
         }
-        countSpan(out.faceBegin, from, to);
-        crossedCells_[crossed] = {c, from, to};
-        crossed += from != to ? 1 : 0;
+        total.faces += span.to - span.from;
+        cells_.add(c, span.from, span.to);
     }
-    crossedCells_.resize(crossed);
-    layOut(out.faceBegin, facePlace_, [](const SliceSet& slice) { return slice.faceOf.size(); });
-    cursor_ = facePlace_;
-    cornerCursor_ = cornerPlace_;
-    out.faceOf.resize(facePlace_.back());
-    out.cornerBegin.resize(facePlace_.back() + 1);
-    out.corners.resize(cornerPlace_.back());
-    out.cornerEdges.resize(cornerPlace_.back());
-    start_.resize(out.planes.count);
-    steps_.resize(static_cast<std::size_t>(out.planes.count) * mostVertices_);
-    std::uint32_t* cursor = cursor_.data();
-    std::uint32_t* cornerCursor = cornerCursor_.data();
-    const Small* start = start_.data();
-    std::uint32_t* faceOf = out.faceOf.data();
-    std::uint32_t* cornerBegin = out.cornerBegin.data();
-    for (const CrossedCell crossing : crossedCells_) {
-        link(polytope, crossing.cell);
-        const Step* steps = stepsOf(crossing.from);
-        for (std::int32_t k = crossing.from; k < crossing.to; ++k, steps += mostVertices_) {
-            const std::uint32_t face = cursor[k]++;
-            const std::uint32_t begin = cornerCursor[k];
-            faceOf[face] = crossing.cell;
-            cornerBegin[face] = begin;
-            std::uint32_t* corner = out.corners.data() + begin;
-            std::uint32_t* edge = out.cornerEdges.data() + begin;
-            const Small home = start[k];
-            Small vertex = home;
-            do {
-                const Step step = steps[vertex];
-                *corner++ = vertex;
-                *edge++ = step.edge;
-                vertex = step.vertex;
-            } while (vertex != home);
-            cornerCursor[k] = static_cast<std::uint32_t>(corner - out.corners.data());
-        }
+    cells_.sort(steps_);
+
+    ray_.resize(edges);
+    vertex_.resize(edges);
+    line_.resize(faces);
+    end_.resize(2 * std::size_t{faces});
+    next_.resize(2 * std::size_t{faces});
+    home_.resize(cells);
+    for (const SliceSet* slice : touching) {
+        if (slice != nullptr) total = total + sizeOf(*slice);
     }
-    for (int k = 0; k < out.planes.count; ++k) {
-        if ((exact_.empty() || exact_[k] == nullptr) && cornerCursor_[k] != cornerBegin_[k + 1]) return false;
-    }
+    resize(out, total);
+    out.vertexBegin.resize(planes + 1);
+    out.edgeBegin.resize(planes + 1);
+    out.faceBegin.resize(planes + 1);
     return true;
 }
 
-// The lines cut from the cell's 2-faces, end to start, each in the direction that the 2-face has in this cell. The
-// sections begin with the first 2-face.
-inline void ConvexCut::link(const Polytope& polytope, std::uint32_t cell) {
-    Small* start = start_.data();
-    const std::size_t stride = mostVertices_;
-    for (std::uint32_t at = polytope.cells.begin[cell + 1]; at-- > polytope.cells.begin[cell];) {
-        const std::size_t outward = polytope.cellSigns[at] > 0 ? 1 : 0;
-        const FaceSpan span = faceSpan_[polytope.cells.items[at]];
-        const Line* line = lines_.data() + span.at;
-        Step* steps = stepsOf(span.from);
-        for (std::int32_t k = span.from; k < span.to; ++k, steps += stride) {
-            const Small from = line[k][1 - outward].vertex;
-            steps[from] = line[k][outward];
-            start[k] = from;
+void ConvexCut::rise(const Polytope& polytope, const std::int32_t* below, const std::vector<glm::dvec4>& turned,
+                     int plane) {
+    for (const Passing::Element& edge : edges_.rise(plane)) beginEdge(polytope, edge.number, below, turned);
+    faces_.rise(plane);
+    cells_.rise(plane);
+}
+
+inline void ConvexCut::beginEdge(const Polytope& polytope, std::uint32_t e, const std::int32_t* below,
+                                 const std::vector<glm::dvec4>& turned) {
+    const auto& edge = polytope.edges[e];
+    const std::uint32_t rises = below[edge[0]] < below[edge[1]] ? 1 : 0;
+    const glm::dvec4& at = turned[edge[1 - rises]];
+    const glm::dvec4 along = turned[edge[rises]] - at;
+    ray_[e] = {at, glm::dvec3(along) * (1 / along.w)};
+    const auto around = polytope.edgeFaces[e];
+    std::uint32_t last = around.back() ^ rises;
+    for (const std::uint32_t side : around) {
+        const std::uint32_t here = side ^ rises;
+        const std::uint32_t out = rises != 0 ? last : here, into = rises != 0 ? here : last;
+        end_[here] = e;
+        next_[out] = into ^ 1U;
+        home_[polytope.faceCells[here >> 1U][here & 1U]] = here;
+        last = here;
+    }
+}
+
+// Hyperplanes plane … end − 1, between which there is no vertex: their slices are the same but for the points.
+bool ConvexCut::write(int plane, int end, SliceSize at, SliceSet& out) {
+    writeVertices(plane, end, at, out);
+    writeEdges(at, out);
+    if (!writeFaces(at, out)) return false;
+    const auto times = static_cast<std::size_t>(end - plane);
+    if (times == 1) return true;
+    const SliceSize size = sizeOfSlice();
+    repeat(out.vertexOf, at.vertices, size.vertices, times);
+    repeat(out.edges, at.edges, size.edges, times);
+    repeat(out.edgeOf, at.edges, size.edges, times);
+    repeat(out.faceOf, at.faces, size.faces, times);
+    repeat(out.corners, at.corners, size.corners, times);
+    repeat(out.cornerEdges, at.corners, size.corners, times);
+    std::uint32_t* begin = out.cornerBegin.data() + at.faces;
+    for (std::size_t f = size.faces; f < size.faces * times; ++f) begin[f] = begin[f - size.faces] + size.corners;
+    return true;
+}
+
+void ConvexCut::writeVertices(int plane, int end, SliceSize at, SliceSet& out) {
+    const auto cut = edges_.cut();
+    const Ray* rays = ray_.data();
+    std::uint32_t* vertexOf = out.vertexOf.data() + at.vertices;
+    for (std::uint32_t i = 0; i < cut.size(); ++i) {
+        vertexOf[i] = cut[i].number;
+        vertex_[cut[i].number] = i;
+    }
+    glm::dvec3* vertex = out.vertices.data() + at.vertices;
+    for (int k = plane; k < end; ++k) {
+        const double w = out.planes.w(k);
+        for (const Passing::Element& edge : cut) {
+            const Ray& ray = rays[edge.number];
+            *vertex++ = glm::dvec3(ray.at) + (w - ray.at.w) * ray.perRise;
         }
     }
+}
+
+void ConvexCut::writeEdges(SliceSize at, SliceSet& out) {
+    const auto cut = faces_.cut();
+    const std::uint32_t* vertices = vertex_.data();
+    const std::uint32_t* ends = end_.data();
+    auto* edges = out.edges.data() + at.edges;
+    std::uint32_t* edgeOf = out.edgeOf.data() + at.edges;
+    std::uint32_t* lines = line_.data();
+    for (std::uint32_t i = 0; i < cut.size(); ++i) {
+        const std::uint32_t f = cut[i].number;
+        edges[i] = {vertices[ends[2 * f]], vertices[ends[2 * f + 1]]};
+        edgeOf[i] = f;
+        lines[f] = i;
+    }
+}
+
+bool ConvexCut::writeFaces(SliceSize at, SliceSet& out) const {
+    const auto cut = cells_.cut();
+    const std::uint32_t* lines = line_.data();
+    const std::uint32_t* next = next_.data();
+    const auto* edges = out.edges.data() + at.edges;
+    const std::uint32_t* edgeOf = out.edgeOf.data() + at.edges;
+    std::uint32_t* faceOf = out.faceOf.data() + at.faces;
+    std::uint32_t* cornerBegin = out.cornerBegin.data() + at.faces;
+    std::uint32_t* corners = out.corners.data();
+    std::uint32_t* cornerEdges = out.cornerEdges.data();
+    std::uint32_t corner = at.corners;
+    const std::uint32_t last = corner + 2 * faces_.size();
+    for (std::size_t i = 0; i < cut.size(); ++i) {
+        faceOf[i] = cut[i].number;
+        cornerBegin[i] = corner;
+        const std::uint32_t home = home_[cut[i].number];
+        const std::uint32_t first = lines[home >> 1U];
+        if (first >= faces_.size() || edgeOf[first] != home >> 1U) return false;  // has ended: the cell is not convex
+        std::uint32_t end = home;
+        do {
+            if (corner == last) return false;
+            const std::uint32_t line = lines[end >> 1U];
+            corners[corner] = edges[line][1 - (end & 1U)];
+            cornerEdges[corner] = line;
+            ++corner;
+            end = next[end];
+        } while (end != home);
+    }
+    return corner == last;
 }
 
 }  // namespace oval4d::geometry

@@ -6,80 +6,63 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "geometry/passing.hpp"
 #include "geometry/polytope.hpp"
+#include "geometry/settling.hpp"
 
 namespace oval4d::geometry {
 
 struct SliceSet;
 
-/// Where an edge crosses a hyperplane there is a vertex of the slice, where a 2-face does one edge, where a cell does
-/// one face: so all ranges are known from the least and greatest levels of the elements, and everything is written
-/// where it stays. Keeps its scratch memory between calls.
+/// A hyperplane rises through the polytope, and what it cuts is kept: where it cuts an edge there is a vertex of the
+/// slice, where a 2-face one edge, where a cell one face. The section of a 2-face runs from the edge where its loop
+/// comes up through the hyperplane to the one where it goes down, and the section of a cell goes on, across an edge,
+/// with the next 2-face around that edge: both change only where an edge begins to be cut. Between two levels of
+/// vertices nothing changes but where the points are. Keeps its scratch memory between calls.
 class ConvexCut {
   public:
-    /// Fills `out`, whose hyperplanes and turned vertices are there. `below` has for each vertex the number of
-    /// hyperplanes strictly under it. By hyperplane, where vertices lie in it, `exact` has its slice, as a set of one;
-    /// it is empty where none does. False, and `out` is of no use, where rounding errors in the vertices make it so
-    /// that a hyperplane cuts a 2-face or a cell twice, or where there is too much of something.
-    bool cut(const Polytope& polytope, std::span<const std::int32_t> below, std::span<SliceSet* const> exact,
-             SliceSet& out);
+    /// Fills `out`, whose hyperplanes and turned vertices are there. Where the polytope touches a hyperplane from one
+    /// side, `touching` has its slice by hyperplane, as a set of one; it is empty where there is none. False, and `out`
+    /// is of no use, where rounding errors in the vertices make it so that a hyperplane cuts a 2-face or a cell twice.
+    bool cut(const Polytope& polytope, Levels levels, std::span<SliceSet* const> touching, SliceSet& out);
 
   private:
-    // What is smaller stays nearer to the processor: much of the time is waiting for memory.
-    using Small = std::uint16_t;
-    static constexpr std::size_t kMost = 0x7FFF;
-
-    // Hyperplanes from … to − 1 cross the edge, which rises from its first vertex to its second or the other way.
-    struct CrossedEdge {
-        std::uint32_t edge : 31, rises : 1;
-        Small from, to;
+    // The point of an edge at w is at + (w − at.w) · perRise.
+    struct Ray {
+        glm::dvec4 at;
+        glm::dvec3 perRise;
     };
-    // Hyperplanes from … to − 1 cross the 2-face; its line in hyperplane k is lines_[at + k].
-    struct FaceSpan {
-        std::int32_t at;
-        Small from, to;
+    struct Span {
+        std::int32_t from, to;
     };
-    struct CrossedCell {
-        std::uint32_t cell;
-        Small from, to;
-    };
-    // A slice vertex and a slice edge, by their numbers in their slice.
-    struct Step {
-        Small vertex, edge;
-    };
-    // The section of a 2-face: a slice edge, to where its loop goes up through the hyperplane and to where it comes
-    // down.
-    using Line = std::array<Step, 2>;
+    void findSteps(const Polytope& polytope, Levels levels, int planes);
+    bool findElements(const Polytope& polytope, const std::int32_t* below, std::span<SliceSet* const> touching,
+                      SliceSet& out);
+    void rise(const Polytope& polytope, const std::int32_t* below, const std::vector<glm::dvec4>& turned, int plane);
+    void beginEdge(const Polytope& polytope, std::uint32_t edge, const std::int32_t* below,
+                   const std::vector<glm::dvec4>& turned);
+    SliceSize sizeOfSlice() const { return {edges_.size(), faces_.size(), cells_.size(), 2 * faces_.size()}; }
+    bool write(int plane, int end, SliceSize at, SliceSet& out);
+    void writeVertices(int plane, int end, SliceSize at, SliceSet& out);
+    void writeEdges(SliceSize at, SliceSet& out);
+    bool writeFaces(SliceSize at, SliceSet& out) const;
 
-    void cutEdges(const Polytope& polytope, const std::int32_t* below, SliceSet& out);
-    bool cutFaces(const Polytope& polytope, const std::int32_t* below, SliceSet& out);
-    void findEnds(const Polytope& polytope);
-    bool cutCells(const Polytope& polytope, SliceSet& out);
-    void insert(std::size_t plane, const SliceSet& slice, SliceSet& out) const;
-    void link(const Polytope& polytope, std::uint32_t cell);
-    Step* stepsOf(std::int32_t plane) { return steps_.data() + static_cast<std::size_t>(plane) * mostVertices_; }
-
-    // From counted differences in `begin` to where each slice's elements begin, and where they are written; a slice in
-    // exact_ has count(slice).
-    template <typename Count>
-    void layOut(std::vector<std::uint32_t>& begin, std::vector<std::uint32_t>& place, Count count);
-
-    std::vector<double> levels_;  // w of each hyperplane
-    std::vector<CrossedEdge> crossedEdges_;
-    std::vector<Small> points_;    // the slice vertices of the crossed edges, one after the other
-    std::uint32_t crossings_ = 0;  // of the loops of 2-faces
-    std::vector<FaceSpan> faceSpan_;
-    std::vector<std::uint32_t> crossedFaces_;
-    std::vector<Line> lines_;
-    std::vector<CrossedCell> crossedCells_;
-    std::span<SliceSet* const> exact_;
-    std::vector<std::uint32_t> elsewhere_;  // elements of slices in exact_
-    // By hyperplane: where the elements of its slice go, and the next one.
-    std::vector<std::uint32_t> vertexPlace_, edgePlace_, facePlace_, cornerPlace_, cursor_, cornerCursor_;
-    std::vector<std::uint32_t> cornerBegin_;  // by hyperplane: the corners of its slice
-    std::uint32_t mostVertices_ = 0;          // of a slice
-    std::vector<Step> steps_;                 // by hyperplane and vertex: how the section of the cell at hand goes on
-    std::vector<Small> start_;                // by hyperplane: where it starts
+    Passing edges_, faces_, cells_;
+    std::vector<Span> faceSpan_;
+    // By hyperplane: whether there are vertices in it or between it and the one below; whether there are any in it.
+    std::vector<std::uint8_t> risen_, met_;
+    std::vector<int> steps_;  // the first hyperplane, those that are risen to over vertices, and past the last one
+    std::vector<Ray> ray_;    // by edge that is cut
+    std::vector<std::uint32_t> vertex_;  // by edge that is cut: its slice vertex
+    std::vector<std::uint32_t> line_;    // by 2-face that is cut: its slice edge
+    // The loop of 2-face f comes up through the hyperplane at edge end_[2 f] and goes down at edge end_[2 f + 1]. In
+    // its cell number i the section runs to end 2 f + i: from there it goes on to the end next_[2 f + i].
+    std::vector<std::uint32_t> end_, next_;
+    std::vector<std::uint32_t> home_;  // by cell that is cut: an end that its section runs to
+    Settling settling_;
 };
 
 }  // namespace oval4d::geometry

@@ -71,10 +71,13 @@ class Orienter {
         }
         for (std::size_t f = 0; f < slotsOfFace_.size(); ++f) {
             if (slotsOfFace_[f][1] == kNone) throw Unsound(Part::face, f, "does not lie in two cells");
-            p_.faceCells.push_back({cellOfSlot_[slotsOfFace_[f][0]], cellOfSlot_[slotsOfFace_[f][1]]});
         }
         for (std::uint32_t slot = 0; slot < p_.cellSigns.size(); ++slot) {
             if (p_.cellSigns[slot] == 0) orientPart(slot);
+        }
+        for (const auto& [one, other] : slotsOfFace_) {
+            const bool ordered = p_.cellSigns[one] < p_.cellSigns[other];
+            p_.faceCells.push_back({cellOfSlot_[ordered ? one : other], cellOfSlot_[ordered ? other : one]});
         }
     }
 
@@ -232,6 +235,8 @@ void checkIndices(const Lists& lists, std::size_t below, Part owner, const char*
     }
 }
 
+// A cell at an edge has two 2-faces there, whose loops, as seen from it, run along the edge once each way: in the one
+// it is to the left of the edge, in the other to the right. So the sides follow one another around the edge.
 void findFacesAtEdges(Polytope& p) {
     auto& [begin, items] = p.edgeFaces;
     begin.assign(p.edges.size() + 1, 0);
@@ -242,6 +247,19 @@ void findFacesAtEdges(Polytope& p) {
     for (std::uint32_t f = 0; f < p.faces.size(); ++f) {
         for (std::size_t i = 0; i < p.faces[f].size(); ++i) {
             items[next[p.faceEdges[f][i]]++] = 2 * f + (directionOf(p, f, i) > 0 ? 1 : 0);
+        }
+    }
+    std::vector<std::uint32_t> entering(p.cells.size());  // by cell: the place of the side that it begins with
+    for (std::size_t e = 0; e < p.edges.size(); ++e) {
+        const auto sides = std::span(items).subspan(begin[e], begin[e + 1] - begin[e]);
+        const auto cellBefore = [&](std::uint32_t side) { return p.faceCells[side >> 1U][side & 1U]; };
+        const auto cellAfter = [&](std::uint32_t side) { return p.faceCells[side >> 1U][1 - (side & 1U)]; };
+        for (std::uint32_t i = 0; i < sides.size(); ++i) entering[cellBefore(sides[i])] = i;
+        for (std::uint32_t i = 0; i + 1 < sides.size(); ++i) {
+            const std::uint32_t follower = entering[cellAfter(sides[i])];
+            if (follower <= i) continue;  // around; another ring begins
+            std::swap(sides[i + 1], sides[follower]);
+            entering[cellBefore(sides[follower])] = follower;
         }
     }
 }
@@ -270,9 +288,9 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, Lists 
     checkIndices(p.faces, p.vertices.size(), Part::face, "vertices", 3);
     checkIndices(p.cells, p.faces.size(), Part::cell, "2-faces", 4);
     findEdges(p);
-    findFacesAtEdges(p);
     for (std::size_t f = 0; f < p.faces.size() && p.convexFaces; ++f) p.convexFaces = isConvexLoop(p, p.faces[f]);
     Orienter orient(p);
+    findFacesAtEdges(p);
     numberKinds(p, cellKinds.empty() ? kindsByShape(p) : std::move(cellKinds));
     p.convex = isConvex(p);
     return p;

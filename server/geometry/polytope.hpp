@@ -40,13 +40,15 @@ struct Polytope {
     std::vector<std::array<std::uint32_t, 2>> edges;  ///< pairs of vertices
     Lists faces;                                      ///< each 2-face as a loop of vertices
     Lists faceEdges;                                  ///< edge i of a 2-face joins its vertices i and i + 1
-    Lists edgeFaces;                                  ///< the 2-faces f at each edge, as 2 f + 1 where the loop runs
-                                                      ///< along the edge from its first vertex on, else as 2 f
+    Lists edgeFaces;                                  ///< the 2-faces f around each edge, neighbours side by side, as
+                                                      ///< 2 f + 1 where the loop runs along the edge from its first
+                                                      ///< vertex on, else as 2 f; between s and the one behind it is
+                                                      ///< the cell faceCells[s / 2][1 − s mod 2]
     Lists cells;                                      ///< each cell as its 2-faces
     std::vector<std::int8_t> cellSigns;               ///< beside cells.items: +1 where the 2-face's loop runs
                                                       ///< counter-clockwise seen from outside the cell, else −1;
                                                       ///< a 2-face has opposite signs in its two cells
-    std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face, the smaller number first
+    std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face: its sign is −1 in the first
     std::vector<std::uint32_t> cellKinds;                 ///< the kind of each cell, a number into `kinds`
     std::vector<CellKind> kinds;                          ///< the kinds of cells
     std::uint64_t serial = 0;                             ///< no two built in one process share it: what caches go by

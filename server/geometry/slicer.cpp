@@ -27,38 +27,41 @@ void Slicer::cutAny(const Polytope& polytope, SliceSet& out) {
     cutCells(polytope, out);
 }
 
-// Where few hyperplanes meet vertices, the slices in those alone are cut the general way.
+// Where the polytope touches a hyperplane from one side, that slice alone is cut the general way.
 bool Slicer::cutConvex(const Polytope& polytope, SliceSet& out) {
-    constexpr std::size_t kFew = 4;  // a slice in so many
-    const std::size_t n = polytope.vertices.size();
-    exact_.assign(out.planes.count, nullptr);
-    std::size_t met = 0;
-    for (std::size_t v = 0; v < n; ++v) {
-        if (below_[v] == upTo_[v] || exact_[below_[v]] != nullptr) continue;
-        if (++met * kFew > exact_.size()) return false;
-        if (singles_.size() < met) singles_.emplace_back();
-        exact_[below_[v]] = &singles_[met - 1];
+    const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
+    const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
+    touching_.clear();
+    std::size_t touched = 0;
+    for (std::size_t v = 0; v < below_.size(); ++v) {
+        const std::int32_t k = below_[v];
+        if (k == upTo_[v] || (k >= firstAbove && k < lastBelow)) continue;
+        touching_.resize(out.planes.count);
+        if (touching_[k] != nullptr) continue;
+        if (touched == singles_.size()) return false;  // hyperplanes so near to one another that vertices lie in two
+        touching_[k] = &singles_.at(touched++);
     }
-    if (met > 0) {
-        allBelow_ = below_;
-        allUpTo_ = upTo_;
-        for (std::int32_t k = 0; k < out.planes.count; ++k) {
-            if (exact_[k] == nullptr) continue;
-            SliceSet& single = *exact_[k];
-            for (std::size_t v = 0; v < n; ++v) {
-                below_[v] = std::clamp(allBelow_[v] - k, 0, 1);
-                upTo_[v] = std::clamp(allUpTo_[v] - k, 0, 1);
-            }
-            single.planes = {out.planes.first + k, 1, out.planes.spacing};
-            single.turned.swap(out.turned);
-            cutAny(polytope, single);
-            single.turned.swap(out.turned);
+    if (touched > 0) cutTouching(polytope, out);
+    return convexCut_.cut(polytope, {below_, upTo_}, touching_, out);
+}
+
+void Slicer::cutTouching(const Polytope& polytope, SliceSet& out) {
+    allBelow_ = below_;
+    allUpTo_ = upTo_;
+    for (std::int32_t k = 0; k < out.planes.count; ++k) {
+        if (touching_[k] == nullptr) continue;
+        SliceSet& single = *touching_[k];
+        for (std::size_t v = 0; v < below_.size(); ++v) {
+            below_[v] = std::clamp(allBelow_[v] - k, 0, 1);
+            upTo_[v] = std::clamp(allUpTo_[v] - k, 0, 1);
         }
-        below_.swap(allBelow_);
-        upTo_.swap(allUpTo_);
+        single.planes = {out.planes.first + k, 1, out.planes.spacing};
+        single.turned.swap(out.turned);
+        cutAny(polytope, single);
+        single.turned.swap(out.turned);
     }
-    if (met == 0) exact_.clear();
-    return convexCut_.cut(polytope, below_, exact_, out);
+    below_.swap(allBelow_);
+    upTo_.swap(allUpTo_);
 }
 
 void Slicer::locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out) {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <span>
 #include <utility>
 #include <vector>
@@ -94,6 +93,7 @@ class Slicer {
     void locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out);
     void cutAny(const Polytope& polytope, SliceSet& out);
     bool cutConvex(const Polytope& polytope, SliceSet& out);
+    void cutTouching(const Polytope& polytope, SliceSet& out);
     void cutEdges(const Polytope& polytope, SliceSet& out);
     void cutFaces(const Polytope& polytope, SliceSet& out);
     void cutConvexFace(const Polytope& polytope, std::uint32_t face, Span above);
@@ -113,8 +113,8 @@ class Slicer {
     void placeLoops(SliceSet& out);
 
     ConvexCut convexCut_;
-    std::deque<SliceSet> singles_;                  // slices in hyperplanes that meet vertices
-    std::vector<SliceSet*> exact_;                  // by hyperplane: of these, or none
+    std::array<SliceSet, 2> singles_;               // slices in hyperplanes that the polytope touches
+    std::vector<SliceSet*> touching_;               // by hyperplane: of these, or none
     std::vector<std::int32_t> allBelow_, allUpTo_;  // those of all hyperplanes, while one is cut
     // Of each vertex: the number of hyperplanes strictly below it, and of those below it or through it. They differ
     // where it lies in a hyperplane: in number below_.
@@ -130,7 +130,7 @@ class Slicer {
     std::vector<std::int32_t> lyingIn_;                           // the hyperplane that a whole 2-face lies in
     std::vector<std::uint32_t> next_, nextEdge_;                  // by slot: the way around a cell's section
     std::vector<std::pair<std::int32_t, std::uint32_t>> starts_;  // hyperplane and slot: links of the cell at hand
-    std::vector<std::uint32_t> touching_;                         // 2-faces that the polytope touches a hyperplane with
+    std::vector<std::uint32_t> touchingFaces_;                    // 2-faces that the polytope touches a hyperplane with
     std::vector<bool> bounded_;                                   // by hyperplane: a 2-face in it bounds its slice
     std::vector<Loop> loops_;
     std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // slice vertex, slice edge to the next corner

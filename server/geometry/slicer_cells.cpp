@@ -70,7 +70,7 @@ void Slicer::traceCell(const Polytope& polytope, std::uint32_t cell) {
 // hyperplane with the polytope under it: its loop runs as in that cell. One that the polytope merely touches is the
 // whole slice.
 void Slicer::addLyingFaces(const Polytope& polytope, const SliceSet& out) {
-    touching_.clear();
+    touchingFaces_.clear();
     bounded_.assign(out.planes.count, false);
     for (std::uint32_t f = 0; f < polytope.faces.size(); ++f) {
         const std::int32_t plane = lyingIn_[f];
@@ -88,14 +88,14 @@ void Slicer::addLyingFaces(const Polytope& polytope, const SliceSet& out) {
             bounds.at(i) = stands.at(i) || (span.from > plane && span.to <= plane && liesOnTop(polytope, cell, out));
         }
         if ((stands[0] && stands[1]) || (!bounds[0] && !bounds[1])) {
-            touching_.push_back(f);
+            touchingFaces_.push_back(f);
             continue;
         }
         for (std::size_t i = 0; i < 2; ++i) {
             if (bounds.at(i)) addLyingFace(polytope, f, outward.at(i));
         }
     }
-    for (const std::uint32_t f : touching_) {
+    for (const std::uint32_t f : touchingFaces_) {
         bool alone = true;
         for (const std::uint32_t cell : polytope.faceCells[f]) {
             alone = alone && (cellSpan_[cell].from > lyingIn_[f] || cellSpan_[cell].to <= lyingIn_[f]);

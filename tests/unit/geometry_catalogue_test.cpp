@@ -76,7 +76,12 @@ TEST_P(Catalogue, isAClosedCoherentlyOrientedSurface) {
     for (std::size_t f = 0; f < p.faces.size(); ++f) {
         ASSERT_EQ(signs[f], 0);
         ASSERT_EQ(cellsOfFace[f], 2);
-        for (const auto c : p.faceCells[f]) ASSERT_NE(std::count(p.cells[c].begin(), p.cells[c].end(), f), 0);
+        for (const int i : {0, 1}) {
+            const auto c = p.faceCells[f].at(i);
+            const auto place = std::find(p.cells[c].begin(), p.cells[c].end(), f);
+            ASSERT_NE(place, p.cells[c].end());
+            ASSERT_EQ(p.cellSigns[p.cells.begin[c] + (place - p.cells[c].begin())], 2 * i - 1);
+        }
     }
     for (std::size_t c = 0; c < p.cells.size(); ++c) {
         std::map<std::uint32_t, int> passes;
@@ -94,6 +99,24 @@ TEST_P(Catalogue, isAClosedCoherentlyOrientedSurface) {
         ASSERT_EQ(sides, 2 * passes.size());
         for (const auto& [edge, sum] : passes) ASSERT_EQ(sum, 0) << "edge " << edge;
     }
+}
+
+TEST_P(Catalogue, hasFacesAndCellsInTurnsAroundEveryEdge) {
+    std::vector<std::size_t> sides(p.faces.size());
+    for (std::size_t e = 0; e < p.edges.size(); ++e) {
+        const auto around = p.edgeFaces[e];
+        for (std::size_t i = 0; i < around.size(); ++i) {
+            const auto f = around[i] / 2, next = around[(i + 1) % around.size()];
+            const auto loop = p.faces[f];
+            const auto start = std::find(loop.begin(), loop.end(), p.edges[e][around[i] % 2 == 1 ? 0 : 1]);
+            ASSERT_NE(start, loop.end());
+            const auto behind = (start - loop.begin() + 1) % loop.size();
+            ASSERT_EQ(loop[behind], p.edges[e][around[i] % 2 == 1 ? 1 : 0]);
+            ++sides[f];
+            ASSERT_EQ(p.faceCells[f].at(1 - around[i] % 2), p.faceCells[next / 2].at(next % 2));
+        }
+    }
+    for (std::size_t f = 0; f < p.faces.size(); ++f) ASSERT_EQ(sides[f], p.faces[f].size());
 }
 
 TEST_P(Catalogue, isFoundByEveryName) {
