@@ -1,16 +1,27 @@
 #pragma once
-// Waiting in a coroutine for a callback.
+// Waiting in a coroutine.
 
+#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/associated_executor.hpp>
 #include <boost/asio/async_result.hpp>
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/use_awaitable.hpp>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <utility>
 
 namespace oval4d::net {
+
+/// Asio's operations then give their error code, first of what they give, and throw nothing.
+inline constexpr auto kQuietly = boost::asio::as_tuple(boost::asio::use_awaitable);
+
+/// A duration as the timers take it.
+template <typename Duration>
+auto steady(Duration duration) {
+    return std::chrono::duration_cast<std::chrono::steady_clock::duration>(duration);
+}
 
 /// Calls `start` with a function that is to be called once, from any thread; the coroutine then goes on, on its own
 /// executor, with the value given. Make `start` in an ordinary function: GCC 12 destroys twice what a closure in a

@@ -2,9 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
 #include "net/awaited.hpp"
@@ -21,17 +19,9 @@ using protocol::ErrorCode;
 
 namespace {
 
-constexpr auto kQuietly = asio::as_tuple(asio::use_awaitable);
 constexpr std::size_t kKeptBuffer = 64U << 10U;  // a larger one is given back after the message that needed it
 
 constexpr std::size_t kPiece = 256U << 10U;  // bytes of a message that are written at once
-
-template <typename Duration>
-auto steady(Duration duration) {
-    return std::chrono::duration_cast<std::chrono::steady_clock::duration>(duration);
-}
-
-const Error kFault{ErrorCode::internal, "the server failed to do this; the session is as it was"};
 
 }  // namespace
 

@@ -3,15 +3,14 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <optional>
 
+#include "net/awaited.hpp"
 #include "net/connection.hpp"
 
 namespace oval4d::net {
@@ -23,7 +22,6 @@ using protocol::ErrorCode;
 
 namespace {
 
-constexpr auto kQuietly = asio::as_tuple(asio::use_awaitable);
 constexpr auto kIdle = std::chrono::seconds(30);  // for a whole request to arrive, or a piece of a reply to be taken
 constexpr std::uint32_t kLongestHeader = 16U << 10U;
 constexpr std::uint64_t kLongestBody = 16U << 10U;  // nothing here takes one

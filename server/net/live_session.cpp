@@ -18,12 +18,9 @@ namespace oval4d::net {
 
 namespace asio = boost::asio;
 using protocol::Error;
-using protocol::ErrorCode;
 using protocol::Stream;
 
 namespace {
-
-const Error kFault{ErrorCode::internal, "the server failed to do this; the session is as it was"};
 
 // After a change. The store is to be at most a second behind, also where the machine is busy.
 constexpr std::chrono::milliseconds kSaveDelay{250};

@@ -24,7 +24,7 @@ namespace {
 constexpr const char* kJson = "application/json";
 
 const Error kNoSuchMethod{ErrorCode::bad_message, "only GET and HEAD are understood here"};
-const Error kFault{ErrorCode::internal, "the server failed to make this"};
+const Error kNotMade{ErrorCode::internal, "the server failed to make this"};
 
 Error nothingAt(const std::string& path) { return {ErrorCode::not_found, "there is nothing at " + path}; }
 
@@ -187,7 +187,7 @@ asio::awaitable<Reply> Routes::frame(session::Query query) {
         co_return reply("image/png", std::move(png));
     } catch (const std::exception& fault) {
         spdlog::error("picture failed fault=\"{}\"", fault.what());
-        co_return errorReply(kFault);
+        co_return errorReply(kNotMade);
     }
 }
 
@@ -201,7 +201,7 @@ asio::awaitable<Reply> Routes::file(session::Query query, exports::Format format
         spdlog::error("file failed fault=\"{}\"", fault.what());
     }
     if (!made || !*made) {
-        const Error& error = made ? made->error() : asked && !*asked ? asked->error() : kFault;
+        const Error& error = made ? made->error() : asked && !*asked ? asked->error() : kNotMade;
         services_.metrics.countError(error.code);
         co_return errorReply(error);
     }

@@ -3,20 +3,19 @@
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
-#include <boost/asio/use_awaitable.hpp>
 #include <csignal>
 #include <thread>
 #include <utility>
 #include <variant>
 
 #include "geometry/catalogue.hpp"
+#include "net/awaited.hpp"
 #include "net/http_session.hpp"
 #include "net/processors.hpp"
 #include "net/readiness.hpp"
@@ -31,13 +30,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto kQuietly = asio::as_tuple(asio::use_awaitable);
 constexpr std::size_t kTokenBytes = 20;
-
-template <typename Duration>
-auto steady(Duration duration) {
-    return std::chrono::duration_cast<std::chrono::steady_clock::duration>(duration);
-}
 
 /// As many files as the system lets one process have: each connection is one.
 void raiseFileLimit() {

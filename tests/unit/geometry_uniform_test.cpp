@@ -24,7 +24,7 @@ using namespace oval4d::geometry::support;
 const double kRoot2 = std::sqrt(2.0);
 const double kRoot5 = std::sqrt(5.0);
 
-const Polytope& named(std::string_view name) {
+const Polytope& built(std::string_view name) {
     const auto* entry = findEntry(name);
     if (entry == nullptr) throw std::invalid_argument(std::string(name));
     static std::vector<std::shared_ptr<const Polytope>> kept;
@@ -158,16 +158,16 @@ TEST_P(Uniform, hasCellsThatAreNamedByTheirShape) {
 }
 
 TEST(Kinds, ofIrregularCellsAreFewAndNamedByTheirFaces) {
-    const Polytope& regular = named("120-cell");
+    const Polytope& regular = built("120-cell");
     std::mt19937 random(33);
     std::uniform_real_distribution<double> factor(0.5, 1.5);
     auto moved = regular.vertices;
     for (auto& v : moved) v *= factor(random);
     const Polytope p = makePolytope("crumpled", moved, regular.faces, regular.cells);
     EXPECT_EQ(p.kinds, (std::vector<CellKind>{{"cell of 12 faces", 120}}));  // 120 shapes would be too many
-    auto stretched = named("8-cell").vertices;
+    auto stretched = built("8-cell").vertices;
     for (auto& v : stretched) v.x *= 2;
-    const Polytope box = makePolytope("box", stretched, named("8-cell").faces, named("8-cell").cells);
+    const Polytope box = makePolytope("box", stretched, built("8-cell").faces, built("8-cell").cells);
     EXPECT_EQ(box.kinds, (std::vector<CellKind>{{"cube", 2}, {"cell of 6 faces", 6}}));
 }
 
@@ -236,41 +236,41 @@ TEST(Hypervolume, isThatOfTheRegularOneWithoutItsCorners) {
     const double cell600 = 25.0 / 4 * (2 + kRoot5) * 16;
     const auto pow4 = [](double x) { return x * x * x * x; };
     // Rectified: of an edge twice as long, at each vertex a pyramid less; truncated: of an edge three times as long.
-    EXPECT_NEAR(hypervolumeOf(named("rectified 5-cell")), (16 - 5) * cell5, 1e-9);
-    EXPECT_NEAR(hypervolumeOf(named("truncated 5-cell")), (81 - 5) * cell5, 1e-9);
-    EXPECT_NEAR(hypervolumeOf(named("truncated 16-cell")), (81 - 8 / 2.0) * cell16, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(built("rectified 5-cell")), (16 - 5) * cell5, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(built("truncated 5-cell")), (81 - 5) * cell5, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(built("truncated 16-cell")), (81 - 8 / 2.0) * cell16, 1e-9);
     // At a corner of the tesseract a simplex of four perpendicular edges √2 goes.
-    EXPECT_NEAR(hypervolumeOf(named("rectified tesseract")), pow4(2 * kRoot2) - 16 * 4 / 24.0, 1e-9);
-    EXPECT_NEAR(hypervolumeOf(named("truncated tesseract")), pow4(2 + 2 * kRoot2) - 16 * 4 / 24.0, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(built("rectified tesseract")), pow4(2 * kRoot2) - 16 * 4 / 24.0, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(built("truncated tesseract")), pow4(2 + 2 * kRoot2) - 16 * 4 / 24.0, 1e-9);
     // At one of the 24-cell's a pyramid of height 1 over a cube.
-    EXPECT_NEAR(hypervolumeOf(named("rectified 24-cell")), 16 * 32 - 24 * 8 / 4.0, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(built("rectified 24-cell")), 16 * 32 - 24 * 8 / 4.0, 1e-9);
     // At one of the 600-cell's a pyramid over an icosahedron: of radius √(φ√5) where the whole has 2φ.
     const double phi = std::numbers::phi;
     const double icosahedron = 5.0 / 12 * (3 + kRoot5) * 8;
     const double height = 2 * phi - 2 * phi * phi / 2;
-    EXPECT_NEAR(hypervolumeOf(named("snub 24-cell")), cell600 - 24 * icosahedron * height / 4, 1e-8);
+    EXPECT_NEAR(hypervolumeOf(built("snub 24-cell")), cell600 - 24 * icosahedron * height / 4, 1e-8);
     // Known closed forms, for edge length 1 (Klitzing).
-    EXPECT_NEAR(hypervolumeOf(named("runcitruncated tesseract")) / 16, 8 * (27 + 20 * kRoot2) / 3, 1e-9);
-    EXPECT_NEAR(hypervolumeOf(named("runcitruncated 24-cell")) / 16, 305 + 224 * kRoot2, 1e-8);
-    EXPECT_NEAR(hypervolumeOf(named("runcitruncated 600-cell")) / 16, 25 * (1814 + 779 * kRoot5) / 4, 1e-5);
+    EXPECT_NEAR(hypervolumeOf(built("runcitruncated tesseract")) / 16, 8 * (27 + 20 * kRoot2) / 3, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(built("runcitruncated 24-cell")) / 16, 305 + 224 * kRoot2, 1e-8);
+    EXPECT_NEAR(hypervolumeOf(built("runcitruncated 600-cell")) / 16, 25 * (1814 + 779 * kRoot5) / 4, 1e-5);
 }
 
 TEST(Hypervolume, ofProductsIsTheProduct) {
     const auto area = [](int n) { return n / std::tan(std::numbers::pi / n); };
-    EXPECT_NEAR(hypervolumeOf(named("5,7-duoprism")), area(5) * area(7), 1e-9);
-    EXPECT_NEAR(hypervolumeOf(named("3,24-duoprism")), area(3) * area(24), 1e-9);
-    EXPECT_NEAR(hypervolumeOf(named("cuboctahedral prism")), 2 * 5 / 3.0 * kRoot2 * 8, 1e-9);
-    EXPECT_NEAR(hypervolumeOf(named("truncated icosahedral prism")), 2 * (125 + 43 * kRoot5) / 4 * 8, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(built("5,7-duoprism")), area(5) * area(7), 1e-9);
+    EXPECT_NEAR(hypervolumeOf(built("3,24-duoprism")), area(3) * area(24), 1e-9);
+    EXPECT_NEAR(hypervolumeOf(built("cuboctahedral prism")), 2 * 5 / 3.0 * kRoot2 * 8, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(built("truncated icosahedral prism")), 2 * (125 + 43 * kRoot5) / 4 * 8, 1e-9);
     // Of the square antiprism, edge 1: √(4 + 3√2) / 3; of the snub cube 7.889477399975…
-    EXPECT_NEAR(hypervolumeOf(named("square antiprism prism")), 2 * std::sqrt(4 + 3 * kRoot2) / 3 * 8, 1e-9);
-    EXPECT_NEAR(hypervolumeOf(named("snub cube prism")), 2 * 7.889477399975 * 8, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(built("square antiprism prism")), 2 * std::sqrt(4 + 3 * kRoot2) / 3 * 8, 1e-9);
+    EXPECT_NEAR(hypervolumeOf(built("snub cube prism")), 2 * 7.889477399975 * 8, 1e-9);
 }
 
 TEST(Hypervolume, isTheIntegralOfTheSlices) {
     std::mt19937 random(32);
     for (const char* name : {"grand antiprism", "snub 24-cell", "omnitruncated tesseract", "cantellated 24-cell",
                              "snub dodecahedral prism", "decagonal antiprism prism", "5,7-duoprism"}) {
-        const Polytope& p = named(name);
+        const Polytope& p = built(name);
         EXPECT_NEAR(hypervolumeBySlices(p, randomRotation(random)) / hypervolumeOf(p), 1, 1e-6) << name;
     }
 }
@@ -280,7 +280,7 @@ TEST(Diagrams, ofD4MakeWhatTheLargerGroupsDo) {
     const auto same = [](const char* symbol, std::string_view name) {
         const Diagram diagram = std::get<Diagram>(parseDiagram(symbol));
         const Polytope p = wythoff(symbol, diagram, mirrorsOf(diagram));
-        const Polytope& known = named(name);
+        const Polytope& known = built(name);
         EXPECT_EQ(countsOf(p), countsOf(known)) << symbol;
         EXPECT_EQ(countsOf(p), elementCounts(diagram)) << symbol;
         EXPECT_NEAR(p.circumradius, known.circumradius, 1e-12) << symbol;
@@ -304,7 +304,7 @@ TEST(Diagrams, ofD4MakeWhatTheLargerGroupsDo) {
 
 TEST(Kinds, areTheOrbitsOfTheFullSymmetryGroup) {
     const auto kindsOf = [](std::string_view name) {
-        const Polytope& p = named(name);
+        const Polytope& p = built(name);
         std::vector<std::pair<std::string, long>> kinds;
         for (std::size_t k = 0; k < p.kinds.size(); ++k)
             kinds.emplace_back(p.kinds[k].name, std::count(p.cellKinds.begin(), p.cellKinds.end(), k));

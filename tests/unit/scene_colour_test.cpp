@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/catalogue.hpp"
 #include "geometry/coxeter.hpp"
 #include "scene/presence.hpp"
 #include "scene/scene.hpp"
+#include "scene_support.hpp"
 
 namespace {
 
@@ -18,8 +18,7 @@ using namespace oval4d;
 using scene::Colour;
 using scene::Colouring;
 using scene::Presence;
-
-const geometry::Polytope& named(std::string_view name) { return *geometry::polytopeOf(*geometry::findEntry(name)); }
+using scene::support::named;
 
 std::vector<Colour> painted(const geometry::Polytope& polytope, Colouring colouring,
                             const geometry::Rotation& orientation = {}) {

@@ -5,15 +5,14 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include "geometry/catalogue.hpp"
 #include "scene/scene.hpp"
+#include "scene_support.hpp"
 
 namespace {
 
 using namespace oval4d;
 using scene::Scene;
-
-const geometry::Polytope& named(std::string_view name) { return *geometry::polytopeOf(*geometry::findEntry(name)); }
+using scene::support::named;
 
 Scene composed(std::string_view name, int count = 21, scene::Viewport viewport = {}, scene::Look look = {},
                int focus = 0) {
