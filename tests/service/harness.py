@@ -15,13 +15,13 @@ from pathlib import Path
 PROGRAM = Path(os.environ.get("OVAL4D_SERVER") or os.environ.get("OVAL4D") or "build/release/bin/oval4d").resolve()
 
 
-def _sanitized():
+def sanitized():
     program = PROGRAM.read_bytes() if PROGRAM.exists() else b""
     return b"__tsan_init" in program or b"__asan_init" in program
 
 
 # Deadlines are multiplied by this: sanitizers and busy machines are slow, and no test waits longer than it must.
-SLOW = float(os.environ.get("OVAL4D_TEST_SLOW") or (6 if _sanitized() else 1))
+SLOW = float(os.environ.get("OVAL4D_TEST_SLOW") or (6 if sanitized() else 1))
 DEADLINE = 20 * SLOW
 
 

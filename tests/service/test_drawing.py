@@ -12,7 +12,7 @@ from pathlib import Path
 
 import png
 import pytest
-from harness import DEADLINE, PROGRAM, Server, has_ended, until
+from harness import DEADLINE, PROGRAM, Server, has_ended, sanitized, until
 from wire import Client, Refused
 
 SIZE = {"width": 480, "height": 270}
@@ -155,6 +155,7 @@ async def test_one_that_has_no_room_for_a_picture_draws_none(tmp_path):
     assert b"an order came without pixels to draw into" in (tmp_path / "log").read_bytes()
 
 
+@pytest.mark.skipif(sanitized(), reason="sanitizers open files, too")
 @pytest.mark.parametrize("files", range(8, 20, 3))
 def test_a_server_that_may_open_too_few_files_says_so(files, tmp_path):
     def limit():
