@@ -23,7 +23,8 @@ BIN = Path(sys.argv[1])
 REGULAR = ("5-cell", "8-cell", "120-cell", "600-cell")
 GROWING = ("5-cell", "8-cell", "24-cell", "omnitruncated 5-cell", "120-cell", "600-cell", "omnitruncated 24-cell",
            "truncated 120-cell", "cantitruncated 120-cell", "omnitruncated 120-cell")
-TURNS = 3
+TURNS = 3         # of frames
+QUICK_TURNS = 11  # of what takes less than a millisecond
 
 
 def number(value):
@@ -85,36 +86,41 @@ def load(seconds=5):
 
 
 class Turns:
-    """Figures of ours and of others, taken in turns."""
+    """Figures of ours and of others, taken in turns; of each kind a list, an entry a turn."""
 
     def __init__(self):
-        self.ours, self.js, self.vtk = [], [], []
-        for _ in range(TURNS):
+        self.quick, self.js, self.frames, self.vtk = [], [], [], []
+        for _ in range(QUICK_TURNS):
             self.js.append({} if peers.why_no_js() else peers.js())
-            self.ours.append({name: pictures(name) for name in REGULAR})
+            self.quick.append({name: pictures(name, frames=0) for name in REGULAR})
+        for _ in range(TURNS):
+            self.frames.append({name: pictures(name) for name in REGULAR})
             self.vtk.append({} if peers.why_no_vtk() else
                             {(name, way): peers.vtk(name, way) for name in REGULAR for way in peers.VTK})
 
-    def compare(self, ours, theirs):
-        """Medians of ours(turn) and theirs(turn), and of theirs ÷ ours; None where there is nothing to compare with."""
-        pairs = [(ours(i), theirs(i)) for i in range(TURNS)]
-        figure = statistics.median(our for our, _ in pairs)
-        if any(their is None for _, their in pairs):
-            return figure, None, None
-        return (figure, statistics.median(their for _, their in pairs),
-                statistics.median(their / our for our, their in pairs))
+    @staticmethod
+    def compare(ours, theirs):
+        """Medians of ours and theirs, and of theirs ÷ ours in each turn; None where there is nothing to compare with."""
+        if None in theirs:
+            return statistics.median(ours), None, None
+        return (statistics.median(ours), statistics.median(theirs),
+                statistics.median(their / our for our, their in zip(ours, theirs, strict=True)))
+
+    def _ours(self, kind, name, what):
+        turns = self.quick if what in self.quick[0][name][kind] else self.frames
+        return [turn[name][kind][what] for turn in turns]
 
     def ms(self, name, step):
-        return lambda i: self.ours[i][name]["ms"][step]
+        return self._ours("ms", name, step)
 
     def bytes(self, name, what):
-        return lambda i: self.ours[i][name]["bytes"][what]
+        return self._ours("bytes", name, what)
 
     def js_of(self, name, what):
-        return lambda i: self.js[i].get(name, {}).get(what)
+        return [turn.get(name, {}).get(what) for turn in self.js]
 
     def vtk_of(self, name, way):
-        return lambda i: self.vtk[i].get((name, way))
+        return [turn.get((name, way)) for turn in self.vtk]
 
 
 def targets(turns, loaded):
@@ -145,7 +151,7 @@ def targets(turns, loaded):
         at_least(f"slicing, {name}, against JavaScript", 10,
                  turns.compare(turns.ms(name, "slice"), turns.js_of(name, "slice_ms")))
     rate = statistics.median(sum(turn["600-cell"]["cut"]) / turn["600-cell"]["ms"]["slice"] / 1e3
-                             for turn in turns.ours)
+                             for turn in turns.quick)
     row("slicing, 600-cell, elements a second", "≥ 50 million", (rate, None, None), rate >= 50, " million")
     for name in REGULAR:
         at_least(f"slices as JSON, {name}, against JSON.stringify", 10,
@@ -161,7 +167,7 @@ def targets(turns, loaded):
     many = loaded["200 sessions at 10 keys/s, slices of the 5-cell"]
     at_most("200 sessions at 10 keys/s, 99th percentile", 50, many["p99"], " ms")
     for what in ("frame", "state to json", "state to cbor"):
-        worst = max(turn[name]["allocations"][what] for turn in turns.ours for name in REGULAR)
+        worst = max(turn[name]["allocations"][what] for turn in turns.frames for name in REGULAR)
         at_most(f"allocations, {what}", 0, math.floor(worst), "")
     print("\n## Targets\n\nRatios are how many times faster oval4d is; for sizes, its part of the other's.")
     table(["", "target", "oval4d", "other", "ratio", "reached"], rows)
@@ -176,14 +182,14 @@ def parts(turns):
         text = turns.compare(turns.ms(name, "json"), turns.js_of(name, "json_ms"))
         png = turns.compare(turns.ms(name, "encode"), turns.ms(name, "libpng"))
         frame = turns.compare(turns.ms(name, "frame"), turns.vtk_of(name, "fastest"))
-        rows.append([name, *(number(turns.compare(turns.ms(name, step), lambda _: None)[0])
+        rows.append([name, *(number(statistics.median(turns.ms(name, step)))
                              for step in ("compose", "draw")),
                      *(f"{number(ours)} ({number(theirs)})" for ours, theirs, _ in (slicing, png, text)),
-                     *(number(turns.compare(turns.ms(name, step), lambda _: None)[0])
+                     *(number(statistics.median(turns.ms(name, step)))
                        for step in ("cbor", "state to json", "state to cbor")),
                      f"{number(frame[0])} ({number(frame[1])})"])
     table(["", "scene", "render", "slice", "PNG", "JSON", "CBOR", "state to JSON", "state to CBOR", "state to PNG"], rows)
-    cut = turns.ours[0]
+    cut = turns.quick[0]
     theirs = turns.js[0]
     table(["vertices, edges, faces cut", "oval4d", "JavaScript"],
           [[name, ", ".join(map(number, cut[name]["cut"])),
