@@ -19,7 +19,6 @@
 
 #include "export/budget.hpp"
 #include "export/mesh.hpp"
-#include "geometry/catalogue.hpp"
 #include "geometry_support.hpp"
 
 namespace oval4d::exports::support {
@@ -77,10 +76,7 @@ inline const Budget& unhurried() {
     return kBudget;
 }
 
-inline const geometry::Polytope& named(std::string_view name) {
-    return *geometry::polytopeOf(*geometry::findEntry(name));
-}
-
+using geometry::support::named;
 using geometry::support::Polygon;
 using geometry::support::product;
 

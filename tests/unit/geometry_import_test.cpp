@@ -17,6 +17,7 @@ namespace oval4d::geometry {
 namespace {
 
 using support::kPentachoron;
+using support::named;
 
 // A polytope as a 4OFF file would have it.
 std::string asOff4(const Polytope& p, const std::string& end = "\n", int digits = 17) {
@@ -33,8 +34,6 @@ std::string asOff4(const Polytope& p, const std::string& end = "\n", int digits 
     }
     return out.str();
 }
-
-std::shared_ptr<const Polytope> named(std::string_view name) { return polytopeOf(*findEntry(name)); }
 
 using Result = std::variant<Imported, ImportError>;
 
@@ -140,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(
                     UnsoundFile{"4 6 7 8 9", "4 6 7 8 5", "cell 4 does not lie in a hyperplane", 24}));
 
 TEST(Import, CellsMustLieInAHyperplaneAndFacesInAPlane) {
-    std::string text = asOff4(*named("8-cell"));
+    std::string text = asOff4(named("8-cell"));
     const std::size_t at = text.find('\n', text.find("16 24")) + 1;
     text.replace(at, text.find('\n', at) - at, "-1 -1 -1 -1.2");
     const auto result = importOff4(text, 100);
@@ -176,12 +175,12 @@ std::vector<glm::dvec4> turned(const Polytope& p, std::mt19937& random) {
 TEST(Points, TheHullOfARegularPolytopesVerticesIsThePolytope) {
     std::mt19937 random(11);
     for (const char* name : {"5-cell", "8-cell", "16-cell", "24-cell", "120-cell", "600-cell"}) {
-        const auto original = named(name);
+        const auto& original = named(name);
         for (const int digits : {17, 5}) {
-            auto points = turned(*original, random);
+            auto points = turned(original, random);
             std::shuffle(points.begin(), points.end(), random);
             const Imported imported = sound(importPoints(asPoints(points, digits)));
-            EXPECT_EQ(countsOf(imported.polytope), countsOf(*original)) << name << " with " << digits << " digits";
+            EXPECT_EQ(countsOf(imported.polytope), countsOf(original)) << name << " with " << digits << " digits";
             EXPECT_EQ(warningsOf(imported), "");
             EXPECT_EQ(imported.polytope.kinds.size(), 1U) << name;
         }
@@ -190,18 +189,18 @@ TEST(Points, TheHullOfARegularPolytopesVerticesIsThePolytope) {
 
 TEST(Points, InsideTheHullAreLeftOut) {
     std::mt19937 random(12);
-    auto points = turned(*named("24-cell"), random);
+    auto points = turned(named("24-cell"), random);
     const std::size_t corners = points.size();
     for (int i = 0; i < 30; ++i) points.push_back(0.3 * points[i % corners] + 0.3 * points[(i + 5) % corners]);
     points.push_back(points[3]);
     const Imported imported = sound(importPoints(asPoints(points)));
-    EXPECT_EQ(countsOf(imported.polytope), countsOf(*named("24-cell")));
+    EXPECT_EQ(countsOf(imported.polytope), countsOf(named("24-cell")));
     EXPECT_EQ(warningsOf(imported), "31 of 55 points are no vertices of the hull: left out");
 }
 
 TEST(Points, AreReadFromTables) {
     std::mt19937 random(13);
-    const auto points = turned(*named("16-cell"), random);
+    const auto points = turned(named("16-cell"), random);
     for (const char* between : {",", ", ", ";", "\t"}) {
         const std::string text = "# a comment\nx,y,z,w\n" + asPoints(points, 17, between);
         EXPECT_EQ(sound(importPoints(text)).polytope.cellCount(), 16U);
@@ -283,70 +282,70 @@ struct Lines {
 };
 
 TEST(Repair, SaysOfAWrongNumberOfEdges) {
-    const Imported imported = sound(importOff4(Lines(*named("8-cell")).text(33)));
+    const Imported imported = sound(importOff4(Lines(named("8-cell")).text(33)));
     EXPECT_EQ(warningsOf(imported), "the file says 33 edges; its 2-faces have 32");
-    EXPECT_EQ(warningsOf(sound(importOff4(Lines(*named("8-cell")).text(32)))), "");
+    EXPECT_EQ(warningsOf(sound(importOff4(Lines(named("8-cell")).text(32)))), "");
 }
 
 TEST(Repair, LeavesOutWhatNothingUses) {
-    Lines lines(*named("5-cell"));
+    Lines lines(named("5-cell"));
     lines.vertices.insert(lines.vertices.begin(), {{9, 9, 9, 9}, {8, 9, 9, 9}});
     for (auto& face : lines.faces) {
         for (auto& v : face) v += 2;
     }
     lines.faces.push_back({0, 1, 2});
     const Imported imported = sound(importOff4(lines.text()));
-    EXPECT_EQ(imported.polytope.vertices, named("5-cell")->vertices);
-    EXPECT_EQ(imported.polytope.faces, named("5-cell")->faces);
+    EXPECT_EQ(imported.polytope.vertices, named("5-cell").vertices);
+    EXPECT_EQ(imported.polytope.faces, named("5-cell").faces);
     EXPECT_EQ(warningsOf(imported), "1 2-face lies in no cell: left out; 2 vertices lie on no 2-face: left out");
 }
 
 // Every cell with vertices and 2-faces of its own, as some programs write them.
 TEST(Repair, JoinsWhatIsGivenOncePerCell) {
     for (const char* name : {"8-cell", "24-cell", "600-cell"}) {
-        const auto original = named(name);
-        Lines lines(*original);
+        const auto& original = named(name);
+        Lines lines(original);
         lines.vertices.clear();
         lines.faces.clear();
-        for (std::size_t c = 0; c < original->cellCount(); ++c) {
+        for (std::size_t c = 0; c < original.cellCount(); ++c) {
             for (auto& f : lines.cells[c]) {
-                const auto loop = original->faces[f];
+                const auto loop = original.faces[f];
                 f = static_cast<std::uint32_t>(lines.faces.size());
                 auto& face = lines.faces.emplace_back();
                 for (const auto v : loop) {
                     face.push_back(static_cast<std::uint32_t>(lines.vertices.size()));
-                    lines.vertices.push_back(original->vertices[v]);
+                    lines.vertices.push_back(original.vertices[v]);
                 }
             }
         }
-        const std::size_t doubled = lines.vertices.size() - original->vertices.size();
+        const std::size_t doubled = lines.vertices.size() - original.vertices.size();
         const Imported imported = sound(importOff4(lines.text()));
-        EXPECT_EQ(countsOf(imported.polytope), countsOf(*original));
+        EXPECT_EQ(countsOf(imported.polytope), countsOf(original));
         EXPECT_EQ(warningsOf(imported), std::to_string(doubled) + " vertices stand where another does: taken as one; " +
-                                            std::to_string(original->faces.size()) +
+                                            std::to_string(original.faces.size()) +
                                             " 2-faces are given once for each cell: taken as one");
     }
 }
 
 TEST(Repair, TakesDoubledCornersOutOfFaces) {
-    Lines lines(*named("8-cell"));
+    Lines lines(named("8-cell"));
     lines.faces[0].insert(lines.faces[0].begin() + 1, lines.faces[0][0]);
     lines.faces[1].insert(lines.faces[1].end(), lines.faces[1].begin(), lines.faces[1].end());  // walked twice
     const Imported imported = sound(importOff4(lines.text()));
-    EXPECT_EQ(countsOf(imported.polytope), countsOf(*named("8-cell")));
+    EXPECT_EQ(countsOf(imported.polytope), countsOf(named("8-cell")));
 }
 
 // Three tesseracts in the 24-cell (Coxeter, Regular Polytopes, §8.2 has the pairs that share its vertices): as one file
 // its 24 vertices are given twice.
 TEST(Repair, CompoundsShareTheirVertices) {
-    const auto cube = named("8-cell");
-    Lines lines(*cube);
+    const auto& cube = named("8-cell");
+    Lines lines(cube);
     // Isoclinic turns by 60 degrees take the 24-cell to itself and one of its tesseracts to the next.
     for (const double turns : {1.0, 2.0}) {
         const double angle = turns * std::numbers::pi / 3;
         const glm::dquat left(std::cos(angle), std::sin(angle) * glm::normalize(glm::dvec3(1, 1, 1)));
         const Rotation rotation(left, glm::dquat(1, 0, 0, 0));
-        Lines other(*cube);
+        Lines other(cube);
         for (auto& v : other.vertices) v = rotation(v);
         lines.add(other);
     }
@@ -359,11 +358,11 @@ TEST(Repair, CompoundsShareTheirVertices) {
 }
 
 TEST(Repair, TakesCompoundCellsApart) {
-    const auto cube = named("8-cell");
-    Lines lines(*cube);
-    const glm::dvec4 centre = support::centreOfCell(*cube, 0);
+    const auto& cube = named("8-cell");
+    Lines lines(cube);
+    const glm::dvec4 centre = support::centreOfCell(cube, 0);
     const glm::dvec4 along = std::abs(centre.x) > 0.5 ? glm::dvec4(0, 5, 0, 0) : glm::dvec4(5, 0, 0, 0);
-    lines.add(Lines(*cube), along);
+    lines.add(Lines(cube), along);
     // Cell 0 of both, in one hyperplane, as one.
     lines.cells[0].insert(lines.cells[0].end(), lines.cells[8].begin(), lines.cells[8].end());
     lines.cells.erase(lines.cells.begin() + 8);
@@ -396,7 +395,7 @@ TEST(Import, ReadsStarPolychoraBack) {
 
 TEST(Import, SurvivesGarbage) {
     std::mt19937 random(7);
-    const std::string good = asOff4(*named("16-cell"));
+    const std::string good = asOff4(named("16-cell"));
     const std::string alphabet = "0123456789 .-+e#\n\t4OFX\xff";
     const auto pick = [&](std::size_t below) {
         return std::uniform_int_distribution<std::size_t>(0, below - 1)(random);

@@ -4,15 +4,29 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
 #include <random>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "geometry/catalogue.hpp"
 #include "geometry/slicer.hpp"
 
 namespace oval4d::geometry::support {
+
+/// One of the catalogue, kept until the end: the catalogue itself keeps the latest only.
+inline const Polytope& named(std::string_view name) {
+    static std::map<std::string, std::shared_ptr<const Polytope>, std::less<>> kept;
+    auto& polytope = kept[std::string(name)];
+    if (!polytope) polytope = polytopeOf(*findEntry(name));
+    return *polytope;
+}
 
 inline Rotation randomRotation(std::mt19937& random) {
     std::normal_distribution<double> normal;

@@ -8,17 +8,17 @@
 #include <gtest/gtest.h>
 
 #include "geometry/coxeter.hpp"
+#include "geometry_support.hpp"
 #include "scene/presence.hpp"
 #include "scene/scene.hpp"
-#include "scene_support.hpp"
 
 namespace {
 
 using namespace oval4d;
+using geometry::support::named;
 using scene::Colour;
 using scene::Colouring;
 using scene::Presence;
-using scene::support::named;
 
 std::vector<Colour> painted(const geometry::Polytope& polytope, Colouring colouring,
                             const geometry::Rotation& orientation = {}) {

@@ -5,14 +5,14 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
+#include "geometry_support.hpp"
 #include "scene/scene.hpp"
-#include "scene_support.hpp"
 
 namespace {
 
 using namespace oval4d;
+using geometry::support::named;
 using scene::Scene;
-using scene::support::named;
 
 Scene composed(std::string_view name, int count = 21, scene::Viewport viewport = {}, scene::Look look = {},
                int focus = 0) {
