@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -52,15 +53,22 @@ class WorkerPools : public testing::Test {
     std::vector<std::string> said_;
 };
 
-/// A worker that is kept busy until it is let go.
-struct Gate {
-    std::promise<void> begun, open;
+/// A worker that is kept busy until it is let go. The job holds what it needs: it may end after the gate.
+class Gate {
+  public:
     WorkerPool::Job job() {
-        return [this](picture::Painter&) {
-            begun.set_value();
-            open.get_future().wait();
+        return [begun = begun_, opened = opened_](picture::Painter&) {
+            begun->set_value();
+            opened.wait();
         };
     }
+    void awaitBegun() { begun_->get_future().wait(); }
+    void open() { open_.set_value(); }
+
+  private:
+    const std::shared_ptr<std::promise<void>> begun_ = std::make_shared<std::promise<void>>();
+    std::promise<void> open_;
+    const std::shared_future<void> opened_ = open_.get_future().share();
 };
 
 TEST_F(WorkerPools, JobsOfOneLaneKeepTheirOrder) {
@@ -80,10 +88,10 @@ TEST_F(WorkerPools, WhoHasHadLessTimeIsNext) {
     drain(pool, {greedy});
     Gate gate;
     pool.post(gate.job(), other);
-    gate.begun.get_future().wait();
+    gate.awaitBegun();
     for (int i = 0; i < 3; ++i) pool.post(saying("greedy"), greedy);
     pool.post(saying("modest"), modest);
-    gate.open.set_value();
+    gate.open();
     drain(pool, {modest, greedy});
     EXPECT_EQ(said(), (std::vector<std::string>{"modest", "greedy", "greedy", "greedy"}));
 }
@@ -98,14 +106,14 @@ TEST_F(WorkerPools, LongJobsLeaveAWorkerToShortOnes) {
     Gate gate;
     pool.post(saying("quick"), quick);
     pool.post(gate.job(), one);
-    gate.begun.get_future().wait();
+    gate.awaitBegun();
     pool.post(saying("long"), two);  // one worker is free, but kept
     for (int i = 0; i < 5; ++i) {
         pool.post(saying("quick"), quick);
         drain(pool, {quick});
     }
     EXPECT_EQ(said(), std::vector<std::string>(6, "quick"));
-    gate.open.set_value();
+    gate.open();
     drain(pool, {two});
     EXPECT_EQ(said().back(), "long");
 }
@@ -120,23 +128,23 @@ TEST_F(WorkerPools, LongJobsUseAllWorkersWhenNobodyElseIsThere) {
     Gate first, second;
     pool.post(first.job(), one);
     pool.post(second.job(), two);
-    first.begun.get_future().wait();
-    second.begun.get_future().wait();  // both run at once, or this test does not end
-    first.open.set_value();
-    second.open.set_value();
+    first.awaitBegun();
+    second.awaitBegun();  // both run at once, or this test does not end
+    first.open();
+    second.open();
 }
 
 TEST_F(WorkerPools, StopDropsWhatWaits) {
     WorkerPool pool(1, [](picture::Painter&) {});
     Gate gate;
     pool.post(gate.job());
-    gate.begun.get_future().wait();
+    gate.awaitBegun();
     for (int i = 0; i < 5; ++i) pool.post(saying("dropped"));
     EXPECT_EQ(pool.waiting(), 5U);
     std::thread stopping([&] { pool.stop(); });
     while (!pool.stopToken().stop_requested()) std::this_thread::yield();
     while (pool.waiting() > 0) std::this_thread::yield();
-    gate.open.set_value();
+    gate.open();
     stopping.join();
     pool.post(saying("too late"));
     EXPECT_TRUE(said().empty());
