@@ -1,6 +1,9 @@
 #include "geometry/convex_cut.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
 
 #include "geometry/slicer.hpp"
 
@@ -29,13 +32,30 @@ void beginSlice(SliceSet& set, int slice, SliceSize at) {
     set.faceBegin[slice] = at.faces;
 }
 
-// Makes what `items` has from `begin` on, `size` of them, stand there `times` times.
+using Chunk = std::array<std::byte, 16>;
+
+void copyChunk(const std::byte* from, std::byte* to) {
+    Chunk chunk;
+    std::memcpy(&chunk, from, sizeof chunk);
+    std::memcpy(to, &chunk, sizeof chunk);
+}
+
+// Makes what `items` has from `begin` on, `size` of them, stand there `times` times. A few copies of little are made
+// here, where a call for each would cost more than the copying; the rest by doubling.
 template <typename Item>
 void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::size_t times) {
-    Item* first = items.data() + begin;
-    for (std::size_t done = size; done < size * times; done *= 2) {
-        std::copy_n(first, std::min(done, size * times - done), first + done);
+    constexpr std::size_t kLittle = 256, kFew = 8;
+    auto* const first = reinterpret_cast<std::byte*>(items.data() + begin);
+    const std::size_t bytes = size * sizeof(Item);
+    std::size_t done = bytes;
+    if (bytes >= sizeof(Chunk) && bytes <= kLittle) {
+        const std::size_t last = bytes - sizeof(Chunk);  // overlaps the one before
+        for (; done < bytes * std::min(times, kFew); done += bytes) {
+            for (std::size_t at = 0; at < last; at += sizeof(Chunk)) copyChunk(first + at, first + done + at);
+            copyChunk(first + last, first + done + last);
+        }
     }
+    for (; done < bytes * times; done *= 2) std::memcpy(first + done, first, std::min(done, bytes * times - done));
 }
 
 SliceSize sizeOf(const SliceSet& set) {
@@ -71,7 +91,7 @@ bool ConvexCut::cut(const Polytope& polytope, Levels levels, std::span<SliceSet*
         const int end = steps_[step + 1];
         rise(polytope, levels.below.data(), out.turned, k);
         const SliceSize size = sizeOfSlice();
-        if (met_[k]) {
+        if (risen_[k] == Risen::into) {
             beginSlice(out, k, at);
             if (!touching.empty() && touching[k] != nullptr) {
                 at = at + insert(*touching[k], at, out);
@@ -85,28 +105,26 @@ bool ConvexCut::cut(const Polytope& polytope, Levels levels, std::span<SliceSet*
         for (; k < end; ++k, at = at + size) beginSlice(out, k, at);
     }
     beginSlice(out, planes, at);
-    resize(out, at);
+    if (levels.anyLie) resize(out, at);
     out.cornerBegin.back() = at.corners;
     return true;
 }
 
 // Where hyperplanes rise over vertices, or into them.
 void ConvexCut::findSteps(const Polytope& polytope, Levels levels, int planes) {
-    risen_.assign(planes + 1, false);
-    met_.assign(planes + 1, false);
-    bool settles = false;
-    for (std::size_t v = 0; v < levels.below.size(); ++v) {
-        const bool lies = levels.below[v] != levels.upTo[v];
-        risen_[levels.below[v]] = true;
-        met_[levels.below[v]] |= lies;
-        settles = settles || lies;
+    risen_.assign(planes + 1, Risen::no);
+    for (const std::int32_t below : levels.below) risen_[below] = Risen::over;
+    if (levels.anyLie) {
+        for (std::size_t v = 0; v < levels.below.size(); ++v) {
+            if (levels.below[v] != levels.upTo[v]) risen_[levels.below[v]] = Risen::into;
+        }
+        settling_.begin(polytope, levels);
     }
     steps_.assign(1, 0);
     for (int k = 1; k < planes; ++k) {
-        if (risen_[k]) steps_.push_back(k);
+        if (risen_[k] != Risen::no) steps_.push_back(k);
     }
     steps_.push_back(planes);
-    if (settles) settling_.begin(polytope, levels);
 }
 
 // Which hyperplanes cut each element; and makes room for all that is to come.
@@ -121,7 +139,7 @@ bool ConvexCut::findElements(const Polytope& polytope, const std::int32_t* below
     edges_.clear(edges, planes);
     for (std::uint32_t e = 0; e < edges; ++e) {
         const std::int32_t a = below[polytope.edges[e][0]], b = below[polytope.edges[e][1]];
-        const std::int32_t from = std::min(a, b), to = std::max(a, b);
+        const std::int32_t from = std::min(a, b), to = a + b - from;  // without a branch
         total.vertices += to - from;
         ends += (to - from) * (polytope.edgeFaces.begin[e + 1] - polytope.edgeFaces.begin[e]);
         edges_.add(e, from, to);
@@ -189,7 +207,9 @@ inline void ConvexCut::beginEdge(const Polytope& polytope, std::uint32_t e, cons
     const std::uint32_t rises = below[edge[0]] < below[edge[1]] ? 1 : 0;
     const glm::dvec4& at = turned[edge[1 - rises]];
     const glm::dvec4 along = turned[edge[rises]] - at;
-    ray_[e] = {at, glm::dvec3(along) * (1 / along.w)};
+    Ray& ray = ray_[e];
+    ray.at = at;
+    ray.perRise = glm::dvec3(along) * (1 / along.w);
     const auto around = polytope.edgeFaces[e];
     std::uint32_t last = around.back() ^ rises;
     for (const std::uint32_t side : around) {

@@ -31,13 +31,15 @@ class ConvexCut {
 
   private:
     // The point of an edge at w is at + (w − at.w) · perRise.
-    struct Ray {
+    struct alignas(16) Ray {
         glm::dvec4 at;
         glm::dvec3 perRise;
     };
     struct Span {
         std::int32_t from, to;
     };
+    // Whether there are vertices between a hyperplane and the one below, or any in it.
+    enum class Risen : std::uint8_t { no, over, into };
     void findSteps(const Polytope& polytope, Levels levels, int planes);
     bool findElements(const Polytope& polytope, const std::int32_t* below, std::span<SliceSet* const> touching,
                       SliceSet& out);
@@ -52,10 +54,9 @@ class ConvexCut {
 
     Passing edges_, faces_, cells_;
     std::vector<Span> faceSpan_;
-    // By hyperplane: whether there are vertices in it or between it and the one below; whether there are any in it.
-    std::vector<std::uint8_t> risen_, met_;
-    std::vector<int> steps_;  // the first hyperplane, those that are risen to over vertices, and past the last one
-    std::vector<Ray> ray_;    // by edge that is cut
+    std::vector<Risen> risen_;  // by hyperplane
+    std::vector<int> steps_;    // the first hyperplane, those that are risen to over vertices, and past the last one
+    std::vector<Ray> ray_;      // by edge that is cut
     std::vector<std::uint32_t> vertex_;  // by edge that is cut: its slice vertex
     std::vector<std::uint32_t> line_;    // by 2-face that is cut: its slice edge
     // The loop of 2-face f comes up through the hyperplane at edge end_[2 f] and goes down at edge end_[2 f + 1]. In

@@ -63,16 +63,16 @@ inline void Passing::sort(std::span<const int> steps) {
 
 inline std::span<const Passing::Element> Passing::rise(int step) {
     Element* cut = cut_.data();
-    std::uint32_t kept = 0;
-    for (std::uint32_t i = 0; i < cutCount_; ++i) {
-        const Element element = cut[i];
-        cut[kept] = element;
-        kept += element.to > step ? 1 : 0;
+    Element* kept = cut;
+    for (const Element *at = cut, *end = cut + cutCount_; at != end; ++at) {
+        const std::int32_t to = at->to;
+        *kept = *at;
+        kept += to > step ? 1 : 0;
     }
     const std::span begun(sorted_.data() + begun_, end_[step] - begun_);
     begun_ = end_[step];
-    for (const Element& element : begun) cut[kept++] = element;
-    cutCount_ = kept;
+    for (const Element& element : begun) *kept++ = element;
+    cutCount_ = static_cast<std::uint32_t>(kept - cut);
     return begun;
 }
 

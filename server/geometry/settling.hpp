@@ -21,6 +21,7 @@ struct SliceSize {
 /// By vertex: the number of hyperplanes strictly below it, and of those below it or through it.
 struct Levels {
     std::span<const std::int32_t> below, upTo;
+    bool anyLie;  ///< whether any vertex lies in a hyperplane
 
     bool liesIn(std::uint32_t vertex, std::int32_t plane) const {
         return below[vertex] == plane && upTo[vertex] > plane;

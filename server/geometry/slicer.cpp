@@ -27,41 +27,42 @@ void Slicer::cutAny(const Polytope& polytope, SliceSet& out) {
     cutCells(polytope, out);
 }
 
-// Where the polytope touches a hyperplane from one side, that slice alone is cut the general way.
 bool Slicer::cutConvex(const Polytope& polytope, SliceSet& out) {
-    const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
-    const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
     touching_.clear();
-    std::size_t touched = 0;
-    for (std::size_t v = 0; v < below_.size(); ++v) {
-        const std::int32_t k = below_[v];
-        if (k == upTo_[v] || (k >= firstAbove && k < lastBelow)) continue;
-        touching_.resize(out.planes.count);
-        if (touching_[k] != nullptr) continue;
-        if (touched == singles_.size()) return false;  // hyperplanes so near to one another that vertices lie in two
-        touching_[k] = &singles_.at(touched++);
-    }
-    if (touched > 0) cutTouching(polytope, out);
-    return convexCut_.cut(polytope, {below_, upTo_}, touching_, out);
+    if (anyLie_ && !cutTouching(polytope, out)) return false;
+    return convexCut_.cut(polytope, {below_, upTo_, anyLie_}, touching_, out);
 }
 
-void Slicer::cutTouching(const Polytope& polytope, SliceSet& out) {
+// Where the polytope touches a hyperplane from one side, that slice alone is cut the general way. False where
+// hyperplanes are so near to one another that vertices lie in two.
+bool Slicer::cutTouching(const Polytope& polytope, SliceSet& out) {
+    const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
+    const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
     allBelow_ = below_;
     allUpTo_ = upTo_;
-    for (std::int32_t k = 0; k < out.planes.count; ++k) {
-        if (touching_[k] == nullptr) continue;
-        SliceSet& single = *touching_[k];
-        for (std::size_t v = 0; v < below_.size(); ++v) {
-            below_[v] = std::clamp(allBelow_[v] - k, 0, 1);
-            upTo_[v] = std::clamp(allUpTo_[v] - k, 0, 1);
-        }
-        single.planes = {out.planes.first + k, 1, out.planes.spacing};
-        single.turned.swap(out.turned);
-        cutAny(polytope, single);
-        single.turned.swap(out.turned);
+    touching_.resize(out.planes.count);
+    std::size_t touched = 0;
+    for (std::size_t v = 0; v < allBelow_.size(); ++v) {
+        const std::int32_t k = allBelow_[v];
+        if (k == allUpTo_[v] || (k >= firstAbove && k < lastBelow) || touching_[k] != nullptr) continue;
+        if (touched++ == singles_.size()) break;
+        touching_[k] = &singles_.at(touched - 1);
+        cutOne(polytope, k, *touching_[k], out);
     }
     below_.swap(allBelow_);
     upTo_.swap(allUpTo_);
+    return touched <= singles_.size();
+}
+
+void Slicer::cutOne(const Polytope& polytope, std::int32_t plane, SliceSet& single, SliceSet& all) {
+    for (std::size_t v = 0; v < below_.size(); ++v) {
+        below_[v] = std::clamp(allBelow_[v] - plane, 0, 1);
+        upTo_[v] = std::clamp(allUpTo_[v] - plane, 0, 1);
+    }
+    single.planes = {all.planes.first + plane, 1, all.planes.spacing};
+    single.turned.swap(all.turned);
+    cutAny(polytope, single);
+    single.turned.swap(all.turned);
 }
 
 void Slicer::locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out) {
@@ -73,6 +74,7 @@ void Slicer::locateVertices(const Polytope& polytope, const Rotation& orientatio
     out.turned.resize(n);
     below_.resize(n);
     upTo_.resize(n);
+    anyLie_ = false;
     for (std::size_t v = 0; v < n; ++v) {
         out.turned[v] = m * polytope.vertices[v];
         const double level = out.turned[v].w * inverse - out.planes.first;
@@ -80,6 +82,7 @@ void Slicer::locateVertices(const Polytope& polytope, const Rotation& orientatio
         const auto whole = static_cast<std::int32_t>(above);
         below_[v] = whole + (above > whole ? 1 : 0);  // rounded up
         upTo_[v] = static_cast<std::int32_t>(std::clamp(level + tolerance + 1, 0.0, count));
+        anyLie_ |= below_[v] != upTo_[v];
     }
 }
 

@@ -93,7 +93,8 @@ class Slicer {
     void locateVertices(const Polytope& polytope, const Rotation& orientation, SliceSet& out);
     void cutAny(const Polytope& polytope, SliceSet& out);
     bool cutConvex(const Polytope& polytope, SliceSet& out);
-    void cutTouching(const Polytope& polytope, SliceSet& out);
+    bool cutTouching(const Polytope& polytope, SliceSet& out);
+    void cutOne(const Polytope& polytope, std::int32_t plane, SliceSet& single, SliceSet& all);
     void cutEdges(const Polytope& polytope, SliceSet& out);
     void cutFaces(const Polytope& polytope, SliceSet& out);
     void cutConvexFace(const Polytope& polytope, std::uint32_t face, Span above);
@@ -119,6 +120,7 @@ class Slicer {
     // Of each vertex: the number of hyperplanes strictly below it, and of those below it or through it. They differ
     // where it lies in a hyperplane: in number below_.
     std::vector<std::int32_t> below_, upTo_, twice_;  // twice_: their sum
+    bool anyLie_ = false;                             // whether they differ anywhere
     std::vector<std::uint32_t> vertexPoint_;          // the slice vertex of a vertex that lies in a hyperplane
     // A slot is an edge just above a hyperplane: of edge e above k, slotBegin_[e] + k − below_[lower end].
     std::vector<std::uint32_t> slotBegin_, slotPoint_;
