@@ -23,7 +23,7 @@ BIN = Path(sys.argv[1])
 REGULAR = ("5-cell", "8-cell", "120-cell", "600-cell")
 GROWING = ("5-cell", "8-cell", "24-cell", "omnitruncated 5-cell", "120-cell", "600-cell", "omnitruncated 24-cell",
            "truncated 120-cell", "cantitruncated 120-cell", "omnitruncated 120-cell")
-TURNS = 3         # of frames
+TURNS = 5         # of frames
 QUICK_TURNS = 11  # of what takes less than a millisecond
 
 
@@ -93,10 +93,14 @@ class Turns:
         for _ in range(QUICK_TURNS):
             self.js.append({} if peers.why_no_js() else peers.js())
             self.quick.append({name: pictures(name, frames=0) for name in REGULAR})
+        with_vtk = not peers.why_no_vtk()
         for _ in range(TURNS):
-            self.frames.append({name: pictures(name) for name in REGULAR})
-            self.vtk.append({} if peers.why_no_vtk() else
-                            {(name, way): peers.vtk(name, way) for name in REGULAR for way in peers.VTK})
+            ours, theirs = {}, {}
+            for name in REGULAR:  # what is compared follows at once
+                ours[name] = pictures(name)
+                theirs.update({(name, way): peers.vtk(name, way) for way in peers.VTK if with_vtk})
+            self.frames.append(ours)
+            self.vtk.append(theirs)
 
     @staticmethod
     def compare(ours, theirs):
