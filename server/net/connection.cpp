@@ -45,6 +45,7 @@ asio::awaitable<void> Connection::run(Upgrade upgrade) {
     outbox_.clear();
     deadline_.cancel();
     if (session_) hub_->leave(std::exchange(session_, nullptr), shared_from_this());
+    services_.pool.tidyLater();
 }
 
 void Connection::setUp(bool offered) {

@@ -1,7 +1,5 @@
 #include "net/worker_pool.hpp"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -43,6 +41,14 @@ void WorkerPool::post(Job job, LanePtr lane) {
     wake_.notify_one();
 }
 
+void WorkerPool::tidyLater() {
+    {
+        const std::lock_guard lock(mutex_);
+        litter_ = true;
+    }
+    wake_.notify_one();
+}
+
 void WorkerPool::stop() {
     stopSource_.request_stop();
     Queue dropped[2];  // destroyed outside the lock: a job may own much
@@ -78,14 +84,14 @@ void WorkerPool::run(const Job& first) {
     picture::Painter painter;
     carryOut(first, painter);
     std::unique_lock lock(mutex_);
-    bool idle = true;
+    bool untidy = true;
     while (!stopping_) {
         Queue* const queue = next();
         if (queue == nullptr) {
-            wait(lock, idle);
+            wait(lock, untidy, painter);
             continue;
         }
-        idle = false;
+        untidy = true;
         Entry entry = std::move(queue->begin()->second);
         now_ = std::max(now_, queue->begin()->first);
         queue->erase(queue->begin());
@@ -105,12 +111,16 @@ void WorkerPool::run(const Job& first) {
 
 /// Waits for a job. A long one that is held back may begin when the short ones have been gone for long enough; and when
 /// nothing comes for a while after a burst, its memory goes back to the system.
-void WorkerPool::wait(std::unique_lock<std::mutex>& lock, bool& idle) {
-    if (idle && long_.empty()) return wake_.wait(lock);
-    if (wake_.wait_for(lock, kActive) == std::cv_status::no_timeout || idle || !long_.empty()) return;
-    idle = true;
+void WorkerPool::wait(std::unique_lock<std::mutex>& lock, bool& untidy, picture::Painter& painter) {
+    if (!long_.empty()) {
+        wake_.wait_for(lock, kActive);
+        return;
+    }
+    if (!untidy && !litter_) return wake_.wait(lock);
+    if (wake_.wait_for(lock, picture::Painter::kPause) == std::cv_status::no_timeout) return;
+    untidy = litter_ = false;
     lock.unlock();
-    malloc_trim(0);
+    painter.forget();
     lock.lock();
 }
 

@@ -45,6 +45,10 @@ class WorkerPool {
     /// share one.
     void post(Job job, LanePtr lane = nullptr);
 
+    /// Has memory that was let go of elsewhere given back to the system when there has been no job for a while, as that
+    /// of jobs is.
+    void tidyLater();
+
     /// Finishes the jobs that are running, or lets them give up, and drops the others.
     void stop();
 
@@ -67,7 +71,7 @@ class WorkerPool {
 
     void run(const Job& first);
     Queue* next();
-    void wait(std::unique_lock<std::mutex>& lock, bool& idle);
+    void wait(std::unique_lock<std::mutex>& lock, bool& untidy, picture::Painter& painter);
     void finish(const Entry& entry, Seconds took);
 
     const std::size_t count_;
@@ -81,6 +85,7 @@ class WorkerPool {
     Seconds worked_{0};
     std::size_t longRunning_ = 0;
     Clock::time_point lastShort_;  // when a short job was last posted
+    bool litter_ = false;          // see tidyLater
     bool stopping_ = false;
     std::vector<std::thread> threads_;
 };

@@ -41,6 +41,10 @@ std::span<const std::uint8_t> Drawer::draw(const session::State& state, scene::V
     return drawn;
 }
 
+void Drawer::forget() {
+    if (pixels_) pixels_->take(0);
+}
+
 std::span<const std::uint8_t> Drawer::drawBest(const session::State& state, scene::Viewport viewport, Times& times) {
     struct Counted {
         std::atomic<int>& drawing;

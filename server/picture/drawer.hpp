@@ -46,6 +46,9 @@ class Drawer {
     /// As DrawingProcess::draw; the pixels stay until the next picture.
     std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, Times& times);
 
+    /// Lets go of the last picture.
+    void forget();
+
   private:
     std::span<const std::uint8_t> drawBest(const session::State& state, scene::Viewport viewport, Times& times);
 

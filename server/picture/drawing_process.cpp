@@ -146,8 +146,9 @@ Passage DrawingProcess::listen(Said wanted, const session::State* state, const P
         if (passage != Passage::whole || said_ == wanted || said_ == Said::failed) return passage;
         if (said_ != Said::polytope_missing || state == nullptr)
             throw std::runtime_error("a process that draws speaks out of turn");
-        encodePolytope(*state->polytope, body_);
-        passage = channel_->send(Said::polytope, body_, DrawingChannel::kNoFile, patience);
+        std::string polytope;  // large, and seldom wanted
+        encodePolytope(*state->polytope, polytope);
+        passage = channel_->send(Said::polytope, polytope, DrawingChannel::kNoFile, patience);
         if (passage != Passage::whole) return passage;
     }
 }

@@ -1,6 +1,5 @@
 // A drawing process, from within.
 
-#include <malloc.h>
 #include <sys/prctl.h>
 
 #include <algorithm>
@@ -9,14 +8,13 @@
 #include <map>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "picture/drawing_process.hpp"
 
 namespace oval4d::picture {
 
 namespace {
-
-using namespace std::chrono_literals;
 
 /// The polytopes that were drawn last, the last one first.
 class Recent {
@@ -66,7 +64,7 @@ class Service {
   private:
     /// After a burst, memory goes back to the system.
     bool next(Said& said) {
-        if (!channel_.wait({Patience::Clock::now() + 1s, {}})) malloc_trim(0);
+        if (!channel_.wait({Patience::Clock::now() + Painter::kPause, {}})) painter_.forget();
         int file = DrawingChannel::kNoFile;
         if (channel_.receive(said, body_, &file) != Passage::whole) return false;
         if (said != Said::order) return true;
@@ -80,8 +78,9 @@ class Service {
 
     void takePolytope() {
         auto polytope = std::make_shared<geometry::Polytope>();
-        decodePolytope(body_, *polytope);
-        recent_.add(std::move(polytope), body_.size());
+        const std::string bytes = std::exchange(body_, {});
+        decodePolytope(bytes, *polytope);
+        recent_.add(std::move(polytope), bytes.size());
         recent_.shrink(order_.limits.polytopeBytes);
     }
 

@@ -2,6 +2,7 @@
 // From a session's state to its picture: slices, their message, a PNG file. The one way there, for the service and
 // for `oval4d render` alike.
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -64,20 +65,30 @@ class Painter {
     /// can be had.
     void warmUp();
 
+    /// Lets go of what is kept from one picture to the next, all but the GL context: it is as large as any picture has
+    /// made it, and takes some milliseconds to make anew. To be called after a pause of this length.
+    void forget();
+    static constexpr std::chrono::seconds kPause{3};
+
     const Times& times() const { return times_; }
 
   private:
+    /// Reused by the next picture.
+    struct Memory {
+        geometry::Slicer slicer;
+        geometry::SliceSet slices;
+        scene::Scene scene;
+        protocol::SlicesWriter slicesWriter;
+        std::vector<std::uint8_t> pixels;
+        render::PngEncoder encoder;
+    };
+
     void compose(const session::State& state, const geometry::SliceSet& slices, scene::Viewport viewport);
 
     std::size_t fillSteps_ = kFillSteps;
     std::unique_ptr<Drawer> drawer_;
-    geometry::Slicer slicer_;
-    geometry::SliceSet slices_;
-    scene::Scene scene_;
-    protocol::SlicesWriter slicesWriter_;
-    std::vector<std::uint8_t> pixels_;
     std::optional<render::Renderer> renderer_;  // made at the first frame: geometry needs no GL
-    render::PngEncoder encoder_;
+    Memory memory_;
     Times times_;
 };
 

@@ -68,6 +68,13 @@ Renderer::Renderer(const std::string& font) : impl_(std::make_unique<Impl>(font)
 
 Renderer::~Renderer() = default;
 
+void Renderer::forget() {
+    impl_->solids = {};
+    impl_->slicePainter = {};
+    impl_->crossingPainter = {};
+    impl_->layers = {};
+}
+
 void Renderer::draw(const geometry::Polytope& polytope, const geometry::SliceSet& slices, const scene::Scene& scene,
                     Image& out) {
     out.width = scene.viewport.width;

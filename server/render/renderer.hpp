@@ -34,6 +34,9 @@ class Renderer {
     void draw(const geometry::Polytope& polytope, const geometry::SliceSet& slices, const scene::Scene& scene,
               Image& out);
 
+    /// Lets go of what is kept from one picture to the next, but the context and its programs.
+    void forget();
+
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;

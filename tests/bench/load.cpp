@@ -243,7 +243,8 @@ int main(int argc, char** argv) {
             stage.spawn(flooding(stage, server, stream, 1000));
             stage.run();
         }
-        std::this_thread::sleep_for(std::chrono::seconds(4));  // the sessions of clients that left are forgotten
+        // Until the sessions of clients that left are forgotten, and workers have let go of their memory.
+        std::this_thread::sleep_for(std::chrono::seconds(6));
         Stage stage;
         say("memory after all that", text(R"("after":%.1f)", memoryOf(stage, server)));
     } catch (const std::exception& fault) {

@@ -4,6 +4,7 @@ Whatever is compared is measured in turns, and what is reported of each turn's r
 shared machine changes from minute to minute.
 """
 
+import contextlib
 import json
 import math
 import os
@@ -13,6 +14,8 @@ import subprocess
 import sys
 import tempfile
 import time
+import urllib.error
+import urllib.request
 from pathlib import Path
 
 import drawing
@@ -68,7 +71,9 @@ class Server:
             time.sleep(0.05)
             if found := re.search(r"listening url=\S+:(\d+)", Path(self.log.name).read_text(encoding="utf-8")):
                 self.port = found.group(1)
-                return self
+                with contextlib.suppress(urllib.error.URLError):
+                    urllib.request.urlopen(f"http://127.0.0.1:{self.port}/readyz")
+                    return self
         raise RuntimeError("the server does not start")
 
     def __exit__(self, *_):

@@ -1,0 +1,55 @@
+"""Memory comes back when those are gone who needed it."""
+
+import asyncio
+
+import pytest
+from harness import Server, sanitized
+from wire import Client, connect
+
+LARGEST = "omnitruncated 120-cell"
+NOISE = 8_000_000  # bytes; a burst that stays is several times this
+
+
+async def stream(server, polytope, pictures, **hello):
+    """Shows a session as it turns, until so many pictures have come; the newest."""
+    async with Client(server, **hello) as client:
+        await client.request("set", polytope=polytope)
+        for count in range(pictures):
+            await client.until(lambda: len(client.pictures()) > count)
+            await client.request("key", key="y")
+        return await client.until(lambda: client.pictures()[pictures:])
+
+
+async def picture(server):
+    async with Client(server) as client:
+        await client.request("set", polytope="600-cell")
+        return await client.frame(width=640, height=360), (await client.request("get", what="slices"))["slices"]
+
+
+async def falls_below(server, most):
+    condition = lambda: server.own_memory() < most
+    await asyncio.get_running_loop().run_in_executor(None, lambda: server.wait_for(condition))
+
+
+@pytest.mark.skipif(sanitized(), reason="sanitizers keep what is freed")
+async def test_memory_comes_back_after_a_burst():
+    with Server("--session-expiry", 1) as server:
+        streams = [{"stream": "frames"}, {"stream": "geometry"}, {"stream": "geometry", "encoding": "cbor"}]
+        before = await picture(server)
+        for hello in streams:
+            await stream(server, "5-cell", 3, **hello)
+        warm = server.own_memory()
+        onlookers = [await connect(server) for _ in range(600)]
+        theirs = server.own_memory() - warm
+
+        await asyncio.gather(*(stream(server, LARGEST, 12, **hello) for hello in 2 * streams))
+        assert server.own_memory() > warm + theirs + 2 * NOISE
+        await falls_below(server, warm + theirs + NOISE)
+        await asyncio.sleep(1)  # also the worker that was the last
+
+        # No picture is asked for any more, and yet what connections had is given back.
+        rest = server.own_memory()
+        await asyncio.gather(*(onlooker.close() for onlooker in onlookers))
+        await falls_below(server, rest - theirs / 4)
+        assert server.own_memory() < warm + NOISE
+        assert await picture(server) == before
