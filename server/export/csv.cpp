@@ -4,6 +4,7 @@
 #include "export/measure.hpp"
 #include "export/text.hpp"
 #include "export/text_formats.hpp"
+#include "geometry/slicer.hpp"
 
 namespace oval4d::exports {
 

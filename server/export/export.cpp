@@ -15,6 +15,7 @@
 #include "export/solid.hpp"
 #include "export/text.hpp"
 #include "export/text_formats.hpp"
+#include "geometry/slicer.hpp"
 #include "scene/scene.hpp"
 
 namespace oval4d::exports {

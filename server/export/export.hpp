@@ -10,7 +10,7 @@
 #include "export/wish.hpp"
 #include "geometry/polytope.hpp"
 #include "geometry/rotation.hpp"
-#include "geometry/slicer.hpp"
+#include "geometry/slice_set.hpp"
 #include "scene/scene.hpp"
 
 namespace oval4d::exports {

@@ -3,7 +3,7 @@
 
 #include "export/budget.hpp"
 #include "export/mesh.hpp"
-#include "geometry/slicer.hpp"
+#include "geometry/slice_set.hpp"
 
 namespace oval4d::exports {
 

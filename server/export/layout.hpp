@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "export/mesh.hpp"
-#include "geometry/slicer.hpp"
+#include "geometry/slice_set.hpp"
 
 namespace oval4d::exports {
 

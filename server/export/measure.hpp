@@ -5,7 +5,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "geometry/slicer.hpp"
+#include "geometry/slice_set.hpp"
 
 namespace oval4d::exports {
 

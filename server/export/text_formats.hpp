@@ -4,7 +4,7 @@
 #include <string>
 
 #include "geometry/polytope.hpp"
-#include "geometry/slicer.hpp"
+#include "geometry/slice_set.hpp"
 
 namespace oval4d::exports {
 

@@ -1,308 +1,65 @@
 #include "geometry/convex_cut.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstring>
+#include <functional>
 
-#include "geometry/slicer.hpp"
+#include "geometry/companion.hpp"
 
 namespace oval4d::geometry {
 
 namespace {
 
-SliceSize operator+(SliceSize a, SliceSize b) {
-    return {a.vertices + b.vertices, a.edges + b.edges, a.faces + b.faces, a.corners + b.corners};
-}
-
-void resize(SliceSet& set, SliceSize size) {
-    set.vertices.resize(size.vertices);
-    set.vertexOf.resize(size.vertices);
-    set.edges.resize(size.edges);
-    set.edgeOf.resize(size.edges);
-    set.faceOf.resize(size.faces);
-    set.cornerBegin.resize(size.faces + 1);
-    set.corners.resize(size.corners);
-    set.cornerEdges.resize(size.corners);
-}
-
-void beginSlice(SliceSet& set, int slice, SliceSize at) {
-    set.vertexBegin[slice] = at.vertices;
-    set.edgeBegin[slice] = at.edges;
-    set.faceBegin[slice] = at.faces;
-}
-
-using Chunk = std::array<std::byte, 16>;
-
-void copyChunk(const std::byte* from, std::byte* to) {
-    Chunk chunk;
-    std::memcpy(&chunk, from, sizeof chunk);
-    std::memcpy(to, &chunk, sizeof chunk);
-}
-
-// Makes what `items` has from `begin` on, `size` of them, stand there `times` times. A few copies of little are made
-// here, where a call for each would cost more than the copying; the rest by doubling.
-template <typename Item>
-void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::size_t times) {
-    constexpr std::size_t kLittle = 256, kFew = 8;
-    auto* const first = reinterpret_cast<std::byte*>(items.data() + begin);
-    const std::size_t bytes = size * sizeof(Item);
-    std::size_t done = bytes;
-    if (bytes >= sizeof(Chunk) && bytes <= kLittle) {
-        const std::size_t last = bytes - sizeof(Chunk);  // overlaps the one before
-        for (; done < bytes * std::min(times, kFew); done += bytes) {
-            for (std::size_t at = 0; at < last; at += sizeof(Chunk)) copyChunk(first + at, first + done + at);
-            copyChunk(first + last, first + done + last);
-        }
-    }
-    for (; done < bytes * times; done *= 2) std::memcpy(first + done, first, std::min(done, bytes * times - done));
-}
-
-SliceSize sizeOf(const SliceSet& set) {
-    return {set.vertexBegin.back(), set.edgeBegin.back(), set.faceBegin.back(), set.cornerBegin.back()};
-}
-
-SliceSize insert(const SliceSet& slice, SliceSize at, SliceSet& out) {
-    const SliceSize size = sizeOf(slice);
-    const auto copy = [](const auto& from, auto& to, std::size_t begin) {
-        std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(begin));
-    };
-    copy(slice.vertices, out.vertices, at.vertices);
-    copy(slice.vertexOf, out.vertexOf, at.vertices);
-    copy(slice.edges, out.edges, at.edges);
-    copy(slice.edgeOf, out.edgeOf, at.edges);
-    copy(slice.faceOf, out.faceOf, at.faces);
-    copy(slice.corners, out.corners, at.corners);
-    copy(slice.cornerEdges, out.cornerEdges, at.corners);
-    copy(slice.cornerBegin, out.cornerBegin, at.faces);
-    for (std::size_t f = 0; f < size.faces; ++f) out.cornerBegin[at.faces + f] += at.corners;
-    return size;
+// What a sweep takes grows as the elements that it sorts, and those that it writes for each hyperplane. To wake another
+// core takes as long as to sweep through half of a large polytope; only what is larger is worth it.
+bool isWorthTwoCores(const Polytope& polytope, int planes) {
+    constexpr std::size_t kSorting = 40;  // in hyperplanes
+    constexpr std::size_t kLarge = 2'500'000;
+    const std::size_t elements =
+        polytope.vertices.size() + polytope.edges.size() + polytope.faces.size() + polytope.cells.size();
+    return elements * (kSorting + planes) > kLarge;
 }
 
 }  // namespace
 
 bool ConvexCut::cut(const Polytope& polytope, Levels levels, std::span<SliceSet* const> touching, SliceSet& out) {
-    const int planes = out.planes.count;
-    findSteps(polytope, levels, planes);
-    if (!findElements(polytope, levels.below.data(), touching, out)) return false;
-    SliceSize at;
-    for (std::size_t step = 0; step + 1 < steps_.size(); ++step) {
-        int k = steps_[step];
-        const int end = steps_[step + 1];
-        rise(polytope, levels.below.data(), out.turned, k);
-        const SliceSize size = sizeOfSlice();
-        if (risen_[k] == Risen::into) {
-            beginSlice(out, k, at);
-            if (!touching.empty() && touching[k] != nullptr) {
-                at = at + insert(*touching[k], at, out);
-            } else {
-                if (!write(k, k + 1, at, out)) return false;
-                at = at + settling_.settle(polytope, k, at, size, out);
-            }
-            ++k;
-        }
-        if (k < end && !write(k, end, at, out)) return false;
-        for (; k < end; ++k, at = at + size) beginSlice(out, k, at);
-    }
-    beginSlice(out, planes, at);
-    if (levels.anyLie) resize(out, at);
-    out.cornerBegin.back() = at.corners;
-    return true;
-}
-
-// Where hyperplanes rise over vertices, or into them.
-void ConvexCut::findSteps(const Polytope& polytope, Levels levels, int planes) {
-    risen_.assign(planes + 1, Risen::no);
-    for (const std::int32_t below : levels.below) risen_[below] = Risen::over;
-    if (levels.anyLie) {
-        for (std::size_t v = 0; v < levels.below.size(); ++v) {
-            if (levels.below[v] != levels.upTo[v]) risen_[levels.below[v]] = Risen::into;
-        }
-        settling_.begin(polytope, levels);
-    }
-    steps_.assign(1, 0);
-    for (int k = 1; k < planes; ++k) {
-        if (risen_[k] != Risen::no) steps_.push_back(k);
-    }
-    steps_.push_back(planes);
-}
-
-// Which hyperplanes cut each element; and makes room for all that is to come.
-bool ConvexCut::findElements(const Polytope& polytope, const std::int32_t* below, std::span<SliceSet* const> touching,
-                             SliceSet& out) {
-    const int planes = out.planes.count;
-    const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
-    const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
-    const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
-    SliceSize total;
-    std::uint32_t ends = 0;
-    edges_.clear(edges, planes);
-    for (std::uint32_t e = 0; e < edges; ++e) {
-        const std::int32_t a = below[polytope.edges[e][0]], b = below[polytope.edges[e][1]];
-        const std::int32_t from = std::min(a, b), to = a + b - from;  // without a branch
-        total.vertices += to - from;
-        ends += (to - from) * (polytope.edgeFaces.begin[e + 1] - polytope.edgeFaces.begin[e]);
-        edges_.add(e, from, to);
-    }
-    edges_.sort(steps_);
-
-    faces_.clear(faces, planes);
-    faceSpan_.resize(faces);
-    const std::uint32_t* vertex = polytope.faces.items.data();
-    for (std::uint32_t f = 0; f < faces; ++f) {
-        const std::uint32_t* end = polytope.faces.items.data() + polytope.faces.begin[f + 1];
-        std::int32_t from = below[*vertex], to = from;
-        while (++vertex != end) {
-            from = std::min(from, below[*vertex]);
-            to = std::max(to, below[*vertex]);
-        }
-        faceSpan_[f] = {from, to};
-        total.edges += to - from;
-        faces_.add(f, from, to);
-    }
-    if (ends != 2 * total.edges) return false;
-    faces_.sort(steps_);
-    total.corners = 2 * total.edges;  // an edge bounds two faces
-
-    cells_.clear(cells, planes);
-    const std::uint32_t* bound = polytope.cells.items.data();
-    for (std::uint32_t c = 0; c < cells; ++c) {
-        const std::uint32_t* end = polytope.cells.items.data() + polytope.cells.begin[c + 1];
-        Span span = faceSpan_[*bound];
-        while (++bound != end) {
-            span.from = std::min(span.from, faceSpan_[*bound].from);
-            span.to = std::max(span.to, faceSpan_[*bound].to);
-        }
-        total.faces += span.to - span.from;
-        cells_.add(c, span.from, span.to);
-    }
-    cells_.sort(steps_);
-
-    ray_.resize(edges);
-    vertex_.resize(edges);
-    line_.resize(faces);
-    end_.resize(2 * std::size_t{faces});
-    next_.resize(2 * std::size_t{faces});
-    home_.resize(cells);
+    if (!levels.anyLie && isWorthTwoCores(polytope, out.planes.count)) return cutHalves(polytope, levels, out);
+    Sweep& sweep = lower_.sweep;
+    if (!sweep.begin(polytope, levels, out.planes.count)) return false;
+    SliceSize size = sweep.size();
     for (const SliceSet* slice : touching) {
-        if (slice != nullptr) total = total + sizeOf(*slice);
+        if (slice != nullptr) size = size + slice->size();
     }
-    resize(out, total);
-    out.vertexBegin.resize(planes + 1);
-    out.edgeBegin.resize(planes + 1);
-    out.faceBegin.resize(planes + 1);
+    out.resize(size);
+    SliceSize end;
+    if (!sweep.cut(polytope, touching, 0, end, out)) return false;
+    out.end(end);
     return true;
 }
 
-void ConvexCut::rise(const Polytope& polytope, const std::int32_t* below, const std::vector<glm::dvec4>& turned,
-                     int plane) {
-    for (const Passing::Element& edge : edges_.rise(plane)) beginEdge(polytope, edge.number, below, turned);
-    faces_.rise(plane);
-    cells_.rise(plane);
-}
-
-inline void ConvexCut::beginEdge(const Polytope& polytope, std::uint32_t e, const std::int32_t* below,
-                                 const std::vector<glm::dvec4>& turned) {
-    const auto& edge = polytope.edges[e];
-    const std::uint32_t rises = below[edge[0]] < below[edge[1]] ? 1 : 0;
-    const glm::dvec4& at = turned[edge[1 - rises]];
-    const glm::dvec4 along = turned[edge[rises]] - at;
-    Ray& ray = ray_[e];
-    ray.at = at;
-    ray.perRise = glm::dvec3(along) * (1 / along.w);
-    const auto around = polytope.edgeFaces[e];
-    std::uint32_t last = around.back() ^ rises;
-    for (const std::uint32_t side : around) {
-        const std::uint32_t here = side ^ rises;
-        const std::uint32_t out = rises != 0 ? last : here, into = rises != 0 ? here : last;
-        end_[here] = e;
-        next_[out] = into ^ 1U;
-        home_[polytope.faceCells[here >> 1U][here & 1U]] = here;
-        last = here;
-    }
-}
-
-// Hyperplanes plane … end − 1, between which there is no vertex: their slices are the same but for the points.
-bool ConvexCut::write(int plane, int end, SliceSize at, SliceSet& out) {
-    writeVertices(plane, end, at, out);
-    writeEdges(at, out);
-    if (!writeFaces(at, out)) return false;
-    const auto times = static_cast<std::size_t>(end - plane);
-    if (times == 1) return true;
-    const SliceSize size = sizeOfSlice();
-    repeat(out.vertexOf, at.vertices, size.vertices, times);
-    repeat(out.edges, at.edges, size.edges, times);
-    repeat(out.edgeOf, at.edges, size.edges, times);
-    repeat(out.faceOf, at.faces, size.faces, times);
-    repeat(out.corners, at.corners, size.corners, times);
-    repeat(out.cornerEdges, at.corners, size.corners, times);
-    std::uint32_t* begin = out.cornerBegin.data() + at.faces;
-    for (std::size_t f = size.faces; f < size.faces * times; ++f) begin[f] = begin[f - size.faces] + size.corners;
+// Where no vertex lies in a hyperplane: then the size of the lower half tells where the upper one begins.
+bool ConvexCut::cutHalves(const Polytope& polytope, Levels levels, SliceSet& out) {
+    const auto [least, most] = std::minmax_element(levels.below.begin(), levels.below.end());
+    const std::int32_t middle = (*least + *most) / 2;
+    const auto begin = [&](Half& half, std::int32_t first, std::int32_t end) {
+        half.below.resize(levels.below.size());
+        std::transform(levels.below.begin(), levels.below.end(), half.below.begin(),
+                       [&](std::int32_t below) { return std::clamp(below, first, end) - first; });
+        half.sound = half.sweep.begin(polytope, {half.below, half.below, false}, end - first);
+    };
+    const auto cut = [&](Half& half, std::int32_t first) {
+        half.sound = half.sweep.cut(polytope, {}, first, half.end, out);
+    };
+    const auto doBoth = [&](const auto& lower, const auto& upper) {
+        Companion::instance().doBoth(std::ref(lower), std::ref(upper));
+        return lower_.sound && upper_.sound;
+    };
+    if (!doBoth([&] { begin(lower_, 0, middle); }, [&] { begin(upper_, middle, out.planes.count); })) return false;
+    lower_.end = {};
+    upper_.end = lower_.sweep.size();
+    out.resize(lower_.sweep.size() + upper_.sweep.size());
+    if (!doBoth([&] { cut(lower_, 0); }, [&] { cut(upper_, middle); })) return false;
+    out.end(upper_.end);
     return true;
-}
-
-void ConvexCut::writeVertices(int plane, int end, SliceSize at, SliceSet& out) {
-    const auto cut = edges_.cut();
-    const Ray* rays = ray_.data();
-    std::uint32_t* vertexOf = out.vertexOf.data() + at.vertices;
-    for (std::uint32_t i = 0; i < cut.size(); ++i) {
-        vertexOf[i] = cut[i].number;
-        vertex_[cut[i].number] = i;
-    }
-    glm::dvec3* vertex = out.vertices.data() + at.vertices;
-    for (int k = plane; k < end; ++k) {
-        const double w = out.planes.w(k);
-        for (const Passing::Element& edge : cut) {
-            const Ray& ray = rays[edge.number];
-            *vertex++ = glm::dvec3(ray.at) + (w - ray.at.w) * ray.perRise;
-        }
-    }
-}
-
-void ConvexCut::writeEdges(SliceSize at, SliceSet& out) {
-    const auto cut = faces_.cut();
-    const std::uint32_t* vertices = vertex_.data();
-    const std::uint32_t* ends = end_.data();
-    auto* edges = out.edges.data() + at.edges;
-    std::uint32_t* edgeOf = out.edgeOf.data() + at.edges;
-    std::uint32_t* lines = line_.data();
-    for (std::uint32_t i = 0; i < cut.size(); ++i) {
-        const std::uint32_t f = cut[i].number;
-        edges[i] = {vertices[ends[2 * f]], vertices[ends[2 * f + 1]]};
-        edgeOf[i] = f;
-        lines[f] = i;
-    }
-}
-
-bool ConvexCut::writeFaces(SliceSize at, SliceSet& out) const {
-    const auto cut = cells_.cut();
-    const std::uint32_t* lines = line_.data();
-    const std::uint32_t* next = next_.data();
-    const auto* edges = out.edges.data() + at.edges;
-    const std::uint32_t* edgeOf = out.edgeOf.data() + at.edges;
-    std::uint32_t* faceOf = out.faceOf.data() + at.faces;
-    std::uint32_t* cornerBegin = out.cornerBegin.data() + at.faces;
-    std::uint32_t* corners = out.corners.data();
-    std::uint32_t* cornerEdges = out.cornerEdges.data();
-    std::uint32_t corner = at.corners;
-    const std::uint32_t last = corner + 2 * faces_.size();
-    for (std::size_t i = 0; i < cut.size(); ++i) {
-        faceOf[i] = cut[i].number;
-        cornerBegin[i] = corner;
-        const std::uint32_t home = home_[cut[i].number];
-        const std::uint32_t first = lines[home >> 1U];
-        if (first >= faces_.size() || edgeOf[first] != home >> 1U) return false;  // has ended: the cell is not convex
-        std::uint32_t end = home;
-        do {
-            if (corner == last) return false;
-            const std::uint32_t line = lines[end >> 1U];
-            corners[corner] = edges[line][1 - (end & 1U)];
-            cornerEdges[corner] = line;
-            ++corner;
-            end = next[end];
-        } while (end != home);
-    }
-    return corner == last;
 }
 
 }  // namespace oval4d::geometry

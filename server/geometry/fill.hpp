@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "geometry/polytope.hpp"
-#include "geometry/slicer.hpp"
+#include "geometry/slice_set.hpp"
 
 namespace oval4d::geometry {
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "geometry/slicer.hpp"
-
 namespace oval4d::geometry {
 
 void Settling::begin(const Polytope& polytope, Levels levels) {

@@ -8,20 +8,14 @@
 #include <vector>
 
 #include "geometry/polytope.hpp"
+#include "geometry/slice_set.hpp"
 
 namespace oval4d::geometry {
-
-struct SliceSet;
-
-/// So many elements of slices: of one, or of all before one, where its own then begin.
-struct SliceSize {
-    std::uint32_t vertices = 0, edges = 0, faces = 0, corners = 0;
-};
 
 /// By vertex: the number of hyperplanes strictly below it, and of those below it or through it.
 struct Levels {
     std::span<const std::int32_t> below, upTo;
-    bool anyLie;  ///< whether any vertex lies in a hyperplane
+    bool anyLie = false;  ///< whether any vertex lies in a hyperplane
 
     bool liesIn(std::uint32_t vertex, std::int32_t plane) const {
         return below[vertex] == plane && upTo[vertex] > plane;

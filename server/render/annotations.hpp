@@ -1,7 +1,7 @@
 #pragma once
 // What stands beside the slices and explains them: axes, labels and the parallel coordinates.
 
-#include "geometry/slicer.hpp"
+#include "geometry/slice_set.hpp"
 #include "render/overlay.hpp"
 #include "render/solids.hpp"
 #include "scene/scene.hpp"

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "geometry/slicer.hpp"
+#include "geometry/slice_set.hpp"
 #include "render/image.hpp"
 #include "scene/scene.hpp"
 

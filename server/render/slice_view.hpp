@@ -8,7 +8,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
-#include "geometry/slicer.hpp"
+#include "geometry/slice_set.hpp"
 #include "render/solids.hpp"
 #include "scene/scene.hpp"
 

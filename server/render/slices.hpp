@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "geometry/slicer.hpp"
+#include "geometry/slice_set.hpp"
 #include "render/slice_view.hpp"
 #include "render/solids.hpp"
 #include "scene/scene.hpp"

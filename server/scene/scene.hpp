@@ -13,7 +13,7 @@
 #include "geometry/fill.hpp"
 #include "geometry/polytope.hpp"
 #include "geometry/rotation.hpp"
-#include "geometry/slicer.hpp"
+#include "geometry/slice_set.hpp"
 #include "scene/density.hpp"
 
 namespace oval4d::scene {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/catalogue.hpp"
+#include "geometry/slicer.hpp"
 
 namespace oval4d::session {
 

@@ -12,7 +12,7 @@
 
 #include "geometry/polytope.hpp"
 #include "geometry/rotation.hpp"
-#include "geometry/slicer.hpp"
+#include "geometry/slice_set.hpp"
 #include "protocol/cpp/error.hpp"
 #include "protocol/cpp/request.hpp"
 #include "scene/scene.hpp"

@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -186,6 +187,28 @@ TEST(ConvexCut, cutsPolytopesOfManyElements) {
         EXPECT_GT(c.faces, 100U);
         EXPECT_EQ(c.vertices + c.faces, c.edges + 2);
         EXPECT_GT(volumeOf(s, i), 0);
+    }
+}
+
+/// Whether a second core helps with a large polytope depends on who else uses it.
+TEST(ConvexCut, ofLargePolytopesIsTheSameOnOneAndOnTwoCores) {
+    const Polytope& p = named("omnitruncated 120-cell");
+    Polytope any = p;
+    any.convex = false;
+    std::mt19937 random(20);
+    const Rotation orientation = randomRotation(random);
+    const double step = p.circumradius / 10;
+    // On both sides of the middle; on one; beside the polytope; a single one.
+    for (const Hyperplanes& planes : {Hyperplanes{-6, 13, step}, {3, 10, step}, {12, 9, step}, {1, 1, step}}) {
+        SliceSet expected;
+        Slicer().slice(any, orientation, planes, expected);
+        std::vector<SliceSet> got(3);
+        {
+            std::vector<std::jthread> threads;
+            for (SliceSet& mine : got) threads.emplace_back([&] { Slicer().slice(p, orientation, planes, mine); });
+        }
+        for (const SliceSet& each : got) expectSame(each, expected);
+        ASSERT_FALSE(HasFailure());
     }
 }
 

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
-#include "geometry/slicer.hpp"
+#include "geometry/slice_set.hpp"
 #include "geometry_support.hpp"
 
 namespace oval4d::geometry::support {
