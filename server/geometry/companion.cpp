@@ -10,7 +10,7 @@ Companion& Companion::instance() {
 }
 
 Companion::Companion() {
-    if (std::thread::hardware_concurrency() > 1) thread_ = std::thread([this] { run(); });
+    if (processors_ > 1) thread_ = std::thread([this] { run(); });
 }
 
 Companion::~Companion() {
@@ -22,9 +22,8 @@ Companion::~Companion() {
     if (thread_.joinable()) thread_.join();
 }
 
-void Companion::doBoth(const Job& first, const std::function<void()>& second) {
-    const std::unique_lock taken(taken_, std::try_to_lock);
-    if (!taken || !thread_.joinable()) {
+void Companion::doBoth(const Job& first, const Job& second) {
+    if (!thread_.joinable() || busy_ >= processors_ || taken_.test_and_set()) {
         first();
         second();
         return;
@@ -40,9 +39,13 @@ void Companion::doBoth(const Job& first, const std::function<void()>& second) {
     } catch (...) {
         own = std::current_exception();
     }
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return job_ == nullptr; });
-    const std::exception_ptr others = std::exchange(thrown_, nullptr);
+    std::exception_ptr others;
+    {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [this] { return job_ == nullptr; });
+        others = std::exchange(thrown_, nullptr);
+    }
+    taken_.clear();
     if (own) std::rethrow_exception(own);
     if (others) std::rethrow_exception(others);
 }

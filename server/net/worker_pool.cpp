@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/companion.hpp"
+
 namespace oval4d::net {
 
 namespace {
@@ -99,7 +101,10 @@ void WorkerPool::run(const Job& first) {
         longRunning_ += isLong ? 1 : 0;
         lock.unlock();
         const auto start = Clock::now();
-        carryOut(entry.job, painter);
+        {
+            const geometry::Companion::Work work;
+            carryOut(entry.job, painter);
+        }
         entry.job = nullptr;  // what it owns is let go outside the lock
         const Seconds took = Clock::now() - start;
         lock.lock();

@@ -77,12 +77,12 @@ void differ(const std::uint8_t* row, const std::uint8_t* above, std::uint8_t* ou
 
 }  // namespace
 
-void filterRows(const ImageView& image, std::vector<std::uint8_t>& out) {
-    const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
-    out.resize((3 * width + 1) * height);
+void filterRows(const ImageView& image, int from, int to, std::vector<std::uint8_t>& out) {
+    const auto width = static_cast<std::size_t>(image.width);
+    out.resize((3 * width + 1) * static_cast<std::size_t>(to - from));
     std::uint8_t* at = out.data();
-    for (std::size_t y = 0; y < height; ++y, at += 3 * width + 1) {
-        const std::uint8_t* row = image.pixels.data() + (height - 1 - y) * width * 4;
+    for (int y = from; y < to; ++y, at += 3 * width + 1) {
+        const std::uint8_t* row = image.pixels.data() + static_cast<std::size_t>(image.height - 1 - y) * width * 4;
         const std::uint8_t* above = row + width * 4;
         at[0] = y == 0 ? kSub : kPaeth;
         for (std::size_t c = 0; c < 3; ++c) {  // nothing to the left: the prediction is what is above

@@ -10,7 +10,7 @@ namespace oval4d::render {
 
 /// Turns the image upside down, drops alpha and takes from each pixel what PNG's filter "Paeth" predicts from its
 /// neighbours to the left, above and between them, in one pass (the first row has nothing above: filter "sub"). `out`
-/// gets height rows of 1 + 3 · width bytes; its memory is reused.
-void filterRows(const ImageView& image, std::vector<std::uint8_t>& out);
+/// gets the file's rows from … to − 1, of 1 + 3 · width bytes each; its memory is reused.
+void filterRows(const ImageView& image, int from, int to, std::vector<std::uint8_t>& out);
 
 }  // namespace oval4d::render

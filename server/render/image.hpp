@@ -1,6 +1,7 @@
 #pragma once
 // Pixels, and PNG files from them.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -36,7 +37,14 @@ class PngEncoder {
     }
 
   private:
-    std::vector<std::uint8_t> filtered_, levelBuffer_;
+    /// Some rows on their way into the file.
+    struct Band {
+        std::vector<std::uint8_t> filtered, levelBuffer, chunk;
+        std::uint32_t checksum = 0;  // Adler-32 of `filtered`
+    };
+    static void encode(const ImageView& image, int from, int to, Band& band);
+
+    std::array<Band, 2> bands_;
 };
 
 }  // namespace oval4d::render
