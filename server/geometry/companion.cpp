@@ -23,7 +23,7 @@ Companion::~Companion() {
 }
 
 void Companion::doBoth(const Job& first, const Job& second) {
-    if (!thread_.joinable() || busy_ >= processors_ || taken_.test_and_set()) {
+    if (!thread_.joinable() || busyProcessors >= processors_ || taken_.test_and_set()) {
         first();
         second();
         return;

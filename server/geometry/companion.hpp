@@ -20,8 +20,8 @@ class Companion {
     /// While one lives, a processor has work.
     class Work {
       public:
-        Work() { ++busy_; }
-        ~Work() { --busy_; }
+        Work() { ++busyProcessors; }
+        ~Work() { --busyProcessors; }
         Work(const Work&) = delete;
         Work& operator=(const Work&) = delete;
     };
@@ -39,7 +39,7 @@ class Companion {
     ~Companion();
     void run();
 
-    static inline std::atomic<unsigned> busy_ = 0;
+    static inline std::atomic<unsigned> busyProcessors = 0;
 
     const unsigned processors_ = std::thread::hardware_concurrency();
     std::atomic_flag taken_;  // works for somebody

@@ -3,6 +3,7 @@
 // as in Inselberg, Parallel Coordinates, ch. 2, and Artero et al., Uncovering Clusters in Crowded Parallel
 // Coordinates).
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -40,7 +41,7 @@ class Density {
   private:
     void countColumn(int column);
 
-    std::vector<float> levels_[4];  // of x, y, z, w of each vertex, in steps: a row is kLine of them
+    std::array<std::vector<float>, 4> levels_;  // of x, y, z, w of each vertex, in steps: a row is kLine of them
     std::vector<std::uint32_t> weights_;
     std::vector<std::uint8_t> tones_;
 };
