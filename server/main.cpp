@@ -1,4 +1,4 @@
-// Reads the options, and does what they say.
+// Parses the command line, and runs the server or a subcommand.
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -6,11 +6,17 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "export_command.hpp"
+#include "cli/export_command.hpp"
+#include "cli/render_command.hpp"
+#include "net/confinement.hpp"
 #include "net/options.hpp"
 #include "net/server.hpp"
-#include "picture/drawing_process.hpp"
-#include "render_command.hpp"
+#include "parallel/fork_join.hpp"
+#include "process/child_process.hpp"
+#include "process/heap.hpp"
+#include "process/sandbox.hpp"
+#include "raster/rasterizer_service.hpp"
+#include "reading/reading_service.hpp"
 
 namespace {
 
@@ -24,33 +30,42 @@ void startLog(const std::string& level) {
 
 int main(int argc, char** argv) {
     CLI::App app{
-        "oval4d shows four-dimensional polytopes by an oval of parallel slices.\n"
-        "Without a subcommand it serves; every option of the service is an environment variable too."};
+        "oval4d shows four-dimensional polytopes as an oval of parallel slices.\n"
+        "Without a subcommand it runs the server; each option of the server can also be set by an environment "
+        "variable."};
     app.set_version_flag("--version", "oval4d " OVAL4D_VERSION);
     oval4d::net::Options options;
     options.webRoot = OVAL4D_WEB_ROOT;
     oval4d::net::addOptions(app, options);
-    app.add_subcommand("serve", "Serve the page, the API and the sessions (the default)")->fallthrough();
+    app.add_subcommand("serve", "Run the server of the page, the API and the sessions (the default)")->fallthrough();
     oval4d::RenderOptions renderOptions;
     CLI::App* render = app.add_subcommand("render", "Write one picture as a PNG file");
     oval4d::addRenderOptions(*render, renderOptions);
     oval4d::ExportOptions exportOptions;
     CLI::App* exporting = app.add_subcommand("export", "Write a slice or the oval as a file for other programs");
     oval4d::addExportOptions(*exporting, exportOptions);
-    const CLI::App* draw = app.add_subcommand(oval4d::picture::kDrawingCommand)->group("");  // the server's own
+    // The server's child processes, which get their options from the environment.
+    const CLI::App* draw = app.add_subcommand(oval4d::raster::kRasterizerCommand)->group("");
+    const CLI::App* read = app.add_subcommand(oval4d::reading::kReadingCommand)->group("");
     app.require_subcommand(0, 1);
     CLI11_PARSE(app, argc, argv);
 
     startLog(options.logLevel);
+    oval4d::process::Heap heap;
+    oval4d::parallel::ForkJoin forkJoin;
     try {
+        if (!oval4d::process::forbidNewPrivileges()) spdlog::warn("the system does not support no_new_privs");
         if (*draw) {
-            oval4d::picture::serveDrawing(oval4d::picture::kDrawingSocket);
+            oval4d::raster::serveRasterizer(oval4d::process::kChildSocket, oval4d::net::rasterizerConfinement(options),
+                                            forkJoin, heap);
+        } else if (*read) {
+            oval4d::reading::serveReading(oval4d::process::kChildSocket, oval4d::net::readingConfinement(options));
         } else if (*render) {
-            oval4d::renderPicture(*render, renderOptions);
+            oval4d::renderPicture(*render, renderOptions, forkJoin);
         } else if (*exporting) {
             oval4d::exportFile(*exporting, exportOptions);
         } else {
-            oval4d::net::runServer(options);
+            oval4d::net::runServer(options, forkJoin, heap);
         }
     } catch (const std::exception& fault) {
         std::cerr << "oval4d: " << fault.what() << "\n";

@@ -1,12 +1,11 @@
-# What server/run and tests/run have in common: installing, compiling, and saying so in few words.
-# Sourced by bash; the caller has set `root` to the top of the project.
+# shellcheck shell=bash
+# Functions that server/build, tests/run and other scripts share: installing packages, configuring, compiling, and
+# reporting progress briefly. To be sourced by bash, with `root` set to the top of the project.
 
-logs=$root/build/log
+logs=${root:?must be the top of the project}/build/log
 mkdir -p "$logs"
 
-# So that a fresh clone elsewhere finds what was compiled before.
-export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
-[[ -w ${HOME-} ]] || export HOME=$root/build/home # for the caches of ccache and npm
+[[ -w ${HOME-} ]] || export HOME=$root/build/home # ccache and npm keep their caches there
 
 say() { printf 'oval4d: %s\n' "$*" >&2; }
 
@@ -15,15 +14,15 @@ die() {
     exit 1
 }
 
-# On a terminal, shows the last line of a log while it grows.
+# show_progress <log>: shows the last line of a growing log on the terminal, until killed.
 show_progress() {
     while sleep 0.5 && kill -0 $$ 2>/dev/null; do
         printf '\r\e[K  %s' "$(tail -c 400 "$1" | tail -n 1 | cut -c "1-$(($(tput cols) - 4))")" >&2
     done
 }
 
-# step <log> <what> <command …>: runs the command, its output in build/log/<log>.log; a failure shows the end of it.
-# With `unattended` set, progress is not shown.
+# step <log> <what> <command …>: runs the command and writes its output to build/log/<log>.log; prints the end of the log
+# if the command fails. Shows progress on a terminal, unless `unattended` is set.
 step() {
     local log=$logs/$1.log what=$2 status=0 progress=
     shift 2
@@ -40,23 +39,28 @@ step() {
     fi
     if ((status)); then
         tail -n 25 "$log" >&2
-        say "FAILED: $what. All of the output is in ${log#"$root"/}"
+        say "FAILED: $what. The full output is in ${log#"$root"/}"
     fi
     return $status
 }
 
 # --- Debian and Ubuntu packages
 
-node_suits() { command -v npm >/dev/null && node -e 'process.exit(parseInt(process.versions.node) < 18 ? 1 : 0)' 2>/dev/null; }
+# Whether npm and Node.js 18 or newer are installed, from whatever source.
+has_recent_node() {
+    command -v npm >/dev/null && node -e 'process.exit(parseInt(process.versions.node) < 18 ? 1 : 0)' 2>/dev/null
+}
 apt_knows() { [[ $(LC_ALL=C apt-cache policy "$1" 2>/dev/null) == *"Candidate: "[0-9]* ]]; }
 
-# Prints the packages of the lists that are missing. Of alternatives, the first that is installed or known to apt counts.
+# missing_packages <lists …>: prints the listed packages that are not installed, one a line. Of alternatives (a|b), the
+# first that is installed or known to apt decides; where there is none, the last.
 missing_packages() {
     local line name missing
     local -A installed=()
-    while read -r name; do installed[$name]=1; done < <(dpkg-query -W -f '${Package} ${db:Status-Status}\n' | sed -n 's/ installed$//p')
+    while read -r name; do installed[$name]=1; done \
+        < <(dpkg-query -W -f '${Package} ${db:Status-Status}\n' | sed -n 's/ installed$//p')
     sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$@" | while read -r line; do
-        [[ $line =~ ^(nodejs|npm)$ ]] && node_suits && continue
+        [[ $line =~ ^(nodejs|npm)$ ]] && has_recent_node && continue
         for name in ${line//|/ }; do
             [[ ${installed[$name]-} ]] && continue 2
             missing=$name
@@ -72,31 +76,36 @@ apt_get() {
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 "$@"
 }
 
-# Installs what is missing of the lists.
+# install_packages <lists …>: installs the listed packages that are missing.
 install_packages() {
-    local missing
+    local missing packages
     if ! command -v dpkg-query >/dev/null; then
-        say "this is not Debian or Ubuntu: the packages in ${*#"$root"/} are taken to be there"
+        say "this is not Debian or Ubuntu: assuming that the packages in ${*#"$root"/} are installed"
         return
     fi
     missing=$(missing_packages "$@")
     [[ $missing ]] || return 0
-    ((EUID == 0)) || command -v sudo >/dev/null || die "there is no sudo; as root, install these packages first:" $missing
-    step apt-update "fetching the lists of packages" apt_get update || return
-    missing=$(missing_packages "$@")
-    step apt-install "installing $(wc -w <<<"$missing") packages" \
-        apt_get install --yes --no-install-recommends --no-remove $missing
+    ((EUID == 0)) || command -v sudo >/dev/null ||
+        die "sudo is not installed; install these packages as root first: ${missing//$'\n'/ }"
+    step apt-update "updating the package lists" apt_get update || return
+    missing=$(missing_packages "$@") # again: apt may know more alternatives now
+    mapfile -t packages <<<"$missing"
+    step apt-install "installing ${#packages[@]} packages" \
+        apt_get install --yes --no-install-recommends --no-remove "${packages[@]}"
 }
 
 # --- npm packages and the web client
 
-hash_of() { find "$@" \( -name node_modules -o -name dist \) -prune -o -type f -print0 | sort -z | xargs -0 sha256sum | sha256sum; }
+# hash_of <files and folders …>: a digest of their paths and contents.
+hash_of() {
+    find "$@" \( -name node_modules -o -name dist \) -prune -o -type f -print0 | sort -z | xargs -0 sha256sum | sha256sum
+}
 
-# unchanged <stamp> <sources …>: whether the sources are as they were at the last `remember`.
+# unchanged <stamp> <sources …>: whether the sources are the same as when `remember` last wrote the stamp.
 unchanged() { [[ -e $1 && $(<"$1") == "$(hash_of "${@:2}")" ]]; }
 remember() { hash_of "${@:2}" >"$1"; }
 
-# Installs the npm packages that the folder's package-lock.json names.
+# install_npm <folder>: installs the npm packages of the folder's package-lock.json, unless they are installed already.
 install_npm() {
     local lock=$root/$1/package-lock.json stamp=$root/$1/node_modules/.installed
     unchanged "$stamp" "$lock" && return
@@ -104,6 +113,7 @@ install_npm() {
     remember "$stamp" "$lock"
 }
 
+# Builds web_client/dist, unless it is up to date.
 build_web_client() {
     local stamp=$root/web_client/dist/.built sources=("$root/web_client" "$root/protocol")
     unchanged "$stamp" "${sources[@]}" && return
@@ -114,17 +124,25 @@ build_web_client() {
 
 # --- C++
 
-# As many compilers as processors, but each with 1 GB of memory.
-jobs() {
-    awk -v processors="$(nproc)" '/MemAvailable/ { n = int($2 / 1048576); print n < 1 ? 1 : n < processors ? n : processors }' /proc/meminfo
+# The number of compilers to run at once: one for each processor, as long as 1 GiB of memory is available for each.
+compile_jobs() {
+    awk -v processors="$(nproc)" \
+        '/MemAvailable/ { n = int($2 / 1048576); print n < 1 ? 1 : n < processors ? n : processors }' /proc/meminfo
 }
 
-# configure <preset> <options of CMake …>
+# configure <preset> <CMake options …>
 configure() {
     step "configure-$1" "configuring build/$1" env -C "$root" cmake --preset "$@"
 }
 
 # compile <preset> <targets …>
 compile() {
-    step "compile-$1" "compiling build/$1" cmake --build "$root/build/$1" --parallel "$(jobs)" --target "${@:2}"
+    step "compile-$1" "compiling build/$1" cmake --build "$root/build/$1" --parallel "$(compile_jobs)" --target "${@:2}"
+}
+
+# Builds the fuzzers, with the Clang that tests/packages.txt installs the fuzzer runtime for.
+build_fuzzers() {
+    local clang
+    for clang in clang++-16 clang++-19 clang++; do command -v "$clang" >/dev/null && break; done
+    configure fuzz -DCMAKE_CXX_COMPILER="$clang" && compile fuzz fuzz
 }

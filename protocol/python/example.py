@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Turns the 24-cell as the paper turns the 5-cell in its sixth figure, and keeps the picture."""
+"""Turns the 24-cell as the paper's figure 6 turns the 5-cell, and saves the picture."""
 from math import pi, sqrt
 
 from oval4d_client import connect

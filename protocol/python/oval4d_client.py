@@ -1,4 +1,4 @@
-"""A client of oval4d: talks to a server over a WebSocket, one call a message.
+"""A client of oval4d: talks to a server over a WebSocket, one call per message.
 
     with connect("http://127.0.0.1:8080/") as oval:
         oval.hello()
@@ -6,9 +6,9 @@
         oval.rotate("xw,yz", 0.39, 1.42)
         open("24-cell.png", "wb").write(oval.frame(1280, 720))
 
-The messages and their members are specified in ../README.md. Needs python3-websockets (10 or later), and
-python3-cbor2 for slices in CBOR. The socket is served by a thread of its own, so calls may come from any thread, and
-a script that pauses stays connected.
+../README.md specifies the messages and their members. Needs python3-websockets (10 or later), and python3-cbor2 for
+slices in CBOR. A separate thread serves the socket, so calls may come from any thread, and a script that pauses stays
+connected.
 """
 
 import array
@@ -31,7 +31,7 @@ except ImportError:
 
 SUBPROTOCOL = "oval4d.v1"
 PNG = b"\x89PNG\r\n\x1a\n"
-COME_BACK = {None, 1001, 1006, 1012, 1013}  # ends of a connection after which the session goes on
+RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # close codes after which the session continues
 
 
 class Refused(Exception):
@@ -44,7 +44,7 @@ class Refused(Exception):
 
 
 class Closed(Exception):
-    """The connection has ended; `code` is a close code, or None where it just broke."""
+    """The connection has ended; `code` is the close code, or None if the connection broke."""
 
     def __init__(self, code, reason):
         super().__init__(f"the connection is closed ({code} {reason})".rstrip())
@@ -53,12 +53,12 @@ class Closed(Exception):
 
 
 def connect(url="http://127.0.0.1:8080/", session=None, **options):
-    """Opens a connection to the server at `url` (http, https, ws or wss), to a new session or to an earlier one."""
+    """Connects to the server at `url` (http, https, ws or wss), to a new session or to an existing one."""
     return Client(socket_url(url, session), **options)
 
 
 def socket_url(url, session=None):
-    """The WebSocket's address for that of the page: http://host/prefix/?query → ws://host/prefix/ws?query."""
+    """The WebSocket URL for the URL of the page: http://host/prefix/?query → ws://host/prefix/ws?query."""
     parts = urlsplit(url)
     scheme = {"http": "ws", "https": "wss"}.get(parts.scheme, parts.scheme)
     path = parts.path.rstrip("/") + "/ws" + (f"/{session}" if session else "")
@@ -66,12 +66,12 @@ def socket_url(url, session=None):
 
 
 class Client:
-    """One connection. `timeout` (seconds) is for every call; `show` says whether pictures that arrive are
-    acknowledged at once, as a client does that presents them.
+    """One connection. `timeout` (seconds) applies to every call; `show` says whether pictures are acknowledged as soon
+    as they arrive, like a client that presents them.
 
-    A connection that breaks, or that a server ends because it stops, is made again, at once and then with growing
-    pauses, for `timeout` seconds; calls wait meanwhile. Of a call that was under way nobody knows whether it was carried
-    out: it raises Closed."""
+    If the connection breaks, or the server closes it because it stops, the client reconnects, at once and then with
+    growing pauses, for `timeout` seconds; calls wait meanwhile. A call that was in progress raises Closed, because it
+    is unknown whether it took effect."""
 
     def __init__(self, url, timeout=30, show=True, headers=None):
         self.timeout = timeout
@@ -79,17 +79,17 @@ class Client:
         self._url = url
         self._headers = headers
         self._hello = {}
-        self._away = False  # the connection is being made again
-        self._leaving = False
+        self._reconnecting = False
+        self._closing = False
         self.welcome = None  # the newest message of each kind
         self.newest_state = None
         self.newest_slices = None
         self.newest_frame = None
-        self.errors = []  # errors that answer no call
-        self.closed = None  # (code, reason) once it is over
+        self.errors = []  # errors that belong to no call
+        self.closed = None  # (code, reason) once the connection has ended for good
         self._ids = itertools.count(1)
         self._waiting = {}  # id → None, then the answer
-        self._wants_bytes = set()  # ids whose answer is the frame before their done
+        self._wants_bytes = set()  # ids whose answer is the binary message before their done
         self._binary = None
         self._change = threading.Condition()
         self._loop = asyncio.new_event_loop()
@@ -102,17 +102,17 @@ class Client:
             raise
         self._reader = asyncio.run_coroutine_threadsafe(self._read(), self._loop)
 
-    # The messages.
+    # Messages
 
     def hello(self, stream="none", **members):
-        """Opens the conversation: stream "geometry", "frames" or "none"; width, height, encoding, token."""
+        """Opens the conversation: stream "geometry", "frames" or "none"; members width, height, encoding, token."""
         return self.request("hello", stream=stream, **members)
 
     def key(self, key, shift=False, ctrl=False):
         return self.request("key", key=key, shift=shift, ctrl=ctrl)
 
     def rotate(self, planes, *angles):
-        """rotate("xw", 0.1) or rotate("xw,yz", 0.1, 0.2); radians."""
+        """Rotates by angles in radians: rotate("xw", 0.1) or rotate("xw,yz", 0.1, 0.2)."""
         return self.request("rotate", planes=planes.split(","), angles=list(angles))
 
     def set(self, **settings):
@@ -144,11 +144,11 @@ class Client:
         return self.get("slices", width, height)
 
     def frame(self, width=None, height=None):
-        """A picture: the bytes of a PNG file."""
+        """Returns a picture as the bytes of a PNG file."""
         return self.get("frame", width, height)
 
     def file(self, format, **members):
-        """Slices as the bytes of a file: format "stl", "3mf", …; of, body, size, label as `get` has them."""
+        """Returns slices as the bytes of a file: format "stl", "3mf", …; of, body, size, label as in `get`."""
         return self.request("get", what="file", format=format, **members)
 
     def catalogue(self):
@@ -158,24 +158,24 @@ class Client:
         return self.get("keymap")["keys"]
 
     def shown(self, revision):
-        """Says that the picture of this revision has been presented."""
+        """Tells the server that the picture of this revision has been presented."""
         self.send({"type": "shown", "revision": revision})
 
     def wait(self, revision, timeout=None):
-        """Waits until the picture of this revision or a later one is here (without a stream: the state)."""
+        """Waits for the picture of this revision or a later one (without a stream: for the state)."""
 
-        def here():
+        def arrived():
             newest = {"geometry": self.newest_slices, "frames": self.newest_frame and png_state(self.newest_frame)}
             message = newest.get(self._stream, self.newest_state)
             return message is not None and message["revision"] >= revision
 
-        self._wait_for(here, timeout, f"revision {revision}")
+        self._wait_for(arrived, timeout, f"revision {revision}")
         return self.newest_state
 
-    # How they travel.
+    # Transport
 
     def request(self, type, **members):
-        """Sends a message with an id and returns its answer; raises Refused if that is an error."""
+        """Sends a message with an id and returns the answer; raises Refused if the answer is an error."""
         if type == "hello":
             self._stream = members.get("stream", "none")
             self._hello = members
@@ -199,17 +199,17 @@ class Client:
         return answer
 
     def send(self, message):
-        """Sends a message as it is: an object, text, or bytes."""
+        """Sends a message unchanged: a dict as JSON, text, or bytes."""
         if isinstance(message, dict):
             message = json.dumps(message)
-        self._wait_for(lambda: not self._away, None, "the server")
+        self._wait_for(lambda: not self._reconnecting, None, "the server")
         try:
             self._run(self._socket.send(message))
         except websockets.ConnectionClosed:
             raise Closed(self._socket.close_code, self._socket.close_reason or "") from None
 
     def close(self):
-        self._leaving = True
+        self._closing = True
         if self._loop.is_running():
             self._run(self._socket.close())
             self._reader.result(self.timeout)
@@ -242,24 +242,24 @@ class Client:
             except websockets.ConnectionClosed:
                 pass
             end = (self._socket.close_code, self._socket.close_reason or "")
-            again = self.welcome is not None and end[0] in COME_BACK and not self._leaving
+            again = self.welcome is not None and end[0] in RECONNECT_CODES and not self._closing
             with self._change:
                 for number, answer in self._waiting.items():
                     self._waiting[number] = answer or Closed(*end)
-                self._away = again
+                self._reconnecting = again
                 self.closed = None if again else end
                 self._change.notify_all()
             if not again or not await self._return(end):
                 return
 
     async def _return(self, end):
-        """Opens the session again, on whatever server is there; whether that was to be had."""
+        """Reconnects to the session, on whichever server answers; returns whether that succeeded."""
         last = time.monotonic() + self.timeout
         pause = 0.1
         parts = urlsplit(self._url)
         path = re.sub(r"/ws(/[^/]*)?$", "/ws/" + self.welcome["session"], parts.path)
         url = urlunsplit((parts.scheme, parts.netloc, path, parts.query, ""))
-        while not self._leaving and time.monotonic() < last:
+        while not self._closing and time.monotonic() < last:
             await asyncio.sleep(pause * (0.5 + random.random()))
             pause = min(2 * pause, 5)
             try:
@@ -268,17 +268,17 @@ class Client:
             except (OSError, websockets.WebSocketException, asyncio.TimeoutError):
                 continue
             with self._change:
-                self._away = False
+                self._reconnecting = False
                 self._change.notify_all()
             return True
         with self._change:
-            self._away = False
+            self._reconnecting = False
             self.closed = end
             self._change.notify_all()
         return False
 
     def _receive(self, data):
-        """Takes a message in; returns its revision if it is a picture of the stream."""
+        """Processes a message; returns its revision if it is a picture of the stream."""
         picture = None
         with self._change:
             if isinstance(data, bytes) and data.startswith(PNG):
@@ -286,7 +286,7 @@ class Client:
                 picture = png_state(data)["revision"]
                 self._change.notify_all()
                 return picture
-            if isinstance(data, bytes) and not 0xA0 <= data[0] < 0xC0:  # no map of CBOR: a file
+            if isinstance(data, bytes) and not 0xA0 <= data[0] < 0xC0:  # not a CBOR map, so a file
                 self._binary = data
                 return None
             message = json.loads(data) if isinstance(data, str) else from_cbor(data)
@@ -311,7 +311,7 @@ class Client:
                     raise Closed(*self.closed)
                 left = end - time.monotonic()
                 if left <= 0:
-                    raise TimeoutError(f"no sign of {what}")
+                    raise TimeoutError(f"timed out waiting for {what}")
                 self._change.wait(left)
 
     def _run(self, coroutine):
@@ -324,39 +324,50 @@ class Client:
 
 
 def png_state(png):
-    """The state that a frame carries in its iTXt chunk; as a `set` it brings the picture about again."""
-    at = len(PNG)
-    while at < len(png):
+    """The state in a frame's iTXt chunk; sent as a `set`, it restores the picture. Raises ValueError if the bytes are
+    not a frame with a state."""
+    at = len(PNG) if png.startswith(PNG) else len(png)
+    while at + 12 <= len(png):
         size, kind = struct.unpack_from(">I4s", png, at)
         text = png[at + 8 : at + 8 + size]
         if kind == b"iTXt" and text.startswith(b"oval4d\0"):
-            return json.loads(text.split(b"\0", 5)[-1])  # keyword, flag, method, language, keyword again: text
+            try:
+                state = json.loads(text.split(b"\0", 5)[-1])  # keyword, flag, method, language, keyword again: text
+            except RecursionError:
+                break
+            if isinstance(state, dict):
+                return state
         at += size + 12
-    raise ValueError("not a frame of oval4d: no state inside")
+    raise ValueError("not an oval4d frame: it contains no state")
 
 
 def from_cbor(data):
-    """A slices message in CBOR, with its slices one by one; typed arrays become array.array of floats or integers."""
+    """Decodes a slices message in CBOR into one dict per slice; typed arrays become array.array of floats or integers.
+    Raises ValueError if the bytes are not such a message."""
     if cbor2 is None:
-        raise ImportError("slices in CBOR need python3-cbor2")
+        raise ImportError("decoding slices in CBOR needs python3-cbor2")
 
     def typed(_, tag):
         kind = {85: "f", 86: "d", 64: "B", 69: "H", 70: "I"}.get(tag.tag)
         return tag if kind is None else array.array(kind, tag.value)
 
-    message = cbor2.loads(data, tag_hook=typed)
-    message["slices"] = _slices_of(message["slices"])
+    try:
+        message = cbor2.loads(data, tag_hook=typed)
+        message["slices"] = _slices_of(message["slices"])
+    except (cbor2.CBORDecodeError, ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError,
+            TypeError) as fault:
+        raise ValueError(f"not a slices message in CBOR: {fault}") from fault
     return message
 
 
 def _rows(flat, sizes, width=1):
-    """Consecutive parts of an array, each of so many items of some numbers."""
+    """Splits an array into consecutive parts of `sizes` items; each item has `width` numbers."""
     ends = list(itertools.accumulate(sizes, initial=0))
     return [flat[width * begin : width * end] for begin, end in zip(ends, ends[1:])]
 
 
 def _slices_of(columns):
-    """In CBOR each property of all slices is one array."""
+    """Converts columns (one array per property, for all slices) to one dict per slice."""
     counts = columns["counts"]
     threes = [3] * len(columns["index"])
 

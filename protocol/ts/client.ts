@@ -1,12 +1,12 @@
-// A connection to one session, kept alive: it reconnects by itself, comes back to its session by the token, and says
-// at any time how it stands.
+// A persistent connection to one session: it reconnects automatically, returns to its session with the token, and
+// reports its status.
 
 import { Arena } from "./arena";
 import { decodeCbor, decodeText, isFile, isPng } from "./decode";
-import type { Catalogue, Done, Encoding, ErrorMessage, FileWish, Keymap, Message, Request } from "./messages";
+import type { Catalogue, Done, Encoding, ErrorMessage, FileOptions, Keymap, Message, Request } from "./messages";
 import type { Slices, State, Stream, Viewport, Welcome } from "./messages";
 
-/** What opens a session again. */
+/** The session's name and token, which give access to it. */
 export interface Credentials {
     session: string;
     token: string;
@@ -19,31 +19,31 @@ export type Status =
     | { kind: "closed"; reason: string };
 
 export interface Options {
-    /** The service's address, as typed into a browser; a path prefix belongs to it. */
+    /** The address of the service, as typed into a browser, including a path prefix. */
     url: string | URL;
     stream?: Stream;
     encoding?: Encoding;
     viewport?: Viewport;
-    /** The session to come back to; else a new one is made. */
+    /** The session to open; by default a new one is created. */
     credentials?: Credentials;
-    /** The arrays that `onSlices` is given may be used again for the next message: nothing is allocated for them. */
+    /** Whether the arrays passed to `onSlices` may be reused for the next message, which avoids allocations. */
     transient?: boolean;
-    /** For runtimes without one of their own. */
+    /** The WebSocket class, for runtimes that have none. */
     webSocket?: new (url: string, protocols: string) => WebSocket;
 
     onStatus?(status: Status): void;
     onWelcome?(welcome: Welcome): void;
     onState?(state: State): void;
-    /** Pictures, to be answered by `shown` once they are presented. */
+    /** Pictures; call `shown` once they are presented. */
     onSlices?(slices: Slices): void;
     onFrame?(png: Uint8Array): unknown;
-    /** An error that answers no request of this client. */
+    /** An error that does not answer a request of this client. */
     onError?(error: ErrorMessage): void;
-    /** The session is gone or not ours; the client goes on with a new one. */
+    /** The session is gone or its token is wrong; the client continues with a new session. */
     onLost?(reason: string): void;
 }
 
-/** An error message of the server, or a connection that ended before the answer. */
+/** An error message from the server, or the end of the connection before the answer. */
 export class RequestError extends Error {
     constructor(
         readonly code: string,
@@ -54,7 +54,7 @@ export class RequestError extends Error {
     }
 }
 
-interface Waiting {
+interface PendingRequest {
     wants: "frame" | "file" | "slices" | "message";
     resolve(answer: unknown): void;
     reject(error: RequestError): void;
@@ -62,12 +62,12 @@ interface Waiting {
 
 const kProtocol = 1;
 const kSubprotocol = `oval4d.v${kProtocol}`;
-const kAtOnce = 0.1; // seconds: after a connection that was open, another server may be there already
-const kFirstDelay = 0.5; // seconds, doubled at each further failure
-const kLongestDelay = 15;
-const kQuiet = 20; // seconds without a message before the connection is tested
-const kPatience = 8; // seconds within which a test is answered
-const kFilePatience = 300; // the same where a file is awaited, of which nothing is heard until it is here
+const kReconnectDelay = 0.1; // seconds after an open connection ended: another server may be available already
+const kFirstRetryDelay = 0.5; // seconds after the first failed attempt, doubled at each further failure
+const kMaxRetryDelay = 15; // seconds
+const kIdleBeforeTest = 20; // seconds without a message before the connection is tested
+const kTestTimeout = 8; // seconds within which a test must be answered
+const kFileTestTimeout = 300; // the same while waiting for a file, since nothing arrives until the file is complete
 const kOpen = 1; // WebSocket.OPEN
 
 export class Client {
@@ -77,7 +77,7 @@ export class Client {
 
     private socket: WebSocket | undefined;
     private settings: { stream: Stream; encoding: Encoding; viewport: Viewport | undefined };
-    private waiting = new Map<number, Waiting>();
+    private pending = new Map<number, PendingRequest>();
     private lastId = 0;
     private failures = 0;
     private timer: ReturnType<typeof setTimeout> | undefined;
@@ -94,7 +94,7 @@ export class Client {
         };
     }
 
-    /** Connects, now rather than after the back-off. */
+    /** Connects now, without waiting for the back-off delay. */
     connect(): void {
         clearTimeout(this.timer);
         this.drop();
@@ -121,7 +121,7 @@ export class Client {
         this.report({ kind: "closed", reason });
     }
 
-    /** Changes the stream, the encoding or the size, now and for later connections. */
+    /** Changes the stream, the encoding or the size, for this and later connections. */
     hello(change: { stream?: Stream; encoding?: Encoding; viewport?: Viewport }): Promise<Welcome> {
         Object.assign(this.settings, change);
         const { stream, encoding, viewport } = this.settings;
@@ -133,7 +133,7 @@ export class Client {
     request(message: { type: "get"; what: "state" }): Promise<State>;
     request(message: { type: "get"; what: "slices"; width?: number; height?: number }): Promise<Slices>;
     request(message: { type: "get"; what: "frame"; width?: number; height?: number }): Promise<Uint8Array>;
-    request(message: { type: "get"; what: "file" } & FileWish): Promise<Uint8Array>;
+    request(message: { type: "get"; what: "file" } & FileOptions): Promise<Uint8Array>;
     request(message: { type: "get"; what: "catalogue" }): Promise<Catalogue>;
     request(message: { type: "get"; what: "keymap" }): Promise<Keymap>;
     request(message: Exclude<Request, { type: "hello" | "get" | "shown" }>): Promise<Done>;
@@ -146,17 +146,17 @@ export class Client {
             }
             const what = message.type === "get" ? message.what : "message";
             const wants = what === "frame" || what === "file" || what === "slices" ? what : "message";
-            this.waiting.set(id, { wants, resolve, reject });
+            this.pending.set(id, { wants, resolve, reject });
             this.send({ ...message, id });
         });
     }
 
-    /** Bytes that are still to go to the server. */
+    /** The number of bytes that are still to be sent to the server. */
     get unsent(): number {
         return this.socket?.bufferedAmount ?? 0;
     }
 
-    /** Says that a picture has been presented: the server sends the next one. */
+    /** Tells the server that a picture has been presented, so that it sends the next one. */
     shown(revision: number): void {
         this.send({ type: "shown", revision });
     }
@@ -175,19 +175,19 @@ export class Client {
         if (isFile(bytes)) {
             this.heldFile = bytes; // its `done` follows
         } else if (!isPng(bytes)) {
-            const keep = !this.options.transient || this.awaits("slices");
+            const keep = !this.options.transient || this.isAwaiting("slices");
             this.handle(decodeCbor(bytes, keep ? undefined : this.arena));
-        } else if (this.awaits("frame")) {
+        } else if (this.isAwaiting("frame")) {
             this.passFrame();
-            this.heldFrame = bytes; // whose it is, the next message says
+            this.heldFrame = bytes; // the next message tells whether it is an answer or part of the stream
         } else {
             this.options.onFrame?.(bytes);
         }
     }
 
     private handle(message: Message): void {
-        const request = message.id === undefined ? undefined : this.waiting.get(message.id);
-        if (message.id !== undefined) this.waiting.delete(message.id);
+        const request = message.id === undefined ? undefined : this.pending.get(message.id);
+        if (message.id !== undefined) this.pending.delete(message.id);
         if (request?.wants === "frame" && message.type === "done") {
             request.resolve(this.heldFrame);
             this.heldFrame = undefined;
@@ -212,11 +212,11 @@ export class Client {
         }
     }
 
-    private awaits(what: Waiting["wants"]): boolean {
-        return [...this.waiting.values()].some(({ wants }) => wants === what);
+    private isAwaiting(what: PendingRequest["wants"]): boolean {
+        return [...this.pending.values()].some(({ wants }) => wants === what);
     }
 
-    /** A held frame that was not followed by its `done` belongs to the stream. */
+    /** Passes on a held frame that was not followed by its `done`: it belongs to the stream. */
     private passFrame(): void {
         const frame = this.heldFrame;
         this.heldFrame = undefined;
@@ -225,7 +225,7 @@ export class Client {
 
     private welcomed(welcome: Welcome): void {
         if (welcome.protocol !== kProtocol) {
-            this.close(`the server speaks protocol ${welcome.protocol}, this client ${kProtocol}: load the page anew`);
+            this.close(`the server uses protocol ${welcome.protocol}, this client ${kProtocol}: reload the page`);
             return;
         }
         this.failures = 0;
@@ -235,46 +235,46 @@ export class Client {
         this.options.onWelcome?.(welcome);
     }
 
-    /** Tests a connection that has gone quiet: a network that died says nothing. */
+    /** Schedules a test of the connection for when it is idle, because a dead network sends no notification. */
     private watch(): void {
         clearTimeout(this.timer);
-        this.timer = setTimeout(() => this.test(), kQuiet * 1000);
-        (this.timer as { unref?(): void }).unref?.(); // a script may end meanwhile
+        this.timer = setTimeout(() => this.test(), kIdleBeforeTest * 1000);
+        (this.timer as { unref?(): void }).unref?.(); // so that the timer does not keep a script running
     }
 
-    /** Asks for a sign of life; without one the connection counts as lost. */
+    /** Sends a request to test the connection; without an answer, the connection counts as lost. */
     test(): void {
         if (this.status.kind !== "open") return;
         this.request({ type: "get", what: "state" }).catch(() => {});
-        this.await(this.unsent);
+        this.awaitAnswer(this.unsent);
     }
 
-    /** The answer cannot come before all is sent: as long as that goes on, there is life. */
-    private await(unsent: number): void {
+    /** Waits for the answer. It cannot come before everything is sent, so progress in sending extends the wait. */
+    private awaitAnswer(unsent: number): void {
         clearTimeout(this.timer);
         this.timer = setTimeout(
             () => {
-                if (this.unsent < unsent) this.await(this.unsent);
+                if (this.unsent < unsent) this.awaitAnswer(this.unsent);
                 else this.closed(1006, "the server does not answer");
             },
-            (this.awaits("file") ? kFilePatience : kPatience) * 1000,
+            (this.isAwaiting("file") ? kFileTestTimeout : kTestTimeout) * 1000,
         );
     }
 
-    private closed(code: number, said: string): void {
+    private closed(code: number, closeReason: string): void {
         this.drop();
         if (code === 4401 || code === 4404) {
             const reason = code === 4401 ? "the token does not open that session" : "the server has no such session";
             this.credentials = undefined;
-            this.options.onLost?.(said || reason);
+            this.options.onLost?.(closeReason || reason);
             this.connect();
             return;
         }
         const opened = this.status.kind === "open";
-        const reason =
-            said || (code === 1012 ? "the server is stopping" : opened ? "the connection broke" : "no answer");
-        const delay = opened ? kAtOnce : Math.min(kLongestDelay, kFirstDelay * 2 ** this.failures++);
-        const seconds = delay * (0.5 + Math.random()); // not all clients at the same moment
+        const otherwise = opened ? "the connection was lost" : "no answer";
+        const reason = closeReason || (code === 1012 ? "the server is stopping" : otherwise);
+        const delay = opened ? kReconnectDelay : Math.min(kMaxRetryDelay, kFirstRetryDelay * 2 ** this.failures++);
+        const seconds = delay * (0.5 + Math.random()); // jitter, so that clients do not all reconnect at once
         this.timer = setTimeout(() => this.connect(), seconds * 1000);
         this.report({ kind: "waiting", reason, seconds });
     }
@@ -288,10 +288,10 @@ export class Client {
             socket.onopen = socket.onmessage = socket.onclose = null;
             socket.close();
         }
-        const unanswered = [...this.waiting.values()];
-        this.waiting.clear();
+        const unanswered = [...this.pending.values()];
+        this.pending.clear();
         for (const { reject } of unanswered) {
-            reject(new RequestError("not_connected", "the connection ended before the answer came"));
+            reject(new RequestError("not_connected", "the connection ended before the answer arrived"));
         }
     }
 

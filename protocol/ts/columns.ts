@@ -1,8 +1,8 @@
-// The slices of a message in CBOR: each property of all slices in one array.
+// Slices as CBOR messages encode them: one array per property, for all slices.
 
 import type { Slice, Vector } from "./messages";
 
-/** As wide as they must be. */
+/** An array of integers, as wide as its largest value requires. */
 export type Integers = Uint8Array | Uint16Array | Uint32Array;
 
 type OfEach<T> = Record<"vertices" | "edges" | "faces", T>;
@@ -16,16 +16,17 @@ export interface Columns {
     label_size: Float64Array;
     focus: boolean[];
     drawn: boolean[];
-    /** How many each slice has. */
+    /** The number of elements in each slice. */
     counts: OfEach<Integers>;
     vertices: Float32Array;
     edges: Integers;
-    /** The corners of each face. */
+    /** The number of corners of each face. */
     sides: Integers;
     corners: Integers;
     of: OfEach<Integers>;
     tints?: Integers;
     seen?: OfEach<Integers>;
+    balls?: { scale: Float32Array; opacity: Float32Array };
     fill?: {
         counts: Record<"points" | "triangles", Integers>;
         points: Float32Array;
@@ -35,22 +36,24 @@ export interface Columns {
     };
 }
 
-/** Makes room for so many integers. */
+/** Allocates an array of `count` integers. */
 export type Room = (count: number) => Uint32Array;
 
 type Range = [begin: number, end: number];
 
-/** Ranges that follow on each other. */
-function ranges(sizes: Integers): Range[] {
+/** Consecutive ranges of these sizes in a list of `length` elements; throws RangeError if they exceed it. */
+function ranges(sizes: Integers, length: number): Range[] {
     let end = 0;
-    return Array.from(sizes, (size) => [end, (end += size)]);
+    const all = Array.from(sizes, (size): Range => [end, (end += size)]);
+    if (end > length) throw new RangeError(`the slices have ${end} elements, but the array has only ${length}`);
+    return all;
 }
 
 function vector(flat: Float32Array, i: number): Vector {
     return [flat[3 * i]!, flat[3 * i + 1]!, flat[3 * i + 2]!];
 }
 
-/** The slices one by one. Their arrays are parts of the columns' and of others from `room`. */
+/** Converts columns to one object per slice. Its arrays are views of the columns, or of arrays from `room`. */
 export function rowsOf(columns: Columns, room: Room): Slice[] {
     const wide = (integers: Integers): Uint32Array => {
         if (integers instanceof Uint32Array) return integers;
@@ -67,7 +70,9 @@ export function rowsOf(columns: Columns, room: Room): Slice[] {
         faces: lists.faces.subarray(...faces[i]!),
     });
     const { counts, sides, fill } = columns;
-    const [vertices, edges, faces] = [ranges(counts.vertices), ranges(counts.edges), ranges(counts.faces)];
+    const vertices = ranges(counts.vertices, columns.vertices.length / 3);
+    const edges = ranges(counts.edges, columns.edges.length / 2);
+    const faces = ranges(counts.faces, sides.length);
     const [ends, corners, of] = [wide(columns.edges), wide(columns.corners), wideOfEach(columns.of)];
     const tints = columns.tints && wide(columns.tints);
     const seen = columns.seen && wideOfEach(columns.seen);
@@ -97,13 +102,18 @@ export function rowsOf(columns: Columns, room: Room): Slice[] {
         const own = tints?.subarray(...faces[i]!);
         if (own?.some((tint, face) => tint !== slice.of.faces[face])) slice.tints = own;
         if (seen) slice.seen = partOfEach(seen, i);
+        if (columns.balls) {
+            const { scale, opacity } = columns.balls;
+            slice.balls = { scale: scale.subarray(...vertices[i]!), opacity: opacity.subarray(...vertices[i]!) };
+        }
         if (filled?.[i]!.triangles.length) slice.fill = filled[i];
         return slice;
     });
 }
 
 function fillsOf(fill: NonNullable<Columns["fill"]>, wide: (list: Integers) => Uint32Array): NonNullable<Slice["fill"]>[] {
-    const [points, triangles] = [ranges(fill.counts.points), ranges(fill.counts.triangles)];
+    const points = ranges(fill.counts.points, fill.points.length / 3);
+    const triangles = ranges(fill.counts.triangles, fill.tints.length);
     const [corners, tints, seen] = [wide(fill.triangles), wide(fill.tints), fill.seen && wide(fill.seen)];
     return points.map(([first, last], i) => {
         const [begin, end] = triangles[i]!;

@@ -1,23 +1,28 @@
-// Bytes and text from the server → messages. JSON and CBOR slices come out alike, in flat typed arrays.
+// Decodes the server's text and binary messages. Slices have the same flat typed arrays whether they are JSON or CBOR.
 
-import { addExtension, Decoder } from "cbor-x/decode-no-eval";
+import * as cborX from "cbor-x/decode-no-eval";
 
 import type { Arena, Numbers } from "./arena";
 import { rowsOf, type Columns, type Integers } from "./columns";
 import type { Message, Slice, Slices } from "./messages";
 
-const cbor = new Decoder({ mapsAsObjects: true, useRecords: false });
+const cbor = new cborX.Decoder({ mapsAsObjects: true, useRecords: false });
 
-let arena: Arena | undefined; // of the message that is being decoded
+/** The library's type declarations lack this function. */
+const { setSizeLimits } = cborX as unknown as {
+    setSizeLimits: (limits: { maxArraySize: number; maxMapSize: number }) => void;
+};
 
-/** An array of RFC 8746, little endian: read where it lies if it is aligned, else moved. */
+let arena: Arena | undefined; // for the message that is being decoded
+
+/** Registers a little-endian typed array of RFC 8746; aligned data is used in place, other data is copied. */
 function readTyped<T>(tag: number, numbers: Numbers<T>): void {
     const size = numbers.BYTES_PER_ELEMENT;
     const decode = (bytes: Uint8Array<ArrayBuffer>): T =>
         bytes.byteOffset % size === 0
             ? new numbers(bytes.buffer, bytes.byteOffset, bytes.length / size)
             : (arena?.take(bytes, numbers) ?? new numbers(bytes.slice().buffer, 0, bytes.length / size));
-    addExtension({ tag, decode } as Parameters<typeof addExtension>[0]);
+    cborX.addExtension({ tag, decode } as Parameters<typeof cborX.addExtension>[0]);
 }
 readTyped(69, Uint16Array);
 readTyped(70, Uint32Array);
@@ -30,7 +35,7 @@ export function isPng(bytes: Uint8Array): boolean {
     return kPngSignature.every((byte, i) => bytes[i] === byte);
 }
 
-/** Whether this is a file that was asked for: it begins with a character of ASCII, PNG and CBOR do not. */
+/** Whether the bytes are an exported file: a file begins with an ASCII character, PNG and CBOR do not. */
 export function isFile(bytes: Uint8Array): boolean {
     return bytes[0]! < 0x80;
 }
@@ -39,10 +44,15 @@ export function decodeText(text: string): Message {
     return flattened(JSON.parse(text) as Message);
 }
 
-/** With an arena, the arrays are valid until it is used for another message. */
+/**
+ * Decodes a CBOR message; throws an Error if the bytes are not one. With an arena, the arrays are valid until the arena
+ * is used for another message.
+ */
 export function decodeCbor(bytes: Uint8Array, within?: Arena): Message {
-    within?.begin(6 * bytes.length); // moved, or widened from 1 byte to 4
+    within?.begin(6 * bytes.length); // enough for copied arrays and for those widened from 1 byte to 4
     arena = within;
+    // Each item takes at least one byte. Without a limit, the library reads beyond the end if a message announces more.
+    setSizeLimits({ maxArraySize: bytes.length + 1, maxMapSize: bytes.length + 1 });
     try {
         return flattened(cbor.decode(bytes) as Message);
     } finally {
@@ -50,18 +60,21 @@ export function decodeCbor(bytes: Uint8Array, within?: Arena): Message {
     }
 }
 
-/** The text of a PNG file's iTXt chunk with this keyword. */
+/** The text of a PNG file's iTXt chunk with this keyword; undefined if there is none or the file is not a whole PNG. */
 export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined {
     const view = new DataView(png.buffer, png.byteOffset, png.byteLength);
     const utf8 = new TextDecoder();
-    for (let at = 8; at + 12 <= png.length;) {
+    for (let at = isPng(png) ? 8 : png.length; at + 12 <= png.length;) {
         const length = view.getUint32(at);
+        if (at + 12 + length > png.length) return undefined;
         const data = png.subarray(at + 8, at + 8 + length);
         if (utf8.decode(png.subarray(at + 4, at + 8)) === "iTXt") {
             const nameEnd = data.indexOf(0);
             if (utf8.decode(data.subarray(0, nameEnd)) === keyword && data[nameEnd + 1] === 0) {
                 const languageEnd = data.indexOf(0, nameEnd + 3);
-                return utf8.decode(data.subarray(data.indexOf(0, languageEnd + 1) + 1));
+                const keywordEnd = data.indexOf(0, languageEnd + 1);
+                if (languageEnd < 0 || keywordEnd < 0) return undefined;
+                return utf8.decode(data.subarray(keywordEnd + 1));
             }
         }
         at += length + 12;
@@ -69,25 +82,26 @@ export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined
     return undefined;
 }
 
-type Loose<T> = T | number[] | number[][];
+type FlatOrNested<T> = T | number[] | number[][];
 
-/** A slice as JSON has it: nested arrays. */
-interface LooseSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" | "tints" | "seen" | "fill"> {
+/** A slice in the JSON encoding, with nested arrays. */
+interface JsonSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" | "tints" | "seen" | "balls" | "fill"> {
     vertices: number[][];
     edges: number[][];
     faces: number[][];
     of: Record<"vertices" | "edges" | "faces", number[]>;
     tints?: number[];
     seen?: Record<"vertices" | "edges" | "faces", number[]>;
+    balls?: { scale: number[]; opacity: number[] };
     fill?: { points: number[][]; triangles: number[][]; tints: number[]; seen?: number[] };
 }
 
 function flattened(message: Message): Message {
     if (message.type !== "slices") return message;
     const loose = message as unknown as Omit<Slices, "slices" | "coordinates" | "density"> & {
-        coordinates?: Loose<Float32Array>;
-        density?: Loose<Uint8Array>;
-        slices: LooseSlice[] | Columns;
+        coordinates?: FlatOrNested<Float32Array>;
+        density?: FlatOrNested<Uint8Array>;
+        slices: JsonSlice[] | Columns;
     };
     const { scene, slices } = loose;
     return {
@@ -99,7 +113,7 @@ function flattened(message: Message): Message {
     };
 }
 
-function flattenedSlice({ tints, seen, fill, ...slice }: LooseSlice): Slice {
+function flattenedSlice({ tints, seen, balls, fill, ...slice }: JsonSlice): Slice {
     return {
         ...slice,
         vertices: floats(slice.vertices),
@@ -108,6 +122,7 @@ function flattenedSlice({ tints, seen, fill, ...slice }: LooseSlice): Slice {
         of: ofAll(slice.of),
         ...(tints && { tints: indices(tints) }),
         ...(seen && { seen: ofAll(seen) }),
+        ...(balls && { balls: { scale: floats(balls.scale), opacity: floats(balls.opacity) } }),
         ...(fill && {
             fill: {
                 points: floats(fill.points),
@@ -119,7 +134,7 @@ function flattenedSlice({ tints, seen, fill, ...slice }: LooseSlice): Slice {
     };
 }
 
-function ofAll(lists: LooseSlice["of"]): Slice["of"] {
+function ofAll(lists: JsonSlice["of"]): Slice["of"] {
     return { vertices: indices(lists.vertices), edges: indices(lists.edges), faces: indices(lists.faces) };
 }
 
@@ -127,11 +142,11 @@ function room(count: number): Uint32Array {
     return arena?.room(count, Uint32Array) ?? new Uint32Array(count);
 }
 
-function floats(values: Loose<Float32Array>): Float32Array {
+function floats(values: FlatOrNested<Float32Array>): Float32Array {
     return values instanceof Float32Array ? values : Float32Array.from((values as number[]).flat());
 }
 
-function indices(values: Loose<Integers>): Uint32Array {
+function indices(values: FlatOrNested<Integers>): Uint32Array {
     if (values instanceof Uint32Array) return values;
     if (!ArrayBuffer.isView(values)) return Uint32Array.from((values as number[]).flat());
     const wide = room(values.length);

@@ -1,6 +1,6 @@
 // A small client of oval4d for pages and for scripts.
 //
-//     import WebSocket from "ws"; // Node before 22; browsers bring their own
+//     import WebSocket from "ws"; // for Node before 22; browsers have their own
 //     const client = new Client({
 //         url: "http://localhost:8080/",
 //         webSocket: WebSocket,
@@ -10,7 +10,7 @@
 //     });
 //     client.connect();
 //
-// It needs cbor-x from npm, and a bundler or a runtime that reads TypeScript.
+// Needs cbor-x from npm, and a bundler or a runtime that supports TypeScript.
 
 export * from "./messages";
 export { Client, RequestError } from "./client";

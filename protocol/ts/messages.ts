@@ -1,22 +1,18 @@
-// The messages of protocol/README.md as types. Angles are in radians, lengths in the polytope's units unless they
-// are called world lengths (circumradius = 1).
+// Types for the messages of protocol/README.md. Angles are in radians. Lengths are in the polytope's units, except for
+// world lengths (circumradius = 1), which are marked as such.
 
 export type Plane = "xy" | "xz" | "xw" | "yz" | "yw" | "zw";
 export type Stream = "none" | "geometry" | "frames";
 export type Encoding = "json" | "cbor";
 export type View = "oval" | "single";
-/** What a face's colour tells: its cell, the kind of its cell, the w of its cell's centre as turned, or nothing. */
+/** What the face colors show: the cell, the kind of cell, the w of the cell's center after the rotation, or nothing. */
 export type Coloring = "cell" | "kind" | "w" | "plain";
 export type Vector = [number, number, number];
 
-export interface Parts {
-    faces: boolean;
-    bars: boolean;
-    balls: boolean;
-    coordinates: boolean;
-}
+/** Which parts of the picture are drawn. */
+export type Parts = Record<keyof (typeof import("../schema/parts.schema.json"))["properties"], boolean>;
 
-/** Orbit angles about the point looked at, and magnification. */
+/** The camera's orbit angles around its target, and the magnification. */
 export interface Orbit {
     azimuth: number;
     elevation: number;
@@ -36,7 +32,7 @@ export interface Viewport {
 
 // To the server
 
-/** What `set` takes: any of the settings in a state. */
+/** The members of `set`: any of the settings in a state. */
 export interface Settings {
     polytope?: string | { name: string };
     orientation?: number[][];
@@ -49,17 +45,18 @@ export interface Settings {
     shown?: Partial<Parts>;
     camera?: Partial<Orbit>;
     color?: Coloring;
-    /** Kinds of cells, numbers into the polytope's kinds. */
+    /** Kinds of cells, as indices into the polytope's kinds. */
     hidden?: number[];
     faded?: number[];
 }
 
-/** What a file is to hold; all but the format only where it holds bodies. */
-export interface FileWish {
-    format: "stl" | "3mf" | "obj" | "ply" | "glb" | "off" | "csv" | "svg";
+/** The options of an exported file. All but the format apply only to files with bodies. */
+export interface FileOptions {
+    /** A name that export_formats.json lists. */
+    format: string;
     of?: "focus" | "oval";
     body?: "solid" | "frame";
-    /** Millimetres: the diameter of the polytope's circumscribed sphere. */
+    /** The diameter of the polytope's circumscribed sphere, in millimeters. */
     size?: number;
     label?: "none" | "engraved" | "separate";
 }
@@ -75,7 +72,7 @@ export type Request =
     | { type: "reset" }
     | { type: "command"; line: string }
     | { type: "get"; what: "state" | "slices" | "frame" | "catalogue" | "keymap"; width?: number; height?: number }
-    | ({ type: "get"; what: "file" } & FileWish)
+    | ({ type: "get"; what: "file" } & FileOptions)
     | { type: "shown"; revision: number };
 
 // To the client
@@ -90,12 +87,12 @@ export interface Welcome {
     limits: Record<string, number>;
 }
 
-/** Cells that the polytope's symmetries take to each other. */
+/** Cells that the polytope's symmetries map to each other. */
 export interface CellKind {
     name: string;
-    /** How many there are. */
+    /** The number of cells of this kind. */
     cells: number;
-    /** 0xRRGGBB, where colours tell the kind. */
+    /** The color of the kind when faces are colored by kind, 0xRRGGBB. */
     color?: number;
 }
 
@@ -104,7 +101,7 @@ export interface State {
     id?: number;
     revision: number;
     polytope: { name: string; vertices: number; edges: number; faces: number; cells: number; kinds?: CellKind[] };
-    /** 4×4, rows; v' = M v. */
+    /** 4 × 4, by rows; v' = M v. */
     orientation: number[][];
     alpha: number;
     beta: number;
@@ -115,7 +112,7 @@ export interface State {
     shown: Parts;
     camera: Orbit;
     color: Coloring;
-    /** Kinds of cells, numbers into the polytope's kinds. */
+    /** Kinds of cells, as indices into the polytope's kinds. */
     hidden: number[];
     faded: number[];
     last: { planes: Plane[]; angles: number[] } | null;
@@ -125,7 +122,7 @@ export interface Done {
     type: "done";
     id: number;
     revision: number;
-    /** What was repaired in a loaded file. */
+    /** The corrections made to a loaded file. */
     warnings?: string[];
 }
 
@@ -136,20 +133,20 @@ export interface ErrorMessage {
     message: string;
 }
 
-/** A polytope that is known by name. */
+/** A polytope of the catalogue. */
 export interface CatalogueEntry {
     name: string;
     aliases: string[];
-    /** Schläfli symbol, and Coxeter–Dynkin diagram in linear notation; empty where it has none. */
+    /** Schläfli symbol, and Coxeter–Dynkin diagram in linear notation; empty if there is none. */
     schlaefli: string;
     diagram?: string;
-    /** The heading under which it stands: "regular", "uniform H4", "duoprism" … */
+    /** The family under which it is listed: "regular", "uniform H4", "duoprism" … */
     family?: string;
     vertices: number;
     edges: number;
     faces: number;
     cells: number;
-    /** Order of the full symmetry group, reflections included. */
+    /** Order of the full symmetry group, including reflections. */
     symmetry_order?: number;
 }
 
@@ -159,24 +156,25 @@ export interface Catalogue {
     polytopes: CatalogueEntry[];
 }
 
-/** One line of the key table, protocol/keymap.json. */
+/** One entry of the key table, protocol/keymap.json. */
 export interface KeyBinding {
-    /** As KeyboardEvent.key has it; a sequence such as "gg" is typed one after the other. */
+    /** As in KeyboardEvent.key; in a sequence such as "gg", the keys are typed one after the other. */
     key: string;
-    /** KeyboardEvent.code, where the physical key decides. */
+    /** KeyboardEvent.code, if the key is recognized by its physical position. */
     code?: string;
     ctrl?: boolean;
-    /** Whether Shift gives the inverse. */
+    /** "inverse" if Shift applies the inverse rotation. */
     shift?: "inverse";
-    /** How the key is written. */
+    /** The key's display name. */
     name: string;
     action: string;
     planes?: Plane[];
     group: string;
-    /** What it does, in a line, and in a word. */
+    /** A description of the action, for the help sheet. */
     text: string;
+    /** A button label for the action. */
     label: string;
-    /** For the client alone: the server is not asked. */
+    /** Whether the client handles this key itself; the server refuses it. */
     client?: boolean;
 }
 
@@ -187,12 +185,12 @@ export interface Keymap {
     keys: KeyBinding[];
 }
 
-/** How the slices are to be shown, so that every client draws the picture that a frame shows. */
+/** How to draw the slices, such that every client draws the same picture as a frame. */
 export interface SceneDescription {
     view: View;
     shown: Parts;
     viewport: Viewport;
-    /** World lengths; `fov` is vertical, `shift` moves the picture by parts of the viewport, x right, y up. */
+    /** In world lengths. `fov` is vertical; `shift` moves the picture by fractions of the viewport, x right, y up. */
     camera: {
         eye: Vector;
         target: Vector;
@@ -209,7 +207,7 @@ export interface SceneDescription {
     ball: number;
     bar: number;
     opacity: number;
-    /** By this the opacity of what is faded is multiplied. */
+    /** The factor for the opacity of faded elements. */
     faded: number;
     light: { direction: Vector; ambient: number; diffuse: number; specular: number; shininess: number };
     /** 0xRRGGBB. */
@@ -223,9 +221,11 @@ export interface SceneDescription {
         axes: [number, number, number, number];
         cells: Uint32Array;
     };
-    /** The rest in parts of the viewport's height. The axes' centre from the upper left corner. */
+    // All members below are in fractions of the viewport's height.
+
+    /** The axes; their center is measured from the upper left corner. */
     axes: { x: number; y: number; length: number };
-    /** The parallel coordinates, from the lower left corner. */
+    /** The parallel coordinates, measured from the lower left corner. */
     coordinates: {
         rows: number;
         per_row: number;
@@ -237,14 +237,14 @@ export interface SceneDescription {
         line_width: number;
         amplitude: number;
         named: boolean;
-        /** Of the density strip; 0 where lines are drawn. */
+        /** The number of columns of the density strip; 0 if lines are drawn. */
         columns: number;
     };
-    /** Height of the labels' text. */
+    /** The height of the labels' text. */
     text: number;
 }
 
-/** Triangles, which may cross; tint and presence (1 faded, 2 full) are those of each. */
+/** Triangles, which may cross; `tints` and `seen` (1 faded, 2 full) have one value per triangle. */
 export interface Fill {
     points: Float32Array;
     triangles: Uint32Array;
@@ -252,7 +252,7 @@ export interface Fill {
     seen?: Uint32Array;
 }
 
-/** One slice, in flat arrays whichever encoding it came in. */
+/** One slice, in flat arrays for either encoding. */
 export interface Slice {
     index: number;
     w: number;
@@ -260,22 +260,24 @@ export interface Slice {
     vertices: Float32Array;
     /** Pairs of vertices. */
     edges: Uint32Array;
-    /** Face f is the loop corners[begin[f]] … corners[begin[f + 1] − 1], counter-clockwise seen from outside. */
+    /** Face f is the loop corners[begin[f]] … corners[begin[f + 1] − 1], counterclockwise as seen from outside. */
     faces: { begin: Uint32Array; corners: Uint32Array };
-    /** The 4-D edge, 2-face, cell that each was cut from. */
+    /** The 4-D edge, 2-face or cell that each element was cut from. */
     of: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
-    /** The cell that colours each face; absent where it is `of.faces`. */
+    /** The cell that colors each face; absent if it is the same as `of.faces`. */
     tints?: Uint32Array;
-    /** 2 where an element is seen, 1 where it is faded, 0 where it is hidden; absent where all are seen. */
+    /** The visibility of each element: 2 full, 1 faded, 0 hidden; absent if all are fully visible. */
     seen?: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
-    /** What to draw instead of the faces, with a depth buffer; only where they may cross. */
+    /** The radius of the ball at each vertex, relative to scene.ball, and its opacity; absent if all are 1. */
+    balls?: { scale: Float32Array; opacity: Float32Array };
+    /** What to draw instead of the faces, with a depth buffer; present only if the faces may cross. */
     fill?: Fill;
-    /** Where the slice's origin stands in the world: a vertex p is seen at position + scale · p. */
+    /** The world position of the slice's origin: a vertex p is drawn at position + scale · p. */
     position: Vector;
     label: string;
-    /** The label is centred under this point of the world. */
+    /** The label is centered below this world position. */
     label_at: Vector;
-    /** Size of the label, as a part of the scene's `text`. */
+    /** The size of the label, as a fraction of the scene's `text`. */
     label_size: number;
     focus: boolean;
     drawn: boolean;
@@ -286,9 +288,9 @@ export interface Slices {
     id?: number;
     revision: number;
     scene: SceneDescription;
-    /** x, y, z, w of each vertex of the polytope as turned; empty where they are not shown. */
+    /** x, y, z, w of each vertex of the rotated polytope; empty if the parallel coordinates are not shown. */
     coordinates: Float32Array;
-    /** How many of the coordinates' lines pass where, 0 … 255, row by row from the top; empty where lines are drawn. */
+    /** The density of the coordinate lines, 0 … 255, row by row from the top; empty if single lines are drawn. */
     density: Uint8Array;
     slices: Slice[];
 }

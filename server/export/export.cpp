@@ -7,74 +7,64 @@
 
 #include <glm/geometric.hpp>
 
-#include "export/budget.hpp"
-#include "export/frame.hpp"
-#include "export/label.hpp"
+#include "export/formats/text.hpp"
+#include "export/label/label.hpp"
 #include "export/layout.hpp"
-#include "export/mesh_formats.hpp"
-#include "export/solid.hpp"
-#include "export/text.hpp"
-#include "export/text_formats.hpp"
-#include "geometry/slicer.hpp"
-#include "scene/scene.hpp"
+#include "export/mesh/skeleton.hpp"
+#include "export/mesh/solid.hpp"
 
 namespace oval4d::exports {
 
 namespace {
 
-// The cubes of a frame's mesh, in radii of a bar: fine while the file stays below this size, then up to coarse ones.
+// The cube width for meshing a skeleton, in multiples of the bar radius: fine, unless the file would then have more
+// than kTargetTriangles triangles; at most coarse.
 constexpr double kFineCube = 0.5;
 constexpr double kCoarseCube = 1;
-constexpr double kComfortable = 600'000;  // triangles
+constexpr double kTargetTriangles = 600'000;
 
 class Exporter {
   public:
-    Exporter(const Subject& subject, const Wish& wish, const Budget& budget)
-        : polytope_(subject.polytope),
-          subject_(subject),
-          wish_(wish),
+    Exporter(const scene::Scene& scene, const slicing::Object& object, const ExportRequest& request,
+             const Budget& budget)
+        : scene_(scene),
+          slices_(*scene.slices),
+          object_(object),
+          request_(request),
           budget_(budget),
-          scale_(wish.size / 2 / subject.polytope.circumradius),
-          grid_(wish.size, wish.of == Extent::oval ? reachOf(subject.planes.count, wish.size) : 2 * wish.size) {
-        auto planes = subject.planes;
-        if (wish.of == Extent::focus) planes = {subject.focus, 1, planes.spacing};
-        geometry::Slicer().slice(polytope_, subject.orientation, planes, slices_);
-    }
+          scale_(request.size / 2 / scene.circumradius),
+          grid_(request.size,
+                request.extent == Extent::oval ? maxExtentOf(slices_.planes.count, request.size) : 2 * request.size) {}
 
     std::string run() {
-        switch (wish_.format) {
-            case Format::off:
-                return off(polytope_, slices_);
-            case Format::csv:
-                return csv(polytope_, slices_);
-            case Format::svg:
-                return svg(polytope_, slices_);
-            default:
-                return write(bodies());
-        }
+        const Format& format = *request_.format;
+        if (format.writeSource != nullptr) return format.writeSource({scene_, object_});
+        const std::vector<Solid> solids = bodies();
+        return format.writeBodies({solids, scene_.cellColors, scene_.title, budget_});
     }
 
   private:
     std::vector<Solid> bodies() {
         std::vector<Group> groups;
-        const auto colour = wish_.body == Body::frame ? scene::style().bar : scene::style().ball;
+        const auto color = request_.body == Body::skeleton ? scene::style().bar : scene::style().ball;
         std::size_t triangles = 0;
-        if (wish_.body == Body::frame) prepareFrame();
+        if (request_.body == Body::skeleton) prepareSkeleton();
         for (int i = 0; i < slices_.planes.count; ++i) {
             budget_.checkTime();
-            Mesh mesh = wish_.body == Body::frame ? frameOf(slices_, i, scale_, thickness_, cube_, grid_, budget_)
-                                                  : solidOf(slices_, i, scale_, grid_, budget_);
+            Mesh mesh = request_.body == Body::skeleton
+                            ? skeletonOf(slices_, i, scale_, thickness_, cube_, grid_, budget_)
+                            : solidOf(slices_, i, scale_, grid_, budget_);
             if (mesh.triangles.empty()) continue;
             triangles += mesh.triangles.size();
             budget_.checkTriangles(triangles);
-            groups.push_back({i, {{nameOf(i), std::move(mesh), colour, glm::dvec3(0)}}});
+            groups.push_back({i, {{nameOf(i), std::move(mesh), color, glm::dvec3(0)}}});
         }
         if (groups.empty()) refuseEmpty();
-        if (wish_.label != Label::none) label(groups);
-        if (wish_.format == Format::stl || wish_.format == Format::three_mf) {
-            standOnPlate(groups, wish_.size, grid_);
-        } else if (wish_.of == Extent::oval) {
-            standInOval(groups, polytope_, slices_.planes, subject_.focus, wish_.size, grid_);
+        if (request_.label != Label::none) label(groups);
+        if (request_.format->arrangement == Format::Arrangement::plate) {
+            arrangeOnPlate(groups, request_.size, grid_);
+        } else if (request_.extent == Extent::oval) {
+            arrangeInOval(groups, scene_, request_.size, grid_);
         }
         std::vector<Solid> solids;
         for (Group& group : groups) std::ranges::move(group.solids, std::back_inserter(solids));
@@ -85,53 +75,36 @@ class Exporter {
         std::size_t done = 0;
         for (Group& group : groups) {
             budget_.checkTime();
-            const Caption text(polytope_.name, wOf(group.slice));
-            if (wish_.label == Label::engraved) {
-                done += text.engrave(group.solids.front().mesh, wish_.size, grid_) ? 1 : 0;
+            const Caption text(scene_.title, wOf(group.slice));
+            if (request_.label == Label::engraved) {
+                done += text.engrave(group.solids.front().mesh, request_.size, grid_) ? 1 : 0;
                 continue;
             }
             const Box box = boxOf(group.solids.front().mesh);
-            const glm::dvec3 front{(box.least.x + box.most.x) / 2, box.least.y - wish_.size / 12, box.least.z};
-            group.solids.push_back({group.solids.front().name + " (label)", text.plate(wish_.size, grid_),
+            const glm::dvec3 front{(box.least.x + box.most.x) / 2, box.least.y - request_.size / 12, box.least.z};
+            group.solids.push_back({group.solids.front().name + " (label)", text.plate(request_.size, grid_),
                                     scene::style().bar, grid_.snap(front)});
             ++done;
         }
         if (done == 0) {
             throw Refused{{Refusal::Cause::no_body,
-                           wish_.body == Body::frame
-                               ? "balls and bars have no face to engrave; ask for a separate label"
-                               : "no face is flat and large enough for letters of 1 mm; ask for a separate label or a "
+                           request_.body == Body::skeleton
+                               ? "balls and bars have no face to engrave; choose a separate label"
+                               : "no face is flat and large enough for letters of 1 mm; choose a separate label or a "
                                  "larger size"}};
         }
     }
 
-    void prepareFrame() {
-        thickness_ = thicknessFor(polytope_, scale_);
+    void prepareSkeleton() {
+        thickness_ = thicknessFor(scene_, scale_);
         const double coarse = coarseTriangles(slices_, scale_, thickness_);
-        const double allowed = std::min(kComfortable, static_cast<double>(budget_.triangles()));
+        const double allowed = std::min(kTargetTriangles, static_cast<double>(budget_.triangles()));
         const double cube = std::clamp(std::sqrt(coarse / allowed), kFineCube, kCoarseCube);
         budget_.checkTriangles(static_cast<std::size_t>(coarse / (cube * cube)));
         cube_ = cube * thickness_.bar;
     }
 
-    std::string write(const std::vector<Solid>& solids) const {
-        std::vector<scene::Colour> colours;
-        scene::CellColours().paint(polytope_, subject_.colouring, subject_.orientation, colours);
-        switch (wish_.format) {
-            case Format::three_mf:
-                return threeMf(solids, polytope_.name, budget_);
-            case Format::obj:
-                return obj(solids);
-            case Format::ply:
-                return ply(solids, colours);
-            case Format::glb:
-                return glb(solids, colours);
-            default:
-                return stl(solids);
-        }
-    }
-
-    std::string nameOf(int i) const { return polytope_.name + ", " + wOf(i); }
+    std::string nameOf(int i) const { return scene_.title + ", " + wOf(i); }
     std::string wOf(int i) const { return labelOfW(slices_.planes.w(i), slices_.planes.spacing); }
 
     [[noreturn]] void refuseEmpty() const {
@@ -146,33 +119,33 @@ class Exporter {
         reach += " to ";
         append(reach, most);
         const bool many = slices_.planes.count > 1;
-        std::string message = many ? "no slice has a body" : "the slice at ";
+        std::string message = many ? "no slice has a volume" : "the slice at ";
         if (!many) {
             message += wOf(0);
-            message += slices_.vertices.empty() ? " is empty" : " has no thickness";
+            message += slices_.vertices.empty() ? " is empty" : " has no volume";
         }
-        throw Refused{{Refusal::Cause::no_body, message + ": the polytope reaches from w = " + reach +
-                                                    "; move the focus, or turn the polytope"}};
+        throw Refused{{Refusal::Cause::no_body,
+                       message + ": the polytope extends from w = " + reach + "; move the focus or turn the polytope"}};
     }
 
-    const geometry::Polytope& polytope_;
-    const Subject& subject_;
-    const Wish& wish_;
+    const scene::Scene& scene_;
+    const slicing::SliceSet& slices_;
+    const slicing::Object& object_;
+    const ExportRequest& request_;
     const Budget& budget_;
-    const double scale_;  // millimetres to the polytope's unit
+    const double scale_;  // millimeters per unit of the object
     const Grid grid_;
-    geometry::SliceSet slices_;
     Thickness thickness_;
     double cube_ = 0;
 };
 
 }  // namespace
 
-std::variant<std::string, Refusal> fileOf(const Subject& subject, const Wish& wish, const Limits& limits,
-                                          std::stop_token stop) {
+std::variant<std::string, Refusal> fileOf(const scene::Scene& scene, const slicing::Object& object,
+                                          const ExportRequest& request, const Limits& limits, std::stop_token stop) {
     const Budget budget(limits, std::move(stop));
     try {
-        std::string bytes = Exporter(subject, wish, budget).run();
+        std::string bytes = Exporter(scene, object, request, budget).run();
         budget.checkBytes(bytes.size());
         return bytes;
     } catch (Refused& refused) {

@@ -29,7 +29,7 @@ void move(Group& group, const glm::dvec3& by, const Grid& grid) {
 
 }  // namespace
 
-void standOnPlate(std::vector<Group>& groups, double size, const Grid& grid) {
+void arrangeOnPlate(std::vector<Group>& groups, double size, const Grid& grid) {
     const auto perRow = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(groups.size()))));
     const double gap = gapFor(size);
     double y = 0;
@@ -46,15 +46,12 @@ void standOnPlate(std::vector<Group>& groups, double size, const Grid& grid) {
     }
 }
 
-void standInOval(std::vector<Group>& groups, const geometry::Polytope& polytope, const geometry::Hyperplanes& planes,
-                 int focus, double size, const Grid& grid) {
-    scene::Scene scene;
-    scene::compose(polytope, planes, focus, {}, {}, scene);
-    const double perWorld = size / 2 / (scene.scale * scene.circumradius);  // millimetres
+void arrangeInOval(std::vector<Group>& groups, const scene::Scene& scene, double size, const Grid& grid) {
+    const double perWorld = size / 2 / (scene.scale * scene.circumradius);  // millimeters
     std::vector<glm::dvec3> places;
     std::vector<double> radii;
     for (const Group& group : groups) {
-        places.push_back(scene.stands[group.slice].position * perWorld);
+        places.push_back(scene.placements[group.slice].position * perWorld);
         const Box box = boxOf(group);
         radii.push_back(std::max(glm::length(box.least), glm::length(box.most)));
     }
@@ -67,9 +64,10 @@ void standInOval(std::vector<Group>& groups, const geometry::Polytope& polytope,
     for (std::size_t i = 0; i < groups.size(); ++i) move(groups[i], places[i] * grow, grid);
 }
 
-double reachOf(int slices, double size) {
+double maxExtentOf(int slices, double size) {
     const double onPlate = std::ceil(std::sqrt(slices)) * (size + gapFor(size)) * 1.5;
-    // Neighbours in the oval are a slice's diameter apart or more; at few slices, as in the pictures.
+    // Neighbors in the oval are at least the diameter of a slice apart; with few slices, as far apart as in the
+    // picture.
     const double inOval = 60.0 * size * std::max(1.0, slices / 21.0);
     return std::max(onPlate, inOval);
 }

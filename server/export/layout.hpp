@@ -1,28 +1,27 @@
 #pragma once
-// Where the bodies of a file stand.
+// Arranges the bodies of a file.
 
 #include <vector>
 
-#include "export/mesh.hpp"
-#include "geometry/slice_set.hpp"
+#include "export/mesh/mesh.hpp"
+#include "scene/scene.hpp"
 
 namespace oval4d::exports {
 
-/// The bodies that stand together: a slice's, and its label's.
+/// The bodies that are arranged as a unit: those of a slice and of its label.
 struct Group {
-    int slice = 0;  ///< number in the slice set
+    int slice = 0;  ///< index in the slice set
     std::vector<Solid> solids;
 };
 
-/// For a printer: in rows on the plane z = 0, from the lowest w on, in the positive octant, the boxes around them
-/// apart by a twelfth of `size` and 2 mm at least.
-void standOnPlate(std::vector<Group>& groups, double size, const Grid& grid);
+/// Arranges groups for a 3-D printer: in rows on the plane z = 0 in the positive octant, by increasing w, with gaps of
+/// size / 12, but at least 2 mm, between their bounding boxes.
+void arrangeOnPlate(std::vector<Group>& groups, double size, const Grid& grid);
 
-/// For the eye: on the oval of the pictures, grown where it must be so that no two slices meet.
-void standInOval(std::vector<Group>& groups, const geometry::Polytope& polytope, const geometry::Hyperplanes& planes,
-                 int focus, double size, const Grid& grid);
+/// Arranges groups for viewing: on the oval of the picture, enlarged if necessary so that no two slices touch.
+void arrangeInOval(std::vector<Group>& groups, const scene::Scene& scene, double size, const Grid& grid);
 
-/// How far from the origin either of them can reach, for so many slices.
-double reachOf(int slices, double size);
+/// An upper bound on the coordinates that either arrangement gives this number of slices.
+double maxExtentOf(int slices, double size);
 
 }  // namespace oval4d::exports

@@ -1,5 +1,5 @@
 #pragma once
-// Points found again by their place.
+// Spatial hash for finding coinciding points.
 
 #include <cmath>
 #include <cstdint>
@@ -12,13 +12,14 @@
 
 namespace oval4d::geometry {
 
-/// Points by their place, found again despite rounding: keyed by a grid cell, its neighbours looked at too. Points
-/// nearer than a quarter of `grid` to each other are one.
+/// A spatial hash of points that identifies points despite rounding: points closer than a quarter of `grid`, the edge
+/// length of the hash's grid cells, count as the same. A lookup checks all grid cells within that distance.
 class PointIndex {
   public:
     explicit PointIndex(double grid) : grid_(grid) {}
 
-    /// The number of the point in `points`, and whether it was not there and has been added.
+    /// Finds p in `points`, or appends it. Returns its index and whether it was appended. `points` must be the same
+    /// vector in all calls.
     std::pair<std::uint32_t, bool> add(const glm::dvec4& p, std::vector<glm::dvec4>& points) {
         for (unsigned corner = 0; corner < 16; ++corner) {
             const auto known = cells_.find(key(p, corner));
@@ -32,7 +33,8 @@ class PointIndex {
     }
 
   private:
-    // With corner = 0xff the cell that holds p; else one of the sixteen that p moved by ± grid / 4 may lie in.
+    // The hash of a grid cell: of the one that contains p if corner = 0xff, else of the one that contains p moved by
+    // ±grid / 4 along each axis, with the signs given by the bits of `corner`.
     std::uint64_t key(const glm::dvec4& p, unsigned corner) const {
         std::uint64_t hash = 0;
         for (int i = 0; i < 4; ++i) {

@@ -8,11 +8,12 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kNames{"xy", "xz", "xw", "yz", "yw", "zw"};
 
-// v = x i + y j + z k + w; GLM keeps quaternions as (w, x, y, z).
+// v = x i + y j + z k + w; GLM's quaternion constructor takes (w, x, y, z).
 glm::dquat asQuaternion(const glm::dvec4& v) { return {v.w, v.x, v.y, v.z}; }
 glm::dvec4 asVector(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
 
-// The imaginary unit that spans the two planes of a pair: i for yz·xw, j for xz·yw, k for xy·zw.
+// exp(u · angle), where the imaginary unit u belongs to the pair of perpendicular planes that contains `plane`: i to
+// yz and xw, j to xz and yw, k to xy and zw.
 glm::dquat exponential(Plane plane, double angle) {
     const double c = std::cos(angle);
     const double s = std::sin(angle);
@@ -30,7 +31,7 @@ glm::dquat exponential(Plane plane, double angle) {
     return {c, 0, 0, s};
 }
 
-bool holdsW(Plane plane) { return plane == Plane::xw || plane == Plane::yw || plane == Plane::zw; }
+bool containsW(Plane plane) { return plane == Plane::xw || plane == Plane::yw || plane == Plane::zw; }
 
 }  // namespace
 
@@ -54,21 +55,22 @@ Turn Turn::scaled(double factor) const {
 Rotation::Rotation(const glm::dquat& left, const glm::dquat& right)
     : left_(glm::normalize(left)), right_(glm::normalize(right)) {}
 
-// Multiplying by exp(uθ) from the left turns the plane of u's two companions by θ and the plane (w, u) from w
-// toward u by θ; from the right, the first one backwards. So with A the angle in the plane without w (counted i→j,
-// j→k, k→i) and B the angle from u's axis toward w: left angle (A − B) / 2, right angle −(A + B) / 2.
+// Multiplication by exp(uθ) from the left rotates the plane of the other two imaginary units by θ, and the plane (w, u)
+// by θ from w toward u; multiplication from the right rotates the first plane by −θ and the second by θ. So with the
+// angle A in the plane without w (counted i→j, j→k, k→i) and the angle B from u toward w, the left angle is (A − B) / 2
+// and the right angle −(A + B) / 2.
 Rotation::Rotation(const Turn& turn) {
     double a = turn.alpha;
     double b = turn.beta.value_or(0);
-    if (holdsW(turn.plane)) std::swap(a, b);
-    const Plane spatial = holdsW(turn.plane) ? perpendicular(turn.plane) : turn.plane;
-    if (spatial == Plane::xz) a = -a;  // R_xz goes x → z, the cycle goes z → x
+    if (containsW(turn.plane)) std::swap(a, b);
+    const Plane spatial = containsW(turn.plane) ? perpendicular(turn.plane) : turn.plane;
+    if (spatial == Plane::xz) a = -a;  // R_xz turns x toward z, but the cycle is z → x
     left_ = exponential(spatial, (a - b) / 2);
     right_ = exponential(spatial, -(a + b) / 2);
 }
 
 std::optional<Rotation> Rotation::fromQuaternions(const glm::dquat& left, const glm::dquat& right) {
-    const auto unit = [](const glm::dquat& q) { return std::abs(glm::length(q) - 1) < 1e-9; };  // not NaN, too
+    const auto unit = [](const glm::dquat& q) { return std::abs(glm::length(q) - 1) < 1e-9; };  // also false for NaN
     if (!unit(left) || !unit(right)) return std::nullopt;
     Rotation found;
     found.left_ = left;
@@ -90,8 +92,8 @@ glm::dmat4 Rotation::matrix() const {
     return m;
 }
 
-// The sixteen maps v ↦ e_i·v·e_j are an orthogonal basis of the 4×4 matrices, each of squared norm 4, and M has the
-// coordinates l_i r_j in it: a rotation's coordinates form a matrix of rank one.
+// The sixteen maps v ↦ e_i·v·e_j form an orthogonal basis of the 4×4 matrices, each with the squared norm 4. In this
+// basis a rotation has the coordinates l_i r_j, which form a matrix of rank one.
 std::optional<Rotation> Rotation::fromMatrix(const glm::dmat4& matrix, double tolerance) {
     const std::array<glm::dquat, 4> units{glm::dquat(1, 0, 0, 0), glm::dquat(0, 1, 0, 0), glm::dquat(0, 0, 1, 0),
                                           glm::dquat(0, 0, 0, 1)};
@@ -113,7 +115,7 @@ std::optional<Rotation> Rotation::fromMatrix(const glm::dmat4& matrix, double to
     const glm::dquat right = quaternion(product[row][0], product[row][1], product[row][2], product[row][3]);
     if (!(glm::length(left) > 0.1 && glm::length(right) > 0.1)) return std::nullopt;
     Rotation result(left, right);
-    // l and r were each known up to a sign; the sign of their product decides.
+    // l and r are each determined up to sign; the sign of the largest product l_i r_j fixes their relative sign.
     const auto component = [](const glm::dquat& q, std::size_t i) {
         return std::array<double, 4>{q.w, q.x, q.y, q.z}.at(i);
     };

@@ -1,5 +1,5 @@
 #pragma once
-// Waiting in a coroutine.
+// Helpers for Asio coroutines: a completion token, timer durations, and awaiting a callback.
 
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/associated_executor.hpp>
@@ -14,23 +14,23 @@
 
 namespace oval4d::net {
 
-/// Asio's operations then give their error code, first of what they give, and throw nothing.
-inline constexpr auto kQuietly = boost::asio::as_tuple(boost::asio::use_awaitable);
+/// A completion token: the awaited operation returns a tuple that starts with its error code, and does not throw.
+inline constexpr auto kAsTuple = boost::asio::as_tuple(boost::asio::use_awaitable);
 
-/// A duration as the timers take it.
+/// Converts any duration to the one that asio::steady_timer takes.
 template <typename Duration>
 auto steady(Duration duration) {
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(duration);
 }
 
-/// Calls `start` with a function that is to be called once, from any thread; the coroutine then goes on, on its own
-/// executor, with the value given. Make `start` in an ordinary function: GCC 12 destroys twice what a closure in a
-/// coroutine has captured.
+/// Calls `start` with a callback and suspends the coroutine until that callback is called with the result. The callback
+/// must be called exactly once, from any thread; the coroutine resumes on its own executor. Create `start` in an
+/// ordinary function: GCC 12 destroys the captures of a lambda twice if it is created in a coroutine.
 template <typename Value>
-boost::asio::awaitable<Value> awaited(std::function<void(std::function<void(Value)>)> start) {
+boost::asio::awaitable<Value> awaitCallback(std::function<void(std::function<void(Value)>)> start) {
     namespace asio = boost::asio;
     auto initiate = [](auto handler, const std::function<void(std::function<void(Value)>)>& begin) {
-        // A std::function must copy, a completion handler cannot: so it is shared.
+        // std::function requires a copyable target, and a completion handler is move-only.
         auto shared = std::make_shared<decltype(handler)>(std::move(handler));
         begin([shared](Value value) {
             const auto executor = asio::get_associated_executor(*shared);

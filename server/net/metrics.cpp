@@ -10,7 +10,7 @@ namespace {
 
 using prometheus::Histogram;
 
-// From 100 µs to 3 s, each bucket about twice the one before.
+// From 100 µs to 3 s; each bound is about twice the one before.
 const Histogram::BucketBoundaries kBuckets{1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.3, 1, 3};
 
 // From 1 ms to a minute.
@@ -29,63 +29,69 @@ prometheus::Family<Histogram>& histograms(prometheus::Registry& registry, const 
 }
 
 prometheus::Counter& drawingLosses(prometheus::Registry& registry, const char* cause) {
-    return counters(registry, "oval4d_drawing_losses_total", "Processes that drew, were lost, and replaced")
+    return counters(registry, "oval4d_drawing_losses_total", "Rasterizer processes that were lost and replaced")
+        .Add({{"cause", cause}});
+}
+
+prometheus::Counter& readingLosses(prometheus::Registry& registry, const char* cause) {
+    return counters(registry, "oval4d_reading_losses_total", "File reader processes that were lost and replaced")
         .Add({{"cause", cause}});
 }
 
 }  // namespace
 
 Metrics::Metrics()
-    : connections(gauge(registry_, "oval4d_connections", "Sockets open")),
-      webSockets(gauge(registry_, "oval4d_websockets", "WebSocket connections open")),
-      sessions(gauge(registry_, "oval4d_sessions", "Sessions kept, with or without a client")),
+    : connections(gauge(registry_, "oval4d_connections", "Open sockets")),
+      webSockets(gauge(registry_, "oval4d_websockets", "Open WebSocket connections")),
+      sessions(gauge(registry_, "oval4d_sessions", "Sessions stored, with or without a client")),
       openSessions(gauge(registry_, "oval4d_open_sessions", "Sessions with a client")),
       jobsWaiting(gauge(registry_, "oval4d_jobs_waiting", "Jobs waiting for a worker")),
       drawingDeaths(drawingLosses(registry_, "died")),
       drawingHangs(drawingLosses(registry_, "hung")),
+      readingDeaths(readingLosses(registry_, "died")),
+      readingHangs(readingLosses(registry_, "hung")),
       filesUnderWay(gauge(registry_, "oval4d_files_under_way", "Files being made")),
       fileTime(histograms(registry_, "oval4d_file_seconds", "Time to make a file").Add({}, kFileBuckets)),
-      memory(gauge(registry_, "process_resident_memory_bytes", "Memory of this process that is resident")),
-      polytopes(gauge(registry_, "oval4d_polytope_cache_bytes",
-                      "Memory of polytopes kept for when they are asked for again")),
+      memory(gauge(registry_, "process_resident_memory_bytes", "Resident memory of this process")),
+      polytopes(gauge(registry_, "oval4d_polytope_cache_bytes", "Memory used by cached polytopes")),
+      bytesHeld(gauge(registry_, "oval4d_client_bytes",
+                      "Bytes held for clients: unread files and messages, and their own polytopes")),
+      clients(gauge(registry_, "oval4d_clients", "Known client addresses")),
       messagesReceived(
           counters(registry_, "oval4d_messages_received_total", "Messages received over WebSockets").Add({})),
       bytesSent(counters(registry_, "oval4d_bytes_sent_total", "Bytes of messages sent over WebSockets").Add({})),
       slowReaders(
-          counters(registry_, "oval4d_slow_readers_total", "Clients dropped because they did not read").Add({})),
+          counters(registry_, "oval4d_slow_readers_total", "Clients dropped because they read too slowly").Add({})),
       sessionsTaken(
-          counters(registry_, "oval4d_sessions_taken_total", "Sessions with which another server went on").Add({})),
-      storeUp(gauge(registry_, "oval4d_store_up", "1 if the store of sessions answers, 0 if it fails")),
-      unsaved(gauge(registry_, "oval4d_unsaved_sessions", "Sessions whose last change is not yet in the store")),
+          counters(registry_, "oval4d_sessions_taken_total", "Sessions taken over by another server").Add({})),
+      storeUp(gauge(registry_, "oval4d_store_up", "1 if the session store works, 0 if it fails")),
+      unsaved(gauge(registry_, "oval4d_unsaved_sessions", "Sessions with changes not yet written to the store")),
       workers(gauge(registry_, "oval4d_workers", "Threads that slice and draw")),
-      workerSeconds(
-          counters(registry_, "oval4d_worker_seconds_total", "Time that these threads worked, all together").Add({})),
+      workerSeconds(counters(registry_, "oval4d_worker_seconds_total", "Busy time of these threads, summed").Add({})),
       latency(histograms(registry_, "oval4d_change_to_picture_seconds",
                          "Time from a session's change to its picture written to a client's socket")
                   .Add({}, kBuckets)),
-      errors_(counters(registry_, "oval4d_errors_total", "Errors told to clients, by code")),
+      errors_(counters(registry_, "oval4d_errors_total", "Errors sent to clients, by code")),
       requests_(counters(registry_, "oval4d_http_requests_total", "HTTP requests answered, by status")),
       pictures_(counters(registry_, "oval4d_pictures_total", "Pictures sent to clients, by stream")),
-      storeFailures_(counters(registry_, "oval4d_store_failures_total", "Questions that the store failed to answer")),
+      storeFailures_(counters(registry_, "oval4d_store_failures_total", "Store operations that failed")),
       steps_(histograms(registry_, "oval4d_picture_step_seconds", "Time spent on a picture, by step")),
-      store_(histograms(registry_, "oval4d_store_seconds", "Time for the store's answers, by what it was asked")),
+      store_(histograms(registry_, "oval4d_store_seconds", "Time of store operations, by operation")),
       slice_(steps_.Add({{"step", "slice"}}, kBuckets)),
       compose_(steps_.Add({{"step", "compose"}}, kBuckets)),
       write_(steps_.Add({{"step", "write"}}, kBuckets)),
       draw_(steps_.Add({{"step", "draw"}}, kBuckets)),
       encode_(steps_.Add({{"step", "encode"}}, kBuckets)) {}
 
-void Metrics::countError(protocol::ErrorCode code) {
-    errors_.Add({{"code", std::string(protocol::wireName(code))}}).Increment();
-}
+void Metrics::countError(ErrorCode code) { errors_.Add({{"code", std::string(wireName(code))}}).Increment(); }
 
 void Metrics::countRequest(unsigned httpStatus) { requests_.Add({{"status", std::to_string(httpStatus)}}).Increment(); }
 
-void Metrics::countPicture(protocol::Stream stream) {
-    pictures_.Add({{"stream", stream == protocol::Stream::frames ? "frames" : "geometry"}}).Increment();
+void Metrics::countPicture(wire::Stream stream) {
+    pictures_.Add({{"stream", stream == wire::Stream::frames ? "frames" : "geometry"}}).Increment();
 }
 
-void Metrics::observe(const picture::Times& times) {
+void Metrics::observe(const pipeline::Times& times) {
     const auto put = [](Histogram& histogram, double seconds) {
         if (seconds > 0) histogram.Observe(seconds);
     };
@@ -96,9 +102,9 @@ void Metrics::observe(const picture::Times& times) {
     put(encode_, times.encode);
 }
 
-void Metrics::observeStore(const std::string& operation, double seconds, bool worked) {
+void Metrics::observeStore(const std::string& operation, double seconds, bool succeeded) {
     store_.Add({{"operation", operation}}, kBuckets).Observe(seconds);
-    if (!worked) storeFailures_.Add({{"operation", operation}}).Increment();
+    if (!succeeded) storeFailures_.Add({{"operation", operation}}).Increment();
 }
 
 std::string Metrics::text() const {

@@ -1,5 +1,5 @@
 #pragma once
-// What the server counts, for /metrics.
+// The Prometheus metrics that /metrics serves.
 
 #include <prometheus/counter.h>
 #include <prometheus/gauge.h>
@@ -8,47 +8,51 @@
 
 #include <string>
 
-#include "picture/painter.hpp"
-#include "protocol/cpp/error.hpp"
-#include "protocol/cpp/request.hpp"
+#include "errors/error.hpp"
+#include "pipeline/pipeline.hpp"
+#include "wire/request.hpp"
 
 namespace oval4d::net {
 
-/// Every member may be used from any thread.
+/// The metrics of the server. Every member may be used from any thread.
 class Metrics {
-    prometheus::Registry registry_;  // first: the members below live in it
+    prometheus::Registry registry_;  // declared first: it owns the metrics below
 
   public:
     Metrics();
 
-    prometheus::Gauge& connections;  ///< sockets open, HTTP and WebSocket
+    prometheus::Gauge& connections;  ///< open sockets, HTTP and WebSocket
     prometheus::Gauge& webSockets;
-    prometheus::Gauge& sessions;      ///< kept in the store
-    prometheus::Gauge& openSessions;  ///< those with a client
+    prometheus::Gauge& sessions;      ///< sessions in the store
+    prometheus::Gauge& openSessions;  ///< sessions with at least one client
     prometheus::Gauge& jobsWaiting;
-    prometheus::Counter& drawingDeaths;  ///< processes that drew, and died of it
-    prometheus::Counter& drawingHangs;   ///< those that did not answer, and were killed
-    prometheus::Gauge& filesUnderWay;    ///< being made
-    prometheus::Histogram& fileTime;     ///< from the start of making one to its end
-    prometheus::Gauge& memory;           ///< bytes of this process that are resident
-    prometheus::Gauge& polytopes;        ///< bytes of polytopes kept for when they are asked for again
+    prometheus::Counter& drawingDeaths;  ///< rasterizer processes that died
+    prometheus::Counter& drawingHangs;   ///< rasterizer processes that hung and were killed
+    prometheus::Counter& readingDeaths;  ///< reader processes that died
+    prometheus::Counter& readingHangs;   ///< reader processes that timed out and were killed
+    prometheus::Gauge& filesUnderWay;    ///< files being made
+    prometheus::Histogram& fileTime;     ///< seconds to make a file
+    prometheus::Gauge& memory;           ///< resident bytes of this process
+    prometheus::Gauge& polytopes;        ///< bytes of cached polytopes
+    prometheus::Gauge& bytesHeld;        ///< bytes held for clients (ByteBudget)
+    prometheus::Gauge& clients;          ///< known client addresses
     prometheus::Counter& messagesReceived;
-    prometheus::Counter& bytesSent;  ///< over WebSockets
-    prometheus::Counter& slowReaders;
-    prometheus::Counter& sessionsTaken;  ///< by other servers
-    prometheus::Gauge& storeUp;          ///< 1 if the store answers, else 0
-    prometheus::Gauge& unsaved;          ///< sessions whose change waits to be written
+    prometheus::Counter& bytesSent;      ///< over WebSockets
+    prometheus::Counter& slowReaders;    ///< clients dropped because they read too slowly
+    prometheus::Counter& sessionsTaken;  ///< sessions taken over by other servers
+    prometheus::Gauge& storeUp;          ///< 1 if the store works, else 0
+    prometheus::Gauge& unsaved;          ///< sessions with changes not yet written to the store
     prometheus::Gauge& workers;
-    prometheus::Counter& workerSeconds;  ///< of work, of all workers together
-    prometheus::Histogram& latency;      ///< from a change of a session to its picture in the socket
+    prometheus::Counter& workerSeconds;  ///< busy seconds, summed over all workers
+    prometheus::Histogram& latency;      ///< seconds from a session change until its picture is written to the socket
 
-    void countError(protocol::ErrorCode code);
+    void countError(ErrorCode code);
     void countRequest(unsigned httpStatus);
-    void countPicture(protocol::Stream stream);
-    void observe(const picture::Times& times);
-    void observeStore(const std::string& operation, double seconds, bool worked);
+    void countPicture(wire::Stream stream);
+    void observe(const pipeline::Times& times);
+    void observeStore(const std::string& operation, double seconds, bool succeeded);
 
-    /// The text exposition format.
+    /// All metrics in the Prometheus text exposition format.
     std::string text() const;
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// Waiting in a coroutine for a job of the worker pool.
+// Runs a job on a worker pool and awaits its result in a coroutine.
 
 #include <boost/asio/associated_executor.hpp>
 #include <boost/asio/async_result.hpp>
@@ -11,25 +11,28 @@
 #include <memory>
 #include <utility>
 
-#include "net/worker_pool.hpp"
+#include "parallel/worker_pool.hpp"
 
 namespace oval4d::net {
 
-/// Carries out `work` on a worker, in its turn in `lane`; the coroutine goes on, on its own executor, with the value or
-/// the exception. Make `work` in an ordinary function: GCC 12 destroys twice what a closure in a coroutine has
-/// captured.
-template <typename Value>
-boost::asio::awaitable<Value> onPool(WorkerPool& pool, std::function<Value(picture::Painter&)> work,
-                                     WorkerPool::LanePtr lane = nullptr) {
+/// Queues `work` in `lane` of the pool, a parallel::WorkerPool or a pipeline::PipelinePool, and suspends the coroutine
+/// until a worker has run it. The coroutine resumes on its own executor with the value that `work` returned or the
+/// exception that it threw, or with QueueFull if the pool refused the job. `cost` is the estimated running time in
+/// seconds. Create `work` in an ordinary function: GCC 12 destroys the captures of a lambda twice if it is created in a
+/// coroutine.
+template <typename Value, typename Pool>
+boost::asio::awaitable<Value> onPool(Pool& pool, std::function<Value(typename Pool::Argument)> work,
+                                     parallel::WorkerPool::LanePtr lane, parallel::WorkerPool::Seconds cost) {
     namespace asio = boost::asio;
-    auto start = [&pool](auto handler, std::function<Value(picture::Painter&)> job, WorkerPool::LanePtr in) {
-        // A std::function must copy, a completion handler cannot: so it is shared.
+    auto start = [&pool, cost](auto handler, std::function<Value(typename Pool::Argument)> job,
+                               parallel::WorkerPool::LanePtr in) {
+        // std::function requires a copyable target, and a completion handler is move-only.
         auto shared = std::make_shared<decltype(handler)>(std::move(handler));
-        auto carryOut = [shared, job = std::move(job)](picture::Painter& painter) mutable {
+        auto run = [shared, job = std::move(job)](typename Pool::Argument argument) mutable {
             std::exception_ptr failure;
             auto value = std::make_shared<Value>();
             try {
-                *value = job(painter);
+                *value = job(argument);
             } catch (...) {
                 failure = std::current_exception();
             }
@@ -38,7 +41,11 @@ boost::asio::awaitable<Value> onPool(WorkerPool& pool, std::function<Value(pictu
                 std::move (*shared)(failure, std::move(*value));
             });
         };
-        pool.post(std::move(carryOut), std::move(in));
+        if (pool.post(std::move(run), std::move(in), cost)) return;
+        const auto executor = asio::get_associated_executor(*shared);
+        asio::post(executor, [shared]() mutable {
+            std::move (*shared)(std::make_exception_ptr(parallel::QueueFull()), Value{});
+        });
     };
     return asio::async_initiate<const asio::use_awaitable_t<>, void(std::exception_ptr, Value)>(
         start, asio::use_awaitable, std::move(work), std::move(lane));

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -10,7 +11,9 @@ namespace oval4d::net {
 
 namespace {
 
-/// "--max-message" → "OVAL4D_MAX_MESSAGE"
+constexpr std::size_t kMinQuota = std::size_t{1} << 20U;
+
+/// The environment variable of an option: "--max-message" → "OVAL4D_MAX_MESSAGE".
 std::string variableFor(const std::string& option) {
     std::string name = "OVAL4D_" + option.substr(2);
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return c == '-' ? '_' : std::toupper(c); });
@@ -22,7 +25,7 @@ CLI::Option* add(CLI::App& app, const std::string& name, T& value, const std::st
     return app.add_option(name, value, help)->envname(variableFor(name))->capture_default_str();
 }
 
-/// Durations are given in seconds; fractions are allowed.
+/// Adds a duration in seconds; fractions are allowed.
 void addSeconds(CLI::App& app, const std::string& name, Seconds& value, const std::string& help) {
     app.add_option_function<double>(
            name, [&value](double given) { value = Seconds(given); }, help)
@@ -32,114 +35,210 @@ void addSeconds(CLI::App& app, const std::string& name, Seconds& value, const st
         ->check(CLI::Range(0.001, 1e9));
 }
 
-/// A power of 1024 may follow: 512k, 8M.
-void addBytes(CLI::App& app, const std::string& name, std::size_t& value, const std::string& help) {
-    add(app, name, value, help)->transform(CLI::AsSizeValue(false))->type_name("BYTES");
+/// Adds a size in bytes; a suffix stands for a power of 1024: 512k, 8M.
+CLI::Option* addBytes(CLI::App& app, const std::string& name, std::size_t& value, const std::string& help) {
+    return add(app, name, value, help)->transform(CLI::AsSizeValue(false))->type_name("BYTES");
 }
 
-void addPlace(CLI::App& app, Options& options) {
-    add(app, "--host", options.host, "Address to listen at; any but a loopback address asks clients for a token");
-    add(app, "--port", options.port, "TCP port; 0 for any free one, which the first line of the log names");
-    add(app, "--web-root", options.webRoot, "Folder of the built page");
+/// A validator for CLI11: the error in the text of a network, or an empty string if it is valid.
+std::string checkNetwork(const std::string& text) {
+    try {
+        (void)Network(text);
+        return {};
+    } catch (const std::invalid_argument& fault) {
+        return fault.what();
+    }
+}
+
+void addServing(CLI::App& app, Options& options) {
+    add(app, "--host", options.hosts,
+        "Address or name to listen on; may be repeated. With any address other than loopback, clients need a token")
+        ->delimiter(',');
+    add(app, "--port", options.port, "TCP port; 0 for any free port, which the first line of the log shows");
+    add(app, "--web-root", options.webRoot, "Folder of the built web client");
     add(app, "--workers", options.workers,
-        "Threads that slice and draw; 0 for one a processor, within the CPU quota of the container")
+        "Threads that slice and draw; 0 for one per processor, within the CPU quota of the container")
         ->check(CLI::Range(0, 1024));
-    add(app, "--file-workers", options.fileWorkers, "Threads that make files; pictures do not wait for them")
+    add(app, "--file-workers", options.fileWorkers, "Threads that make files, separate from those that make pictures")
+        ->check(CLI::Range(1, 1024));
+    add(app, "--load-workers", options.loadWorkers,
+        "Files that are read concurrently, each by its own process; further ones are queued")
         ->check(CLI::Range(1, 1024));
     add(app, "--io-threads", options.ioThreads, "Threads that read and write sockets")->check(CLI::Range(1, 64));
-    add(app, "--log-level", options.logLevel, "How much is logged")
+    add(app, "--log-level", options.logLevel, "Least severe messages that are logged")
         ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "critical", "off"}));
 }
 
 void addAccess(CLI::App& app, Options& options) {
     add(app, "--allow-host", options.allowedHosts,
-        "Host name by which clients may call the server, * for any; may be repeated. "
-        "Without it: the loopback names on a loopback address, else any")
+        "Host name that clients may use for the server, * for any; may be repeated. "
+        "Default: the loopback names on a loopback address, otherwise any")
         ->delimiter(',');
     add(app, "--allow-origin", options.allowedOrigins,
         "Origin (https://example.org) of a foreign page that may connect, * for any; may be repeated. "
-        "The server's own page always may")
+        "The server's own page may always connect")
         ->delimiter(',');
+    add(app, "--trusted-proxy", options.trustedProxies,
+        "Address or network (10.0.0.0/8) of a proxy whose X-Forwarded-For is trusted; may be repeated")
+        ->delimiter(',')
+        ->check(checkNetwork);
     add(app, "--token", options.token,
-        "Secret that clients must give: once as ?token=… in the page's address, or as a bearer token. "
-        "Made up and printed where it is needed and not given");
-    app.add_flag("--open", options.open, "Ask for no token, though the address is not a loopback one")
+        "Secret that clients must send: once as ?token=… in the page's address, or as a bearer token. "
+        "If one is required and none is given, a random one is printed at startup");
+    app.add_flag("--open", options.open, "Require no token, even on addresses other than loopback")
         ->envname("OVAL4D_OPEN");
 }
 
 void addStore(CLI::App& app, Options& options) {
     add(app, "--store", options.store,
-        "Where sessions are kept: memory; sqlite:PATH, a file in which they outlive the server; or "
-        "redis://[user:password@]host[:port][/database], by which other servers can go on with them");
-    add(app, "--kept-undo", options.keptUndo, "Steps that can be undone in a session that was kept");
+        "Where sessions are stored: memory; sqlite:PATH, a file that outlives the server; or "
+        "redis://[user:password@]host[:port][/database], from which other servers can resume them");
+    addBytes(app, "--store-quota", options.storeQuota,
+             "Total size of sessions in a file or in memory, at least 1M; beyond it, sessions that nobody has open are "
+             "deleted: first those never changed, then those unused for the longest time")
+        ->check(CLI::Range(kMinQuota, std::numeric_limits<std::size_t>::max()));
+    add(app, "--kept-undo", options.keptUndo, "Undo steps that are stored with a session");
     addSeconds(app, "--store-timeout", options.storeTimeout,
-               "A Redis that does not answer for this long counts as lost");
+               "Redis counts as failed if it does not answer within this time");
 }
 
 void addFileLimits(CLI::App& app, exports::Limits& limits) {
-    add(app, "--max-file-triangles", limits.triangles, "Most triangles of a file")->check(CLI::Range(1, 1'000'000'000));
-    addBytes(app, "--max-file-bytes", limits.bytes, "Longest file");
-    addSeconds(app, "--max-file-time", limits.time, "A file that takes longer to make is given up");
+    add(app, "--max-file-triangles", limits.triangles, "Maximum number of triangles in a file")
+        ->check(CLI::Range(1, 1'000'000'000));
+    addBytes(app, "--max-file-bytes", limits.bytes, "Maximum size of a file");
+    addSeconds(app, "--max-file-time", limits.time, "Maximum time to make a file");
+}
+
+void addClientLimits(CLI::App& app, Options& options) {
+    const CLI::Range atLeastOne(1, 1'000'000'000);
+    ClientLimits& client = options.client;
+    add(app, "--max-client-connections", client.connections, "Maximum number of open connections from one address")
+        ->check(atLeastOne);
+    add(app, "--max-client-sessions", client.sessions, "Maximum number of stored sessions opened from one address")
+        ->check(atLeastOne);
+    add(app, "--max-new-sessions", client.newSessions, "Maximum number of sessions per minute opened from one address")
+        ->check(atLeastOne);
+    add(app, "--max-wrong-tokens", client.wrongTokens,
+        "Maximum number of wrong tokens per minute from one address; beyond it, the address is refused for a while")
+        ->check(atLeastOne);
+    add(app, "--max-client-requests", client.requests,
+        "Messages and HTTP requests per second from one address; further ones are delayed")
+        ->check(atLeastOne);
+    addBytes(app, "--max-byte-rate", client.messageBytes,
+             "Bytes of messages per second from one address; further ones are delayed");
+    addBytes(app, "--max-bytes", options.maxBytes,
+             "Maximum bytes held for all clients: unread files and messages, and their own polytopes");
+    addBytes(app, "--max-client-bytes", client.bytes, "Maximum bytes held for one address");
+    addBytes(app, "--least-read-rate", options.leastReadRate,
+             "Bytes per second that a client must read at least; a slower one is dropped");
+    add(app, "--spool", options.spool,
+        "Folder for files that clients have not yet read; empty for the system's temporary folder");
+}
+
+void addSandbox(CLI::App& app, Options& options) {
+    using process::Sandbox;
+    app.add_option(
+           "--sandbox", options.sandbox,
+           "Whether the processes that draw pictures and read files are sandboxed by a system call filter: auto, if "
+           "the system supports it; off; or required, in which case the server does not start without it")
+        ->envname("OVAL4D_SANDBOX")
+        ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, Sandbox>>{
+            {"auto", Sandbox::automatic}, {"off", Sandbox::off}, {"required", Sandbox::required}}))
+        ->default_str("auto");
+    const CLI::Range enough(std::size_t{64} << 20U, std::size_t{1} << 50U);
+    addBytes(
+        app, "--draw-memory", options.drawMemory,
+        "Maximum memory of a process that draws, in addition to what it starts with; 0 for a bound derived from the "
+        "limits on pictures and polytopes");
+    addBytes(app, "--load-memory", options.loadMemory, "Maximum memory of a process that reads a file; at least 64M")
+        ->check(enough);
 }
 
 void addLimits(CLI::App& app, Options& options) {
     const CLI::Range atLeastOne(1, 1'000'000'000);
-    addBytes(app, "--max-message", options.maxMessage, "Longest message from a client; a longer one closes with 1009");
-    add(app, "--max-depth", options.maxDepth, "Deepest nesting of a message's JSON")->check(atLeastOne);
+    addBytes(app, "--max-message", options.maxMessage,
+             "Maximum size of a `load` message; a larger one closes the connection with code 1009");
+    addBytes(app, "--max-request-bytes", options.maxRequestBytes,
+             "Maximum size of any other message, and of any message before hello");
+    add(app, "--max-depth", options.maxDepth, "Maximum nesting depth of the JSON of a message")->check(atLeastOne);
     addBytes(app, "--max-unsent", options.maxUnsent,
-             "Answers that may wait for a client to read them before the server stops reading from it");
-    add(app, "--max-sessions", options.maxSessions, "Sessions kept at once")->check(atLeastOne);
-    add(app, "--max-connections", options.maxConnections, "Connections open at once; a further one is told 503")
+             "Unsent bytes of replies at which the server stops reading from a client");
+    add(app, "--max-sessions", options.maxSessions, "Maximum number of stored sessions")->check(atLeastOne);
+    add(app, "--max-connections", options.maxConnections,
+        "Maximum number of open connections; further ones get status 503")
         ->check(atLeastOne);
     add(app, "--max-requests", options.maxRequests,
-        "Messages a second from one connection; bursts of twice as many are let through")
+        "Messages per second from one connection; bursts of twice as many are allowed")
         ->check(atLeastOne);
-    add(app, "--min-side", options.frame.minSide, "Least width and height of a picture, in pixels")->check(atLeastOne);
-    add(app, "--max-width", options.frame.maxWidth, "Greatest width of a picture, in pixels")
+    add(app, "--max-jobs", options.jobs.all,
+        "Maximum number of pictures, and of files, that wait for a worker; further requests are refused, and the "
+        "streams of sessions retry")
+        ->check(atLeastOne);
+    add(app, "--max-client-jobs", options.jobs.ofClient, "Maximum number of these for one client")->check(atLeastOne);
+    add(app, "--min-side", options.frame.minSide, "Minimum width and height of a picture, in pixels")
+        ->check(atLeastOne);
+    add(app, "--max-width", options.frame.maxWidth, "Maximum width of a picture, in pixels")
         ->check(CLI::Range(1, 16'384));
-    add(app, "--max-height", options.frame.maxHeight, "Greatest height of a picture, in pixels")
+    add(app, "--max-height", options.frame.maxHeight, "Maximum height of a picture, in pixels")
         ->check(CLI::Range(1, 16'384));
-    add(app, "--max-pixels", options.frame.maxPixels, "Most pixels of a picture")->check(atLeastOne);
+    add(app, "--max-pixels", options.frame.maxPixels, "Maximum number of pixels of a picture")->check(atLeastOne);
     add(app, "--max-fill", options.maxFill,
-        "Steps that a picture may take to fill faces whose sides cross: n² + n·k for n sides that cross at k places. "
-        "Faces beyond are filled roughly")
+        "Maximum number of steps to fill self-intersecting faces in one picture: n² + n·k for a face of n sides with k "
+        "crossings. Faces beyond the limit are filled approximately")
         ->check(atLeastOne);
     addFileLimits(app, options.file);
-    add(app, "--max-slices", options.session.maxSlices, "Most slices of a session")->check(CLI::Range(1, 100'001));
-    add(app, "--max-undo", options.session.maxUndo, "Steps that can be undone in a session");
-    add(app, "--max-loaded", options.session.maxLoaded, "Polytopes that can be loaded into a session");
+    add(app, "--max-slices", options.session.maxSlices, "Maximum number of slices of a session")
+        ->check(CLI::Range(1, 100'001));
+    add(app, "--max-undo", options.session.maxUndo, "Maximum number of undo steps of a session");
+    addBytes(
+        app, "--max-undo-bytes", options.session.maxUndoBytes,
+        "Maximum bytes of polytopes that a session keeps only for undo; beyond it, the oldest steps are forgotten");
+    add(app, "--max-loaded", options.session.maxLoaded, "Maximum number of polytopes loaded into a session");
     add(app, "--max-vertices", options.session.maxVertices,
-        "Most vertices of a loaded polytope, or of one built by a name that the catalogue does not list");
+        "Maximum number of vertices of a loaded polytope, or of one built from a name that the catalogue does not "
+        "list");
     addBytes(app, "--polytope-cache", options.polytopeCache,
-             "Memory for polytopes of the catalogue and of names, kept for when they are asked for again");
-    add(app, "--max-hull-cells", options.session.maxHullCells, "Most cells of the hull of loaded points");
+             "Memory for cached polytopes, from the catalogue or built from names");
+    add(app, "--max-hull-cells", options.session.maxHullCells,
+        "Maximum number of cells of the convex hull of loaded points");
 }
 
 void addTimes(CLI::App& app, Options& options) {
     addSeconds(app, "--session-expiry", options.sessionExpiry,
-               "A session that nobody has open is forgotten after this");
-    addSeconds(app, "--draw-timeout", options.drawTimeout,
-               "A process that takes longer to draw a picture is killed, and the picture drawn by another");
+               "Time after which a session that nobody has open is deleted");
+    addSeconds(
+        app, "--draw-timeout", options.drawTimeout,
+        "Maximum time to draw a picture; a process that takes longer is killed, and another one draws the picture");
+    addSeconds(app, "--load-timeout", options.loadTimeout,
+               "Maximum time to read a file; a file that takes longer is refused");
     addSeconds(app, "--shown-timeout", options.shownTimeout,
-               "A picture sent counts as shown after this, though the client does not say so");
-    addSeconds(app, "--write-timeout", options.writeTimeout, "A client that reads nothing for this long is dropped");
+               "Time after which a sent picture counts as shown if the client does not acknowledge it");
+    addSeconds(app, "--write-timeout", options.writeTimeout, "Time after which a client that reads nothing is dropped");
+    addSeconds(app, "--hello-timeout", options.helloTimeout,
+               "Time after which a new connection that sends no request, or no hello, is closed");
+    addSeconds(app, "--idle-timeout", options.idleTimeout,
+               "Time after which an HTTP connection without a further request is closed");
     addSeconds(app, "--ping-interval", options.pingInterval,
-               "A silent client is pinged after this, and dropped after twice this");
-    addSeconds(app, "--stop-timeout", options.stopTimeout, "On SIGINT or SIGTERM, clients have this long to leave");
+               "Time after which a silent client is pinged; after twice this time it is dropped");
+    addSeconds(app, "--stop-timeout", options.stopTimeout,
+               "Time that clients have to disconnect after SIGINT, SIGTERM or SIGHUP");
 }
 
 }  // namespace
 
 void addOptions(CLI::App& app, Options& options) {
-    addPlace(app, options);
+    addServing(app, options);
     addAccess(app, options);
     addStore(app, options);
+    addSandbox(app, options);
     addLimits(app, options);
+    addClientLimits(app, options);
     addTimes(app, options);
 }
 
 std::string limitsText(const Options& options) {
     return nlohmann::json{{"message", options.maxMessage},
+                          {"request_bytes", options.maxRequestBytes},
                           {"depth", options.maxDepth},
                           {"requests_per_second", options.maxRequests},
                           {"min_side", options.frame.minSide},

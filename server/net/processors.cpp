@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// "200000 100000" → 2; nothing for "max 100000" or no file.
+/// The CPU quota of a control group in processors: 2 for "200000 100000"; nothing for "max 100000" or no file.
 std::optional<double> quotaIn(const fs::path& group) {
     double quota = 0, period = 0;
     if (std::ifstream(group / "cpu.max") >> quota >> period && period > 0) return quota / period;
@@ -35,7 +35,7 @@ std::size_t processors(const fs::path& root) {
         const std::string controllers = line.substr(first + 1, second - first - 1);
         if (!controllers.empty() && controllers != "cpu" && controllers != "cpu,cpuacct") continue;
         const fs::path mount = root / "sys/fs/cgroup" / controllers;
-        // In a container the path may be the one outside, of which nothing is to be seen here but the root.
+        // In a container the path may be that of the host, of which only the root is visible here.
         for (fs::path path = line.substr(second + 2);; path = path.parent_path()) {
             if (const auto quota = quotaIn(mount / path)) most = std::min(most, *quota);
             if (path.empty()) break;

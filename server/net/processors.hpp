@@ -1,14 +1,14 @@
 #pragma once
-// How many threads are worth having.
+// The number of processors that this process can use.
 
 #include <cstddef>
 #include <filesystem>
 
 namespace oval4d::net {
 
-/// The processors that this process can keep busy: those that it may run on, and not more than its control group and
-/// the groups around it have the time of (cpu.max, or cpu.cfs_quota_us of version 1), rounded up. At least 1.
-/// `root` is where /proc and /sys are looked for.
+/// The number of processors that this process can keep busy: the hardware threads that it may run on, limited by the
+/// CPU quotas of its control group and of all parent groups (cgroup v2 cpu.max, or v1 cpu.cfs_quota_us), rounded up. At
+/// least 1. `root` is the folder that contains proc and sys.
 std::size_t processors(const std::filesystem::path& root = "/");
 
 }  // namespace oval4d::net

@@ -2,18 +2,18 @@
 
 #include <spdlog/spdlog.h>
 
-#include "geometry/catalogue.hpp"
+#include "polytopes/catalogue/catalogue.hpp"
 #include "session/session.hpp"
 
 namespace oval4d::net {
 
-void Readiness::warmUp(picture::Painter& painter) {
+void Readiness::warmUp(pipeline::Pipeline& pipeline) {
     try {
         const session::State state = session::initialState();
         std::vector<std::uint8_t> png;
-        painter.warmUp();
-        painter.frame(state, "", {}, png);
-        (void)geometry::findEntry("");  // the tables of names
+        pipeline.warmUp();
+        pipeline.frame(state, "", {}, png);
+        (void)polytopes::findEntry("");  // builds the tables of names
         if (--missing_ == 0) spdlog::info("ready");
     } catch (const std::exception& fault) {
         broken_ = true;

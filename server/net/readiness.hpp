@@ -1,27 +1,28 @@
 #pragma once
-// Whether the server can do its work at full speed.
+// The readiness of the server, as /readyz reports it.
 
 #include <atomic>
 #include <cstddef>
 
-#include "picture/painter.hpp"
+#include "pipeline/pipeline.hpp"
 
 namespace oval4d::net {
 
-/// Ready once every worker has drawn its first picture, with shaders compiled and polytopes built.
+/// The server is ready once every worker has drawn its first picture, so that shaders are compiled and the initial
+/// polytope is built. Every function may be called from any thread.
 class Readiness {
   public:
     explicit Readiness(std::size_t workers) : missing_(workers) {}
 
-    /// The first job of a worker. Where frames cannot be drawn at all, that is logged, and the server is never ready,
-    /// though it serves geometry.
-    void warmUp(picture::Painter& painter);
+    /// Draws a first picture; the first job of each worker. If frames cannot be drawn at all, logs the error and marks
+    /// the server broken: it never becomes ready, although it still serves geometry.
+    void warmUp(pipeline::Pipeline& pipeline);
 
     bool ready() const { return missing_ == 0; }
-    /// From now on the server wants no new clients.
+    /// Marks the server as stopping: load balancers should send it no new clients.
     void stop() { stopping_ = true; }
     bool stopping() const { return stopping_; }
-    /// Frames cannot be drawn, now or later.
+    /// Whether drawing a first picture failed, so that the server will never be ready.
     bool broken() const { return broken_; }
 
   private:

@@ -3,23 +3,31 @@
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <atomic>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ip/v6_only.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
 #include <csignal>
+#include <cstdlib>
 #include <thread>
 #include <utility>
 #include <variant>
 
-#include "geometry/catalogue.hpp"
 #include "net/awaited.hpp"
-#include "net/http_session.hpp"
+#include "net/confinement.hpp"
+#include "net/http/http_session.hpp"
 #include "net/processors.hpp"
 #include "net/readiness.hpp"
-#include "picture/drawer.hpp"
+#include "polytopes/catalogue/polytope_cache.hpp"
+#include "raster/rasterizer_pool.hpp"
+#include "reading/file_readers.hpp"
+#include "store/open_store.hpp"
 #include "store/secret.hpp"
 
 namespace oval4d::net {
@@ -31,8 +39,11 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr std::size_t kTokenBytes = 20;
+constexpr auto kWorkerStopTimeout = 500ms;
+// How long a reader process stays idle: a client that has loaded a file may soon load another.
+constexpr Seconds kReaderIdleTimeout{10};
 
-/// As many files as the system lets one process have: each connection is one.
+/// Raises the soft limit of open files to the hard limit: each connection takes a file descriptor.
 void raiseFileLimit() {
     rlimit limit{};
     if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -42,39 +53,92 @@ void raiseFileLimit() {
 
 store::StoreOptions storeOptions(const Options& options) {
     return {options.store, std::chrono::duration_cast<store::Milliseconds>(options.sessionExpiry),
-            std::chrono::duration_cast<store::Milliseconds>(options.storeTimeout)};
+            std::chrono::duration_cast<store::Milliseconds>(options.storeTimeout), options.storeQuota};
 }
 
-std::string addressFor(const tcp::endpoint& endpoint) {
-    // Where it listens at all addresses, one that a browser on this machine can open.
+/// The URL of the server at this endpoint. For an unspecified address ("all interfaces") the host is localhost, which a
+/// browser on this machine can open.
+std::string urlFor(const tcp::endpoint& endpoint) {
     const bool all = endpoint.address().is_unspecified();
     const std::string address = all ? "localhost" : endpoint.address().to_string();
     const std::string host = endpoint.address().is_v6() && !all ? "[" + address + "]" : address;
     return "http://" + host + ":" + std::to_string(endpoint.port()) + "/";
 }
 
+tcp::acceptor bindAcceptor(asio::io_context& io, const tcp::endpoint& endpoint) {
+    tcp::acceptor acceptor(asio::make_strand(io));
+    acceptor.open(endpoint.protocol());
+    acceptor.set_option(asio::socket_base::reuse_address(true));
+    // IPv4 and IPv6 get a socket each, so that the system's bindv6only setting does not matter.
+    if (endpoint.address().is_v6() && !endpoint.address().is_unspecified())
+        acceptor.set_option(asio::ip::v6_only(true));
+    acceptor.bind(endpoint);
+    acceptor.listen();
+    return acceptor;
+}
+
+/// One acceptor for each address, all on the same port. Skips an address that this machine lacks, such as ::1 without
+/// IPv6, if another one can be bound. Throws std::runtime_error.
+std::vector<tcp::acceptor> bindAcceptors(asio::io_context& io, const Options& options) {
+    constexpr int kAttempts = 20;  // to find a port that is free at every address
+    for (int attempt = 1;; ++attempt) {
+        std::vector<tcp::acceptor> acceptors;
+        std::uint16_t port = options.port;
+        bool taken = false;
+        std::string failure;
+        for (const std::string& host : options.hosts) {
+            try {
+                for (const auto& found :
+                     tcp::resolver(io).resolve(host, std::to_string(port), tcp::resolver::passive)) {
+                    acceptors.push_back(bindAcceptor(io, {found.endpoint().address(), port}));
+                    port = acceptors.back().local_endpoint().port();
+                }
+            } catch (const boost::system::system_error& fault) {
+                const auto code = fault.code();
+                const bool absent = code == asio::error::address_family_not_supported ||
+                                    code == boost::system::errc::address_not_available;
+                taken = code == asio::error::address_in_use && options.port == 0 && !acceptors.empty();
+                failure = "cannot listen on " + host + ", port " + std::to_string(port) + ": " + code.message();
+                if (taken) break;
+                if (!absent) throw std::runtime_error(failure);
+            }
+        }
+        if (taken && attempt < kAttempts) continue;
+        if (acceptors.empty() || taken) throw std::runtime_error(failure);
+        return acceptors;
+    }
+}
+
 class Server {
   public:
-    explicit Server(Options options);
+    Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap);
     void run();
 
   private:
-    static tcp::acceptor bound(asio::io_context& io, const Options& options);
-    std::string tokenNeeded() const;
-    void drawingLost(const picture::Loss& loss);
-    asio::awaitable<void> listen();
+    bool onLoopback() const;
+    std::string requiredToken() const;
+    void onRasterizerLost(const process::Loss& loss);
+    void onReaderLost(const process::Loss& loss);
+    asio::awaitable<void> listen(tcp::acceptor& acceptor);
     asio::awaitable<void> stopOnSignal();
+    void stopWorkers();
 
     Options options_;
-    Registry registry_;  // before the context, for coroutines that end with it have their places here
+    Clients clients_;
+    ConnectionRegistry connections_;  // outlives io_, whose coroutines hold slots
     asio::io_context io_;
-    tcp::acceptor acceptor_;
+    std::vector<tcp::acceptor> acceptors_;
     Metrics metrics_;
     WebFiles files_;
     std::size_t workers_;
+    std::string sandboxWarning_;
+    std::vector<std::string> childEnvironment_;
     Readiness readiness_;
-    picture::Studio studio_;
-    WorkerPool pool_, fileMakers_;
+    raster::RasterizerPool rasterizers_;
+    reading::FileReaders readers_;
+    polytopes::PolytopeCache polytopes_;
+    pipeline::PipelinePool pictureWorkers_;
+    parallel::WorkerPool fileWorkers_, loadWorkers_;
     Services services_;
     std::shared_ptr<Hub> hub_;
     std::string token_;
@@ -82,120 +146,156 @@ class Server {
     Routes routes_;
 };
 
-Server::Server(Options options)
+Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap)
     : options_(std::move(options)),
-      acceptor_(bound(io_, options_)),
+      clients_(options_.client, options_.trustedProxies, options_.maxBytes),
+      connections_(options_.maxConnections, options_.client.connections),
+      acceptors_(bindAcceptors(io_, options_)),
       files_(options_.webRoot),
       workers_(options_.workers > 0 ? static_cast<std::size_t>(options_.workers) : processors()),
+      childEnvironment_(childEnvironment(options_, workers_, sandboxWarning_)),
       readiness_(workers_),
-      studio_(processors(),
-              {{options_.maxFill, options_.polytopeCache},
-               options_.drawTimeout,
-               [this](const picture::Loss& loss) { drawingLost(loss); }},
-              [this] { return pool_.waiting() > 0; }),
-      pool_(workers_,
-            [this](picture::Painter& painter) {
-                painter.limitFill(options_.maxFill);
-                painter.leaveDrawingTo(std::make_unique<picture::Drawer>(studio_, pool_.stopToken()));
-                readiness_.warmUp(painter);
-            }),
-      fileMakers_(static_cast<std::size_t>(options_.fileWorkers), [](picture::Painter&) {}),
-      services_{options_, io_, pool_, fileMakers_, metrics_},
+      rasterizers_(processors(),
+                   {{options_.maxFill, options_.polytopeCache},
+                    options_.drawTimeout,
+                    [this](const process::Loss& loss) { onRasterizerLost(loss); },
+                    childEnvironment_},
+                   [this] { return pictureWorkers_.workers().crowded(); }),
+      readers_({options_.loadTimeout, kReaderIdleTimeout, [this](const process::Loss& loss) { onReaderLost(loss); },
+                childEnvironment_, static_cast<std::size_t>(options_.loadWorkers)}),
+      polytopes_(options_.polytopeCache),
+      pictureWorkers_({.threads = workers_,
+                       .limits = options_.jobs,
+                       .fillSteps = options_.maxFill,
+                       .makeRasterizer =
+                           [this](std::stop_token stop) {
+                               return std::make_unique<raster::PooledRasterizer>(rasterizers_, std::move(stop));
+                           },
+                       .first = [this](pipeline::Pipeline& pipeline) { readiness_.warmUp(pipeline); }},
+                      forkJoin, heap),
+      fileWorkers_({.threads = static_cast<std::size_t>(options_.fileWorkers),
+                    .limits = options_.jobs,
+                    .whenIdle = [&heap](std::size_t /*worker*/) { heap.returnFreeMemory(); }}),
+      loadWorkers_({.threads = static_cast<std::size_t>(options_.loadWorkers),
+                    .limits = options_.jobs,
+                    .whenIdle = [&heap](std::size_t /*worker*/) { heap.returnFreeMemory(); }}),
+      services_{options_, io_, pictureWorkers_, fileWorkers_, metrics_, clients_, loadWorkers_, readers_, polytopes_},
       hub_(std::make_shared<Hub>(services_, store::openStore(storeOptions(options_)))),
-      token_(tokenNeeded()),
-      access_(options_.allowedHosts, options_.allowedOrigins, token_,
-              acceptor_.local_endpoint().address().is_loopback()),
+      token_(requiredToken()),
+      access_(options_.allowedHosts, options_.allowedOrigins, token_, onLoopback()),
       routes_(services_, files_, readiness_, *hub_) {}
 
-tcp::acceptor Server::bound(asio::io_context& io, const Options& options) {
-    const std::string port = std::to_string(options.port);
-    try {
-        const auto found = tcp::resolver(io).resolve(options.host, port, tcp::resolver::passive);
-        return {asio::make_strand(io), found.begin()->endpoint()};
-    } catch (const boost::system::system_error& fault) {
-        throw std::runtime_error("cannot listen at " + options.host + ", port " + port + ": " + fault.code().message());
-    }
+bool Server::onLoopback() const {
+    return std::ranges::all_of(acceptors_,
+                               [](const tcp::acceptor& each) { return each.local_endpoint().address().is_loopback(); });
 }
 
-/// Who can reach a loopback address is on this machine; anybody else has to know a secret.
-std::string Server::tokenNeeded() const {
+/// The token that clients must send: the configured one, or a random one if the server listens on more than loopback;
+/// empty if none is required.
+std::string Server::requiredToken() const {
     if (options_.open || !options_.token.empty()) return options_.open ? std::string() : options_.token;
-    return acceptor_.local_endpoint().address().is_loopback() ? std::string() : store::randomName(kTokenBytes);
+    return onLoopback() ? std::string() : store::randomName(kTokenBytes);
 }
 
-void Server::drawingLost(const picture::Loss& loss) {
+void Server::onRasterizerLost(const process::Loss& loss) {
     (loss.hung ? metrics_.drawingHangs : metrics_.drawingDeaths).Increment();
-    spdlog::error("a process that draws was lost how=\"{}\"", loss.how);
+    spdlog::error("a rasterizer process was lost how=\"{}\"", loss.how);
+}
+
+void Server::onReaderLost(const process::Loss& loss) {
+    (loss.hung ? metrics_.readingHangs : metrics_.readingDeaths).Increment();
+    spdlog::error("a reader process was lost how=\"{}\"", loss.how);
 }
 
 void Server::run() {
     const std::string query = token_.empty() ? "" : "?token=" + token_;
-    spdlog::info("listening url={}{}", addressFor(acceptor_.local_endpoint()), query);
-    asio::co_spawn(acceptor_.get_executor(), listen(), asio::detached);
-    asio::co_spawn(acceptor_.get_executor(), stopOnSignal(), asio::detached);
+    for (tcp::acceptor& acceptor : acceptors_) {
+        spdlog::info("listening url={}{}", urlFor(acceptor.local_endpoint()), query);
+        asio::co_spawn(acceptor.get_executor(), listen(acceptor), asio::detached);
+    }
+    if (!sandboxWarning_.empty()) spdlog::warn(sandboxWarning_);
+    asio::co_spawn(acceptors_.front().get_executor(), stopOnSignal(), asio::detached);
     std::vector<std::thread> others;
     for (int i = 1; i < options_.ioThreads; ++i) others.emplace_back([this] { io_.run(); });
     io_.run();
     for (std::thread& thread : others) thread.join();
-    pool_.stop();
-    fileMakers_.stop();
     hub_->stop(options_.stopTimeout);
+    stopWorkers();
     spdlog::info("stopped");
 }
 
-asio::awaitable<void> Server::listen() {
-    const Front front{services_, access_, routes_, hub_, registry_};
+/// Stops the workers. Some jobs cannot be interrupted: if one outlasts kWorkerStopTimeout, ends the program at once. By
+/// then nobody waits for the job, and all sessions have been written.
+void Server::stopWorkers() {
+    std::atomic_bool ended = false;
+    std::thread watchdog([&ended] {
+        const auto limit = std::chrono::steady_clock::now() + kWorkerStopTimeout;
+        while (!ended && std::chrono::steady_clock::now() < limit) std::this_thread::sleep_for(1ms);
+        if (ended) return;
+        spdlog::warn("stopped while a worker was still busy");
+        spdlog::shutdown();
+        std::_Exit(0);
+    });
+    pictureWorkers_.workers().stop();
+    fileWorkers_.stop();
+    loadWorkers_.stop();
+    ended = true;
+    watchdog.join();
+}
+
+asio::awaitable<void> Server::listen(tcp::acceptor& acceptor) {
+    const ServerContext context{services_, access_, routes_, hub_, connections_};
     for (;;) {
         tcp::socket socket(asio::make_strand(io_));
-        const auto [fault] = co_await acceptor_.async_accept(socket, kQuietly);
+        const auto [fault] = co_await acceptor.async_accept(socket, kAsTuple);
         if (fault == asio::error::operation_aborted) co_return;
         if (fault) {
-            // Out of files, most likely: it passes when a connection ends.
+            // Most likely out of file descriptors; the end of a connection frees one.
             spdlog::warn("cannot accept fault=\"{}\"", fault.message());
             asio::steady_timer pause(io_, 100ms);
-            co_await pause.async_wait(kQuietly);
+            co_await pause.async_wait(kAsTuple);
             continue;
         }
-        const bool full = registry_.size() >= options_.maxConnections;
         const auto executor = socket.get_executor();
-        asio::co_spawn(executor, serve(std::move(socket), front, full), asio::detached);
+        asio::co_spawn(executor, serve(std::move(socket), context), asio::detached);
     }
 }
 
 asio::awaitable<void> Server::stopOnSignal() {
-    asio::signal_set signals(acceptor_.get_executor(), SIGINT, SIGTERM);
-    const auto [fault, number] = co_await signals.async_wait(kQuietly);
-    spdlog::info("stopping signal={} connections={}", number, registry_.size());
-    signals.clear();  // a second signal ends the program at once
+    const auto executor = acceptors_.front().get_executor();
+    asio::signal_set signals(executor, SIGINT, SIGTERM, SIGHUP);
+    const auto [fault, number] = co_await signals.async_wait(kAsTuple);
+    spdlog::info("stopping signal={} connections={}", number, connections_.size());
+    signals.clear();  // so that a second signal ends the program at once
     readiness_.stop();
-    acceptor_.close();
+    for (tcp::acceptor& acceptor : acceptors_) asio::post(acceptor.get_executor(), [&acceptor] { acceptor.close(); });
     const auto limit = std::chrono::steady_clock::now() + steady(options_.stopTimeout);
-    asio::steady_timer poll(acceptor_.get_executor());
-    // What clients have seen is in the store before they are sent to other servers.
+    asio::steady_timer poll(executor);
+    // Save what clients have seen before they reconnect to other servers.
     auto saving = std::make_shared<std::monostate>();
     hub_->saveAll(saving);
     const std::weak_ptr<std::monostate> saved = std::exchange(saving, nullptr);
     do {
         poll.expires_after(2ms);
-        co_await poll.async_wait(kQuietly);
+        co_await poll.async_wait(kAsTuple);
     } while (!saved.expired() && std::chrono::steady_clock::now() < limit - steady(options_.stopTimeout) / 2);
-    registry_.stopAll();
-    while ((registry_.size() > 0 || hub_->open() > 0) && std::chrono::steady_clock::now() < limit) {
+    connections_.stopAll();
+    while ((connections_.size() > 0 || hub_->openCount() > 0) && std::chrono::steady_clock::now() < limit) {
         poll.expires_after(10ms);
-        co_await poll.async_wait(kQuietly);
+        co_await poll.async_wait(kAsTuple);
     }
-    if (registry_.size() > 0) spdlog::warn("clients left behind count={}", registry_.size());
+    if (connections_.size() > 0) spdlog::warn("clients still connected at shutdown count={}", connections_.size());
     io_.stop();
 }
 
 }  // namespace
 
-void runServer(Options options) {
+void runServer(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap) {
     raiseFileLimit();
     std::signal(SIGPIPE, SIG_IGN);  // hiredis writes to sockets that may have closed
-    std::signal(SIGCHLD, SIG_DFL);  // where it is ignored, the number of a process that has ended may be another's
-    geometry::keepPolytopes(options.polytopeCache);
-    Server(std::move(options)).run();
+    std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit becomes a write error, like a full disk
+    std::signal(SIGCHLD, SIG_DFL);  // if ignored, children are reaped at once and their process ids may be reused
+    Server(std::move(options), forkJoin, heap).run();
 }
 
 }  // namespace oval4d::net

@@ -4,12 +4,12 @@
 #include <string>
 
 #include "render/gl.hpp"
-// gl.hpp first: it asks for the prototypes of the core profile.
+// After gl.hpp, which enables the prototypes of the core profile.
 #include <GL/osmesa.h>
 
 namespace oval4d::render {
 
-// Enough for a few hundred slices one behind the other.
+// Enough for a few hundred slices behind one another.
 constexpr int kDepthBits = 16;
 
 struct Context::Native {
@@ -33,7 +33,7 @@ Context::Context() : native_(std::make_unique<Native>()) {
                               3,
                               0};
     native_->context = OSMesaCreateContextAttribs(attributes, nullptr);
-    if (native_->context == nullptr) throw std::runtime_error("OSMesa gives no OpenGL 3.3 core context");
+    if (native_->context == nullptr) throw std::runtime_error("OSMesa cannot create an OpenGL 3.3 core context");
     std::uint8_t pixel[4];
     begin(1, 1, pixel);
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &maxSize_);
@@ -45,7 +45,8 @@ Context::~Context() = default;
 void Context::begin(int width, int height, std::uint8_t* pixels) {
     if (maxSize_ > 0 && (width > maxSize_ || height > maxSize_))
         throw std::runtime_error("a picture of " + std::to_string(width) + " × " + std::to_string(height) +
-                                 " pixels is larger than the driver draws (" + std::to_string(maxSize_) + ")");
+                                 " pixels is too large: the driver allows at most " + std::to_string(maxSize_) +
+                                 " in each direction");
     if (OSMesaMakeCurrent(native_->context, pixels, GL_UNSIGNED_BYTE, width, height) == GL_FALSE)
         throw std::runtime_error("OSMesa cannot draw a picture of " + std::to_string(width) + " × " +
                                  std::to_string(height) + " pixels");
@@ -53,7 +54,7 @@ void Context::begin(int width, int height, std::uint8_t* pixels) {
     glViewport(0, 0, width, height);
 }
 
-// glFlush would copy the whole picture.
+// A fence flushes the commands; glFlush would copy the whole picture.
 void Context::start() { glDeleteSync(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
 
 void Context::finish() { glFinish(); }

@@ -6,28 +6,28 @@
 
 namespace oval4d::render {
 
-/// An OpenGL 3.3 core context that draws into memory. Bound to one thread: the one that makes it. All that knows
-/// OSMesa is in this class; the rest of the renderer is plain OpenGL.
+/// An OpenGL 3.3 core context that draws into memory. Bound to the thread that creates it. The only class that uses
+/// OSMesa; the rest of the renderer is plain OpenGL.
 class Context {
   public:
-    /// Throws std::runtime_error if no context can be had.
+    /// Throws std::runtime_error if no context can be created.
     Context();
     ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    /// Makes the context current, drawing a picture of width × height pixels. `pixels` is where finish() leaves it:
-    /// RGBA, 8 bits a channel, rows from the bottom up; it must live until then. Throws std::runtime_error if a
-    /// picture of this size is too large for the driver.
+    /// Makes the context current for a picture of width × height pixels, which finish() writes to `pixels`: RGBA, 8
+    /// bits per channel, rows from the bottom up. `pixels` must remain valid until then. Throws std::runtime_error if
+    /// the driver does not support pictures of this size.
     void begin(int width, int height, std::uint8_t* pixels);
 
-    /// Lets the driver's threads fill the pixels of what was drawn so far, and does not wait for them.
+    /// Makes the driver's threads start rasterizing what was drawn so far, without waiting for them.
     void start();
 
-    /// Waits until the picture is drawn. Once a frame: every call copies the whole of it.
+    /// Waits until the picture is drawn. Call it once per picture, because each call copies the whole picture.
     void finish();
 
-    /// The largest width and height of a picture.
+    /// The maximum width and height of a picture.
     int maxSize() const { return maxSize_; }
 
   private:

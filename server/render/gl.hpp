@@ -1,5 +1,5 @@
 #pragma once
-// OpenGL with the prototypes of its core profile.
+// OpenGL with function prototypes of the core profile.
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>

@@ -10,19 +10,19 @@
 
 namespace oval4d::render {
 
-/// One member of a vertex, as glVertexAttribPointer takes it. Bytes are colour channels (0 … 255 ↦ 0 … 1).
+/// A vertex attribute: the arguments of glVertexAttribPointer. Bytes are normalized color channels (0 … 255 ↦ 0 … 1).
 struct Attribute {
     int components;
-    GLenum type;  ///< GL_FLOAT or GL_UNSIGNED_BYTE
-    std::size_t offset;
+    GLenum type;         ///< GL_FLOAT or GL_UNSIGNED_BYTE
+    std::size_t offset;  ///< in the vertex, in bytes
 };
 
-/// A linked program with one vertex and one index buffer of its own, which grow to the largest drawing. Needs a
-/// current context for all of its life.
+/// A linked program with its own vertex buffer and index buffer, which grow as needed. Requires a current GL context
+/// throughout its lifetime.
 class Program {
   public:
-    /// Attribute i is location i of the vertex shader. The sources have no #version line.
-    /// Throws std::runtime_error with the compiler's words.
+    /// Attribute i has location i in the vertex shader. The sources have no #version line. Throws std::runtime_error
+    /// with the compiler's message.
     Program(std::string_view vertexSource, std::string_view fragmentSource, std::size_t vertexSize,
             std::span<const Attribute> attributes);
     ~Program();
@@ -32,7 +32,7 @@ class Program {
     GLint uniform(const char* name) const { return glGetUniformLocation(program_, name); }
     void use() const { glUseProgram(program_); }
 
-    /// Draws indexed triangles in their order.
+    /// Draws indexed triangles in the given order.
     void draw(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices);
 
   private:

@@ -3,13 +3,14 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "render/annotations.hpp"
+#include "parallel/ownership.hpp"
 #include "render/context.hpp"
-#include "render/crossing.hpp"
-#include "render/overlay.hpp"
-#include "render/slices.hpp"
-#include "render/solids.hpp"
-#include "render/strip.hpp"
+#include "render/overlay/annotations.hpp"
+#include "render/overlay/density_strip.hpp"
+#include "render/overlay/overlay.hpp"
+#include "render/slices/convex_slices.hpp"
+#include "render/slices/crossing_slices.hpp"
+#include "render/slices/shape_batch.hpp"
 
 namespace oval4d::render {
 
@@ -20,102 +21,104 @@ std::string fontFile() {
 
 namespace {
 
-// Indices. So many are drawn at once: while the driver's threads fill their pixels, this one prepares the next.
-constexpr std::size_t kPart = 12'000;
+// The number of indices drawn in one batch: while the driver's threads rasterize a batch, this thread prepares the
+// next.
+constexpr std::size_t kBatchIndices = 12'000;
 
 }  // namespace
 
 struct Renderer::Impl {
     explicit Impl(const std::string& font)
-        : flatProgram(scene::style(), SolidProgram::Depth::flat),
-          roundProgram(scene::style(), SolidProgram::Depth::round),
+        : flatProgram(scene::style(), ShapeProgram::Depth::flat),
+          roundProgram(scene::style(), ShapeProgram::Depth::round),
           overlay(font) {}
 
     void drawLayers();
 
-    Context context;  // first: all else lives in it
-    SolidProgram flatProgram, roundProgram;
-    Strip strip;
+    parallel::ThreadOwned owner;
+    Context context;  // first, because the other members need it
+    ShapeProgram flatProgram, roundProgram;
+    DensityStrip densityStrip;
     Overlay overlay;
-    Solids solids;
-    SlicePainter slicePainter;
-    CrossingPainter crossingPainter;
-    CrossingPainter::Layers layers;
+    ShapeBatch shapes;
+    ConvexSlicePainter convexPainter;
+    CrossingSlicePainter crossingPainter;
+    CrossingSlicePainter::Layers layers;
 };
 
 void Renderer::Impl::drawLayers() {
     glEnable(GL_DEPTH_TEST);
     glClear(GL_DEPTH_BUFFER_BIT);
     glDisable(GL_BLEND);
-    flatProgram.drawWithin(layers.depths, layers.faces);
+    flatProgram.drawWithDepth(layers.depths, layers.faces);
     context.start();
     glEnable(GL_BLEND);
-    roundProgram.drawWithin(layers.depths, layers.frame);
+    roundProgram.drawWithDepth(layers.depths, layers.skeleton);
     glDepthMask(GL_FALSE);
-    roundProgram.drawWithin(layers.depths, layers.faded);
+    roundProgram.drawWithDepth(layers.depths, layers.faded);
     glDepthMask(GL_TRUE);
     glDisable(GL_DEPTH_TEST);
 }
 
 Renderer::Renderer(const std::string& font) : impl_(std::make_unique<Impl>(font)) {
-    // Mesa compiles a shader when it first draws with it.
-    Image image;
+    // Mesa compiles a shader when the shader first draws, so draw an empty scene.
+    image::Image image;
     scene::Scene scene;
     scene.viewport = {64, 64};
     scene.axes = {0.5, 0.5, 0.4};
-    draw({}, {}, scene, image);
+    draw(scene, image);
 }
 
 Renderer::~Renderer() = default;
 
-void Renderer::forget() {
-    impl_->solids = {};
-    impl_->slicePainter = {};
+void Renderer::freeMemory() {
+    impl_->shapes = {};
+    impl_->convexPainter = {};
     impl_->crossingPainter = {};
     impl_->layers = {};
 }
 
-void Renderer::draw(const geometry::Polytope& polytope, const geometry::SliceSet& slices, const scene::Scene& scene,
-                    Image& out) {
+void Renderer::draw(const scene::Scene& scene, image::Image& out) {
     out.width = scene.viewport.width;
     out.height = scene.viewport.height;
-    out.pixels.resize(bytesOf(scene.viewport));
-    draw(polytope, slices, scene, std::span(out.pixels));
+    out.pixels.resize(image::bytesOf(scene.viewport));
+    draw(scene, std::span(out.pixels));
 }
 
-void Renderer::draw(const geometry::Polytope& polytope, const geometry::SliceSet& slices, const scene::Scene& scene,
-                    std::span<std::uint8_t> pixels) {
-    if (pixels.size() != bytesOf(scene.viewport)) throw std::invalid_argument("the picture has no place to go");
-    Solids& solids = impl_->solids;
+void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
+    if (pixels.size() != image::bytesOf(scene.viewport))
+        throw std::invalid_argument("the pixel buffer does not have the size of the viewport");
+    ShapeBatch& shapes = impl_->shapes;
     Overlay& overlay = impl_->overlay;
+    impl_->owner.assertOwner();
     impl_->context.begin(scene.viewport.width, scene.viewport.height, pixels.data());
 
-    const scene::Colour background = scene::style().background;
+    const scene::Color background = scene::style().background;
     const auto channel = [&](int shift) { return static_cast<float>(background >> shift & 255) / 255; };
     glClearColor(channel(16), channel(8), channel(0), 1);
     glClear(GL_COLOR_BUFFER_BIT);
     glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colours come times their opacity: blending is cheaper so
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // premultiplied alpha, for which blending is cheaper
 
-    solids.begin(scene::style());
+    shapes.begin(scene::style());
     overlay.begin(scene.viewport);
-    if (polytope.convex) {
-        impl_->slicePainter.paint(polytope, slices, scene, solids, [this, &solids] {
-            if (solids.indices().size() < kPart) return;
-            impl_->flatProgram.draw(solids);
+    if (!scene.crossing) {
+        impl_->convexPainter.paint(scene, shapes, [this, &shapes] {
+            if (shapes.indices().size() < kBatchIndices) return;
+            impl_->flatProgram.draw(shapes);
             impl_->context.start();
-            solids.clear();
+            shapes.clear();
         });
     } else {
-        impl_->crossingPainter.paint(polytope, slices, scene, impl_->layers);
+        impl_->crossingPainter.paint(scene, impl_->layers);
         impl_->drawLayers();
     }
-    paintAxes(scene, solids, overlay);
-    paintCoordinates(slices, scene, overlay);
+    paintAxes(scene, shapes, overlay);
+    paintCoordinates(scene, overlay);
     paintLabels(scene, overlay);
 
-    impl_->flatProgram.draw(solids);
-    impl_->strip.draw(scene);
+    impl_->flatProgram.draw(shapes);
+    impl_->densityStrip.draw(scene);
     overlay.draw();
     impl_->context.finish();
 }

@@ -1,8 +1,8 @@
+#include "scene/camera.hpp"
+
 #include <cmath>
 
 #include <glm/gtc/matrix_transform.hpp>
-
-#include "scene/scene.hpp"
 
 namespace oval4d::scene {
 
@@ -10,7 +10,7 @@ glm::dmat4 Camera::view() const { return glm::lookAt(eye, target, up); }
 
 glm::dmat4 Camera::projection(double aspect) const {
     glm::dmat4 matrix = glm::perspective(fieldOfView, aspect, near, far);
-    // A shift in clip space: x' = x + 2·shift·w, and w = −z.
+    // Shift in clip space: x' = x + 2 · shift · w, where w = −z.
     matrix[2][0] = -2 * shiftX;
     matrix[2][1] = -2 * shiftY;
     return matrix;

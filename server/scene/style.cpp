@@ -1,6 +1,6 @@
-#include <glm/geometric.hpp>
+#include "scene/style.hpp"
 
-#include "scene/scene.hpp"
+#include <glm/geometric.hpp>
 
 namespace oval4d::scene {
 

@@ -7,32 +7,27 @@
 #include <utility>
 #include <vector>
 
-#include "protocol/cpp/suggest.hpp"
+#include "session/cell_types.hpp"
 #include "session/expression.hpp"
-#include "session/kinds.hpp"
 #include "session/session.hpp"
+#include "text/suggest.hpp"
 
 namespace oval4d::session {
 
 namespace {
 
-using protocol::Command;
-using protocol::Error;
-using protocol::ErrorCode;
-using protocol::inQuotes;
-using protocol::Result;
-using protocol::Set;
 using Words = std::vector<std::string_view>;
 
-// One row of the table of settings: its name, and the member of Set that it fills.
+// A member of Set.
 using Member = std::variant<std::optional<double> Set::*, std::optional<int> Set::*, std::optional<bool> Set::*,
                             std::optional<std::string> Set::*, std::optional<scene::View> Set::*,
-                            std::optional<scene::Colouring> Set::*, std::optional<KindList> Set::*>;
+                            std::optional<scene::Coloring> Set::*, std::optional<CellTypeList> Set::*>;
+/// One setting: its name, and the member of Set that stores it.
 struct Setting {
     std::string_view name;
     Member member;
 };
-const auto kSettings = std::to_array<Setting>({{"polytope", &Set::polytope},
+const auto kSettings = std::to_array<Setting>({{"polytope", &Set::object},
                                                {"alpha", &Set::alpha},
                                                {"beta", &Set::beta},
                                                {"step", &Set::step},
@@ -41,26 +36,23 @@ const auto kSettings = std::to_array<Setting>({{"polytope", &Set::polytope},
                                                {"focus", &Set::focus},
                                                {"view", &Set::view},
                                                {"turning", &Set::turning},
-                                               {"faces", &Set::faces},
-                                               {"bars", &Set::bars},
-                                               {"balls", &Set::balls},
-                                               {"coordinates", &Set::coordinates},
                                                {"azimuth", &Set::azimuth},
                                                {"elevation", &Set::elevation},
                                                {"zoom", &Set::zoom},
-                                               {"color", &Set::colouring},
+                                               {"color", &Set::coloring},
                                                {"hidden", &Set::hidden},
                                                {"faded", &Set::faded}});
 
 std::vector<std::string_view> names() {
     std::vector<std::string_view> all;
     for (const Setting& setting : kSettings) all.push_back(setting.name);
+    for (const scene::PartRow& part : scene::kParts) all.push_back(part.name);
     return all;
 }
 
 Error bad(ErrorCode code, std::string message) { return {code, std::move(message)}; }
 
-// Reads a value for the member that `set` and `name` stand for.
+// Parses `text` as the value of the setting `name`, and stores it in the given member of `set`.
 struct ValueReader {
     Set& set;
     std::string_view name, text;
@@ -74,19 +66,22 @@ struct ValueReader {
     Result<std::monostate> operator()(std::optional<int> Set::* member) const {
         const auto value = evaluate(text);
         if (!value) return bad(value.error().code, std::string(name) + ": " + value.error().message);
-        constexpr double kMost = 1'000'000'000;
-        if (*value != std::trunc(*value) || std::abs(*value) > kMost) {
-            return bad(ErrorCode::out_of_range, std::string(name) + " must be a whole number, not " + inQuotes(text));
+        constexpr double kMaxMagnitude = 1'000'000'000;
+        if (*value != std::trunc(*value) || std::abs(*value) > kMaxMagnitude) {
+            return bad(ErrorCode::out_of_range,
+                       std::string(name) + " must be a whole number, not " + text::inQuotes(text));
         }
         set.*member = static_cast<int>(*value);
         return std::monostate{};
     }
-    Result<std::monostate> operator()(std::optional<bool> Set::* member) const {
+    Result<std::monostate> operator()(std::optional<bool> Set::* member) const { return readFlag(set.*member); }
+    Result<std::monostate> readFlag(std::optional<bool>& into) const {
         const bool yes = text == "on" || text == "true" || text == "yes" || text == "1";
         const bool no = text == "off" || text == "false" || text == "no" || text == "0";
         if (!yes && !no)
-            return bad(ErrorCode::bad_expression, std::string(name) + " must be on or off, not " + inQuotes(text));
-        set.*member = yes;
+            return bad(ErrorCode::bad_expression,
+                       std::string(name) + " must be on or off, not " + text::inQuotes(text));
+        into = yes;
         return std::monostate{};
     }
     Result<std::monostate> operator()(std::optional<std::string> Set::* member) const {
@@ -95,22 +90,23 @@ struct ValueReader {
         return std::monostate{};
     }
     Result<std::monostate> operator()(std::optional<scene::View> Set::* member) const {
-        if (text != "oval" && text != "single") {
-            return bad(ErrorCode::bad_expression, std::string(name) + " must be oval or single, not " + inQuotes(text));
-        }
-        set.*member = text == "single" ? scene::View::single : scene::View::oval;
-        return std::monostate{};
+        return choose(scene::kViews, set.*member);
     }
-    Result<std::monostate> operator()(std::optional<scene::Colouring> Set::* member) const {
-        set.*member = protocol::colouringNamed(text);
-        if (set.*member) return std::monostate{};
-        return bad(ErrorCode::bad_expression,
-                   std::string(name) + " must be cell, kind, w or plain, not " + inQuotes(text));
+    Result<std::monostate> operator()(std::optional<scene::Coloring> Set::* member) const {
+        return choose(scene::kColorings, set.*member);
     }
-    Result<std::monostate> operator()(std::optional<KindList> Set::* member) const {
-        auto kinds = readKinds(text);
-        if (!kinds) return bad(kinds.error().code, std::string(name) + ": " + kinds.error().message);
-        set.*member = std::move(*kinds);
+    template <typename Choices, typename Value>
+    Result<std::monostate> choose(const Choices& choices, std::optional<Value>& into) const {
+        into = oval4d::text::valueNamed(choices, text);
+        if (into) return std::monostate{};
+        return bad(ErrorCode::bad_expression, std::string(name) + " must be " +
+                                                  oval4d::text::alternatives(oval4d::text::namesOf(choices)) +
+                                                  ", not " + oval4d::text::inQuotes(text));
+    }
+    Result<std::monostate> operator()(std::optional<CellTypeList> Set::* member) const {
+        auto types = readCellTypes(text);
+        if (!types) return bad(types.error().code, std::string(name) + ": " + types.error().message);
+        set.*member = std::move(*types);
         return std::monostate{};
     }
 };
@@ -136,20 +132,21 @@ Result<Command> oneSetting(std::string_view name, std::string_view value) {
 
 Result<Command> polytopeLine(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
     if (rest.empty()) return bad(ErrorCode::unknown_polytope, "polytope needs a name, such as polytope 24-cell");
-    return oneSetting("polytope", rest);  // a name may have blanks
+    return oneSetting("polytope", rest);  // names may contain blanks
 }
 
 Result<Command> setLine(std::string_view rest, const Words& words, const State& /*state*/) {
     if (words.empty()) return bad(ErrorCode::unknown_command, "set needs name=value; the names are " + settingNames());
-    // A polytope's name may have blanks; set alone it is the rest of the line.
+    // A polytope's name may contain blanks: if it is the only setting, the rest of the line is the name.
     if (rest.starts_with("polytope=") && rest.find('=') == rest.rfind('='))
         return oneSetting("polytope", rest.substr(std::string_view("polytope=").size()));
     Set set;
     for (const std::string_view word : words) {
         const std::size_t equals = word.find('=');
         if (equals == std::string_view::npos) {
-            return bad(ErrorCode::bad_expression,
-                       inQuotes(word) + " has no '='; write set name=value, without blanks, such as set slices=31");
+            return bad(
+                ErrorCode::bad_expression,
+                text::inQuotes(word) + " has no '='; write set name=value, without blanks, such as set slices=31");
         }
         if (auto done = putSetting(word.substr(0, equals), word.substr(equals + 1), set); !done) return done.error();
     }
@@ -159,9 +156,9 @@ Result<Command> setLine(std::string_view rest, const Words& words, const State& 
 Result<Command> rotateLine(std::string_view /*rest*/, const Words& words, const State& state) {
     if (words.empty())
         return bad(ErrorCode::bad_expression, "rotate needs planes and angles, such as rotate xw,yz pi/8 pi/5");
-    // Without angles: by those of the keys.
-    const std::string alpha = protocol::shortest(state.alpha);
-    const std::string beta = protocol::shortest(state.beta);
+    // If no angles are given, use those of the rotation keys.
+    const std::string alpha = text::shortest(state.alpha);
+    const std::string beta = text::shortest(state.beta);
     Words angles(words.begin() + 1, words.end());
     if (angles.empty()) {
         angles.emplace_back(alpha);
@@ -169,13 +166,13 @@ Result<Command> rotateLine(std::string_view /*rest*/, const Words& words, const 
     }
     const auto turn = makeTurn(words[0], angles);
     if (!turn) return turn.error();
-    return Command{protocol::Rotate{*turn}};
+    return Command{Rotate{*turn}};
 }
 
 Result<Command> keyLine(std::string_view rest, const Words& words, const State& /*state*/) {
     constexpr std::string_view kCtrl = "ctrl-";
     if (words.size() != 1) return bad(ErrorCode::unknown_key, "key needs one key, such as key y, key Y or key ctrl-r");
-    protocol::Key key{std::string(rest), false, false};
+    Key key{std::string(rest), false, false};
     if (rest == "space") key.key = " ";
     if ((rest.starts_with(kCtrl) || rest.starts_with("Ctrl-")) && rest.size() > kCtrl.size()) {
         key.key = rest.substr(kCtrl.size());
@@ -184,27 +181,30 @@ Result<Command> keyLine(std::string_view rest, const Words& words, const State& 
     return Command{key};
 }
 
-// hide, fade or show, with numbers or one name of kinds of cells.
-template <scene::Kinds (*change)(scene::Kinds, const KindList&)>
-Result<Command> kindsLine(std::string_view rest, const Words& /*words*/, const State& state) {
+// Parses hide, fade and show: cell type numbers, or one cell type name.
+template <scene::CellTypeFilter (*change)(scene::CellTypeFilter, const CellTypeList&)>
+Result<Command> cellTypesLine(std::string_view rest, const Words& /*words*/, const State& state) {
     Set set;
-    scene::Kinds kinds;
+    scene::CellTypeFilter filter;
     if (change != reveal || !rest.empty()) {
-        const auto named = findKinds(rest, *state.polytope);
+        const auto named = findCellTypes(rest, slicing::infoOf(state.object));
         if (!named) return named.error();
-        kinds = change(state.look.kinds, *named);
+        filter = change(state.look.cellTypes, *named);
     }
-    set.hidden = std::move(kinds.hidden);
-    set.faded = std::move(kinds.faded);
+    set.hidden = std::move(filter.hidden);
+    set.faded = std::move(filter.faded);
     return Command{set};
 }
 
+// Parses a command without arguments.
 template <typename C>
-Result<Command> plain(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
-    if (!rest.empty()) return bad(ErrorCode::bad_expression, "nothing may follow here, not " + inQuotes(rest));
+Result<Command> noArguments(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
+    if (!rest.empty())
+        return bad(ErrorCode::bad_expression, "this command takes no arguments; remove " + text::inQuotes(rest));
     return Command{C{}};
 }
 
+// One command: its name, and the function that parses the rest of the line.
 struct Verb {
     std::string_view name;
     Result<Command> (*read)(std::string_view rest, const Words& words, const State& state);
@@ -216,24 +216,27 @@ constexpr auto kVerbs = std::to_array<Verb>(
      {"view", [](std::string_view rest, const Words&, const State&) { return oneSetting("view", rest); }},
      {"focus", [](std::string_view rest, const Words&, const State&) { return oneSetting("focus", rest); }},
      {"color", [](std::string_view rest, const Words&, const State&) { return oneSetting("color", rest); }},
-     {"hide", kindsLine<hide>},
-     {"fade", kindsLine<fade>},
-     {"show", kindsLine<reveal>},
+     {"hide", cellTypesLine<hide>},
+     {"fade", cellTypesLine<fade>},
+     {"show", cellTypesLine<reveal>},
      {"key", keyLine},
-     {"reset", plain<protocol::Reset>},
-     {"undo", plain<protocol::Undo>},
-     {"redo", plain<protocol::Redo>}});
+     {"reset", noArguments<Reset>},
+     {"undo", noArguments<Undo>},
+     {"redo", noArguments<Redo>}});
 
 }  // namespace
 
-std::string settingNames() { return protocol::listed(names()); }
+std::string settingNames() { return text::listed(names()); }
 
 Result<std::monostate> putSetting(std::string_view name, std::string_view value, Set& set) {
     for (const Setting& setting : kSettings) {
         if (setting.name == name) return std::visit(ValueReader{set, name, value}, setting.member);
     }
-    return bad(ErrorCode::unknown_command, "no setting is called " + inQuotes(name) +
-                                               protocol::didYouMean(name, names()) + "; the settings are " +
+    for (std::size_t i = 0; i < scene::kParts.size(); ++i) {
+        if (scene::kParts[i].name == name) return ValueReader{set, name, value}.readFlag(set.parts[i]);
+    }
+    return bad(ErrorCode::unknown_command, "no setting is called " + text::inQuotes(name) +
+                                               text::didYouMean(name, names()) + "; the settings are " +
                                                settingNames());
 }
 
@@ -248,7 +251,7 @@ Result<Command> parseCommandLine(std::string_view line, const State& state) {
     trim();
     std::vector<std::string_view> verbs;
     for (const Verb& verb : kVerbs) verbs.push_back(verb.name);
-    if (line.empty()) return bad(ErrorCode::unknown_command, "a command is expected: " + protocol::listed(verbs));
+    if (line.empty()) return bad(ErrorCode::unknown_command, "a command is expected: " + text::listed(verbs));
 
     const std::size_t end = line.find_first_of(" \t");
     const std::string_view name = line.substr(0, end);
@@ -257,9 +260,9 @@ Result<Command> parseCommandLine(std::string_view line, const State& state) {
     for (const Verb& verb : kVerbs) {
         if (verb.name == name) return verb.read(rest, split(rest), state);
     }
-    return bad(ErrorCode::unknown_command, "no command is called " + inQuotes(name) +
-                                               protocol::didYouMean(name, verbs) + "; the commands are " +
-                                               protocol::listed(verbs));
+    return bad(ErrorCode::unknown_command, "no command is called " + text::inQuotes(name) +
+                                               text::didYouMean(name, verbs) + "; the commands are " +
+                                               text::listed(verbs));
 }
 
 }  // namespace oval4d::session

@@ -1,18 +1,18 @@
 #pragma once
-// The settings by name, as the ':' line and a query give them.
+// The settings by name, as used on the ':' line and in queries.
 
 #include <string_view>
 
-#include "protocol/cpp/error.hpp"
-#include "protocol/cpp/request.hpp"
+#include "errors/error.hpp"
+#include "session/command.hpp"
 
 namespace oval4d::session {
 
-/// Puts one setting into `set`: "slices" and "31", "alpha" and "pi/12", "faces" and "off". An unknown name is
-/// `unknown_command`, a value that cannot be read `bad_expression` or `out_of_range`.
-protocol::Result<std::monostate> putSetting(std::string_view name, std::string_view value, protocol::Set& set);
+/// Parses the value of one setting and stores it in `set`: "slices" and "31", "alpha" and "pi/12", "faces" and "off".
+/// Errors: `unknown_command` for an unknown name; `bad_expression` or `out_of_range` for an invalid value.
+Result<std::monostate> putSetting(std::string_view name, std::string_view value, Set& set);
 
-/// All names that putSetting knows.
+/// All names that putSetting accepts, separated by commas.
 std::string settingNames();
 
 }  // namespace oval4d::session

@@ -7,15 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "protocol/cpp/suggest.hpp"
+#include "text/suggest.hpp"
 
 namespace oval4d::session {
 
 namespace {
-
-using protocol::Error;
-using protocol::ErrorCode;
-using protocol::Result;
 
 struct Function {
     std::string_view name;
@@ -31,7 +27,7 @@ constexpr auto kFunctions = std::to_array<Function>({{"sqrt", [](double x) { ret
                                                      {"deg", [](double x) { return x * std::numbers::pi / 180; }}});
 constexpr auto kNames =
     std::to_array<std::string_view>({"pi", "phi", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "deg"});
-// As people write and copy them.
+// Unicode alternatives to pi, phi and -.
 constexpr std::string_view kPiLetter = "π", kPhiLetter = "φ", kMinusSign = "−";
 
 constexpr std::size_t kMaxLength = 1000;
@@ -40,18 +36,18 @@ constexpr int kMaxDepth = 64;
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-// Recursive descent; a fault ends it by an exception that does not leave this file.
+// A recursive-descent parser that evaluates as it parses. Throws SyntaxError, which evaluate() catches.
 //   sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power   power = atom [^ signed]
-class Reader {
+class Parser {
   public:
-    explicit Reader(std::string_view text) : text_(text) {}
+    explicit Parser(std::string_view text) : text_(text) {}
 
-    struct Fault {
+    struct SyntaxError {
         std::size_t position;
         std::string what;
     };
 
-    double whole() {
+    double parse() {
         const double value = sum();
         if (at_ != text_.size()) fail("an operator is expected" + hint());
         return value;
@@ -125,8 +121,8 @@ class Reader {
             return value;
         }
         at_ = start;
-        fail("nothing is called " + protocol::inQuotes(name) + protocol::didYouMean(name, kNames) + "; known are " +
-             protocol::listed(kNames));
+        fail("nothing is called " + text::inQuotes(name) + text::didYouMean(name, kNames) + "; known names are " +
+             text::listed(kNames));
     }
 
     bool take(std::string_view token) {
@@ -139,16 +135,16 @@ class Reader {
         while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
     }
     std::string hint() const { return isLetter(text_[at_]) || text_[at_] == '(' ? " (a product is written 2*pi)" : ""; }
-    [[noreturn]] void fail(std::string what) const { throw Fault{at_, std::move(what)}; }
+    [[noreturn]] void fail(std::string what) const { throw SyntaxError{at_, std::move(what)}; }
 
     struct Depth {
-        explicit Depth(Reader& owner) : reader(owner) {
-            if (++reader.depth_ > kMaxDepth) reader.fail("it nests too deeply");
+        explicit Depth(Parser& owner) : parser(owner) {
+            if (++parser.depth_ > kMaxDepth) parser.fail("the expression nests too deeply");
         }
-        ~Depth() { --reader.depth_; }
+        ~Depth() { --parser.depth_; }
         Depth(const Depth&) = delete;
         Depth& operator=(const Depth&) = delete;
-        Reader& reader;
+        Parser& parser;
     };
 
     std::string_view text_;
@@ -166,11 +162,11 @@ Result<double> evaluate(std::string_view text) {
     if (text.size() > kMaxLength)
         return bad("an expression may have at most " + std::to_string(kMaxLength) + " characters");
     try {
-        const double value = Reader(text).whole();
-        if (!std::isfinite(value)) return bad(protocol::inQuotes(text) + " is not a finite number");
+        const double value = Parser(text).parse();
+        if (!std::isfinite(value)) return bad(text::inQuotes(text) + " is not a finite number");
         return value;
-    } catch (const Reader::Fault& fault) {
-        return bad(protocol::inQuotes(text) + ", position " + std::to_string(fault.position + 1) + ": " + fault.what);
+    } catch (const Parser::SyntaxError& error) {
+        return bad(text::inQuotes(text) + ", position " + std::to_string(error.position + 1) + ": " + error.what);
     }
 }
 
@@ -179,7 +175,7 @@ Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::
     const bool doubled = comma != std::string_view::npos;
     const auto planeAt = [](std::string_view name) -> Result<geometry::Plane> {
         if (const auto plane = geometry::planeNamed(name)) return *plane;
-        return bad("no plane is called " + protocol::inQuotes(name) + "; the planes are xy, xz, xw, yz, yw, zw");
+        return bad("no plane is called " + text::inQuotes(name) + "; the planes are xy, xz, xw, yz, yw, zw");
     };
     const Result<geometry::Plane> first = planeAt(planes.substr(0, comma));
     if (!first) return first.error();
@@ -210,7 +206,7 @@ Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::
 Result<geometry::Turn> parseTurn(std::string_view text) {
     const std::size_t colon = text.find(':');
     if (colon == std::string_view::npos) {
-        return bad(protocol::inQuotes(text) + " is not a rotation; write xw:pi/8 or xw,yz:pi/8,pi/5");
+        return bad(text::inQuotes(text) + " is not a rotation; write xw:pi/8 or xw,yz:pi/8,pi/5");
     }
     std::vector<std::string_view> angles;
     std::string_view rest = text.substr(colon + 1);

@@ -1,27 +1,53 @@
 #include "session/history.hpp"
 
+#include <algorithm>
+#include <cstdint>
+#include <map>
 #include <utility>
 
 namespace oval4d::session {
 
 namespace {
 
-using protocol::Error;
-using protocol::ErrorCode;
-using protocol::Result;
-
-// The camera stays where the viewer has put it.
-State seenFrom(State state, const scene::Orbit& orbit) {
+// Returns `state` seen by a camera at this orbit.
+State withOrbit(State state, const scene::Orbit& orbit) {
     state.look.orbit = orbit;
     return state;
+}
+
+std::size_t bytesOfFilter(const State& state) {
+    return sizeof(std::uint32_t) * (state.look.cellTypes.hidden.size() + state.look.cellTypes.faded.size());
+}
+
+/// Removes the oldest steps until the memory that only the history uses is at most `maxBytes`. Counts objects, and the
+/// lists of hidden and faded cell types.
+void limitHistoryBytes(Session& session, std::size_t maxBytes) {
+    std::map<const void*, std::size_t> steps;  // the number of steps that use each object
+    std::size_t bytes = 0;
+    const auto isHeld = [&](const slicing::Object& object) {
+        return object == session.now.object ||
+               std::ranges::any_of(session.loaded, [&](const auto& own) { return own.second == object; });
+    };
+    for (const State& step : session.past) {
+        bytes += bytesOfFilter(step);
+        if (!isHeld(step.object) && ++steps[slicing::identityOf(step.object)] == 1)
+            bytes += slicing::bytesOf(step.object);
+    }
+    while (bytes > maxBytes && !session.past.empty()) {
+        const State& oldest = session.past.front();
+        bytes -= bytesOfFilter(oldest);
+        const auto held = steps.find(slicing::identityOf(oldest.object));
+        if (held != steps.end() && --held->second == 0) bytes -= slicing::bytesOf(oldest.object);
+        session.past.pop_front();
+    }
 }
 
 }  // namespace
 
 void commit(Session& session, State next, const Limits& limits) {
     if (next == session.now) return;
-    State before = seenFrom(session.now, next.look.orbit);
-    before.turning = before.turning && next.turning;  // a stop belongs to the step that began the turn
+    State before = withOrbit(session.now, next.look.orbit);
+    before.turning = before.turning && next.turning;  // stopping is part of the step that started turning
     if (before != next) {
         if (limits.maxUndo > 0) session.past.push_back(session.now);
         while (session.past.size() > limits.maxUndo) session.past.pop_front();
@@ -29,13 +55,21 @@ void commit(Session& session, State next, const Limits& limits) {
     }
     session.now = std::move(next);
     ++session.revision;
+    const bool grows = !session.past.empty() &&
+                       (session.past.back().object != session.now.object || bytesOfFilter(session.past.back()) > 0);
+    if (grows) limitHistoryBytes(session, limits.maxUndoBytes);
+}
+
+void forgetOldest(Session& session) {
+    const auto half = static_cast<std::ptrdiff_t>((session.past.size() + 1) / 2);
+    session.past.erase(session.past.begin(), session.past.begin() + half);
 }
 
 Result<std::monostate> undo(Session& session) {
     if (session.past.empty())
         return Error{ErrorCode::nothing_to_undo, "nothing to undo: the session is at its first state"};
     session.future.push_back(session.now);
-    session.now = seenFrom(std::move(session.past.back()), session.now.look.orbit);
+    session.now = withOrbit(std::move(session.past.back()), session.now.look.orbit);
     session.past.pop_back();
     ++session.revision;
     return std::monostate{};
@@ -45,7 +79,7 @@ Result<std::monostate> redo(Session& session) {
     if (session.future.empty())
         return Error{ErrorCode::nothing_to_undo, "nothing to redo: nothing has been undone since the last change"};
     session.past.push_back(session.now);
-    session.now = seenFrom(std::move(session.future.back()), session.now.look.orbit);
+    session.now = withOrbit(std::move(session.future.back()), session.now.look.orbit);
     session.future.pop_back();
     ++session.revision;
     return std::monostate{};

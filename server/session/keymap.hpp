@@ -1,54 +1,27 @@
 #pragma once
-// The key table: protocol/keymap.json, read once.
+// The key table from protocol/keymap.json.
 
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "protocol/cpp/error.hpp"
-#include "protocol/cpp/request.hpp"
+#include "errors/error.hpp"
+#include "session/command.hpp"
+#include "session/key_actions.hpp"
 
 namespace oval4d::session {
 
-/// What a key does. The names are those of the "action" member in protocol/keymap.json; those that are for the client
-/// alone are not among them.
-enum class Action {
-    rotate,  ///< planes in `planes`; Shift gives the inverse
-    alpha_up,
-    alpha_down,
-    beta_up,
-    beta_down,
-    focus_right,
-    focus_left,
-    focus_zero,
-    focus_first,
-    focus_last,
-    undo,
-    redo,
-    repeat,
-    turn,
-    spacing_smaller,
-    spacing_larger,
-    slices_fewer,
-    slices_more,
-    polytope_next,
-    polytope_previous,
-    view,
-    coordinates,
-    faces,
-    bars,
-    balls,
-};
-
+/// The action of a key, and its arguments.
 struct Binding {
-    Action action;
+    const Action* action = nullptr;
     geometry::Plane plane = geometry::Plane::xy;
-    bool doubled = false;  ///< the perpendicular plane turns by beta too
-    bool inverse = false;
+    bool doubled = false;  ///< also rotate by beta in the perpendicular plane
+    bool inverse = false;  ///< apply the inverse rotation
 };
 
-/// Finds the meaning of a key. `pending` is the session's pending key: set to "g" by a first g, cleared by any other.
-/// Nothing is returned for the first key of a sequence; an unknown key is an error that names the key.
-protocol::Result<std::optional<Binding>> bindingOf(const protocol::Key& key, std::string& pending);
+/// Returns the binding of a key, or an empty optional for the first key of a sequence. `pending` is the first key of a
+/// sequence that has begun, or empty: the first g of "gg" sets it to "g", any other key with a binding clears it.
+/// Error: `unknown_key`, also for keys that only the client handles; `pending` is then unchanged.
+Result<std::optional<Binding>> bindingOf(const Key& key, std::string& pending);
 
 }  // namespace oval4d::session

@@ -1,14 +1,35 @@
 #pragma once
-// Bringing polytopes of the user's own into a session.
+// Reading objects from the text of files.
 
-#include "session/workshop.hpp"
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "errors/error.hpp"
+#include "session/command.hpp"
+#include "session/session.hpp"
 
 namespace oval4d::session {
 
-/// Reads the polytope that `load` holds. Errors: `unsupported_format`, `bad_polytope` (with the line), `too_large`.
-protocol::Result<Reading> readPolytope(const protocol::Load& load, const Limits& limits);
+/// An object read from a file, and one warning for each fault of the file that was corrected.
+struct Reading {
+    slicing::Object object;
+    std::vector<std::string> warnings;
+};
 
-/// The polytope in a file's text, whose format it tells by itself.
-protocol::Result<Reading> readPolytope(const std::string& text, const std::string& name, const Limits& limits);
+/// Reads an object from a text in this format, within the calling process. Errors: `unsupported_format`, `bad_polytope`
+/// (with the line number where there is one), `too_large`.
+Result<Reading> readObject(std::string_view format, std::string_view text, const std::string& name,
+                           const Limits& limits);
+
+/// Detects the format of a file from its text: "off" or "points".
+std::string_view formatOf(std::string_view text);
+
+/// Checks the name and the format of `load`, but not its data. Returns nothing, or an error: `bad_message` for a
+/// malformed name, `bad_polytope` for a name that the catalogue already has, `unsupported_format`.
+std::optional<Error> checkLoad(const Load& load, const Limits& limits);
+
+/// Whether reading this format includes computing a convex hull, which takes longer than reading the elements.
+bool buildsHull(std::string_view format);
 
 }  // namespace oval4d::session

@@ -1,31 +1,30 @@
 #include "session/session.hpp"
 
+#include <map>
 #include <numbers>
 #include <utility>
 
-#include "geometry/catalogue.hpp"
-#include "protocol/cpp/suggest.hpp"
+#include "polytopes/catalogue/catalogue.hpp"
+#include "polytopes/catalogue/polytope_cache.hpp"
 #include "session/history.hpp"
-#include "session/keys.hpp"
+#include "session/keymap.hpp"
+#include "session/object_loader.hpp"
 #include "session/settings.hpp"
-#include "session/workshop.hpp"
+#include "text/suggest.hpp"
 
 namespace oval4d::session {
 
 namespace {
 
-using protocol::Error;
-using protocol::ErrorCode;
-using protocol::Result;
 using Done = Result<std::monostate>;
 
-// Each command works on a copy of the state, which becomes the present only if all went well.
+// Applies each command to a copy of the state, which becomes the current state only on success.
 class Applier {
   public:
-    Applier(Session& session, const Limits& limits, Workshop& workshop)
-        : session_(session), limits_(limits), workshop_(workshop) {}
+    Applier(Session& session, const Limits& limits, ObjectLoader& loader)
+        : session_(session), limits_(limits), loader_(loader) {}
 
-    Done operator()(const protocol::Key& key) {
+    Done operator()(const Key& key) {
         std::string pending = session_.pendingKey;
         const auto binding = bindingOf(key, pending);
         if (!binding) return binding.error();
@@ -33,35 +32,35 @@ class Applier {
         if (done) session_.pendingKey = std::move(pending);
         return done;
     }
-    Done operator()(const protocol::Rotate& command) {
-        if (Done sound = checkTurn(command.turn); !sound) return sound;
+    Done operator()(const Rotate& command) {
+        if (Done valid = checkTurn(command.turn); !valid) return valid;
         State next = session_.now;
         rotate(next, command.turn);
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    Done operator()(const protocol::Set& command) {
+    Done operator()(const Set& command) {
         State next = session_.now;
-        if (Done done = applySet(next, command, session_.loaded, limits_, workshop_); !done) return done;
+        if (Done done = applySet(next, command, session_.loaded, limits_, loader_); !done) return done;
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    Done operator()(const protocol::Load& command) {
+    Done operator()(const Load& command) {
         if (session_.loaded.size() >= limits_.maxLoaded && !session_.loaded.contains(command.name)) {
             return Error{ErrorCode::too_many, "a session holds at most " + std::to_string(limits_.maxLoaded) +
                                                   " loaded polytopes; load under a name that is in use to replace one"};
         }
-        const auto reading = workshop_.reading(command);
+        const auto reading = loader_.reading(command);
         if (!reading) return reading.error();
         State next = session_.now;
-        show(next, reading->polytope);
-        session_.loaded.insert_or_assign(command.name, reading->polytope);
+        show(next, reading->object);
+        session_.loaded.insert_or_assign(command.name, reading->object);
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    Done operator()(const protocol::Undo& /*command*/) { return undo(session_); }
-    Done operator()(const protocol::Redo& /*command*/) { return redo(session_); }
-    Done operator()(const protocol::Reset& /*command*/) {
+    Done operator()(const Undo& /*command*/) { return undo(session_); }
+    Done operator()(const Redo& /*command*/) { return redo(session_); }
+    Done operator()(const Reset& /*command*/) {
         State next = session_.now;
         next.orientation = {};
         next.slices.focus = 0;
@@ -69,7 +68,7 @@ class Applier {
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    Done operator()(const protocol::CommandLine& command) {
+    Done operator()(const CommandLine& command) {
         const auto parsed = parseCommandLine(command.line, session_.now);
         if (!parsed) return parsed.error();
         return std::visit(*this, *parsed);
@@ -77,17 +76,17 @@ class Applier {
 
   private:
     Done press(const Binding& binding) {
-        if (binding.action == Action::undo) return undo(session_);
-        if (binding.action == Action::redo) return redo(session_);
+        if (binding.action->onSession != nullptr) return binding.action->onSession(session_);
         State next = session_.now;
-        if (Done done = act(next, binding, session_.loaded, limits_, workshop_); !done) return done;
+        ActionContext context{next, session_.loaded, limits_, loader_, binding.plane, binding.doubled, binding.inverse};
+        if (Done done = binding.action->onState(context); !done) return done;
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
 
     Session& session_;
     const Limits& limits_;
-    Workshop& workshop_;
+    ObjectLoader& loader_;
 };
 
 }  // namespace
@@ -99,24 +98,44 @@ geometry::Hyperplanes State::hyperplanes() const {
 State initialState() {
     constexpr double kAngle = std::numbers::pi / 36;
     State state;
-    state.polytope = geometry::polytopeOf(geometry::catalogue().front());
+    state.object = polytopes::fiveCell();
     state.alpha = state.beta = kAngle;
     state.step = std::numbers::pi / 180;
-    state.slices.spacing = spanningSpacing(*state.polytope, state.slices.count);
+    state.slices.spacing = spanningSpacing(state.object, state.slices.count);
     return state;
 }
 
-double spanningSpacing(const geometry::Polytope& polytope, int count) {
-    return count > 1 ? 2 * polytope.circumradius / (count - 1) : polytope.circumradius;
+double spanningSpacing(const slicing::Object& object, int count) {
+    const double radius = slicing::infoOf(object).circumradius;
+    return count > 1 ? 2 * radius / (count - 1) : radius;
 }
 
-Done apply(Session& session, const protocol::Command& command, const Limits& limits) {
-    Workshop workshop(limits);
-    return apply(session, command, limits, workshop);
+Done apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader) {
+    return std::visit(Applier(session, limits, loader), command);
 }
 
-Done apply(Session& session, const protocol::Command& command, const Limits& limits, Workshop& workshop) {
-    return std::visit(Applier(session, limits, workshop), command);
+std::size_t historyBytes(const Session& session) {
+    return sizeof(State) * (session.past.size() + session.future.size());
+}
+
+std::size_t objectBytes(const Session& session) {
+    std::map<const void*, const slicing::Object*> objects;
+    auto add = [&, last = static_cast<const void*>(nullptr)](const slicing::Object& object) mutable {
+        const void* identity = slicing::identityOf(object);
+        if (identity != std::exchange(last, identity))
+            objects.try_emplace(identity, &object);  // neighboring states rarely differ in their object
+    };
+    add(session.now.object);
+    for (const auto& [name, object] : session.loaded) add(object);
+    for (const State& state : session.past) add(state.object);
+    for (const State& state : session.future) add(state.object);
+    std::size_t bytes = 0;
+    for (const auto& [identity, object] : objects) {
+        const geometry::ObjectInfo& info = slicing::infoOf(*object);
+        const bool shared = info.constructed && polytopes::findEntry(info.name) != nullptr;
+        if (!shared) bytes += slicing::bytesOf(*object);
+    }
+    return bytes;
 }
 
 void advance(Session& session, double seconds) {

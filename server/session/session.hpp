@@ -1,5 +1,5 @@
 #pragma once
-// One session's state as a value, and commands as functions on it.
+// The state of a session, and the functions that apply commands to it.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,81 +10,91 @@
 #include <string>
 #include <vector>
 
-#include "geometry/polytope.hpp"
+#include "errors/error.hpp"
 #include "geometry/rotation.hpp"
-#include "geometry/slice_set.hpp"
-#include "protocol/cpp/error.hpp"
-#include "protocol/cpp/request.hpp"
 #include "scene/scene.hpp"
+#include "session/command.hpp"
+#include "slicing/object.hpp"
 
 namespace oval4d::session {
 
-using PolytopePtr = std::shared_ptr<const geometry::Polytope>;
+/// The objects loaded into a session, by name.
+using Loaded = std::map<std::string, slicing::Object, std::less<>>;
 
+/// The hyperplanes that cut the slices: w = n · spacing for `count` consecutive indices n.
 struct SliceSettings {
     int count = 21;      ///< odd: n runs from focus − h to focus + h, h = (count − 1) / 2
-    double spacing = 0;  ///< δ, in the polytope's units
-    int focus = 0;       ///< f
+    double spacing = 0;  ///< δ, the distance between neighboring hyperplanes, in the polytope's units
+    int focus = 0;       ///< f, the index of the focus slice
     bool operator==(const SliceSettings&) const = default;
 };
 
-/// All that a picture is made from, and all that undo brings back.
+/// Everything that determines a picture. Undo restores all of it except the camera's orbit.
 struct State {
-    PolytopePtr polytope;  ///< never null
+    slicing::Object object;  ///< never null
     geometry::Rotation orientation;
     double alpha, beta;  ///< radians
-    double step;         ///< radians: what k, j, K and J add
+    double step;         ///< radians; the change of an angle by the keys k, j, K and J
     SliceSettings slices;
     scene::Look look;
-    bool turning = false;
-    std::optional<geometry::Turn> last;  ///< the last rotation: what '.' repeats and space continues
+    bool turning = false;                ///< continuous turning: advance() repeats `last`
+    std::optional<geometry::Turn> last;  ///< the last rotation, which '.' and the space bar repeat
 
     geometry::Hyperplanes hyperplanes() const;
     bool operator==(const State&) const = default;
 };
 
-/// The state in which a session starts: the 5-cell in the paper's position.
+/// The initial state of a session: the 5-cell in the paper's position.
 State initialState();
 
-/// The spacing at which `count` slices span the circumscribed sphere.
-double spanningSpacing(const geometry::Polytope& polytope, int count);
+/// The spacing at which `count` slices span the diameter of the circumscribed sphere.
+double spanningSpacing(const slicing::Object& object, int count);
 
-/// Limits on a session; every one can be set by an option of the server.
+/// Limits on a session. Each can be set by an option of the server.
 struct Limits {
-    int maxSlices = 201;
-    std::size_t maxUndo = 1000;
-    std::size_t maxLoaded = 8;  ///< polytopes loaded into one session
-    /// of a loaded polytope, points of a list, or a polytope outside the catalogue that is built by its name
+    int maxSlices = 201;                    ///< the maximum of SliceSettings::count
+    std::size_t maxUndo = 1000;             ///< undo steps
+    std::size_t maxUndoBytes = 64U << 20U;  ///< bytes that only the history uses: objects and cell type lists
+    std::size_t maxLoaded = 8;              ///< objects loaded into one session
+    /// Vertices of a loaded polytope, points of a list, and vertices of a polytope that is not in the catalogue but is
+    /// built by its name.
     std::size_t maxVertices = 100'000;
-    std::size_t maxHullCells = 100'000;  ///< of the hull of a list of points
+    std::size_t maxHullCells = 100'000;  ///< cells of the convex hull of a list of points
 };
 
-/// A session: the state, its history, and the polytopes loaded into it. A value: it copies and compares.
+/// A session: the current state, its history, and the loaded polytopes. Sessions can be copied and compared.
 struct Session {
     State now = initialState();
-    std::deque<State> past;     ///< the oldest first
-    std::vector<State> future;  ///< the next one last
-    std::map<std::string, PolytopePtr, std::less<>> loaded;
-    std::string pendingKey;      ///< the "g" of "gg"
+    std::deque<State> past;     ///< undo steps, the oldest first
+    std::vector<State> future;  ///< redo steps, the next one last
+    Loaded loaded;
+    std::string pendingKey;      ///< the first key of a sequence that has begun, such as the "g" of "gg"; else empty
     std::uint64_t revision = 0;  ///< counts the changes of `now`
     bool operator==(const Session&) const = default;
 };
 
-class Workshop;
+/// The memory of a session's objects in bytes, except catalogue polytopes, which all sessions share.
+std::size_t objectBytes(const Session& session);
 
-/// Carries out a command. On an error the session is as it was. Whatever a key can change can be undone; moving the
-/// camera is not a step of the history. A command that changes nothing leaves the revision as it is. What
-/// takes long is left to `workshop`, or else done at once.
-protocol::Result<std::monostate> apply(Session& session, const protocol::Command& command, const Limits& limits);
-protocol::Result<std::monostate> apply(Session& session, const protocol::Command& command, const Limits& limits,
-                                       Workshop& workshop);
+/// The memory of a session's history in bytes, except the objects.
+std::size_t historyBytes(const Session& session);
 
-/// Continues a turning session by `seconds`: a second turns by kTurnsPerSecond times the last rotation's angles.
-/// One history step covers the whole of a continuous turn.
+class ObjectLoader;
+
+/// Applies a command. On an error, the session is unchanged. Every change is a history step, which can be undone,
+/// except moving the camera and stopping continuous turning. A command that changes nothing leaves the revision
+/// unchanged. `loader` builds polytopes and reads files.
+Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);
+
+/// The speed of continuous turning: how many times the last rotation is repeated per second.
 inline constexpr double kTurnsPerSecond = 6;
+/// Advances continuous turning by `seconds`. Does nothing if the session is not turning. A continuous turn is a single
+/// history step, from start to stop.
 void advance(Session& session, double seconds);
 
-/// The ':' line as a command: "polytope 24-cell", "set slices=31", "rotate xw,yz pi/8 pi/sqrt(3)-pi/8", "reset".
-protocol::Result<protocol::Command> parseCommandLine(std::string_view line, const State& state);
+/// Parses a ':' line, with or without the ':', such as "polytope 24-cell", "set slices=31",
+/// "rotate xw,yz pi/8 pi/sqrt(3)-pi/8" or "reset". Errors: `unknown_command`, `bad_expression`, `out_of_range`,
+/// `unknown_polytope`, `unknown_key`.
+Result<Command> parseCommandLine(std::string_view line, const State& state);
 
 }  // namespace oval4d::session

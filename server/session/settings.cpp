@@ -6,18 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/catalogue.hpp"
-#include "protocol/cpp/suggest.hpp"
-#include "session/kinds.hpp"
+#include "session/cell_types.hpp"
+#include "session/object_choice.hpp"
+#include "text/suggest.hpp"
 
 namespace oval4d::session {
 
 namespace {
-
-using protocol::Error;
-using protocol::ErrorCode;
-using protocol::Result;
-using protocol::shortest;
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
@@ -26,13 +21,13 @@ struct Range {
     std::string_view unit;
 };
 
-// A value into its place, if it lies within its bounds.
+// Stores a value, if there is one; an error if it is out of range.
 Result<std::monostate> put(std::string_view name, std::optional<double> value, Range range, double& into) {
     if (!value) return std::monostate{};
     if (!(*value >= range.least && *value <= range.most)) {
-        return Error{ErrorCode::out_of_range, std::string(name) + " must be from " + shortest(range.least) + " to " +
-                                                  shortest(range.most) + std::string(range.unit) + ", not " +
-                                                  shortest(*value)};
+        return Error{ErrorCode::out_of_range, std::string(name) + " must be from " + text::shortest(range.least) +
+                                                  " to " + text::shortest(range.most) + std::string(range.unit) +
+                                                  ", not " + text::shortest(*value)};
     }
     into = *value;
     return std::monostate{};
@@ -40,7 +35,7 @@ Result<std::monostate> put(std::string_view name, std::optional<double> value, R
 
 void put(std::optional<bool> value, bool& into) { into = value.value_or(into); }
 
-Result<std::monostate> setSlices(State& state, const protocol::Set& set, const Limits& limits) {
+Result<std::monostate> setSlices(State& state, const Set& set, const Limits& limits) {
     if (set.count) {
         if (*set.count < 1 || *set.count > limits.maxSlices || *set.count % 2 == 0) {
             return Error{ErrorCode::out_of_range, "the number of slices must be odd and from 1 to " +
@@ -49,7 +44,7 @@ Result<std::monostate> setSlices(State& state, const protocol::Set& set, const L
         }
         setCount(state, *set.count);
     }
-    const double radius = state.polytope->circumradius;
+    const double radius = slicing::infoOf(state.object).circumradius;
     if (auto done =
             put("the spacing", set.spacing, {kMinSpacing * radius, kMaxSpacing * radius, ""}, state.slices.spacing);
         !done) {
@@ -66,64 +61,34 @@ Result<std::monostate> setSlices(State& state, const protocol::Set& set, const L
     return std::monostate{};
 }
 
-// "; did you mean …?": the names of the catalogue nearest to this one, or a loaded polytope's if that is as near.
-std::string suggestion(std::string_view name, const Loaded& loaded) {
-    std::vector<std::string_view> near = geometry::nearestNames(name);
-    std::size_t least = geometry::likeness(name, near.front());
-    for (const auto& [own, ignored] : loaded) {
-        if (geometry::likeness(name, own) > least) continue;
-        least = geometry::likeness(name, own);
-        near = {own};
-    }
-    std::string text;
-    for (std::size_t i = 0; i < near.size(); ++i) {
-        text += i == 0 ? "; did you mean " : i + 1 < near.size() ? ", " : " or ";
-        text += protocol::inQuotes(near[i]);
-    }
-    return text + "?";
-}
-
 }  // namespace
 
-Result<PolytopePtr> findPolytope(std::string_view name, const Loaded& loaded, const Limits& limits,
-                                 Workshop& workshop) {
-    if (const auto own = loaded.find(name); own != loaded.end()) return own->second;
-    auto named = geometry::designNamed(name, limits.maxVertices);
-    if (const auto* design = std::get_if<geometry::Design>(&named)) {
-        auto polytope = workshop.polytope(*design);
-        if (polytope || polytope.error().code != ErrorCode::unknown_polytope) return polytope;
-        named = geometry::NameError{geometry::NameError::Reason::impossible, polytope.error().message};
-    }
-    const auto& error = std::get<geometry::NameError>(named);
-    if (error.reason == geometry::NameError::Reason::too_large) return Error{ErrorCode::too_large, error.message};
-    return Error{ErrorCode::unknown_polytope,
-                 "no polytope is called " + protocol::inQuotes(name) +
-                     (error.message.empty() ? suggestion(name, loaded) : ": " + error.message)};
-}
-
-void show(State& state, PolytopePtr polytope) {
-    if (polytope == state.polytope) return;
-    state.slices.spacing *= polytope->circumradius / state.polytope->circumradius;
+void show(State& state, slicing::Object object) {
+    if (object == state.object) return;
+    const double radius = slicing::infoOf(object).circumradius;
+    const double spacing = state.slices.spacing * (radius / slicing::infoOf(state.object).circumradius);
+    state.slices.spacing =
+        std::clamp(spacing, kMinSpacing * radius, kMaxSpacing * radius);  // rounding may exceed the bounds
     state.slices.focus = 0;
-    state.look.kinds = {};
-    state.polytope = std::move(polytope);
+    state.look.cellTypes = {};
+    state.object = std::move(object);
 }
 
 void setCount(State& state, int count) {
     if (count > 1 && state.slices.count > 1) {
         const double spacing = state.slices.spacing * (state.slices.count - 1) / (count - 1);
-        const double radius = state.polytope->circumradius;
+        const double radius = slicing::infoOf(state.object).circumradius;
         state.slices.spacing = std::clamp(spacing, kMinSpacing * radius, kMaxSpacing * radius);
     }
     state.slices.count = count;
 }
 
-Result<std::monostate> applySet(State& state, const protocol::Set& set, const Loaded& loaded, const Limits& limits,
-                                Workshop& workshop) {
-    if (set.polytope) {
-        auto polytope = findPolytope(*set.polytope, loaded, limits, workshop);
-        if (!polytope) return polytope.error();
-        show(state, std::move(*polytope));
+Result<std::monostate> applySet(State& state, const Set& set, const Loaded& loaded, const Limits& limits,
+                                ObjectLoader& loader) {
+    if (set.object) {
+        auto object = findObject(*set.object, loaded, limits, loader);
+        if (!object) return object.error();
+        show(state, std::move(*object));
     }
     if (set.orientation && *set.orientation != state.orientation.matrix()) {
         const auto orientation = geometry::Rotation::fromMatrix(*set.orientation);
@@ -134,7 +99,7 @@ Result<std::monostate> applySet(State& state, const protocol::Set& set, const Lo
         state.orientation = *orientation;
     }
     if (set.last) {
-        if (auto sound = checkTurn(*set.last); !sound) return sound;
+        if (auto valid = checkTurn(*set.last); !valid) return valid;
         state.last = set.last;
     }
     constexpr double kLeastStep = 1e-9;
@@ -148,15 +113,12 @@ Result<std::monostate> applySet(State& state, const protocol::Set& set, const Lo
         if (!done) return done;
     }
     state.look.view = set.view.value_or(state.look.view);
-    put(set.faces, state.look.parts.faces);
-    put(set.bars, state.look.parts.bars);
-    put(set.balls, state.look.parts.balls);
-    put(set.coordinates, state.look.parts.coordinates);
-    state.look.colouring = set.colouring.value_or(state.look.colouring);
-    if (auto done = setKinds(state, set); !done) return done;
+    for (std::size_t i = 0; i < scene::kParts.size(); ++i) put(set.parts[i], state.look.parts.*scene::kParts[i].flag);
+    state.look.coloring = set.coloring.value_or(state.look.coloring);
+    if (auto done = setCellTypes(state, set); !done) return done;
     put(set.turning, state.turning);
     if (state.turning && !state.last) {
-        return Error{ErrorCode::nothing_to_undo, "nothing to turn with: no rotation has been made yet"};
+        return Error{ErrorCode::nothing_to_undo, "nothing to repeat: no rotation has been made yet"};
     }
     return std::monostate{};
 }
@@ -164,8 +126,9 @@ Result<std::monostate> applySet(State& state, const protocol::Set& set, const Lo
 Result<std::monostate> checkTurn(const geometry::Turn& turn) {
     for (const double angle : {turn.alpha, turn.beta.value_or(0)}) {
         if (!(std::abs(angle) <= kMaxAngle)) {
-            return Error{ErrorCode::out_of_range, "an angle must be from " + shortest(-kMaxAngle) + " to " +
-                                                      shortest(kMaxAngle) + " radians, not " + shortest(angle)};
+            return Error{ErrorCode::out_of_range, "an angle must be from " + text::shortest(-kMaxAngle) + " to " +
+                                                      text::shortest(kMaxAngle) + " radians, not " +
+                                                      text::shortest(angle)};
         }
     }
     return std::monostate{};

@@ -1,45 +1,36 @@
 #pragma once
-// Setting the members of a state, each within its bounds.
+// Changes the settings of a state within their bounds.
 
-#include <map>
-#include <string>
-#include <string_view>
-
+#include "session/object_loader.hpp"
 #include "session/session.hpp"
-#include "session/workshop.hpp"
 
 namespace oval4d::session {
 
-using Loaded = std::map<std::string, PolytopePtr, std::less<>>;
-
-/// Bounds that do not depend on the server.
-inline constexpr double kMaxAngle = 1e6;     ///< of one rotation, radians: beyond, a double loses the direction
-inline constexpr int kMaxFocus = 1'000'000;  ///< of the focus index, either way
+/// Bounds that do not depend on the server's options.
+inline constexpr double kMaxAngle = 1e6;     ///< of one rotation, radians; beyond it, a double is too imprecise
+inline constexpr int kMaxFocus = 1'000'000;  ///< of the absolute value of the focus index
 inline constexpr double kMinSpacing = 1e-6;  ///< in circumradii
 inline constexpr double kMaxSpacing = 10;    ///< in circumradii
-inline constexpr double kMaxOrbit = 1000;    ///< azimuth and elevation, radians
+inline constexpr double kMaxOrbit = 1000;    ///< of azimuth and elevation, radians
 inline constexpr double kMinZoom = 0.05, kMaxZoom = 20;
 
-/// The loaded polytope of this name, or the one that geometry::designNamed finds; else `unknown_polytope` with the
-/// nearest names or what is wrong, or `too_large`; or what `workshop` says.
-protocol::Result<PolytopePtr> findPolytope(std::string_view name, const Loaded& loaded, const Limits& limits,
-                                           Workshop& workshop);
+/// Replaces the object, unless it is the same. The orientation stays, the spacing keeps its ratio to the circumradius,
+/// the focus becomes 0, and all cell types become fully visible.
+void show(State& state, slicing::Object object);
 
-/// Shows another polytope: the orientation stays, the spacing keeps its ratio to the circumradius, the focus is 0, and
-/// all kinds of cells are seen.
-void show(State& state, PolytopePtr polytope);
-
-/// Changes the number of slices and keeps their span.
+/// Changes the number of slices. Keeps the span (count − 1) · spacing if both counts are greater than 1 and the new
+/// spacing is within its bounds.
 void setCount(State& state, int count);
 
-/// Sets what `set` holds. On an error `state` is half set: work on a copy.
-protocol::Result<std::monostate> applySet(State& state, const protocol::Set& set, const Loaded& loaded,
-                                          const Limits& limits, Workshop& workshop);
+/// Applies the settings that are present in `set`. On an error, some of them may already be applied, so callers pass a
+/// copy of the state.
+Result<std::monostate> applySet(State& state, const Set& set, const Loaded& loaded, const Limits& limits,
+                                ObjectLoader& loader);
 
-/// `out_of_range` unless the angles are finite and at most kMaxAngle.
-protocol::Result<std::monostate> checkTurn(const geometry::Turn& turn);
+/// Returns the error `out_of_range` unless the angles are finite and within ±kMaxAngle.
+Result<std::monostate> checkTurn(const geometry::Turn& turn);
 
-/// Turns the polytope.
+/// Rotates the object, and remembers the rotation as the last one.
 void rotate(State& state, const geometry::Turn& turn);
 
 }  // namespace oval4d::session

@@ -1,39 +1,31 @@
 #pragma once
-// Sessions as bytes, and back.
+// Sessions as CBOR records.
 
 #include <functional>
-#include <stdexcept>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "polytopes/catalogue/polytope_cache.hpp"
 #include "session/session.hpp"
+#include "store/unreadable.hpp"
 
 namespace oval4d::store {
 
-/// Bytes that are not a session, or of a later version than this program's.
-class Unreadable : public std::runtime_error {
-  public:
-    using std::runtime_error::runtime_error;
-};
+/// Returns the key of an object that is not built from its name. Keys are unique within one session's record.
+using KeyOf = std::function<std::string(const slicing::Object&)>;
+/// Returns the object with this key, if there is one. May throw Unreadable.
+using ObjectOf = std::function<std::optional<slicing::Object>(const std::string&)>;
 
-/// Names, within one session's record, a polytope that has no name of its own in the catalogue.
-using KeyOf = std::function<std::string(const session::PolytopePtr&)>;
-/// The polytope of such a key; throws Unreadable if there is none.
-using PolytopeOf = std::function<session::PolytopePtr(const std::string&)>;
-
-/// What a command changes in any case, a few hundred bytes: the present state and its revision.
+/// Encodes what every command changes, the current state and its revision: a few hundred bytes.
 std::string encodeHead(const session::Session& session, const KeyOf& keyOf);
 
-/// The whole session, with the last `maxUndo` steps that can be undone and as many that can be redone.
+/// Encodes the whole session, with at most `maxUndo` undo steps and as many redo steps.
 std::string encodeWhole(const session::Session& session, std::size_t maxUndo, const KeyOf& keyOf);
 
-/// The session of `whole`, brought to the state of `head` where that is newer; what lies between them is one step of
-/// the history. Throws Unreadable.
-session::Session decode(std::string_view whole, std::string_view head, const PolytopeOf& polytopeOf);
-
-std::string encodePolytope(const geometry::Polytope& polytope);
-
-/// Checked as one that is loaded from a file; throws Unreadable.
-session::PolytopePtr decodePolytope(std::string_view bytes);
+/// Decodes `whole`. If `head` has a later revision, its state becomes the current one, one undo step after that of
+/// `whole`. An empty `head` is ignored. Objects that are built from their names come from `cache`. Throws Unreadable.
+session::Session decode(std::string_view whole, std::string_view head, const ObjectOf& objectOf,
+                        polytopes::PolytopeCache& cache);
 
 }  // namespace oval4d::store

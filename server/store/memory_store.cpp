@@ -1,51 +1,107 @@
 #include "store/memory_store.hpp"
 
+#include <algorithm>
+#include <tuple>
+
+#include "store/secret.hpp"
+
 namespace oval4d::store {
 
-std::optional<std::string> MemoryStore::token(const std::string& id) {
-    const auto found = kept_.find(id);
-    return found == kept_.end() ? std::nullopt : std::optional(found->second.token);
+std::size_t MemoryStore::Entry::bytes() const {
+    constexpr std::size_t kOverhead = 512;  // about what a map takes for an entry
+    std::size_t bytes = kOverhead + tokenHash.size() + whole.size() + head.size();
+    for (const auto& [key, polytope] : polytopes) bytes += kOverhead + polytope.size();
+    return bytes;
+}
+
+std::optional<std::string> MemoryStore::tokenHash(const std::string& id) {
+    const auto found = entries_.find(id);
+    return found == entries_.end() ? std::nullopt : std::optional(found->second.tokenHash);
 }
 
 std::optional<Record> MemoryStore::claim(const std::string& id) {
-    const auto found = kept_.find(id);
-    if (found == kept_.end()) return std::nullopt;
-    Kept& kept = found->second;
-    kept.touched = Clock::now();
-    return Record{kept.whole, kept.head, {kept.polytopes.begin(), kept.polytopes.end()}, ++kept.fence};
+    const auto found = entries_.find(id);
+    if (found == entries_.end()) return std::nullopt;
+    Entry& entry = found->second;
+    entry.touched = Clock::now();
+    return Record{entry.whole, entry.head, {entry.polytopes.begin(), entry.polytopes.end()}, ++entry.fence, {}};
 }
 
-std::vector<Saved> MemoryStore::save(std::span<const Saving> savings) {
-    std::vector<Saved> said;
-    for (const Saving& saving : savings) {
-        const auto found = kept_.find(saving.ticket.id);
-        const bool known = found != kept_.end();
-        if (known ? saving.fence < found->second.fence : saving.whole.empty()) {
-            said.push_back(known ? Saved::taken : Saved::missing);
+/// An upper bound: counts what the updates replace, too.
+std::size_t MemoryStore::bytesWith(std::span<const RecordUpdate> updates) const {
+    std::size_t bytes = bytes_;
+    for (const RecordUpdate& update : updates) bytes += bytesOf(update);
+    return bytes;
+}
+
+std::vector<SaveResult> MemoryStore::save(std::span<const RecordUpdate> updates) {
+    if (bytesWith(updates) > quota_) {
+        throw NotWritable("memory: open sessions use up the quota (--store-quota)");
+    }
+    std::vector<SaveResult> results;
+    for (const RecordUpdate& update : updates) {
+        const auto found = entries_.find(update.credentials.id);
+        const bool known = found != entries_.end();
+        if (known ? update.fence < found->second.fence : update.whole.empty()) {
+            results.push_back(known ? SaveResult::taken : SaveResult::missing);
             continue;
         }
-        said.push_back(Saved::yes);
-        Kept& kept = kept_[saving.ticket.id];
-        kept.token = saving.ticket.token;
-        kept.fence = saving.fence;
-        kept.touched = Clock::now();
-        if (!saving.whole.empty()) kept.whole = saving.whole;
-        if (!saving.whole.empty() || !saving.head.empty()) kept.head = saving.head;
-        for (const auto& [key, bytes] : saving.polytopes) kept.polytopes[key] = bytes;
-        for (const std::string& key : saving.dropped) kept.polytopes.erase(key);
+        results.push_back(SaveResult::saved);
+        Entry& entry = entries_[update.credentials.id];
+        if (known) bytes_ -= entry.bytes();
+        if (!known) entry.tokenHash = hashOf(update.credentials.token);
+        entry.fence = update.fence;
+        entry.touched = Clock::now();
+        entry.changed = update.changed;
+        if (!update.whole.empty()) entry.whole = update.whole;
+        if (!update.whole.empty() || !update.head.empty()) entry.head = update.head;
+        for (const auto& [key, bytes] : update.polytopes) entry.polytopes[key] = bytes;
+        for (const std::string& key : update.dropped) entry.polytopes.erase(key);
+        bytes_ += entry.bytes();
     }
-    return said;
+    return results;
+}
+
+MemoryStore::Entries::iterator MemoryStore::erase(Entries::iterator entry) {
+    bytes_ -= entry->second.bytes();
+    return entries_.erase(entry);
+}
+
+std::size_t MemoryStore::evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) {
+    if (bytesWith(updates) <= quota_) return 0;
+    std::vector<Entries::iterator> candidates;
+    for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
+        if (!isPinned(entry->first)) candidates.push_back(entry);
+    }
+    std::ranges::sort(candidates, {},
+                      [](const auto& entry) { return std::tuple(entry->second.changed, entry->second.touched); });
+    std::size_t count = 0;
+    for (const auto& entry : candidates) {
+        if (bytesWith(updates) <= quota_) break;
+        erase(entry);
+        ++count;
+    }
+    return count;
+}
+
+void MemoryStore::remove(std::span<const std::string> ids) {
+    for (const std::string& id : ids) {
+        if (const auto found = entries_.find(id); found != entries_.end()) erase(found);
+    }
 }
 
 void MemoryStore::touch(std::span<const std::string> ids) {
     for (const std::string& id : ids) {
-        if (const auto found = kept_.find(id); found != kept_.end()) found->second.touched = Clock::now();
+        if (const auto found = entries_.find(id); found != entries_.end()) found->second.touched = Clock::now();
     }
 }
 
 std::size_t MemoryStore::expire(Milliseconds age) {
     const auto limit = Clock::now() - age;
-    return std::erase_if(kept_, [limit](const auto& entry) { return entry.second.touched < limit; });
+    const std::size_t before = entries_.size();
+    for (auto entry = entries_.begin(); entry != entries_.end();)
+        entry = entry->second.touched < limit ? erase(entry) : std::next(entry);
+    return before - entries_.size();
 }
 
 }  // namespace oval4d::store

@@ -1,5 +1,5 @@
 #pragma once
-// Sessions kept in memory: they end with the process.
+// A store in memory: its sessions end with the process.
 
 #include <map>
 
@@ -11,25 +11,39 @@ class MemoryStore final : public Store {
   public:
     using Clock = std::chrono::steady_clock;
 
+    /// `quota` limits the bytes of all records together.
+    explicit MemoryStore(std::size_t quota = kDefaultQuota) : quota_(quota) {}
+
     Pace pace() const override { return Pace::at_close; }
     std::string name() const override { return "memory"; }
-    std::optional<std::string> token(const std::string& id) override;
+    std::optional<std::string> tokenHash(const std::string& id) override;
     std::optional<Record> claim(const std::string& id) override;
-    std::vector<Saved> save(std::span<const Saving> savings) override;
+    std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
+    std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) override;
+    void remove(std::span<const std::string> ids) override;
     void touch(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds age) override;
-    std::vector<std::string> pulse() override { return {}; }
-    std::size_t size() const override { return kept_.size(); }
+    std::vector<std::string> poll() override { return {}; }
+    std::size_t size() const override { return entries_.size(); }
 
   private:
-    struct Kept {
-        std::string token, whole, head;
+    struct Entry {
+        std::string tokenHash, whole, head;
         std::map<std::string, std::string> polytopes;
         Fence fence = 0;
         Clock::time_point touched;
-    };
+        bool changed = true;
 
-    std::map<std::string, Kept> kept_;
+        std::size_t bytes() const;
+    };
+    using Entries = std::map<std::string, Entry>;
+
+    std::size_t bytesWith(std::span<const RecordUpdate> updates) const;
+    Entries::iterator erase(Entries::iterator entry);
+
+    const std::size_t quota_;
+    std::size_t bytes_ = 0;  // of all records
+    Entries entries_;
 };
 
 }  // namespace oval4d::store

@@ -1,3 +1,5 @@
+#include "store/open_store.hpp"
+
 #include "store/memory_store.hpp"
 #include "store/redis_store.hpp"
 #include "store/sqlite_store.hpp"
@@ -7,12 +9,12 @@ namespace oval4d::store {
 std::unique_ptr<Store> openStore(const StoreOptions& options) {
     constexpr std::string_view kSqlite = "sqlite:", kRedis = "redis://";
     const std::string_view place = options.place;
-    if (place == "memory") return std::make_unique<MemoryStore>();
+    if (place == "memory") return std::make_unique<MemoryStore>(options.quota);
     if (place.starts_with(kSqlite) && place.size() > kSqlite.size()) {
-        return std::make_unique<SqliteStore>(std::string(place.substr(kSqlite.size())));
+        return std::make_unique<SqliteStore>(std::string(place.substr(kSqlite.size())), options.quota);
     }
     if (place.starts_with(kRedis)) return std::make_unique<RedisStore>(options);
-    throw std::invalid_argument("a store is memory, sqlite:PATH or redis://host, not '" + options.place + "'");
+    throw std::invalid_argument("the store must be memory, sqlite:PATH or redis://host, not '" + options.place + "'");
 }
 
 }  // namespace oval4d::store

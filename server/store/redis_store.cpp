@@ -15,8 +15,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// KEYS: the session, its polytopes. ARGV: this server, expiry in milliseconds, the session's id. A full Redis allows it
-// too: what can be read can be gone on with.
+// KEYS: the session, its polytopes. ARGV: this server, expiry in milliseconds, the session's id. Allowed in a full
+// Redis (allow-oom), so that its sessions can still be opened.
 constexpr const char* kClaim = R"(#!lua flags=allow-oom
 local owner, whole, head = unpack(redis.call('HMGET', KEYS[1], 'owner', 'whole', 'head'))
 if not whole then return false end
@@ -30,33 +30,57 @@ redis.call('PEXPIRE', KEYS[1], ARGV[2])
 redis.call('PEXPIRE', KEYS[2], ARGV[2])
 return {fence, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 
-// KEYS: the same. ARGV: this server, expiry, fence, token, head, whole, 1 for the last saving, how many polytopes to
-// add, their keys and bytes, the keys of those to drop. Of equal fences, which only a Redis that has lost writes gives
-// out, the owner's is the right one. After a head comes the whole within a second, and it puts off the expiry.
+// KEYS: as above. ARGV: this server, expiry, fence, the token's hash, the token or nothing, head, whole, 1 if no client
+// has the session open anymore, the number of polytopes to add, their keys and bytes, the keys of those to drop.
+// Returns a SaveResult. Two servers have equal fences only if Redis has lost writes; then the owner's save is accepted.
+// A save of the head does not restart the expiry: one of the whole session follows within a second.
 constexpr const char* kSave = R"(
 local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
 local mine = tonumber(ARGV[3])
 if fence then
   fence = tonumber(fence)
   if fence > mine or (fence == mine and owner and owner ~= '' and owner ~= ARGV[1]) then return 1 end
-elseif ARGV[6] == '' then return 2 end
-local keeper = ARGV[1]
-if ARGV[7] == '1' then keeper = '' end
-redis.call('HSET', KEYS[1], 'fence', mine, 'owner', keeper, 'head', ARGV[5])
-if ARGV[6] ~= '' then
-  redis.call('HSET', KEYS[1], 'token', ARGV[4], 'whole', ARGV[6])
+elseif ARGV[7] == '' then return 2 end
+local newOwner = ARGV[1]
+if ARGV[8] == '1' then newOwner = '' end
+redis.call('HSET', KEYS[1], 'fence', mine, 'owner', newOwner, 'head', ARGV[6], 'hash', ARGV[4])
+if ARGV[5] ~= '' then redis.call('HSET', KEYS[1], 'token', ARGV[5]) else redis.call('HDEL', KEYS[1], 'token') end
+if ARGV[7] ~= '' then
+  redis.call('HSET', KEYS[1], 'whole', ARGV[7])
   redis.call('PEXPIRE', KEYS[1], ARGV[2])
   redis.call('PEXPIRE', KEYS[2], ARGV[2])
 end
-local last = 8 + 2 * tonumber(ARGV[8])
-for i = 9, last, 2 do redis.call('HSET', KEYS[2], ARGV[i], ARGV[i + 1]) end
-if last > 8 then redis.call('PEXPIRE', KEYS[2], ARGV[2]) end
+local last = 9 + 2 * tonumber(ARGV[9])
+for i = 10, last, 2 do redis.call('HSET', KEYS[2], ARGV[i], ARGV[i + 1]) end
+if last > 9 then redis.call('PEXPIRE', KEYS[2], ARGV[2]) end
 for i = last + 1, #ARGV do redis.call('HDEL', KEYS[2], ARGV[i]) end
 return 0)";
 
+// Adds the hash of a token that is stored as plain text. KEYS: as above. ARGV: the token, its hash, 1 to delete the
+// plain text.
+constexpr const char* kHash = R"(#!lua flags=allow-oom
+if redis.call('HGET', KEYS[1], 'token') == ARGV[1] then
+  redis.call('HSET', KEYS[1], 'hash', ARGV[2])
+  if ARGV[3] == '1' then redis.call('HDEL', KEYS[1], 'token') end
+end)";
+
+// KEYS: as above. ARGV: this server.
+constexpr const char* kRemove = R"(#!lua flags=allow-oom
+local owner = redis.call('HGET', KEYS[1], 'owner')
+if owner and owner ~= '' and owner ~= ARGV[1] then return end
+redis.call('DEL', KEYS[1], KEYS[2]))";
+
+// The SHA-1 of the save script of version 0.1.0, which shows that servers of that version use this Redis; and the key
+// of the time, in milliseconds of Redis's clock, when a server of a later version first saw that.
+constexpr const char* kOlderSave = "3f542d461100cccfdf5dc6b4716be03d88d48eae";
+constexpr const char* kHashedSince = "oval4d:tokens_hashed_since";
+constexpr const char* kNoteSince = R"(#!lua flags=allow-oom
+redis.call('SET', KEYS[1], ARGV[1], 'NX')
+return redis.call('GET', KEYS[1]))";
+
 constexpr auto kConnectTimeout = 1000ms;
 
-// In braces is what a cluster would choose the node by: a session's keys are together.
+// The hash tag in braces keeps both keys of a session on one node of a cluster.
 std::string sessionKey(const std::string& id) { return "oval4d:{" + id + "}"; }
 std::string polytopesKey(const std::string& id) { return sessionKey(id) + ":polytopes"; }
 
@@ -73,7 +97,7 @@ Number numberIn(std::string_view text, const std::string& what, Number least, Nu
     Number value{};
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (fault != std::errc{} || end != text.data() + text.size() || value < least || value > most) {
-        throw std::invalid_argument("the " + what + " of a Redis is a number from " + std::to_string(least) + " to " +
+        throw std::invalid_argument("the Redis " + what + " must be a number from " + std::to_string(least) + " to " +
                                     std::to_string(most) + ", not '" + std::string(text) + "'");
     }
     return value;
@@ -104,7 +128,7 @@ RedisStore::RedisStore(const StoreOptions& options)
         port_ = numberIn(rest.substr(colon + 1), "port", 1, 65535);
         rest = rest.substr(0, colon);
     }
-    if (rest.size() > 2 && rest.front() == '[') rest = rest.substr(1, rest.size() - 2);  // an address of IPv6
+    if (rest.size() > 2 && rest.front() == '[') rest = rest.substr(1, rest.size() - 2);  // an IPv6 address
     host_ = rest;
     if (host_.empty()) throw std::invalid_argument("redis:// must be followed by a host");
 }
@@ -116,32 +140,48 @@ std::string RedisStore::name() const { return "redis://" + host_ + ":" + std::to
 void RedisStore::connect() {
     context_.reset(
         redisConnectWithTimeout(host_.c_str(), port_, asTimeval(std::min(timeout_, Milliseconds(kConnectTimeout)))));
-    if (!context_) throw Outage("no memory for a connection");
+    if (!context_) throw StoreError(name() + ": out of memory");
     if (context_->err != 0) fail();
     redisSetTimeout(context_.get(), asTimeval(timeout_));
     redisEnableKeepAlive(context_.get());
-    if (!password_.empty()) ask(user_.empty() ? Words{"AUTH", password_} : Words{"AUTH", user_, password_});
+    if (!password_.empty()) ask(user_.empty() ? Arguments{"AUTH", password_} : Arguments{"AUTH", user_, password_});
     if (!database_.empty()) ask({"SELECT", database_});
     claimScript_ = textOf(*ask({"SCRIPT", "LOAD", kClaim}));
     saveScript_ = textOf(*ask({"SCRIPT", "LOAD", kSave}));
+    hashScript_ = textOf(*ask({"SCRIPT", "LOAD", kHash}));
+    removeScript_ = textOf(*ask({"SCRIPT", "LOAD", kRemove}));
+    detectOlderServers();
 }
 
-/// Nothing is known of what the connection has still to say: the next call makes a new one.
+void RedisStore::detectOlderServers() {
+    plainUntil_ = {};
+    const Reply known = ask({"SCRIPT", "EXISTS", kOlderSave});
+    if (known->elements != 1 || known->element[0]->integer == 0) return;
+    const Reply time = ask({"TIME"});
+    const std::int64_t now = std::stoll(textOf(*time->element[0])) * 1000;
+    const Reply noted = ask({"EVAL", kNoteSince, "1", kHashedSince, std::to_string(now)});
+    const std::int64_t since = std::stoll(textOf(*noted));
+    plainUntil_ = std::chrono::steady_clock::now() + Milliseconds(since - now) + expiry_;
+}
+
+bool RedisStore::storesPlainTokens() const { return std::chrono::steady_clock::now() < plainUntil_; }
+
+/// Closes the connection, because its replies can no longer be matched with requests; the next call opens a new one.
 void RedisStore::fail() {
-    const std::string why = context_->errstr[0] != '\0' ? context_->errstr : "no answer";
+    const std::string why = context_->errstr[0] != '\0' ? context_->errstr : "no reply";
     context_.reset();
-    throw Outage(name() + ": " + why);
+    throw StoreError(name() + ": " + why);
 }
 
-void RedisStore::send(const Words& words) {
+void RedisStore::send(const Arguments& command) {
     if (!context_) connect();
     std::vector<const char*> starts;
     std::vector<std::size_t> sizes;
-    for (const std::string& word : words) {
-        starts.push_back(word.data());
-        sizes.push_back(word.size());
+    for (const std::string& argument : command) {
+        starts.push_back(argument.data());
+        sizes.push_back(argument.size());
     }
-    if (redisAppendCommandArgv(context_.get(), static_cast<int>(words.size()), starts.data(), sizes.data()) !=
+    if (redisAppendCommandArgv(context_.get(), static_cast<int>(command.size()), starts.data(), sizes.data()) !=
         REDIS_OK) {
         fail();
     }
@@ -153,28 +193,41 @@ RedisStore::Reply RedisStore::receive() {
     Reply owned(static_cast<redisReply*>(reply));
     if (owned->type == REDIS_REPLY_ERROR) {
         context_.reset();
-        throw Outage(name() + ": " + textOf(*owned));
+        throw StoreError(name() + ": " + textOf(*owned));
     }
     return owned;
 }
 
-RedisStore::Reply RedisStore::ask(const Words& words) {
-    send(words);
+RedisStore::Reply RedisStore::ask(const Arguments& command) {
+    send(command);
     return receive();
 }
 
-std::optional<std::string> RedisStore::token(const std::string& id) {
-    const Reply reply = ask({"HGET", sessionKey(id), "token"});
-    return reply->type == REDIS_REPLY_STRING ? std::optional(textOf(*reply)) : std::nullopt;
+RedisStore::Reply RedisStore::ask(const std::string& script, const std::string& id, const Arguments& arguments) {
+    Arguments command{"EVALSHA", script, "2", sessionKey(id), polytopesKey(id)};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return ask(command);
+}
+
+std::optional<std::string> RedisStore::tokenHash(const std::string& id) {
+    if (!context_) connect();
+    const Reply reply = ask({"HMGET", sessionKey(id), "hash", "token"});
+    const redisReply& hash = *reply->element[0];
+    const redisReply& token = *reply->element[1];
+    const bool plain = token.type == REDIS_REPLY_STRING;
+    if (hash.type == REDIS_REPLY_STRING && (!plain || storesPlainTokens())) return textOf(hash);
+    if (!plain) return std::nullopt;
+    std::string made = hashOf(textOf(token));
+    ask(hashScript_, id, {textOf(token), made, storesPlainTokens() ? "0" : "1"});
+    return made;
 }
 
 std::optional<Record> RedisStore::claim(const std::string& id) {
     if (!context_) connect();
-    const Reply reply = ask(
-        {"EVALSHA", claimScript_, "2", sessionKey(id), polytopesKey(id), self_, std::to_string(expiry_.count()), id});
+    const Reply reply = ask(claimScript_, id, {self_, std::to_string(expiry_.count()), id});
     if (reply->type != REDIS_REPLY_ARRAY || reply->elements != 4) return std::nullopt;
     Record record{
-        textOf(*reply->element[1]), textOf(*reply->element[2]), {}, static_cast<Fence>(reply->element[0]->integer)};
+        textOf(*reply->element[1]), textOf(*reply->element[2]), {}, static_cast<Fence>(reply->element[0]->integer), {}};
     const redisReply& polytopes = *reply->element[3];
     for (std::size_t i = 0; i + 1 < polytopes.elements; i += 2) {
         record.polytopes.emplace_back(textOf(*polytopes.element[i]), textOf(*polytopes.element[i + 1]));
@@ -182,45 +235,55 @@ std::optional<Record> RedisStore::claim(const std::string& id) {
     return record;
 }
 
-/// All in one go there and back.
-std::vector<Saved> RedisStore::save(std::span<const Saving> savings) {
+/// Pipelines all updates in one round trip.
+std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) {
     if (!context_) connect();
-    for (const Saving& saving : savings) {
-        const std::string& id = saving.ticket.id;
-        Words words{"EVALSHA",
-                    saveScript_,
-                    "2",
-                    sessionKey(id),
-                    polytopesKey(id),
-                    self_,
-                    std::to_string(expiry_.count()),
-                    std::to_string(saving.fence),
-                    saving.ticket.token,
-                    saving.head,
-                    saving.whole,
-                    saving.last ? "1" : "0",
-                    std::to_string(saving.polytopes.size())};
-        for (const auto& [key, bytes] : saving.polytopes) {
-            words.push_back(key);
-            words.push_back(bytes);
+    for (const RecordUpdate& update : updates) {
+        const std::string& id = update.credentials.id;
+        Arguments command{"EVALSHA",
+                          saveScript_,
+                          "2",
+                          sessionKey(id),
+                          polytopesKey(id),
+                          self_,
+                          std::to_string(expiry_.count()),
+                          std::to_string(update.fence),
+                          hashOf(update.credentials.token),
+                          storesPlainTokens() ? update.credentials.token : "",
+                          update.head,
+                          update.whole,
+                          update.last ? "1" : "0",
+                          std::to_string(update.polytopes.size())};
+        for (const auto& [key, bytes] : update.polytopes) {
+            command.push_back(key);
+            command.push_back(bytes);
         }
-        words.insert(words.end(), saving.dropped.begin(), saving.dropped.end());
-        send(words);
+        command.insert(command.end(), update.dropped.begin(), update.dropped.end());
+        send(command);
     }
-    std::vector<Saved> said;
-    for (std::size_t i = 0; i < savings.size(); ++i) said.push_back(static_cast<Saved>(receive()->integer));
-    return said;
+    std::vector<SaveResult> results;
+    for (std::size_t i = 0; i < updates.size(); ++i) results.push_back(static_cast<SaveResult>(receive()->integer));
+    return results;
+}
+
+void RedisStore::remove(std::span<const std::string> ids) {
+    if (!context_) connect();
+    for (const std::string& id : ids) send({"EVALSHA", removeScript_, "2", sessionKey(id), polytopesKey(id), self_});
+    for (std::size_t i = 0; i < ids.size(); ++i) receive();
 }
 
 void RedisStore::touch(std::span<const std::string> ids) {
+    if (!context_) connect();
+    const bool hashed = !storesPlainTokens();  // then delete the plain-text tokens
     for (const std::string& id : ids) {
         send({"PEXPIRE", sessionKey(id), std::to_string(expiry_.count())});
         send({"PEXPIRE", polytopesKey(id), std::to_string(expiry_.count())});
+        if (hashed) send({"HDEL", sessionKey(id), "token"});
     }
-    for (std::size_t i = 0; i < 2 * ids.size(); ++i) receive();
+    for (std::size_t i = 0; i < (hashed ? 3 : 2) * ids.size(); ++i) receive();
 }
 
-std::vector<std::string> RedisStore::pulse() {
+std::vector<std::string> RedisStore::poll() {
     const std::string list = "oval4d:taken:" + self_;
     send({"MULTI"});
     send({"LRANGE", list, "0", "-1"});

@@ -1,5 +1,5 @@
 #pragma once
-// Sessions kept in Redis: any server that uses the same can go on with them.
+// A store in Redis: servers that use the same Redis share their sessions.
 
 #include <memory>
 
@@ -10,24 +10,27 @@ struct redisReply;    // NOLINT(readability-identifier-naming)
 
 namespace oval4d::store {
 
-/// A session is a hash, and its polytopes are another; both expire by Redis's own clock. What has to happen all at once
-/// (raising the fence with a claim, comparing it with a save) is a script there. A server whose session is claimed by
-/// another finds its id in a list of its own. Needs Redis 7 or later.
+/// A session is a Redis hash, and its polytopes are another; Redis itself expires both. Operations that must be atomic
+/// (a claim that increments the fence, a save that compares it) are Lua scripts. The ids of sessions that other servers
+/// have claimed from this one are in a Redis list of its own. Requires Redis 7 or later.
 class RedisStore final : public Store {
   public:
     /// Connects at first use. Throws std::invalid_argument unless `options.place` is
-    /// redis://[user:password@]host[:port][/database], the password as it is.
+    /// redis://[user:password@]host[:port][/database], with no percent-encoding in the password.
     explicit RedisStore(const StoreOptions& options);
     ~RedisStore() override;
 
     Pace pace() const override { return Pace::at_once; }
     std::string name() const override;
-    std::optional<std::string> token(const std::string& id) override;
+    std::optional<std::string> tokenHash(const std::string& id) override;
     std::optional<Record> claim(const std::string& id) override;
-    std::vector<Saved> save(std::span<const Saving> savings) override;
+    std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
+    /// Evicts nothing: Redis has its own quota, `maxmemory`.
+    std::size_t evict(std::span<const RecordUpdate> /*updates*/, const IsPinned& /*isPinned*/) override { return 0; }
+    void remove(std::span<const std::string> ids) override;
     void touch(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds /*age*/) override { return 0; }
-    std::vector<std::string> pulse() override;
+    std::vector<std::string> poll() override;
     std::size_t size() const override { return size_; }
 
   private:
@@ -36,20 +39,24 @@ class RedisStore final : public Store {
         void operator()(redisReply* reply) const;
     };
     using Reply = std::unique_ptr<redisReply, Closer>;
-    using Words = std::vector<std::string>;
+    using Arguments = std::vector<std::string>;
 
     void connect();
     [[noreturn]] void fail();
-    void send(const Words& words);
+    void send(const Arguments& command);
     Reply receive();
-    Reply ask(const Words& words);
+    Reply ask(const Arguments& command);
+    Reply ask(const std::string& script, const std::string& id, const Arguments& arguments);
+    void detectOlderServers();
+    bool storesPlainTokens() const;
 
     std::string host_, user_, password_, database_;
     int port_ = 6379;
     const Milliseconds expiry_, timeout_;
-    const std::string self_;  ///< this server's name
+    const std::string self_;  ///< random name of this server
     std::unique_ptr<redisContext, Closer> context_;
-    std::string claimScript_, saveScript_;  ///< their digests
+    std::string claimScript_, saveScript_, hashScript_, removeScript_;  ///< SHA-1 digests, by which Redis knows them
+    std::chrono::steady_clock::time_point plainUntil_;  ///< until then, servers of version 0.1.0 may read the tokens
     std::size_t size_ = 0;
 };
 

@@ -1,29 +1,30 @@
 #include "store/secret.hpp"
 
-#include <sys/random.h>
+#include <sodium.h>
 
-#include <cerrno>
+#include <algorithm>
+#include <array>
 #include <cstdint>
-#include <system_error>
+#include <stdexcept>
 #include <vector>
 
 namespace oval4d::store {
 
 namespace {
 
+/// Initializes libsodium, which then uses its fastest implementation for this processor.
+void makeReady() {
+    if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be used");
+}
+
 std::vector<std::uint8_t> randomBytes(std::size_t count) {
+    makeReady();
     std::vector<std::uint8_t> bytes(count);
-    std::size_t have = 0;
-    while (have < count) {
-        const ssize_t got = getrandom(bytes.data() + have, count - have, 0);
-        if (got > 0) {
-            have += static_cast<std::size_t>(got);
-        } else if (errno != EINTR) {
-            throw std::system_error(errno, std::generic_category(), "getrandom");
-        }
-    }
+    randombytes_buf(bytes.data(), bytes.size());
     return bytes;
 }
+
+const unsigned char* bytesIn(std::string_view text) { return reinterpret_cast<const unsigned char*>(text.data()); }
 
 }  // namespace
 
@@ -40,13 +41,37 @@ std::string randomName(std::size_t bytes) {
     return name;
 }
 
-bool sameSecret(std::string_view given, std::string_view expected) {
-    unsigned difference = given.size() == expected.size() ? 0U : 1U;
-    for (std::size_t i = 0; i < given.size(); ++i) {
-        const char other = expected.empty() ? '\0' : expected[i % expected.size()];
-        difference |= static_cast<unsigned char>(given[i]) ^ static_cast<unsigned char>(other);
+std::string hashOf(std::string_view token) {
+    makeReady();
+    std::array<unsigned char, crypto_generichash_BYTES> hash{};
+    crypto_generichash(hash.data(), hash.size(), bytesIn(token), token.size(), nullptr, 0);
+    std::string text(2 * hash.size() + 1, '\0');  // with the terminating zero
+    sodium_bin2hex(text.data(), text.size(), hash.data(), hash.size());
+    text.pop_back();
+    return text;
+}
+
+std::string digestOf(std::span<const std::string_view> parts) {
+    makeReady();
+    crypto_generichash_state state{};
+    std::string digest(crypto_generichash_BYTES_MIN, '\0');
+    crypto_generichash_init(&state, nullptr, 0, digest.size());
+    for (const std::string_view part : parts) {
+        const std::uint64_t size = part.size();
+        std::array<unsigned char, sizeof size> prefix{};
+        for (std::size_t i = 0; i < prefix.size(); ++i) prefix.at(i) = static_cast<unsigned char>(size >> (8 * i));
+        crypto_generichash_update(&state, prefix.data(), prefix.size());
+        crypto_generichash_update(&state, bytesIn(part), part.size());
     }
-    return difference == 0;
+    std::array<unsigned char, crypto_generichash_BYTES_MIN> bytes{};
+    crypto_generichash_final(&state, bytes.data(), bytes.size());
+    std::ranges::copy(bytes, digest.begin());
+    return digest;
+}
+
+bool sameSecret(std::string_view given, std::string_view expected) {
+    // Lengths are not secret: all tokens have the same length, and so do all hashes.
+    return given.size() == expected.size() && sodium_memcmp(given.data(), expected.data(), given.size()) == 0;
 }
 
 }  // namespace oval4d::store

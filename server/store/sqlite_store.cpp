@@ -1,202 +1,445 @@
 #include "store/sqlite_store.hpp"
 
-#include <sqlite3.h>
+#include <spdlog/fmt/chrono.h>
+#include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+
+#include "store/private_file.hpp"
+#include "store/secret.hpp"
+#include "store/sqlite_salvage.hpp"
 
 namespace oval4d::store {
 
 namespace {
 
-// Version 1 of the tables; PRAGMA user_version tells.
-constexpr const char* kTables = R"(
-    CREATE TABLE IF NOT EXISTS session (
-        id TEXT PRIMARY KEY, token TEXT NOT NULL, fence INTEGER NOT NULL,
-        touched INTEGER NOT NULL,  -- milliseconds since 1970
-        whole BLOB NOT NULL, head BLOB NOT NULL) WITHOUT ROWID;
-    CREATE INDEX IF NOT EXISTS session_touched ON session (touched);
-    CREATE TABLE IF NOT EXISTS polytope (
-        session TEXT NOT NULL REFERENCES session ON DELETE CASCADE, key TEXT NOT NULL, bytes BLOB NOT NULL,
-        PRIMARY KEY (session, key));
-    PRAGMA user_version = 1;)";
+constexpr std::size_t kPageSize = 4096;
+constexpr std::int64_t kMaxReleasedPages = 1024;  // by one poll
+constexpr std::size_t kMaxListedIds = 20;         // in a line of the log
 
-}  // namespace
+// Pages of the database file. The rest of the quota is for the write-ahead log: its size at a checkpoint, and one
+// transaction.
+std::int64_t pagesOf(std::size_t quota) { return static_cast<std::int64_t>(quota / kPageSize * 3 / 4); }
 
-/// One statement, carried out once.
-class SqliteStore::Query {
-  public:
-    Query(const SqliteStore& store, const char* sql) : store_(store) {
-        if (sqlite3_prepare_v2(store.database_, sql, -1, &statement_, nullptr) != SQLITE_OK) store_.fail(sql);
-    }
-    Query(const Query&) = delete;
-    Query& operator=(const Query&) = delete;
-    ~Query() { sqlite3_finalize(statement_); }
-
-    Query& text(std::string_view value) {
-        return bound(sqlite3_bind_text64(statement_, ++bound_, value.data(), value.size(), SQLITE_STATIC, SQLITE_UTF8));
-    }
-    Query& blob(std::string_view value) {
-        // Of an empty blob SQLite wants an address, too.
-        return bound(
-            sqlite3_bind_blob64(statement_, ++bound_, value.empty() ? "" : value.data(), value.size(), SQLITE_STATIC));
-    }
-    Query& number(std::int64_t value) { return bound(sqlite3_bind_int64(statement_, ++bound_, value)); }
-
-    /// Whether there is a (further) row.
-    bool row() {
-        const int said = sqlite3_step(statement_);
-        if (said != SQLITE_ROW && said != SQLITE_DONE) store_.fail(sqlite3_sql(statement_));
-        return said == SQLITE_ROW;
-    }
-    std::string bytesAt(int column) const {
-        const void* bytes = sqlite3_column_blob(statement_, column);
-        const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
-        return bytes == nullptr ? std::string() : std::string(static_cast<const char*>(bytes), size);
-    }
-    std::int64_t numberAt(int column) const { return sqlite3_column_int64(statement_, column); }
-
-  private:
-    Query& bound(int said) {
-        if (said != SQLITE_OK) store_.fail("binding a value");
-        return *this;
-    }
-
-    const SqliteStore& store_;
-    sqlite3_stmt* statement_ = nullptr;
-    int bound_ = 0;
-};
-
-/// Undone unless committed.
-class SqliteStore::Transaction {
-  public:
-    explicit Transaction(SqliteStore& store) : store_(store) { store_.run("BEGIN IMMEDIATE"); }
-    Transaction(const Transaction&) = delete;
-    Transaction& operator=(const Transaction&) = delete;
-    ~Transaction() {
-        if (!committed_) sqlite3_exec(store_.database_, "ROLLBACK", nullptr, nullptr, nullptr);
-    }
-    void commit() {
-        store_.run("COMMIT");
-        committed_ = true;
-    }
-
-  private:
-    SqliteStore& store_;
-    bool committed_ = false;
-};
-
-SqliteStore::SqliteStore(std::string path) : path_(std::move(path)) {
-    std::error_code ignored;
-    const auto folder = std::filesystem::path(path_).parent_path();
-    if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
-    try {
-        if (sqlite3_open(path_.c_str(), &database_) != SQLITE_OK) fail("opening it");
-        sqlite3_extended_result_codes(database_, 1);
-        sqlite3_busy_timeout(database_, 2000);  // one that has just been killed may still be going
-        run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;"
-            "PRAGMA foreign_keys = ON; PRAGMA journal_size_limit = 16777216;");
-        Query version(*this, "PRAGMA user_version");
-        if (version.row() && version.numberAt(0) > 1) {
-            throw Outage(path_ + " was written by a later version of oval4d");
-        }
-    } catch (...) {
-        sqlite3_close(database_);
-        throw;
-    }
-    try {
-        run(kTables);
-        pulse();
-    } catch (...) {
-        sqlite3_close(database_);
-        throw;
-    }
-}
-
-SqliteStore::~SqliteStore() { sqlite3_close(database_); }
-
-void SqliteStore::fail(const std::string& what) const {
-    const int code = sqlite3_errcode(database_) & 0xFF;
-    if (code == SQLITE_BUSY || code == SQLITE_LOCKED) {
-        throw Outage(path_ + " is in use by another server; each needs a file of its own");
-    }
-    throw Outage(path_ + ": " + sqlite3_errmsg(database_) + " (" + what + ")");
-}
-
-void SqliteStore::run(const char* sql) {
-    if (sqlite3_exec(database_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail(sql);
-}
-
-std::int64_t SqliteStore::now() const {
+std::int64_t now() {
     return std::chrono::duration_cast<Milliseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-std::optional<std::string> SqliteStore::token(const std::string& id) {
-    Query query(*this, "SELECT token FROM session WHERE id = ?");
-    return query.text(id).row() ? std::optional(query.bytesAt(0)) : std::nullopt;
+/// An upper bound of the pages that updates take: rows share pages that are at least half full, and long values have
+/// their own pages.
+std::int64_t pagesFor(std::span<const RecordUpdate> updates) {
+    std::size_t pages = 8;  // interior pages of tables and indices
+    std::size_t small = 0;
+    for (const RecordUpdate& update : updates) {
+        const std::size_t bytes = bytesOf(update);
+        if (bytes < kPageSize / 4) {
+            small += 2 * bytes;
+        } else {
+            pages += bytes / kPageSize + 2 + update.polytopes.size();
+        }
+    }
+    return static_cast<std::int64_t>(pages + small / kPageSize);
+}
+
+/// Throws StoreError for an existing file that is not a store of oval4d, so that it is neither changed nor moved. A
+/// store has our application_id or, in version 1, the names of our tables on its first page. A database without tables
+/// is accepted, because they may still be in the write-ahead log.
+void refuseForeignFile(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string start(kPageSize, '\0');
+    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(file.gcount()));
+    constexpr std::string_view kMagic("SQLite format 3\0", 16);  // with the terminating zero
+    constexpr std::size_t kTableCount = 103;                     // offset of two bytes: the cells of sqlite_schema
+    const bool isDatabase = start.starts_with(kMagic);
+    const bool hasNoTables =
+        isDatabase && start.size() == kPageSize && start.compare(kTableCount, 2, std::string_view("\0\0", 2)) == 0;
+    const bool hasOurNumber =
+        start.size() > kApplicationIdAt && std::string_view(start).substr(kApplicationIdAt).starts_with(kApplicationId);
+    if (start.empty() || hasNoTables || hasOurNumber || start.find("CREATE TABLE session") != std::string::npos) return;
+    throw StoreError(path +
+                     (isDatabase ? " is the database of another program, or its first page is damaged"
+                                 : " is not a database of SQLite") +
+                     "; it was not changed: move it away, or give another path");
+}
+
+std::string listed(const std::set<std::string>& ids) {
+    std::string text;
+    std::size_t count = 0;
+    for (const std::string& id : ids) {
+        if (count++ == kMaxListedIds) return text + ",…";
+        text += (text.empty() ? "" : ",") + id;
+    }
+    return text;
+}
+
+/// Returns an unused name for the damaged file.
+std::string damagedName(const std::string& path) {
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    const std::string name =
+        path + fmt::format(".damaged-{:%Y%m%dT%H%M%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)));
+    for (int i = 1;; ++i) {
+        std::string candidate = i == 1 ? name : name + "-" + std::to_string(i);
+        if (!std::filesystem::exists(candidate)) return candidate;
+    }
+}
+
+void renameIfExists(const std::string& from, const std::string& to) {
+    std::error_code fault;
+    if (!std::filesystem::exists(from, fault)) return;
+    std::filesystem::rename(from, to, fault);
+    if (fault) throw StoreError(from + " cannot be renamed to " + to + ": " + fault.message());
+}
+
+}  // namespace
+
+SqliteStore::SqliteStore(std::string path, std::size_t quota) : path_(std::move(path)), maxPages_(pagesOf(quota)) {
+    open();
+    spdlog::info("store opened store={} sessions={}", name(), size_);
+}
+
+void SqliteStore::open() {
+    for (const char* beside : {"", "-wal", "-shm", "-journal"}) refuseUnsafe(path_ + beside);
+    refuseForeignFile(path_);
+    makePrivate(path_);
+    for (const char* beside : {"-wal", "-shm", "-journal"}) makePrivateIfExists(path_ + beside);
+    const std::string identity = identityOf(path_);
+    database_ = std::make_unique<Database>(path_);
+    try {
+        std::string damage;
+        try {
+            check();
+        } catch (const CorruptDatabase& fault) {
+            damage = fault.what();
+        }
+        // Another server may have renamed the file after this one opened it.
+        if (identityOf(path_) != identity) {
+            throw StoreError(path_ + " is in use by another server; each server needs its own file");
+        }
+        if (damage.empty()) {
+            setUp();
+        } else {
+            repair(damage);
+        }
+    } catch (...) {
+        database_.reset();
+        throw;
+    }
+}
+
+/// Throws CorruptDatabase if the file is damaged, and StoreError if it belongs to another program or was written by a
+/// later version. Changes nothing.
+void SqliteStore::check() {
+    const auto tables = database_->number("SELECT count(*) FROM sqlite_schema");
+    const auto version = database_->number("PRAGMA user_version");
+    if (version > kSchemaVersion) throw StoreError(path_ + " was written by a later version of oval4d");
+    const auto ours = database_->number("SELECT count(*) FROM sqlite_schema WHERE name IN ('session', 'polytope')");
+    if (tables > 0 && ours == 0) {
+        throw StoreError(path_ + " is the database of another program; it was not changed: give another path");
+    }
+    // Unlike quick_check, this also compares the indices with the tables.
+    Query check(*database_, "PRAGMA integrity_check(1)");
+    const std::string result = check.row() ? check.bytesAt(0) : "the integrity check returned nothing";
+    if (result != "ok") throw CorruptDatabase(path_ + ": " + result);
+    if (tables > 0 && ours < 2) throw CorruptDatabase(path_ + ": a table is missing");
+}
+
+void SqliteStore::setUp() {
+    database_->run("PRAGMA synchronous = NORMAL");
+    if (database_->number("SELECT count(*) FROM sqlite_schema") == 0) {
+        database_->run("PRAGMA auto_vacuum = INCREMENTAL; PRAGMA journal_mode = WAL; BEGIN IMMEDIATE");
+        database_->run(kSchema);
+        database_->run("COMMIT");
+    } else {
+        database_->run("PRAGMA journal_mode = WAL");
+        migrate();
+    }
+    const std::int64_t logPages = std::clamp<std::int64_t>(maxPages_ / 8, 16, 1000);
+    database_->run(("PRAGMA wal_autocheckpoint = " + std::to_string(logPages)).c_str());
+    database_->run(("PRAGMA journal_size_limit = " + std::to_string(logPages * std::int64_t{kPageSize})).c_str());
+    logDamagedRecords();
+    {
+        Query query(*database_,
+                    "UPDATE session SET touched = ?1 WHERE touched > ?1");  // a time in the future would delay expiry
+        query.number(now()).row();
+    }
+    if (const auto count = evictUntilFits(0, [](const std::string&) { return false; }); count > 0) {
+        spdlog::warn("sessions evicted, the store exceeds its quota count={} store={}", count, name());
+    }
+    releasePages(std::max<std::int64_t>(kMaxReleasedPages, usedPages()));
+    database_->run("PRAGMA wal_checkpoint(TRUNCATE)");
+    size_ = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));
+}
+
+/// Migrates a file of version 1, whose tokens are plain text and whose records have no digests, in one transaction. If
+/// the VACUUM afterwards fails, it is repeated when the file is opened next.
+void SqliteStore::migrate() {
+    if (database_->number("PRAGMA user_version") < kSchemaVersion) {
+        database_->run("PRAGMA foreign_keys = OFF");
+        {
+            Transaction all(*database_);
+            database_->run(
+                "ALTER TABLE session RENAME TO session_1; ALTER TABLE polytope RENAME TO polytope_1;"
+                "DROP INDEX IF EXISTS session_touched");
+            database_->run(kSchema);
+            database_->run(
+                "INSERT INTO session SELECT id, hash_of(token), fence, touched, 1, whole, head,"
+                "  digest_of(id, hash_of(token), whole), digest_of(id, head) FROM session_1;"
+                "INSERT INTO polytope SELECT session, key, bytes, digest_of(session, key, bytes) FROM polytope_1;"
+                "DROP TABLE polytope_1; DROP TABLE session_1");
+            all.commit();
+        }
+        database_->run("PRAGMA foreign_keys = ON");
+        spdlog::info("store migrated to version {} store={}", kSchemaVersion, name());
+    }
+    // Erase the plain-text tokens from free pages and from the write-ahead log.
+    constexpr std::int64_t kIncremental = 2;
+    if (database_->number("PRAGMA auto_vacuum") != kIncremental) {
+        database_->run("PRAGMA auto_vacuum = INCREMENTAL; VACUUM; PRAGMA wal_checkpoint(TRUNCATE)");
+    }
+}
+
+/// Copies the intact sessions into a new file, which replaces the damaged one.
+void SqliteStore::repair(const std::string& why) {
+    spdlog::error("store damaged store={} damage=\"{}\"", name(), why);
+    const std::string fresh = path_ + ".salvaged";
+    for (const char* beside : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(fresh + beside);
+    makePrivate(fresh);
+    SalvageResult salvaged;
+    {
+        Database to(fresh);
+        to.run("PRAGMA auto_vacuum = INCREMENTAL; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
+        to.run(kSchema);
+        salvaged = salvage(*database_, to);
+    }
+    // The log is renamed first: SQLite would take it for the new file's log.
+    const std::string aside = damagedName(path_);
+    database_->keepWriteAheadLog();
+    std::error_code missing;
+    if (std::filesystem::file_size(path_ + "-wal", missing) == 0 && !missing) std::filesystem::remove(path_ + "-wal");
+    renameIfExists(path_ + "-wal", aside + "-wal");
+    renameIfExists(path_, aside);
+    renameIfExists(fresh, path_);
+    database_.reset();  // releases the lock on the damaged file only after the renames
+    spdlog::error("store salvaged store={} saved={} lost={}{} lost_sessions={} set_aside={}", name(), salvaged.saved,
+                  salvaged.complete ? "" : "at least ", salvaged.lost.size(), listed(salvaged.lost), aside);
+    damage_.clear();
+    database_ = std::make_unique<Database>(path_);
+    try {
+        // A server that started at the same time may have locked the new file. It gives up once it sees the renames.
+        database_->run("PRAGMA busy_timeout = 30000");
+        setUp();
+        database_->run("PRAGMA busy_timeout = 2000");
+    } catch (...) {
+        database_.reset();  // the next operation opens the file again
+        throw;
+    }
+}
+
+/// Logs the sessions whose record does not match its digest: bit errors in a record do not make its pages inconsistent.
+/// The records are kept for inspection.
+void SqliteStore::logDamagedRecords() {
+    std::set<std::string> damaged;
+    Query query(
+        *database_,
+        "SELECT id FROM session WHERE digest <> digest_of(id, token_hash, whole) OR head_digest <> digest_of(id, head)"
+        " UNION SELECT session FROM polytope WHERE digest <> digest_of(session, key, bytes)");
+    while (query.row()) damaged.insert(query.bytesAt(0));
+    if (damaged.empty()) return;
+    const auto all = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));
+    spdlog::error("sessions damaged, and lost store={} kept={} lost={} lost_sessions={}", name(),
+                  all - std::min(all, damaged.size()), damaged.size(), listed(damaged));
+}
+
+/// Calls `work`. Damage that it finds is repaired by the next call: the caller of this one learns that the store
+/// failed, and saves the open sessions again once it works.
+template <typename Work>
+auto SqliteStore::withRepair(Work work) {
+    if (!database_) {
+        open();
+    } else if (!damage_.empty()) {
+        repair(std::string(damage_));
+    }
+    try {
+        return work();
+    } catch (const CorruptDatabase& fault) {
+        damage_ = fault.what();
+        throw;
+    }
+}
+
+std::optional<std::string> SqliteStore::tokenHash(const std::string& id) {
+    return withRepair([&]() -> std::optional<std::string> {
+        Query query(*database_, "SELECT token_hash FROM session WHERE id = ?");
+        return query.text(id).row() ? std::optional(query.bytesAt(0)) : std::nullopt;
+    });
+}
+
+bool SqliteStore::isDamaged(const std::string& id) {
+    return withRepair([&] {
+        Query query(*database_, "SELECT 1 FROM session WHERE id = ? AND digest <> digest_of(id, token_hash, whole)");
+        return query.text(id).row();
+    });
 }
 
 std::optional<Record> SqliteStore::claim(const std::string& id) {
-    Query query(*this, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ? RETURNING whole, head, fence");
-    if (!query.number(now()).text(id).row()) return std::nullopt;
-    Record record{query.bytesAt(0), query.bytesAt(1), {}, static_cast<Fence>(query.numberAt(2))};
-    query.row();  // to its end
-    Query polytopes(*this, "SELECT key, bytes FROM polytope WHERE session = ?");
-    polytopes.text(id);
-    while (polytopes.row()) record.polytopes.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
-    return record;
+    return withRepair([&]() -> std::optional<Record> {
+        try {
+            Query query(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
+            query.number(now()).text(id).row();
+        } catch (const NotWritable&) {
+            // The record can still be read, and no other server uses this file.
+        }
+        Query query(*database_,
+                    "SELECT whole, head, fence, digest = digest_of(id, token_hash, whole) AND "
+                    "head_digest = digest_of(id, head) FROM session WHERE id = ?");
+        if (!query.text(id).row()) return std::nullopt;
+        Record record{query.bytesAt(0), query.bytesAt(1), {}, static_cast<Fence>(query.numberAt(2)), {}};
+        if (query.numberAt(3) == 0) record.damage = "its record in the store is damaged";
+        Query polytopes(*database_,
+                        "SELECT key, bytes, digest = digest_of(session, key, bytes) FROM polytope WHERE session = ?");
+        polytopes.text(id);
+        while (polytopes.row()) {
+            record.polytopes.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
+            if (polytopes.numberAt(2) == 0) record.damage = "one of its polytopes in the store is damaged";
+        }
+        return record;
+    });
 }
 
-std::vector<Saved> SqliteStore::save(std::span<const Saving> savings) {
-    std::vector<Saved> said;
-    Transaction all(*this);
-    for (const Saving& saving : savings) said.push_back(saveOne(saving));
-    all.commit();
-    return said;
+std::vector<SaveResult> SqliteStore::save(std::span<const RecordUpdate> updates) {
+    return withRepair([&] {
+        if (usedPages() + pagesFor(updates) > maxPages_) {
+            throw NotWritable(path_ + ": open sessions use up the quota (--store-quota)");
+        }
+        std::vector<SaveResult> results;
+        Transaction all(*database_);
+        for (const RecordUpdate& update : updates) results.push_back(saveOne(update));
+        all.commit();
+        return results;
+    });
 }
 
-Saved SqliteStore::saveOne(const Saving& saving) {
-    const auto fence = static_cast<std::int64_t>(saving.fence);
-    if (!saving.whole.empty()) {
-        Query query(*this,
-                    "INSERT INTO session (id, token, fence, touched, whole, head) VALUES (?1, ?2, ?3, ?4, ?5, ?6) "
-                    "ON CONFLICT (id) DO UPDATE SET fence = ?3, touched = ?4, whole = ?5, head = ?6 WHERE fence <= ?3");
-        query.text(saving.ticket.id).text(saving.ticket.token).number(fence).number(now());
-        query.blob(saving.whole).blob(saving.head).row();
+SaveResult SqliteStore::saveOne(const RecordUpdate& update) {
+    const std::string& id = update.credentials.id;
+    const auto fence = static_cast<std::int64_t>(update.fence);
+    const std::int64_t changed = update.changed ? 1 : 0;
+    std::size_t written = 0;
+    if (!update.whole.empty()) {
+        const std::string hash = hashOf(update.credentials.token);
+        Query query(
+            *database_,
+            "INSERT INTO session VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, digest_of(?1, ?2, ?6), digest_of(?1, ?7)) "
+            "ON CONFLICT (id) DO UPDATE SET token_hash = ?2, fence = ?3, touched = ?4, changed = ?5, whole = ?6, "
+            "head = ?7, digest = digest_of(?1, ?2, ?6), head_digest = digest_of(?1, ?7) WHERE fence <= ?3");
+        query.text(id)
+            .text(hash)
+            .number(fence)
+            .number(now())
+            .number(changed)
+            .blob(update.whole)
+            .blob(update.head)
+            .row();
+        written = query.changes();
     } else {
-        Query query(*this, "UPDATE session SET fence = ?1, touched = ?2, head = ?3 WHERE id = ?4 AND fence <= ?1");
-        query.number(fence).number(now()).blob(saving.head).text(saving.ticket.id).row();
+        Query query(
+            *database_,
+            "UPDATE session SET fence = ?1, touched = ?2, changed = ?3, head = ?4, head_digest = digest_of(id, ?4) "
+            "WHERE id = ?5 AND fence <= ?1");
+        query.number(fence).number(now()).number(changed).blob(update.head).text(id).row();
+        written = query.changes();
     }
-    if (sqlite3_changes(database_) == 0) return token(saving.ticket.id) ? Saved::taken : Saved::missing;
-    for (const auto& [key, bytes] : saving.polytopes) {
-        Query query(*this, "INSERT OR REPLACE INTO polytope (session, key, bytes) VALUES (?, ?, ?)");
-        query.text(saving.ticket.id).text(key).blob(bytes).row();
+    if (written == 0) {
+        Query query(*database_, "SELECT 1 FROM session WHERE id = ?");
+        return query.text(id).row() ? SaveResult::taken : SaveResult::missing;
     }
-    for (const std::string& key : saving.dropped) {
-        Query query(*this, "DELETE FROM polytope WHERE session = ? AND key = ?");
-        query.text(saving.ticket.id).text(key).row();
+    for (const auto& [key, bytes] : update.polytopes) {
+        Query query(*database_, "INSERT OR REPLACE INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");
+        query.text(id).text(key).blob(bytes).row();
     }
-    return Saved::yes;
+    for (const std::string& key : update.dropped) {
+        Query query(*database_, "DELETE FROM polytope WHERE session = ? AND key = ?");
+        query.text(id).text(key).row();
+    }
+    return SaveResult::saved;
+}
+
+std::size_t SqliteStore::evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) {
+    return withRepair([&] { return evictUntilFits(pagesFor(updates), isPinned); });
+}
+
+std::size_t SqliteStore::evictUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned) {
+    const auto fits = [&] { return usedPages() + pagesNeeded <= maxPages_; };
+    if (fits()) return 0;
+    std::vector<std::string> candidates;
+    {
+        Query query(*database_, "SELECT id FROM session ORDER BY changed, touched");
+        while (query.row()) candidates.push_back(query.bytesAt(0));
+    }
+    std::size_t count = 0;
+    Transaction all(*database_);
+    for (const std::string& id : candidates) {
+        if (isPinned(id)) continue;
+        Query query(*database_, "DELETE FROM session WHERE id = ?");
+        query.text(id).row();
+        ++count;
+        if (fits()) break;
+    }
+    all.commit();
+    return count;
+}
+
+void SqliteStore::remove(std::span<const std::string> ids) {
+    withRepair([&] {
+        Transaction all(*database_);
+        for (const std::string& id : ids) {
+            Query query(*database_, "DELETE FROM session WHERE id = ?");
+            query.text(id).row();
+        }
+        all.commit();
+    });
 }
 
 void SqliteStore::touch(std::span<const std::string> ids) {
-    Transaction all(*this);
-    for (const std::string& id : ids) {
-        Query query(*this, "UPDATE session SET touched = ? WHERE id = ?");
-        query.number(now()).text(id).row();
-    }
-    all.commit();
+    withRepair([&] {
+        Transaction all(*database_);
+        for (const std::string& id : ids) {
+            Query query(*database_, "UPDATE session SET touched = ? WHERE id = ?");
+            query.number(now()).text(id).row();
+        }
+        all.commit();
+    });
 }
 
 std::size_t SqliteStore::expire(Milliseconds age) {
-    Query query(*this, "DELETE FROM session WHERE touched < ?");
-    query.number(now() - age.count()).row();
-    return static_cast<std::size_t>(sqlite3_changes(database_));
+    return withRepair([&] {
+        Query query(*database_, "DELETE FROM session WHERE touched < ?");
+        query.number(now() - age.count()).row();
+        return query.changes();
+    });
 }
 
-std::vector<std::string> SqliteStore::pulse() {
-    Query query(*this, "SELECT count(*) FROM session");
-    if (query.row()) size_ = static_cast<std::size_t>(query.numberAt(0));
+std::vector<std::string> SqliteStore::poll() {
+    withRepair([&] {
+        releasePages(kMaxReleasedPages);
+        size_ = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));
+    });
     return {};
+}
+
+std::int64_t SqliteStore::usedPages() {
+    return database_->number("PRAGMA page_count") - database_->number("PRAGMA freelist_count");
+}
+
+/// Releases at most `maxPages` free pages to the file system, and keeps a few for the next updates.
+void SqliteStore::releasePages(std::int64_t maxPages) {
+    constexpr std::int64_t kReservedPages = 64;
+    const std::int64_t free = database_->number("PRAGMA freelist_count");
+    if (free <= kReservedPages) return;
+    database_->run(
+        ("PRAGMA incremental_vacuum(" + std::to_string(std::min(maxPages, free - kReservedPages)) + ")").c_str());
 }
 
 }  // namespace oval4d::store

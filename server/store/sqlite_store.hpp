@@ -1,44 +1,59 @@
 #pragma once
-// Sessions kept in a file of SQLite: they outlive the server.
+// A store in an SQLite file: its sessions outlive the server.
 
-#include <string_view>
+#include <memory>
+#include <string>
 
+#include "store/sqlite_database.hpp"
 #include "store/store.hpp"
-
-struct sqlite3;
-struct sqlite3_stmt;
 
 namespace oval4d::store {
 
-/// One server's file. What is saved is safe from the process being killed at any moment: a commit is in the
-/// write-ahead log, which the system keeps. It is not flushed to the disk each time (synchronous = NORMAL), so that a
-/// power failure may lose the last moments; it does not damage the file.
+/// Uses a file that belongs to one server and that no other user can read. Saved records survive a kill of the
+/// process at any time, because each commit is in the write-ahead log. The log is not flushed to the disk at each
+/// commit (synchronous = NORMAL), so that a power failure may lose the latest commits, but does not damage the file.
+///
+/// Records carry digests, and the whole file is checked when it is opened. If its pages are found damaged, then or
+/// later, the intact sessions are copied into a new file, and the damaged file is renamed to PATH.damaged-TIME. A
+/// damaged record on intact pages is left unchanged. Both are logged.
 class SqliteStore final : public Store {
   public:
-    /// Opens or makes the file. Throws Outage where that cannot be, or where another server uses it.
-    explicit SqliteStore(std::string path);
-    ~SqliteStore() override;
+    /// Opens or creates the file. `quota` limits the bytes of the file and its write-ahead log together; only a single
+    /// update of more than an eighth of it may exceed it for a time. Throws StoreError if another server uses the file,
+    /// or if it is not a store of oval4d, not owned by the server's user, or not a regular file.
+    explicit SqliteStore(std::string path, std::size_t quota = kDefaultQuota);
 
     Pace pace() const override { return Pace::soon; }
     std::string name() const override { return "sqlite:" + path_; }
-    std::optional<std::string> token(const std::string& id) override;
+    std::optional<std::string> tokenHash(const std::string& id) override;
+    bool isDamaged(const std::string& id) override;
     std::optional<Record> claim(const std::string& id) override;
-    std::vector<Saved> save(std::span<const Saving> savings) override;
+    std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
+    std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) override;
+    void remove(std::span<const std::string> ids) override;
     void touch(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds age) override;
-    std::vector<std::string> pulse() override;
+    std::vector<std::string> poll() override;
     std::size_t size() const override { return size_; }
 
   private:
-    class Query;
-    class Transaction;
-    [[noreturn]] void fail(const std::string& what) const;
-    void run(const char* sql);
-    Saved saveOne(const Saving& saving);
-    std::int64_t now() const;
+    template <typename Work>
+    auto withRepair(Work work);
+    void open();
+    void check();
+    void setUp();
+    void migrate();
+    void repair(const std::string& why);
+    void logDamagedRecords();
+    SaveResult saveOne(const RecordUpdate& update);
+    std::size_t evictUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned);
+    std::int64_t usedPages();
+    void releasePages(std::int64_t maxPages);
 
     const std::string path_;
-    sqlite3* database_ = nullptr;
+    const std::int64_t maxPages_;
+    std::unique_ptr<Database> database_;  ///< null after a failed repair: the next operation opens the file again
+    std::string damage_;                  ///< found while the store was used, repaired by the next operation
     std::size_t size_ = 0;
 };
 

@@ -19,10 +19,9 @@
 #include <thread>
 #include <vector>
 
-#include "geometry/slicer.hpp"
-#include "render/image.hpp"
-#include "render/renderer.hpp"
-#include "scene/scene.hpp"
+#include "image/png.hpp"
+#include "raster/rasterizer.hpp"
+#include "session/object_loader.hpp"
 #include "session/query.hpp"
 
 namespace oval4d::bench {
@@ -31,24 +30,26 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 session::State stateOf(const std::string& polytope) {
-    const auto state = session::stateFromQuery({{"polytope", polytope}, {"slices", "21"}}, session::Limits{});
+    polytopes::PolytopeCache cache;
+    session::ObjectLoader loader(session::Limits{}, cache);
+    const auto state = session::stateFromQuery({{"polytope", polytope}, {"slices", "21"}}, session::Limits{}, loader);
     if (!state) throw std::runtime_error(state.error().message);
     session::State made = *state;
-    made.slices.spacing = std::sqrt(10.0) / 4 * made.polytope->circumradius / 10;
+    made.slices.spacing = std::sqrt(10.0) / 4 * slicing::infoOf(made.object).circumradius / 10;
     return made;
 }
 
 /// Passes images from a thread to another, two at most.
 class Handover {
   public:
-    void put(render::Image& image) {
+    void put(image::Image& image) {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [this] { return !full_; });
         std::swap(image, image_);
         full_ = true;
         changed_.notify_all();
     }
-    bool take(render::Image& image) {
+    bool take(image::Image& image) {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [this] { return full_ || over_; });
         if (!full_) return false;
@@ -66,40 +67,40 @@ class Handover {
   private:
     std::mutex mutex_;
     std::condition_variable changed_;
-    render::Image image_;
+    image::Image image_;
     bool full_ = false, over_ = false;
 };
 
 class Drawer {
   public:
-    explicit Drawer(const session::State& state) : state_(state) {}
+    Drawer(const session::State& state, parallel::ForkJoin& forkJoin)
+        : state_(state), rasterizer_(&forkJoin), encoder_(&forkJoin) {}
 
     void draw(int i) {
         state_.orientation = geometry::Rotation(
             geometry::Turn{geometry::Plane::xw, 0.3 + i * std::numbers::pi / 97, 0.2 + i * std::numbers::pi / 131});
-        slicer_.slice(*state_.polytope, state_.orientation, state_.hyperplanes(), set_);
-        scene::compose(*state_.polytope, set_.planes, state_.slices.focus, state_.look, {}, scene_, state_.orientation);
-        scene::fill(*state_.polytope, set_, scene_);
-        renderer_.draw(*state_.polytope, set_, scene_, image);
+        const scene::Viewport viewport;
+        image.width = viewport.width;
+        image.height = viewport.height;
+        image.pixels.resize(image::bytesOf(viewport));
+        raster::Times times;
+        rasterizer_.draw(state_, viewport, image.pixels, times);
     }
     void encode() { encoder_.encode(image, "", png_); }
 
-    render::Image image;
+    image::Image image;
 
   private:
     session::State state_;
-    geometry::Slicer slicer_;
-    geometry::SliceSet set_;
-    scene::Scene scene_;
-    render::Renderer renderer_;
-    render::PngEncoder encoder_;
+    raster::LocalRasterizer rasterizer_;
+    image::PngEncoder encoder_;
     std::vector<std::uint8_t> png_;
 };
 
 /// Latencies of the pictures made until `end`.
-void draw(const session::State& state, bool pipelined, std::atomic<int>& cold, const std::atomic<bool>& begun,
-          double seconds, std::vector<double>& latencies) {
-    Drawer drawer(state);
+void draw(const session::State& state, parallel::ForkJoin& forkJoin, bool pipelined, std::atomic<int>& cold,
+          const std::atomic<bool>& begun, double seconds, std::vector<double>& latencies) {
+    Drawer drawer(state, forkJoin);
     for (int i = 0; i < 12; ++i) drawer.draw(i), drawer.encode();
     --cold;
     cold.notify_all();
@@ -108,9 +109,9 @@ void draw(const session::State& state, bool pipelined, std::atomic<int>& cold, c
     std::optional<std::thread> encoding;
     Handover handover;
     if (pipelined) {
-        encoding.emplace([&handover] {
-            render::PngEncoder encoder;
-            render::Image image;
+        encoding.emplace([&] {
+            image::PngEncoder encoder(&forkJoin);
+            image::Image image;
             std::vector<std::uint8_t> png;
             while (handover.take(image)) encoder.encode(image, "", png);
         });
@@ -131,11 +132,13 @@ void draw(const session::State& state, bool pipelined, std::atomic<int>& cold, c
 
 void run(const std::string& polytope, int drawers, bool pipelined, double seconds) {
     const session::State state = stateOf(polytope);
+    parallel::ForkJoin forkJoin;
     std::vector<std::vector<double>> latencies(static_cast<std::size_t>(drawers));
     std::vector<std::thread> threads;
     std::atomic<int> cold = drawers;
     std::atomic<bool> begun = false;
-    for (auto& each : latencies) threads.emplace_back([&] { draw(state, pipelined, cold, begun, seconds, each); });
+    for (auto& each : latencies)
+        threads.emplace_back([&] { draw(state, forkJoin, pipelined, cold, begun, seconds, each); });
     for (int left = cold; left > 0; left = cold) cold.wait(left);
     std::puts("ready");
     std::fflush(stdout);

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -18,15 +19,16 @@
 
 #include "allocations.hpp"
 #include "libpng_encoder.hpp"
-#include "picture/painter.hpp"
-#include "protocol/cpp/codec.hpp"
+#include "pipeline/pipeline.hpp"
+#include "session/object_loader.hpp"
 #include "session/query.hpp"
+#include "wire/messages.hpp"
 
 namespace oval4d::bench {
 namespace {
 
 using nlohmann::json;
-using protocol::Encoding;
+using wire::Encoding;
 
 struct Job {
     std::string polytope;
@@ -59,19 +61,22 @@ class Samples {
 class Bench {
   public:
     explicit Bench(const Job& job) : job_(job) {
+        polytopes::PolytopeCache cache;
+        session::ObjectLoader loader(session::Limits{}, cache);
         const auto state = session::stateFromQuery({{"polytope", job.polytope}, {"slices", std::to_string(job.slices)}},
-                                                   session::Limits{});
+                                                   session::Limits{}, loader);
         if (!state) throw std::runtime_error(state.error().message);
         state_ = *state;
-        state_.slices.spacing = std::sqrt(10.0) / 4 * state_.polytope->circumradius / std::max(1, job.slices / 2);
+        state_.slices.spacing =
+            std::sqrt(10.0) / 4 * slicing::infoOf(state_.object).circumradius / std::max(1, job.slices / 2);
     }
 
     json run() {
-        const geometry::Polytope& p = *state_.polytope;
-        result_ = {{"polytope", p.name},
+        const auto [vertices, edges, faces, cells] = slicing::elementCounts(state_.object);
+        result_ = {{"polytope", slicing::infoOf(state_.object).name},
                    {"slices", job_.slices},
                    {"pixels", job_.viewport.width * job_.viewport.height},
-                   {"size", p.vertices.size() + p.edges.size() + p.faces.size() + p.cells.size()}};
+                   {"size", vertices + edges + faces + cells}};
         slices();
         messages(Encoding::json, "json");
         messages(Encoding::cbor, "cbor");
@@ -80,6 +85,12 @@ class Bench {
     }
 
   private:
+    static std::unique_ptr<raster::Rasterizer> makeRasterizer(parallel::ForkJoin& forkJoin) {
+        auto rasterizer = std::make_unique<raster::LocalRasterizer>(&forkJoin);
+        rasterizer->limitFill(pipeline::Pipeline::kFillSteps);
+        return rasterizer;
+    }
+
     // Calls step(i) after a warm-up, `least` times at least and for a while; notes what was allocated a step.
     template <typename Step>
     void repeat(const char* name, int least, Step&& step) {
@@ -104,17 +115,17 @@ class Bench {
 
     void cut(int i) {
         turn(i);
-        painter_.cut(state_, set_);
+        pipeline_.cut(state_, set_);
     }
 
     void slices() {
         std::size_t vertices = 0, edges = 0, faces = 0, steps = 0;
         repeat("slice", 50, [&](int i, Samples& whole) {
             cut(i);
-            whole.add(painter_.times().slice);
+            whole.add(pipeline_.times().slice);
             vertices += set_.vertices.size();
             edges += set_.edges.size();
-            faces += set_.faceOf.size();
+            faces += set_.faceSource.size();
             ++steps;
         });
         result_["cut"] = {vertices / steps, edges / steps, faces / steps};
@@ -126,9 +137,9 @@ class Bench {
         repeat(("state to " + name).c_str(), 50, [&](int i, Samples& whole) {
             whole.add(secondsOf([&] {
                 cut(i);
-                painter_.message(state_, set_, 1, {}, job_.viewport, encoding, text_);
+                pipeline_.message(state_, set_, 1, {}, job_.viewport, encoding, text_);
             }));
-            write.add(painter_.times().write);
+            write.add(pipeline_.times().write);
             bytes += text_.size();
             ++steps;
         });
@@ -142,16 +153,16 @@ class Bench {
         repeat("frame", job_.frames, [&](int i, Samples& whole) {
             whole.add(secondsOf([&] {
                 turn(i);
-                protocol::stateMessage(state_, 1, {}, text_);
-                painter_.frame(state_, text_, job_.viewport, png_);
+                wire::stateMessage(state_, 1, {}, text_);
+                pipeline_.frame(state_, text_, job_.viewport, png_);
             }));
-            compose.add(painter_.times().compose);
-            draw.add(painter_.times().draw);
-            encode.add(painter_.times().encode);
+            compose.add(pipeline_.times().compose);
+            draw.add(pipeline_.times().draw);
+            encode.add(pipeline_.times().encode);
         });
         for (int i = 0; i < std::min(job_.frames, 24); ++i) {
             turn(5 * i);
-            painter_.frame(state_, {}, job_.viewport, png_);
+            pipeline_.frame(state_, {}, job_.viewport, png_);
             const LibpngFile again = encodeByLibpng(png_);
             libpng.add(again.seconds);
             ours += png_.size();
@@ -168,8 +179,9 @@ class Bench {
 
     const Job job_;
     session::State state_ = session::initialState();
-    picture::Painter painter_;
-    geometry::SliceSet set_;
+    parallel::ForkJoin forkJoin_;
+    pipeline::Pipeline pipeline_{makeRasterizer(forkJoin_), &forkJoin_};
+    slicing::SliceSet set_;
     std::string text_;
     std::vector<std::uint8_t> png_;
     json result_;

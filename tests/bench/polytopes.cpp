@@ -6,8 +6,8 @@
 #include <memory>
 #include <sstream>
 
-#include "geometry/coxeter.hpp"
-#include "geometry/import.hpp"
+#include "polytopes/construction/coxeter.hpp"
+#include "polytopes/import/import.hpp"
 
 namespace oval4d::bench {
 namespace {
@@ -18,8 +18,8 @@ struct Subject {
     int p, q, r;                 ///< {p, q, r}
     std::array<bool, 4> ringed;  ///< mirrors
 
-    geometry::Diagram diagram() const { return geometry::Diagram::linear({p, 1}, {q, 1}, {r, 1}, ringed); }
-    geometry::Polytope build() const { return geometry::wythoff(name, diagram(), geometry::mirrorsOf(diagram())); }
+    polytopes::Diagram diagram() const { return polytopes::Diagram::linear({p, 1}, {q, 1}, {r, 1}, ringed); }
+    polytopes::Polytope build() const { return polytopes::wythoff(name, diagram(), polytopes::mirrorsOf(diagram())); }
 };
 constexpr Subject kSubjects[] = {
     {"5-cell", 3, 3, 3, {true, false, false, false}},
@@ -35,10 +35,10 @@ constexpr Subject kSubjects[] = {
 };
 
 /// Built once and kept.
-std::shared_ptr<const geometry::Polytope> subject(std::size_t number) {
-    static std::array<std::shared_ptr<const geometry::Polytope>, std::size(kSubjects)> built;
+std::shared_ptr<const polytopes::Polytope> subject(std::size_t number) {
+    static std::array<std::shared_ptr<const polytopes::Polytope>, std::size(kSubjects)> built;
     auto& slot = built.at(number);
-    if (!slot) slot = std::make_shared<const geometry::Polytope>(kSubjects[number].build());
+    if (!slot) slot = std::make_shared<const polytopes::Polytope>(kSubjects[number].build());
     return slot;
 }
 
@@ -50,12 +50,12 @@ void build(benchmark::State& state) {
     state.counters["size"] = static_cast<double>(p.vertices.size() + p.edges.size() + p.faces.size() + p.cells.size());
 }
 
-void writePoints(const geometry::Polytope& p, std::ostream& out) {
+void writePoints(const polytopes::Polytope& p, std::ostream& out) {
     out.precision(17);
     for (const auto& v : p.vertices) out << v.x << ' ' << v.y << ' ' << v.z << ' ' << v.w << '\n';
 }
 
-std::string off4(const geometry::Polytope& p) {
+std::string off4(const polytopes::Polytope& p) {
     std::ostringstream out;
     out << "4OFF\n" << p.vertices.size() << ' ' << p.faces.size() << " 0 " << p.cells.size() << '\n';
     writePoints(p, out);
@@ -69,26 +69,26 @@ std::string off4(const geometry::Polytope& p) {
     return out.str();
 }
 
-void read(benchmark::State& state, geometry::FileFormat format, const std::string& text) {
-    for (auto _ : state) benchmark::DoNotOptimize(geometry::importPolytope(format, text, "p", {}));
+void read(benchmark::State& state, polytopes::FileFormat format, const std::string& text) {
+    for (auto _ : state) benchmark::DoNotOptimize(polytopes::importPolytope(format, text, "p", {}));
     state.counters["bytes"] = static_cast<double>(text.size());
 }
 
 void importOff4(benchmark::State& state) {
     const auto polytope = subject(state.range(0));
     state.SetLabel(polytope->name + ", " + std::to_string(polytope->edges.size()) + " edges");
-    read(state, geometry::FileFormat::off4, off4(*polytope));
+    read(state, polytopes::FileFormat::off4, off4(*polytope));
 }
 
 // A duoprism of two n-gons: 2 n² edges.
 void importDuoprism(benchmark::State& state) {
-    geometry::Diagram diagram;
+    polytopes::Diagram diagram;
     const auto n = static_cast<int>(state.range(0));
     for (int i = 0; i < 4; i += 2) diagram.branches[i][i + 1] = diagram.branches[i + 1][i] = {n, 1};
     diagram.ringed = {true, false, true, false};
-    const auto polytope = geometry::wythoff("duoprism", diagram, geometry::mirrorsOf(diagram), 100'000);
+    const auto polytope = polytopes::wythoff("duoprism", diagram, polytopes::mirrorsOf(diagram), 100'000);
     state.SetLabel(std::to_string(polytope.edges.size()) + " edges");
-    read(state, geometry::FileFormat::off4, off4(polytope));
+    read(state, polytopes::FileFormat::off4, off4(polytope));
 }
 
 void importPoints(benchmark::State& state) {
@@ -96,7 +96,7 @@ void importPoints(benchmark::State& state) {
     state.SetLabel("hull of " + std::to_string(polytope->vertices.size()) + " points");
     std::ostringstream text;
     writePoints(*polytope, text);
-    read(state, geometry::FileFormat::points, text.str());
+    read(state, polytopes::FileFormat::points, text.str());
 }
 
 BENCHMARK(build)->DenseRange(0, std::ssize(kSubjects) - 1)->Unit(benchmark::kMillisecond);

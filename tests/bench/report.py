@@ -65,7 +65,8 @@ class Server:
     def __enter__(self):
         self.log = tempfile.NamedTemporaryFile(prefix="oval4d-", suffix=".log")
         self.process = subprocess.Popen([BIN / "oval4d", "--port", "0", "--max-requests", "1000000",
-                                         "--session-expiry", "2"], stderr=self.log,
+                                         "--session-expiry", "2", "--max-client-requests", "10000000",
+                                         "--max-new-sessions", "1000000", "--max-client-sessions", "1000000"], stderr=self.log,
                                         env={k: v for k, v in os.environ.items() if not k.startswith("OVAL4D")})
         for _ in range(200):
             time.sleep(0.05)

@@ -1,13 +1,13 @@
-// For those who do not see the picture, or use no mouse.
+// Accessibility: screen readers, the keyboard, reduced motion, contrast.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { openPage, openWithScript, ready } from "./support/browser.mjs";
 
-/** The dialogs, and the key that opens each. */
+/** The dialogs, with the key that opens each. */
 const dialogs = { picker: "s", export: "x", help: "?" };
 
-/** What is seen of the page with each dialog open. */
+/** Calls `look` with each dialog open. */
 async function withDialogs(page, look) {
     for (const [id, key] of Object.entries(dialogs)) {
         await page.keyboard.press(key);
@@ -49,16 +49,16 @@ test("accessibility: every control has a name", async () => {
             controls.some(({ role }) => role.value === "dialog"),
             id,
         );
-        assert.ok(controls.length > 1, "what lies under it is not there meanwhile");
+        assert.ok(controls.length > 1, "the dialog has controls");
         assert.ok(
             controls.every(({ role }) => role.value !== "application"),
-            "and not to be reached",
+            "the drawing under the dialog is not reachable",
         );
     });
     await close();
 });
 
-test("accessibility: the focus is visible wherever Tab leads, and Tab leads everywhere", async () => {
+test("accessibility: Tab reaches every control, and the focus is always visible", async () => {
     const { page, close } = await openWithScript();
     const count = await page.locator("button:visible, #drawing, #tools input:checked").count();
     const seen = new Set();
@@ -67,7 +67,7 @@ test("accessibility: the focus is visible wherever Tab leads, and Tab leads ever
         const focus = await page.evaluate(() => {
             const at = document.activeElement;
             if (at === document.body) return undefined;
-            const seen = at.type === "radio" ? at.nextElementSibling : at; // what stands for it
+            const seen = at.type === "radio" ? at.nextElementSibling : at; // a radio button is shown by its span
             const { outlineStyle, outlineWidth } = getComputedStyle(seen);
             const { borderTopWidth, content } = getComputedStyle(at, "::after");
             const framed = content !== "none" && parseFloat(borderTopWidth) >= 1;
@@ -91,7 +91,7 @@ test("accessibility: buttons work by keyboard", async () => {
     await close();
 });
 
-test("accessibility: changes are spoken once they have settled", async () => {
+test("accessibility: changes are announced after a pause", async () => {
     const { page, press, close } = await openWithScript();
     const spoken = (text) =>
         page.waitForFunction((wanted) => document.getElementById("spoken").textContent.includes(wanted), text);
@@ -110,7 +110,7 @@ test("accessibility: changes are spoken once they have settled", async () => {
     await close();
 });
 
-test("accessibility: who wants less motion gets none of the page's own", async () => {
+test("accessibility: with reduced motion, the page has no transitions or animations", async () => {
     const longest = (page) =>
         page.evaluate(() => {
             const times = [...document.querySelectorAll("*")].flatMap((one) => {
@@ -129,24 +129,24 @@ test("accessibility: who wants less motion gets none of the page's own", async (
     await lively.close();
 });
 
-/** Texts that stand out too little from their ground. */
+/** The texts with too little contrast to their background. */
 function faintTexts(page) {
     return page.evaluate(() => {
-        // What a colour is on the screen, however it is written.
+        // The color on the screen, for any CSS notation.
         const pen = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
-        const parse = (colour) => {
+        const parse = (color) => {
             pen.clearRect(0, 0, 1, 1);
-            pen.fillStyle = colour;
+            pen.fillStyle = color;
             pen.fillRect(0, 0, 1, 1);
             return [...pen.getImageData(0, 0, 1, 1).data];
         };
-        const light = (rgb) => {
+        const luminance = (rgb) => {
             const [r, g, b] = rgb.map((value) =>
                 value / 255 <= 0.04045 ? value / 255 / 12.92 : ((value / 255 + 0.055) / 1.055) ** 2.4,
             );
             return 0.2126 * r + 0.7152 * g + 0.0722 * b;
         };
-        const ground = (element) => {
+        const backgroundOf = (element) => {
             for (let at = element; at; at = at.parentElement) {
                 const [r, g, b, a] = parse(getComputedStyle(at).backgroundColor);
                 if (a === 255) return [r, g, b];
@@ -160,8 +160,8 @@ function faintTexts(page) {
             );
         });
         return texts.flatMap((element) => {
-            const [a, b] = [parse(getComputedStyle(element).color).slice(0, 3), ground(element)]
-                .map(light)
+            const [a, b] = [parse(getComputedStyle(element).color).slice(0, 3), backgroundOf(element)]
+                .map(luminance)
                 .sort((x, y) => y - x);
             const ratio = (a + 0.05) / (b + 0.05);
             return ratio < 4.5 ? [`${element.textContent}: ${ratio.toFixed(1)}`] : [];
@@ -169,7 +169,7 @@ function faintTexts(page) {
     });
 }
 
-test("accessibility: text stands out from its ground", async () => {
+test("accessibility: text has enough contrast", async () => {
     const { page, press, close } = await openWithScript();
     await press("4");
     assert.deepEqual(await faintTexts(page), []);

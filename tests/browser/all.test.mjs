@@ -1,4 +1,4 @@
-// All in one process: they share a browser, and the machine is not torn between them.
+// Runs all tests in one process: they share a browser, and do not compete for the processors.
 import "./picture.mjs";
 import "./keys.mjs";
 import "./buttons.mjs";
@@ -7,7 +7,7 @@ import "./command_line.mjs";
 import "./picker.mjs";
 import "./loading.mjs";
 import "./export.mjs";
-import "./colours.mjs";
+import "./colors.mjs";
 import "./connection.mjs";
 import "./links.mjs";
 import "./pointer.mjs";

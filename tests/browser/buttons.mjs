@@ -1,4 +1,4 @@
-// Every action has a button, and the button does what the key does.
+// Every action has a button that does the same as its key.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -15,11 +15,11 @@ asking.leave();
 
 const comparable = ({ id, revision, ...state }) => state;
 
-/** The state after what `act` does to a session that stands as it does at the start of each comparison. */
+/** The state after `act`, starting from the same state for each comparison. */
 async function outcome(script, { action }, act) {
     await script.request({ type: "set", polytope: "16-cell", view: "oval", turning: false, alpha: 0.3, beta: 0.2 });
     await script.request({ type: "reset" });
-    await script.request({ type: "set", shown: { faces: true, bars: true, balls: true, coordinates: true } });
+    await script.request({ type: "set", shown: { faces: true, bars: true, balls: true, coordinates: true, labels: true } });
     await script.request({ type: "set", slices: { count: 21, spacing: 0.14, focus: 2 } });
     await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.25, 0.5] });
     if (action === "redo") await script.request({ type: "undo" });
@@ -46,13 +46,13 @@ test("buttons: each does what its key does", async () => {
     assert.equal(
         await page.evaluate(() => document.activeElement.id),
         "drawing",
-        "the mouse leaves the keys where they are",
+        "clicking a button leaves the focus on the drawing",
     );
     assert.deepEqual(errors, []);
     await close();
 });
 
-test("buttons: turning is switched on and off, and shown", async () => {
+test("buttons: the button starts and stops turning, and shows which", async () => {
     const { page, script, press, close } = await openWithScript();
     await press("4");
     const button = page.locator('[data-action="turn"]');
@@ -65,7 +65,7 @@ test("buttons: turning is switched on and off, and shown", async () => {
     await close();
 });
 
-test("buttons: one that is held repeats until it is let go", async () => {
+test("buttons: a held button repeats until it is released", async () => {
     const { page, script, close } = await openWithScript();
     const { revision } = await script.state();
     await page.hover('[data-action="alpha_up"]');
@@ -77,24 +77,24 @@ test("buttons: one that is held repeats until it is let go", async () => {
     await page.locator("#drawing").focus();
     await page.keyboard.press("J");
     const after = await script.until((one) => one.beta < rest.beta, "another key's change");
-    assert.equal(after.alpha, rest.alpha, "nothing more came from the button");
+    assert.equal(after.alpha, rest.alpha, "the button sends nothing more");
     await close();
 });
 
-test("buttons: start again brings back the orientation, and the viewpoint", async () => {
+test("buttons: the reset buttons restore the orientation and the viewpoint", async () => {
     const { page, script, press, close } = await openWithScript();
     const { orientation } = await script.state();
     await press("4");
     await script.request({ type: "set", camera: { azimuth: 1, zoom: 2 } });
     await page.click("[data-own=reset]");
-    const turned = await script.until((one) => one.orientation[0][0] === 1, "the first orientation");
+    const turned = await script.until((one) => one.orientation[0][0] === 1, "the initial orientation");
     assert.deepEqual(turned.orientation, orientation);
     await page.click("[data-own=reset-view]");
-    await script.until(({ camera }) => camera.azimuth === 0 && camera.zoom === 1, "the first viewpoint");
+    await script.until(({ camera }) => camera.azimuth === 0 && camera.zoom === 1, "the initial viewpoint");
     await close();
 });
 
-test("buttons: the picture is saved as a PNG file that holds the state", async () => {
+test("buttons: the picture is saved as a PNG file that contains the state", async () => {
     const { page, script, press, close } = await openWithScript();
     const state = await press("y");
     const saving = page.waitForEvent("download");
@@ -113,7 +113,7 @@ test("buttons: the picture is saved as a PNG file that holds the state", async (
     await close();
 });
 
-test("buttons: the tools are put away and brought back, and the picture takes their place", async () => {
+test("buttons: the tools can be hidden and shown, and the picture uses the space", async () => {
     const { page, close } = await openWithScript();
     const width = () => page.evaluate(() => document.getElementById("drawing").clientWidth);
     const before = await width();

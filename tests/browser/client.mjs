@@ -1,4 +1,4 @@
-// The client of protocol/ts, as a script uses it.
+// The client of protocol/ts, used by a script.
 import assert from "node:assert/strict";
 
 import WebSocket from "ws";
@@ -13,7 +13,7 @@ import { within } from "./support/within.mjs";
 
 const { url } = await common();
 
-/** A client, and promises of what it is told next. */
+/** A client, and a function that returns a promise of its next event. */
 function listen(options) {
     const waiting = {};
     const told = (event) => (value) => waiting[event]?.(value);
@@ -30,7 +30,7 @@ function listen(options) {
     return { client, next: (event) => within(new Promise((resolve) => (waiting[event] = resolve)), event) };
 }
 
-test("client: slices come out alike from JSON and from CBOR", async () => {
+test("client: slices are the same from JSON and from CBOR", async () => {
     const pictures = [];
     for (const encoding of ["json", "cbor"]) {
         const { client, next } = listen({ stream: "geometry", encoding, viewport: { width: 640, height: 480 } });
@@ -51,7 +51,7 @@ test("client: slices come out alike from JSON and from CBOR", async () => {
     compare(cbor, json, "slices");
 });
 
-test("client: a frame that is asked for is not mistaken for one of the stream", async () => {
+test("client: a requested frame is not mistaken for one of the stream", async () => {
     const { client, next } = listen({ stream: "frames", viewport: { width: 320, height: 200 } });
     const first = next("frame");
     client.connect();
@@ -69,7 +69,7 @@ test("client: a frame that is asked for is not mistaken for one of the stream", 
     client.close();
 });
 
-test("client: errors come as errors, with their code", async () => {
+test("client: errors are RequestErrors with their code", async () => {
     const script = await joinSession(url);
     await assert.rejects(script.request({ type: "set", polytope: "25-cell" }), (error) => {
         assert.ok(error instanceof RequestError);
@@ -81,7 +81,7 @@ test("client: errors come as errors, with their code", async () => {
     await assert.rejects(script.state(), { code: "not_connected" });
 });
 
-test("client: it comes back to its session by itself", async () => {
+test("client: it reconnects to its session automatically", async () => {
     const proxy = await startProxy(url, "/under");
     const { client, next } = listen({ url: proxy.url });
     const opened = next("open");
@@ -94,7 +94,7 @@ test("client: it comes back to its session by itself", async () => {
     proxy.cut();
     await unanswered;
     await waiting;
-    proxy.mend();
+    proxy.restore();
     await again;
     assert.equal(client.credentials.session, session);
     assert.equal((await client.request({ type: "get", what: "state" })).polytope.name, "16-cell");

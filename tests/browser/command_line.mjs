@@ -1,4 +1,4 @@
-// The ':' line and the help sheet.
+// The command line and the help sheet.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -13,7 +13,7 @@ async function type(page, line) {
     await page.keyboard.press("Enter");
 }
 
-test("command line: carries out what is typed, and gives the focus back", async () => {
+test("command line: executes what is typed, and returns the focus", async () => {
     const { page, script, close } = await openWithScript();
     await type(page, "polytope 24-cell");
     await script.until((one) => one.polytope.name === "24-cell", "the 24-cell");
@@ -25,7 +25,7 @@ test("command line: carries out what is typed, and gives the focus back", async 
     await close();
 });
 
-test("command line: errors are readable, and what was typed stays to be mended", async () => {
+test("command line: errors are readable, and the typed line stays for correction", async () => {
     const { page, script, errors, close } = await openWithScript();
     const before = await script.state();
     await type(page, "polytope 25-cell");
@@ -52,7 +52,7 @@ test("command line: errors are readable, and what was typed stays to be mended",
     await close();
 });
 
-test("command line: the history is walked with the arrows, and survives a reload", async () => {
+test("command line: the arrow keys step through the history, which survives a reload", async () => {
     const { page, script, close } = await openWithScript();
     await type(page, "set slices=31");
     await script.until((one) => one.slices.count === 31, "31 slices");
@@ -71,7 +71,7 @@ test("command line: the history is walked with the arrows, and survives a reload
     await close();
 });
 
-test("command line: a value that is clicked can be typed over", async () => {
+test("command line: clicking a value opens the command that changes it", async () => {
     const { page, script, close } = await openWithScript();
     await page.click("button:has([data-reading=alpha])");
     await page.waitForSelector("#command:focus");
@@ -82,7 +82,7 @@ test("command line: a value that is clicked can be typed over", async () => {
     await close();
 });
 
-test("help: the sheet lists every key of the table, and closes as it opened", async () => {
+test("help: the sheet lists every key of the table, and the same key opens and closes it", async () => {
     const { page, script, close } = await openWithScript();
     const { keys } = await script.request({ type: "get", what: "keymap" });
     await page.keyboard.press("?");

@@ -1,4 +1,4 @@
-// A session outlives its connection, and the page says truthfully how things stand.
+// A session survives the loss of its connection, and the page reports the status.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -25,7 +25,7 @@ test("connection: a reload keeps the session", async () => {
     await close();
 });
 
-test("connection: a broken one is said, mended by itself, and the session goes on", async () => {
+test("connection: a lost connection is reported and restored, and the session continues", async () => {
     const { url } = await common();
     const proxy = await startProxy(url, "/deep/inside");
     const { page, close } = await openPage({ url: proxy.url });
@@ -35,10 +35,10 @@ test("connection: a broken one is said, mended by itself, and the session goes o
     await page.waitForFunction(() => /trying again/.test(document.getElementById("connection").textContent));
     assert.equal(await page.locator("#stale").isVisible(), true);
     assert.match(await page.locator("#stale").textContent(), /Not connected.*picture is from .*\d/);
-    proxy.mend();
+    proxy.restore();
     await isOpen(page);
     assert.equal(await page.locator("#stale").isVisible(), false);
-    assert.equal(await connection(page), "connected");
+    assert.equal(await connection(page), "Connected");
     await page.locator("#drawing").focus();
     await page.keyboard.press("y");
     const { revision } = await script.until((one) => one.last !== null, "a key in the old session");
@@ -48,7 +48,7 @@ test("connection: a broken one is said, mended by itself, and the session goes o
     await proxy.stop();
 });
 
-test("connection: behind a path prefix everything is asked for under it", async () => {
+test("connection: behind a path prefix, all requests are under the prefix", async () => {
     const proxy = await startProxy((await common()).url, "/maths/oval");
     const { page, errors, close } = await openPage({ url: `${proxy.url}?polytope=8-cell` });
     await ready(page);
@@ -62,7 +62,7 @@ test("connection: behind a path prefix everything is asked for under it", async 
     await proxy.stop();
 });
 
-test("connection: the page bears a strict content security policy", async () => {
+test("connection: the page works under a strict content security policy", async () => {
     const policy = { "content-security-policy": "default-src 'self'; object-src 'none'; base-uri 'none'" };
     const proxy = await startProxy((await common()).url, "/strict", policy);
     const { page, errors, close } = await openPage({ url: proxy.url });
@@ -84,7 +84,7 @@ test("connection: the page bears a strict content security policy", async () => 
     await proxy.stop();
 });
 
-test("connection: after a restart of the server the view goes on in a new session, and the page says so", async () => {
+test("connection: after a restart of the server, a new session has the same view, and the page says so", async () => {
     const server = await startServer();
     const { page, close } = await openPage({ url: server.url });
     await ready(page);
@@ -119,17 +119,17 @@ test("connection: after a restart of the server the view goes on in a new sessio
     await again.stop();
 });
 
-test("connection: a server that is not there is said too", async () => {
+test("connection: an unreachable server is reported", async () => {
     const server = await startServer();
     const { page, close } = await openPage({ url: server.url });
     await server.stop();
     await page.waitForSelector("#connection[data-kind=waiting]");
-    // The reason changes from the one that the server gave to what is found when trying again.
-    await page.waitForFunction(() => /no answer/.test(document.getElementById("connection").textContent));
+    // The first reason is the one that the server gave; the next attempt finds another.
+    await page.waitForFunction(() => /No answer/.test(document.getElementById("connection").textContent));
     await close();
 });
 
-test("connection: a page that nobody looks at asks for no pictures", async () => {
+test("connection: a hidden page requests no pictures", async () => {
     const { page, script, close } = await openWithScript();
     const asked = (hidden) =>
         page.evaluate((value) => {

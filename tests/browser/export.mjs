@@ -1,4 +1,4 @@
-// The export dialog: what it lets be chosen, and the files that come of it.
+// The export dialog: its options, and the files that it makes.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -10,7 +10,7 @@ import { pngText } from "./node_modules/.oval4d/client.mjs";
 
 const text = (bytes, length = bytes.length) => Buffer.from(bytes.subarray(0, length)).toString();
 
-/** Width, height and depth of the box around a binary STL's triangles. */
+/** The width, height and depth of the bounding box of a binary STL file. */
 function boxOf(stl) {
     const [least, most] = [
         [Infinity, Infinity, Infinity],
@@ -34,7 +34,7 @@ async function openExport(page) {
     await page.waitForSelector("#export[open]");
 }
 
-/** Chooses as a user does: radio buttons lie under their labels' text. */
+/** Clicks the label of a radio button, as a user does. */
 async function choose(page, name, value) {
     await page.locator(`#export label:has([name=${name}][value="${value}"])`).click();
 }
@@ -50,7 +50,7 @@ async function exported(page, choices = {}, numbers = {}) {
     return { name: download.suggestedFilename(), bytes: await bytesOf(download) };
 }
 
-test("export: every format gives its file, under a name that says what it is", async () => {
+test("export: every format makes its file, with a descriptive name", async () => {
     const { page, script, press, errors, close } = await openWithScript();
     await script.request({ type: "set", polytope: "24-cell" });
     await press("4");
@@ -63,43 +63,44 @@ test("export: every format gives its file, under a name that says what it is", a
         off: /^(#.*\n)*4OFF/,
         csv: /^n,w,/,
         svg: /^<(\?xml|svg)/,
+        x3d: /^<\?xml[^]*<X3D/,
     };
     for (const [format, expected] of Object.entries(begins)) {
         const { name, bytes } = await exported(page, { format });
         assert.match(name, new RegExp(`^24-cell.*\\.${format}$`));
         assert.match(text(bytes, 400), expected, format);
     }
-    assert.equal(await page.evaluate(() => document.activeElement.id), "drawing", "the focus is given back");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "drawing", "the focus is returned");
     await press("4");
     assert.deepEqual(errors, []);
     await close();
 });
 
-test("export: size, body and extent are as chosen", async () => {
+test("export: size, body and slices are as chosen", async () => {
     const { page, script, close } = await openWithScript();
     await script.request({ type: "set", polytope: "8-cell" });
     await named(page, "8-cell");
-    // At w = 0 the tesseract's slice is its cube: a side is half the diameter.
+    // The tesseract's slice at w = 0 is a cube whose side is half the diameter of the tesseract's circumscribed sphere.
     const solid = await exported(page, { format: "stl" }, { size: 80 });
     boxOf(solid.bytes).forEach((side) => assert.ok(Math.abs(side - 40) < 0.01, `a side of ${side} mm`));
     assert.equal(solid.name, "8-cell-w-0.stl");
-    const frame = await exported(page, { body: "frame" }); // the rest is remembered
+    const frame = await exported(page, { body: "frame" }); // the other choices are remembered
     assert.equal(frame.name, "8-cell-w-0-frame.stl");
     assert.ok(
         boxOf(frame.bytes).every((side) => side > 40.5 && side < 50),
-        "balls stand out from the corners",
+        "balls protrude at the corners",
     );
     const oval = await exported(page, { body: "solid", of: "oval" });
     assert.equal(oval.name, "8-cell-oval.stl");
-    assert.ok(boxOf(oval.bytes)[0] > 100, "many slices stand beside each other");
+    assert.ok(boxOf(oval.bytes)[0] > 100, "the slices are side by side");
     await page.reload();
     await page.waitForSelector("[data-action=help]", { state: "attached" });
     await openExport(page);
-    assert.equal(await page.inputValue("#export [name=size]"), "80", "and remembered over a reload");
+    assert.equal(await page.inputValue("#export [name=size]"), "80", "the choices survive a reload");
     await close();
 });
 
-test("export: only what the format leaves is asked", async () => {
+test("export: only the options of the format are shown", async () => {
     const { page, close } = await openWithScript();
     await openExport(page);
     const asked = () =>
@@ -119,7 +120,7 @@ test("export: only what the format leaves is asked", async () => {
     await close();
 });
 
-test("export: the keyboard is enough", async () => {
+test("export: works with the keyboard alone", async () => {
     const { page, close } = await openWithScript();
     await openExport(page);
     assert.equal(await page.evaluate(() => document.activeElement.name), "format");
@@ -140,7 +141,7 @@ test("export: the keyboard is enough", async () => {
     await close();
 });
 
-test("export: a PNG has the size chosen, and holds the state", async () => {
+test("export: a PNG has the chosen size, and contains the state", async () => {
     const { page, script, press, close } = await openWithScript();
     const state = await press("y");
     await openExport(page);
@@ -161,7 +162,7 @@ test("export: a PNG has the size chosen, and holds the state", async () => {
     await close();
 });
 
-test("export: a refusal is read in the dialog, and what was chosen stays", async () => {
+test("export: an error is shown in the dialog, and the choices stay", async () => {
     const server = await startServer({ options: ["--max-file-triangles", "1000"] });
     const { page, script, errors, close } = await openWithScript({ url: server.url });
     await openExport(page);
@@ -174,9 +175,9 @@ test("export: a refusal is read in the dialog, and what was chosen stays", async
     assert.equal(await page.locator("#export").isVisible(), true);
     assert.equal(await page.locator("#export-submit").isEnabled(), true);
     await choose(page, "body", "solid");
-    assert.equal(await page.locator("#export-error").textContent(), "", "it is gone when one goes on");
+    assert.equal(await page.locator("#export-error").textContent(), "", "the error disappears with the next choice");
     await page.keyboard.press("Escape");
-    await script.request({ type: "set", slices: { focus: 100 } }); // far outside
+    await script.request({ type: "set", slices: { focus: 100 } }); // far outside the polytope
     await openExport(page);
     await page.click("#export-submit");
     await page.waitForFunction(() => /empty|flat/.test(document.getElementById("export-error").textContent));
@@ -185,7 +186,7 @@ test("export: a refusal is read in the dialog, and what was chosen stays", async
     await server.stop();
 });
 
-test("export: the 4OFF file is imported again as the same polytope", async () => {
+test("export: importing the 4OFF file gives the same polytope", async () => {
     const { page, script, close } = await openWithScript();
     await script.request({ type: "set", polytope: "600-cell" });
     await script.request({ type: "rotate", planes: ["xw"], angles: [0.4] });

@@ -1,4 +1,4 @@
-// Every key of the table does what it says, seen by the page and by a second client.
+// Every key of the table has its effect, as seen on the page and by a second client.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -8,7 +8,7 @@ import { joinSession } from "./support/script.mjs";
 const kAxes = "xyzw";
 const close = (a, b) => Math.abs(a - b) < 1e-9;
 
-/** R · M for rotations by these angles in these planes. */
+/** The product R · M for rotations R by these angles in these planes. */
 function turned(matrix, planes, angles) {
     const out = matrix.map((row) => [...row]);
     planes.forEach((plane, i) => {
@@ -28,7 +28,7 @@ function assertMatrix(actual, expected) {
 const toggles = (part) => (before, after) => assert.equal(after.shown[part], !before.shown[part]);
 const adds = (angle, sign) => (before, after) => assert.ok(close(after[angle], before[angle] + sign * before.step));
 
-/** What the state is to be after each action. */
+/** Checks of the state after each action. */
 const effects = {
     rotate: (before, after, { planes }) => {
         assertMatrix(after.orientation, turned(before.orientation, planes, [before.alpha, before.beta]));
@@ -56,12 +56,13 @@ const effects = {
     polytope_previous: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
     view: (_, after) => assert.equal(after.view, "single"),
     coordinates: toggles("coordinates"),
+    labels: toggles("labels"),
     faces: toggles("faces"),
     bars: toggles("bars"),
     balls: toggles("balls"),
 };
 
-/** As Playwright presses it, on a US keyboard. */
+/** The key presses of a binding in Playwright's notation, on a US keyboard. */
 function strokes({ key, code, ctrl }, inverse = false) {
     if (key.length > 1) return [...key];
     const name = code ?? (/[A-Z]/.test(key) ? `Shift+${key}` : key);
@@ -69,11 +70,11 @@ function strokes({ key, code, ctrl }, inverse = false) {
     return [inverse ? (code ? `Shift+${code}` : `Shift+${key.toUpperCase()}`) : name];
 }
 
-/** The same state before each key: rotated, off the middle, with something to undo and to redo. */
+/** Sets the same state before each key: rotated, focus not at w = 0, with something to undo or redo. */
 async function prepare(script, { action }) {
     await script.request({ type: "set", polytope: "24-cell", view: "oval", turning: false });
     await script.request({ type: "reset" });
-    await script.request({ type: "set", shown: { faces: true, bars: true, balls: true, coordinates: true } });
+    await script.request({ type: "set", shown: { faces: true, bars: true, balls: true, coordinates: true, labels: true } });
     await script.request({ type: "set", alpha: 0.3, beta: 0.2, slices: { count: 21, spacing: 0.2, focus: 2 } });
     await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.25, 0.5] });
     if (action === "redo") await script.request({ type: "undo" });
@@ -85,13 +86,13 @@ const asking = await joinSession(url);
 const { keys: table } = await asking.request({ type: "get", what: "keymap" });
 asking.leave();
 
-test("keys: the table has them all", () => {
+test("keys: the table is complete", () => {
     const names = table.map(({ name }) => name).sort();
-    const expected = [..."234567rtykjKJlh0Gu.[]{}sinNopfbex:?", "gg", "Ctrl-r", "Space"].sort();
+    const expected = [..."234567rtykjKJlh0Gu.[]{}sinNopafbex:?", "gg", "Ctrl-r", "Space"].sort();
     assert.deepEqual(names, expected);
 });
 
-let shared; // one page serves for all keys
+let shared; // one page for all keys
 
 for (const binding of table.filter(({ client }) => !client)) {
     test(`keys: ${binding.name} – ${binding.text}`, async () => {
@@ -113,7 +114,7 @@ for (const binding of table.filter(({ client }) => !client)) {
             assertMatrix(back.orientation, before.orientation);
         }
         if (binding.action === "turn") {
-            const later = await script.until((one) => one.revision > after.revision + 2, "the turning to go on");
+            const later = await script.until((one) => one.revision > after.revision + 2, "the turning to continue");
             assert.notDeepEqual(later.orientation, after.orientation);
             await page.keyboard.press("Space");
             await script.until((one) => !one.turning, "the turning to stop");
@@ -122,14 +123,14 @@ for (const binding of table.filter(({ client }) => !client)) {
     });
 }
 
-/** A key event as a keyboard of another layout makes it. */
+/** Sends a key event as a keyboard with another layout does. */
 async function dispatch(page, event) {
     const session = await page.context().newCDPSession(page);
     for (const type of ["keyDown", "keyUp"]) await session.send("Input.dispatchKeyEvent", { type, ...event });
     await session.detach();
 }
 
-test("keys: a digit is the physical key, so Shift with it is the inverse on every layout", async () => {
+test("keys: a digit is recognized by the physical key, so Shift with it is the inverse on every layout", async () => {
     const layouts = [
         { shifted: '"', plain: "2" }, // British, German
         { shifted: "2", plain: "é" }, // French
@@ -148,7 +149,7 @@ test("keys: a digit is the physical key, so Shift with it is the inverse on ever
     }
 });
 
-test("keys: brackets may need AltGr, and letters another script's keyboard", async () => {
+test("keys: brackets typed with AltGr, and letters typed on keyboards of another script, are recognized", async () => {
     const { page, script, close: end } = await openWithScript();
     const type = async (event, holds) => {
         await page.evaluate((init) => {
@@ -166,7 +167,7 @@ test("keys: brackets may need AltGr, and letters another script's keyboard", asy
     await end();
 });
 
-test("keys: what is not ours is left alone", async () => {
+test("keys: other keys are left to the browser", async () => {
     const { page, script, close: end } = await openWithScript();
     const { revision } = await script.state();
     await page.evaluate(() => {
@@ -181,14 +182,14 @@ test("keys: what is not ours is left alone", async () => {
         document.getElementById("drawing").dispatchEvent(composing);
     });
     assert.ok((await page.evaluate(() => window.prevented)).every((prevented) => !prevented));
-    // One that is ours goes through the same channel: all before it has been dealt with by then.
+    // A known key follows on the same connection: when it takes effect, everything before it has been processed.
     await page.keyboard.press("k");
     const after = await script.until((one) => one.revision > revision, "a change by k");
     assert.equal(after.revision, revision + 1);
     await end();
 });
 
-test("keys: they act only while the drawing has the focus, which it has from the start", async () => {
+test("keys: they act only while the drawing has the focus, as it has at the start", async () => {
     const { page, script, press, close: end } = await openWithScript();
     assert.equal(await page.evaluate(() => document.activeElement.id), "drawing");
     const { revision } = await press("k");
@@ -200,7 +201,7 @@ test("keys: they act only while the drawing has the focus, which it has from the
     await end();
 });
 
-test("keys: a held key repeats no faster than pictures come, and stops when it is let go", async () => {
+test("keys: a held key repeats no faster than pictures arrive, and stops when released", async () => {
     const { page, script, close: end } = await openWithScript();
     await script.request({ type: "set", polytope: "600-cell" });
     await page.evaluate(() => {
@@ -224,6 +225,6 @@ test("keys: a held key repeats no faster than pictures come, and stops when it i
     await page.keyboard.up("y");
     const { sent, most } = await page.evaluate(() => ({ sent: window.sent, most: window.most }));
     assert.ok(sent >= 3 && sent < pressed, `${sent} of ${pressed} were sent`);
-    assert.equal(most, 1, "the next goes when the last one's picture was seen");
+    assert.equal(most, 1, "a key is sent only after the previous one's picture was presented");
     await end();
 });

@@ -1,4 +1,4 @@
-// Addresses that open a view, and links that share a session.
+// URLs that open a view, and links that share a session.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -22,7 +22,7 @@ test("links: a query opens its view", async () => {
     await presented(page, state.revision);
     assert.deepEqual(errors, []);
 
-    // A reload does not turn it again, another query opens another view.
+    // A reload does not repeat the rotation; another query opens another view.
     await page.reload();
     await ready(page);
     assert.equal((await script.state()).revision, state.revision);
@@ -32,7 +32,7 @@ test("links: a query opens its view", async () => {
     await close();
 });
 
-test("links: a fault in a query is told, and the rest of it holds", async () => {
+test("links: an error in a query is reported, and the rest of the query applies", async () => {
     const { page, errors, close } = await openPage({ url: `${url}?polytope=25-cell&slices=11` });
     await page.waitForFunction(() => /25-cell/.test(document.getElementById("notice").textContent));
     await page.waitForFunction(() => document.querySelector("[data-reading=slices]").textContent === "11");
@@ -48,7 +48,7 @@ test("links: a shared link joins the session, and both see every change", async 
     const link = await first.page.evaluate(() => navigator.clipboard.readText());
     const second = await openPage({ url: link });
     await ready(second.page);
-    assert.equal(second.page.url(), url, "the token does not stay in the address");
+    assert.equal(second.page.url(), url, "the token does not stay in the URL");
     const { revision } = await first.press("y");
     await presented(second.page, revision);
     await second.page.locator("#drawing").focus();
@@ -60,7 +60,7 @@ test("links: a shared link joins the session, and both see every change", async 
     await first.close();
 });
 
-test("links: a link to a session that cannot be opened is told, and a new one begins", async () => {
+test("links: a session that cannot be opened is reported, and a new one begins", async () => {
     const { script, close } = await openWithScript();
     const { session } = script.client.credentials;
     for (const fragment of ["session=nonesuch&token=x", `session=${session}&token=wrong`]) {

@@ -1,4 +1,4 @@
-// Files from the user's disk: chosen, or dropped on the page.
+// Loading files from the user's disk, chosen or dropped on the page.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -12,7 +12,7 @@ const simplex = `# a simplex\n4OFF\n5 10 10 5\n${kVertices}${kFaces}4 0 1 3 6\n4
 
 const report = (page) => page.locator("#loading .report").innerText();
 
-/** Drops files on the drawing as the browser does. */
+/** Drops files on the drawing; returns whether the page showed the drop target. */
 async function drop(page, ...files) {
     const transfer = await page.evaluateHandle(
         (all) => {
@@ -28,9 +28,9 @@ async function drop(page, ...files) {
     return invited;
 }
 
-test("loading: a file that is dropped is shown under its name", async () => {
+test("loading: a dropped file is shown under its name", async () => {
     const { page, script, press, errors, close } = await openWithScript();
-    assert.ok(await drop(page, file("my simplex.off", simplex)), "while it is over the page, it is invited");
+    assert.ok(await drop(page, file("my simplex.off", simplex)), "the drop target is shown during the drag");
     assert.equal(await page.locator("#drop").isVisible(), false);
     const { polytope } = await script.until((one) => one.polytope.name === "my simplex.off", "the file's polytope");
     assert.deepEqual([polytope.vertices, polytope.edges, polytope.faces, polytope.cells], [5, 10, 10, 5]);
@@ -41,9 +41,9 @@ test("loading: a file that is dropped is shown under its name", async () => {
     await close();
 });
 
-test("loading: a key and a button let a file be chosen", async () => {
+test("loading: a key and a button open the file chooser", async () => {
     const { page, script, close } = await openWithScript();
-    page.on("filechooser", () => {}); // the browser is to ask the test from here on
+    page.on("filechooser", () => {}); // from here on, the browser reports file choosers to the test
     await page.evaluate(() => {});
     const openers = [() => page.keyboard.press("i"), () => page.click("[data-action=open]")];
     for (const [i, open] of openers.entries()) {
@@ -55,7 +55,7 @@ test("loading: a key and a button let a file be chosen", async () => {
     await close();
 });
 
-test("loading: a faulty file is told with the line, and the line is shown", async () => {
+test("loading: the error of a faulty file names the line, and the line is shown", async () => {
     const { page, script, errors, close } = await openWithScript();
     const { revision } = await script.state();
     await drop(page, file("faulty.off", simplex.replace("3 0 2 4", "3 0 2 17")));
@@ -66,7 +66,7 @@ test("loading: a faulty file is told with the line, and the line is shown", asyn
     await page.focus("#loading [data-close]");
     await page.keyboard.press("Enter");
     assert.equal(await page.locator("#loading").isVisible(), false);
-    assert.equal(await page.evaluate(() => document.activeElement.id), "drawing", "the focus is given back");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "drawing", "the focus is returned");
     await drop(page, file("faulty.off", simplex.replace("5 10 10 5", "5 ten 10 5")));
     await page.waitForFunction(() => /line 3/i.test(document.querySelector("#loading .report").textContent));
     await page.keyboard.press("Escape");
@@ -75,12 +75,12 @@ test("loading: a faulty file is told with the line, and the line is shown", asyn
     await close();
 });
 
-test("loading: what cannot be read is refused before it is sent", async () => {
+test("loading: unreadable files are refused before they are sent", async () => {
     const server = await startServer({ options: ["--max-message", "4096"] });
     const { page, script, close } = await openWithScript({ url: server.url });
     const cases = [
-        [`# ${"x".repeat(5000)}`, /too large: 5 KiB .* takes 4 KiB/],
-        ["\n".repeat(3000), /too large/], // as JSON it has twice the bytes
+        [`# ${"x".repeat(5000)}`, /too large: 5 KiB .* up to 4 KiB/],
+        ["\n".repeat(3000), /too large/], // twice as long in JSON
         ["", /empty/],
         ["PK\u0003\u0004\0\0", /not a text file/],
     ];
@@ -92,14 +92,14 @@ test("loading: what cannot be read is refused before it is sent", async () => {
         );
         await page.click("#loading [data-close]");
     }
-    assert.equal(await page.locator("#connection").getAttribute("data-kind"), "open", "the connection lives");
+    assert.equal(await page.locator("#connection").getAttribute("data-kind"), "open", "the connection is still open");
     await page.setInputFiles("#file", file("b.off", simplex));
     await script.until((one) => one.polytope.name === "b.off", "a file within the limit");
     await close();
     await server.stop();
 });
 
-test("loading: how far it has come is shown and said", async () => {
+test("loading: the progress is shown and announced", async () => {
     const { page, script, close } = await openWithScript();
     await page.evaluate(() => {
         window.seen = [];
@@ -116,14 +116,14 @@ test("loading: how far it has come is shown and said", async () => {
     await page.waitForSelector("#loading", { state: "hidden" });
     const seen = await page.evaluate(() => window.seen);
     assert.ok(
-        seen.some(([busy, visible, said]) => busy === "true" && visible && said === "Reading"),
+        seen.some(([busy, visible, said]) => busy === "true" && visible && said === "Reading the file"),
         String(seen),
     );
     assert.equal(await page.getAttribute("#loading", "aria-busy"), null);
     await close();
 });
 
-test("loading: after a restart of the server the file is there again", async () => {
+test("loading: after a restart of the server, the file is loaded again", async () => {
     const server = await startServer();
     const { page, script, close } = await openWithScript({ url: server.url });
     await page.setInputFiles("#file", file("kept.off", simplex));
@@ -142,10 +142,10 @@ test("loading: after a restart of the server the file is there again", async () 
     await again.stop();
 });
 
-test("loading: a polytope that cannot be had again leaves the rest of the view", async () => {
+test("loading: if a polytope cannot be loaded again, the rest of the view is restored", async () => {
     const server = await startServer();
     const { page, script, close } = await openWithScript({ url: server.url });
-    await script.request({ type: "load", name: "another's", format: "off", data: simplex }); // not by this page
+    await script.request({ type: "load", name: "another's", format: "off", data: simplex }); // not loaded by this page
     const { revision: turned } = await script.request({ type: "set", alpha: 0.25 });
     await presented(page, turned);
     script.leave();
@@ -162,7 +162,7 @@ test("loading: a polytope that cannot be had again leaves the rest of the view",
     await again.stop();
 });
 
-test("loading: several files are loaded one after the other, and all are found again", async () => {
+test("loading: several files are loaded one after the other, and the picker lists all of them", async () => {
     const { page, script, close } = await openWithScript();
     await drop(page, file("one.off", simplex), file("two.off", simplex));
     await script.until((one) => one.polytope.name === "two.off", "the second file");

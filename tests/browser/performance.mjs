@@ -1,4 +1,4 @@
-// What a page costs that shows a stream: counted, not timed. And what it measures of itself.
+// The cost of showing a stream, counted rather than timed, and the page's own latency measurements.
 import assert from "node:assert/strict";
 
 import { common, openPage, openWithScript, presented, ready } from "./support/browser.mjs";
@@ -7,21 +7,21 @@ import { test } from "./support/suite.mjs";
 
 const kMeasure = "oval4d key to picture";
 
-/** Counts, in `counts` of the page: arrays that bring memory of their own, buffers of the graphics card, drawings. */
+/** Counts in the page's `counts`: arrays with their own memory, graphics buffers, draw calls, decoded images. */
 function countAllocations() {
     const counts = (window.counts = { arrays: 0, buffers: 0, drawings: 0, decodings: 0 });
-    const kLeast = 256; // bytes: less is a vector or a matrix
+    const kMinSize = 256; // bytes; smaller arrays are vectors and matrices
     const Memory = ArrayBuffer;
     for (const name of ["ArrayBuffer", "Float32Array", "Float64Array", "Uint32Array", "Uint8Array", "Int8Array"]) {
         const plain = window[name];
         const counting = new Proxy(plain, {
             construct(target, given, made) {
                 const array = Reflect.construct(target, given, made === counting ? target : made);
-                if (array.byteLength >= kLeast && !(given[0] instanceof Memory)) ++counts.arrays;
+                if (array.byteLength >= kMinSize && !(given[0] instanceof Memory)) ++counts.arrays;
                 return array;
             },
         });
-        plain.prototype.constructor = window[name] = counting; // copies are made by the constructor, too
+        plain.prototype.constructor = window[name] = counting; // copies use the constructor, too
     }
     const watch = (owner, method, what) => {
         const plain = owner[method];
@@ -38,8 +38,8 @@ function countAllocations() {
 
 const countsOf = (page) => page.evaluate(() => ({ ...window.counts }));
 
-test("performance: geometry is drawn from buffers that are written in place", async () => {
-    const viewport = { width: 640, height: 400 }; // drawn soon without a graphics card, too
+test("performance: geometry is drawn from buffers that are updated in place", async () => {
+    const viewport = { width: 640, height: 400 }; // small enough to be drawn quickly without a graphics card
     const { page, script, errors, close } = await openWithScript({ before: countAllocations, viewport });
     await script.request({ type: "set", polytope: "24-cell" });
     const turn = async (angle) => {
@@ -47,26 +47,26 @@ test("performance: geometry is drawn from buffers that are written in place", as
         await presented(page, revision);
     };
     await turn(0.3);
-    assert.ok((await countsOf(page)).arrays > 10, "the counting counts");
+    assert.ok((await countsOf(page)).arrays > 10, "the counting works");
     const there = async () => {
         for (let i = 0; i < 60; ++i) await turn(0.01);
     };
     const back = async () => {
         for (let i = 0; i < 60; ++i) await turn(-0.01);
     };
-    await there(); // all grows as large as it will be
+    await there(); // everything grows to its final size
     const before = await countsOf(page);
     await back();
     await there();
     const after = await countsOf(page);
     assert.equal(after.buffers - before.buffers, 0, "buffers of the graphics card");
     assert.equal(after.arrays - before.arrays, 0, "arrays");
-    assert.ok(after.drawings - before.drawings >= 120, "each was drawn");
+    assert.ok(after.drawings - before.drawings >= 120, "each picture was drawn");
     assert.deepEqual(errors, []);
     await close();
 });
 
-test("performance: frames are decoded off the page's thread, and acknowledged once they are there", async () => {
+test("performance: frames are decoded off the page's thread, and acknowledged after they are drawn", async () => {
     const { page, script, errors, close } = await openWithScript({
         before: () => {
             const log = (window.log = []);
@@ -124,8 +124,8 @@ test("performance: the time from key to picture is shown and saved on request", 
     await page.waitForSelector("#drawing:focus");
     for (const key of ["y", "y", "4", "]", "n"]) await press(key);
     await page.waitForFunction(() => /5 measured/.test(document.getElementById("latency").textContent));
-    assert.match(await output.textContent(), /key to picture [\d.]+ ms · median [\d.]+ ms · 99 % [\d.]+ ms/);
-    await press("0", "4"); // the focus is there already: no picture, nothing to measure
+    assert.match(await output.textContent(), /Key to picture [\d.]+ ms · median [\d.]+ ms · 99th percentile [\d.]+ ms/);
+    await press("0", "4"); // the focus is at 0 already: no picture, nothing to measure
     await page.waitForFunction(() => /6 measured/.test(document.getElementById("latency").textContent));
 
     await page.click("[data-own=frames]");
@@ -155,7 +155,7 @@ test("performance: the time from key to picture is shown and saved on request", 
 
     await page.reload();
     await ready(page);
-    assert.ok(await output.isVisible(), "it is remembered");
+    assert.ok(await output.isVisible(), "the setting survives a reload");
     await page.focus("#drawing");
     await command(page, "set nolatency");
     await output.waitFor({ state: "hidden" });
@@ -163,7 +163,7 @@ test("performance: the time from key to picture is shown and saved on request", 
     await close();
 });
 
-test("performance: the page comes compressed, and loads nothing from elsewhere", async () => {
+test("performance: the page is compressed, and loads nothing from other sites", async () => {
     const { url } = await common();
     const answers = new Map();
     const { page, errors, close } = await openPage({
@@ -178,7 +178,7 @@ test("performance: the page comes compressed, and loads nothing from elsewhere",
     assert.ok(size > 10_000 && size < 250 * 1024, `${size} bytes`);
     for (const path of answers.keys()) assert.ok(new URL(path, url).href.startsWith(url));
     assert.deepEqual(errors, []);
-    // Scripts in the page's text, and text made into scripts, are not run.
+    // Inline scripts are not executed.
     const ran = await page.evaluate(() => {
         const script = document.createElement("script");
         script.textContent = "window.ran = true";

@@ -1,4 +1,4 @@
-// A phone in the hand.
+// The page on a phone.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -7,7 +7,7 @@ import { covered, decode } from "./support/pixels.mjs";
 
 const phone = { viewport: { width: 375, height: 667 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
 
-test("phone: the picture has room, nothing overflows, every button can be hit", async () => {
+test("phone: the picture has room, nothing overflows, every button is large enough to tap", async () => {
     const { page, script, errors, close } = await openWithScript(phone);
     const { width, height } = await page.locator("#drawing").boundingBox();
     assert.equal(width, 375);
@@ -20,7 +20,7 @@ test("phone: the picture has room, nothing overflows, every button can be hit", 
         .evaluateAll((all) => all.map((one) => one.getBoundingClientRect().right));
     assert.ok(
         readings.every((right) => right <= 375),
-        "the state is in sight",
+        "the state is visible",
     );
 
     const { keys } = await script.request({ type: "get", what: "keymap" });
@@ -46,15 +46,15 @@ test("phone: the picture has room, nothing overflows, every button can be hit", 
     await close();
 });
 
-test("phone: a tap turns", async () => {
+test("phone: a tap on a button turns the polytope", async () => {
     const { page, script, close } = await openWithScript(phone);
     await page.locator('[data-action="rotate"][data-key="y"]').tap();
-    const { last } = await script.until((one) => one.last !== null, "the turn");
+    const { last } = await script.until((one) => one.last !== null, "the rotation");
     assert.deepEqual(last.planes, ["xy", "zw"]);
     await close();
 });
 
-test("phone: lying on its side it is usable too", async () => {
+test("phone: it is usable in landscape orientation", async () => {
     const { page, close } = await openWithScript({ ...phone, viewport: { width: 667, height: 375 } });
     const { width, height } = await page.locator("#drawing").boundingBox();
     assert.ok(width >= 375 && height >= 280, `${width} × ${height}`);
@@ -62,7 +62,7 @@ test("phone: lying on its side it is usable too", async () => {
     await close();
 });
 
-test("phone: the dialogs fill the screen, scroll where they must, and can be hit", async () => {
+test("phone: the dialogs fill the screen and scroll, and their controls are large enough to tap", async () => {
     const { page, script, errors, close } = await openWithScript(phone);
     const dialogs = [
         { id: "picker", open: () => page.tap("#polytope"), first: "#picker-list [role=option]" },

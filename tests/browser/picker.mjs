@@ -1,4 +1,4 @@
-// Finding a polytope by typing.
+// The picker: searching for a polytope.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -10,13 +10,13 @@ const listed = (page) =>
 const chosen = (page) => page.locator('#picker-list [aria-selected="true"]').getAttribute("data-name");
 const focused = (page) => page.evaluate(() => document.activeElement.id);
 
-/** The catalogue is there, and the dialog open. */
+/** Opens the picker and waits for the catalogue. */
 async function openPicker(page) {
     await page.keyboard.press("s");
     await page.waitForSelector("#picker-list [role=option]");
 }
 
-test("picker: lists the whole catalogue in its order, with the polytope that is shown chosen", async () => {
+test("picker: lists the whole catalogue in order, with the current polytope selected", async () => {
     const { page, script, errors, close } = await openWithScript();
     await script.request({ type: "set", polytope: "24-cell" });
     await named(page, "24-cell");
@@ -40,7 +40,7 @@ test("picker: lists the whole catalogue in its order, with the polytope that is 
     await close();
 });
 
-test("picker: what is typed finds names, aliases, short names and symbols", async () => {
+test("picker: searches names, aliases, short names and symbols", async () => {
     const { page, close } = await openWithScript();
     await openPicker(page);
     const first = { tesser: "8-cell", HEX: "16-cell", "{3,3,5}": "600-cell", 343: "24-cell", "120cell": "120-cell" };
@@ -49,13 +49,13 @@ test("picker: what is typed finds names, aliases, short names and symbols", asyn
         assert.equal(await chosen(page), name, query);
     }
     await page.fill("#picker-search", "20-cell");
-    assert.ok(!(await listed(page)).includes("120-cell"), "a number is meant whole");
+    assert.ok(!(await listed(page)).includes("120-cell"), "a number matches only a whole number");
     await page.fill("#picker-search", "");
-    assert.ok((await listed(page)).length >= 6, "all are back");
+    assert.ok((await listed(page)).length >= 6, "all are listed again");
     await close();
 });
 
-test("picker: the keyboard is enough", async () => {
+test("picker: works with the keyboard alone", async () => {
     const { page, script, close } = await openWithScript();
     await openPicker(page);
     assert.equal(await focused(page), "picker-search");
@@ -75,29 +75,29 @@ test("picker: the keyboard is enough", async () => {
         await page.keyboard.press(key);
         assert.equal(await chosen(page), names[index], key);
         const active = await page.getAttribute("#picker-search", "aria-activedescendant");
-        assert.equal(await page.locator(`#${active}`).getAttribute("data-name"), names[index], "and it is said so");
-        const inSight = await page.locator(`#${active}`).evaluate((one) => {
+        assert.equal(await page.locator(`#${active}`).getAttribute("data-name"), names[index], "the active option is announced");
+        const visible = await page.locator(`#${active}`).evaluate((one) => {
             const [box, list] = [one.getBoundingClientRect(), one.closest("[role=listbox]").getBoundingClientRect()];
             return box.top >= list.top && box.bottom <= list.bottom;
         });
-        assert.ok(inSight, `${names[index]} is in sight`);
+        assert.ok(visible, `${names[index]} is visible`);
     }
     await page.keyboard.type("hexacos");
     await page.keyboard.press("Enter");
     await script.until((one) => one.polytope.name === "600-cell", "the 600-cell");
     await page.waitForSelector("#picker:not([open])", { state: "attached" });
-    assert.equal(await focused(page), "drawing", "the focus is given back");
+    assert.equal(await focused(page), "drawing", "the focus is returned");
     const { revision } = await script.state();
     await openPicker(page);
     await page.keyboard.type("y2");
     await page.keyboard.press("Escape");
     assert.equal(await page.locator("#picker").isVisible(), false);
     assert.equal(await focused(page), "drawing");
-    assert.equal((await script.state()).revision, revision, "keys in the dialog turn nothing");
+    assert.equal((await script.state()).revision, revision, "keys in the dialog have no other effect");
     await close();
 });
 
-test("picker: the mouse is enough, and so is the button at the top", async () => {
+test("picker: works with the mouse alone, and from the button at the top", async () => {
     const { page, script, press, close } = await openWithScript();
     await page.click("#polytope");
     await page.click('#picker-list [data-name="16-cell"]');
@@ -109,14 +109,14 @@ test("picker: the mouse is enough, and so is the button at the top", async () =>
     await page.keyboard.press("Enter");
     await page.waitForSelector("#picker-list [role=option]");
     await page.click("#picker [data-close]");
-    assert.equal(await focused(page), "polytope", "whoever came by keyboard goes on from there");
+    assert.equal(await focused(page), "polytope", "the focus returns to the button if it was opened by keyboard");
     await page.keyboard.press("Enter");
-    await page.mouse.click(4, 300); // beside it
+    await page.mouse.click(4, 300); // outside the dialog
     assert.equal(await page.locator("#picker").isVisible(), false);
     await close();
 });
 
-test("picker: what the catalogue does not list is asked for as typed; a refusal is read there and can be mended", async () => {
+test("picker: a name that is not listed is sent as typed; an error is shown and can be corrected", async () => {
     const { page, script, errors, close } = await openWithScript();
     const { revision } = await script.state();
     await openPicker(page);
@@ -128,15 +128,15 @@ test("picker: what the catalogue does not list is asked for as typed; a refusal 
     assert.equal(await focused(page), "picker-search");
     assert.equal((await script.state()).revision, revision);
     await page.keyboard.press("Backspace");
-    assert.equal(await page.locator("#picker-error").textContent(), "", "it is gone when one goes on");
-    await page.fill("#picker-search", "Hyper-Cube"); // an alias, spelt freely
+    assert.equal(await page.locator("#picker-error").textContent(), "", "the error disappears with the next key");
+    await page.fill("#picker-search", "Hyper-Cube"); // an alias, with different spelling
     await page.keyboard.press("Enter");
     await script.until((one) => one.polytope.name === "8-cell", "the 8-cell");
     assert.deepEqual(errors, []);
     await close();
 });
 
-test("picker: without a connection it says so", async () => {
+test("picker: reports a missing connection", async () => {
     const proxy = await startProxy((await common()).url, "/cut");
     const { page, script, close } = await openWithScript({ url: proxy.url });
     await openPicker(page);

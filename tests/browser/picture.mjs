@@ -1,4 +1,4 @@
-// What is seen: the oval where the slices stand, the same from both streams.
+// The picture: the positions of the slices, and the agreement of both streams.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -8,7 +8,7 @@ import { project, rgb, worldPoints } from "./support/scene.mjs";
 
 const drawing = (page) => page.locator("#drawing");
 
-/** Lets the drawing lose the focus, and with it the frame around it. */
+/** Removes the focus from the drawing, and therefore the frame around it. */
 const blur = (page) => page.evaluate(() => document.activeElement.blur());
 
 async function picture(page) {
@@ -16,14 +16,14 @@ async function picture(page) {
     return decode(await drawing(page).screenshot());
 }
 
-/** Switches the way of drawing and waits for a picture drawn so. */
+/** Switches the rendering mode and waits for a picture rendered in that mode. */
 async function drawBy(page, mode) {
     await page.click(`[data-own=${mode}]`);
     await page.waitForSelector(`#drawing[data-drawn-by=${mode}]`);
 }
 
 for (const polytope of ["5-cell", "8-cell", "24-cell", "600-cell"]) {
-    test(`picture: the slices of the ${polytope} stand where the server says`, async () => {
+    test(`picture: the slices of the ${polytope} are where the server places them`, async () => {
         const { page, script, errors, close } = await openWithScript();
         const { revision } = await script.request({ type: "set", polytope });
         await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.4, 1.1] });
@@ -42,15 +42,15 @@ for (const polytope of ["5-cell", "8-cell", "24-cell", "600-cell"]) {
                 assert.ok(apart > 8, `slice ${slice.index}: only background at ${x}, ${y}`);
             }
         }
-        assert.ok(seen >= 4 * slices.filter(({ vertices }) => vertices.length > 0).length, "all slices are in sight");
+        assert.ok(seen >= 4 * slices.filter(({ vertices }) => vertices.length > 0).length, "all slices are visible");
         const hole = pixelAt(shown, width / 2, height * 0.1);
-        assert.ok(distance(hole, background) <= 8, "inside the oval there is nothing");
+        assert.ok(distance(hole, background) <= 8, "the inside of the oval is empty");
         assert.deepEqual(errors, []);
         await close();
     });
 }
 
-/** The part of a picture from this row on. */
+/** The part of a picture from row `top` down. */
 function below({ width, height, data }, top) {
     return { width, height: height - top, data: data.subarray(4 * width * top) };
 }
@@ -77,7 +77,7 @@ for (const [polytope, columns] of [
         assert.ok(mean < 1.5, `mean difference ${mean.toFixed(2)} of 255`);
         assert.ok(far < 0.005, `${(100 * far).toFixed(2)} % of the pixels differ much`);
         if (columns) {
-            // Where most lines pass the picture has the colour of the axes, where none pass the background's.
+            // At the highest density the picture differs from the background; at density 0 it is the background.
             const at = (k) => {
                 const column = k % layout.columns;
                 const row = Math.floor(k / layout.columns);
@@ -99,7 +99,7 @@ for (const [polytope, columns] of [
 }
 
 const views = [
-    { name: "the 5-cell as it starts", settings: {} },
+    { name: "the 5-cell in its initial state", settings: {} },
     { name: "the 600-cell", settings: { polytope: "600-cell" } },
     {
         name: "from another side and nearer",
@@ -107,7 +107,7 @@ const views = [
     },
     { name: "the single view", settings: { polytope: "16-cell", view: "single" } },
     { name: "bars alone", settings: { polytope: "120-cell", shown: { faces: false, balls: false } } },
-    { name: "coloured by kind", settings: { polytope: "truncated tesseract", color: "kind" } },
+    { name: "colored by kind", settings: { polytope: "truncated tesseract", color: "kind" } },
     { name: "with a kind hidden", settings: { polytope: "truncated tesseract", hidden: [1] } },
     { name: "with a kind faded", settings: { polytope: "cantellated 5-cell", color: "w", faded: [0, 1] } },
     { name: "a star", settings: { polytope: "great stellated 120-cell" }, mean: 1.6, far: 0.015 },
@@ -115,7 +115,7 @@ const views = [
     { name: "faces alone", settings: { polytope: "8-cell", shown: { bars: false, balls: false, coordinates: false } } },
 ];
 for (const { name, settings, mean: most = 1, far: allowed = 0.005 } of views) {
-    test(`picture: geometry and frame lie over each other: ${name}`, async () => {
+    test(`picture: geometry and frame agree: ${name}`, async () => {
         const { page, script, errors, close } = await openWithScript();
         await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.7, 0.3] });
         const { revision } = await script.request({ type: "set", ...settings });
@@ -127,13 +127,13 @@ for (const { name, settings, mean: most = 1, far: allowed = 0.005 } of views) {
         assert.ok(mean < most, `mean difference ${mean.toFixed(2)} of 255`);
         assert.ok(far < allowed, `${(100 * far).toFixed(2)} % of the pixels differ much`);
         await drawBy(page, "geometry");
-        assert.ok(compare(await picture(page), geometry).mean < 0.1, "and back again it is the first picture");
+        assert.ok(compare(await picture(page), geometry).mean < 0.1, "switching back restores the first picture");
         assert.deepEqual(errors, []);
         await close();
     });
 }
 
-test("picture: two different states are told apart by the comparison", async () => {
+test("picture: the comparison distinguishes two different states", async () => {
     const { page, press, close } = await openWithScript();
     const before = await picture(page);
     await drawing(page).focus();
@@ -143,13 +143,13 @@ test("picture: two different states are told apart by the comparison", async () 
     await close();
 });
 
-test("picture: nothing is drawn while nothing changes", async () => {
+test("picture: nothing is drawn unless something changes", async () => {
     const { page, close } = await openPage();
     const frames = await page.evaluate(async () => {
         let asked = 0;
         const { requestAnimationFrame: ask } = window;
         window.requestAnimationFrame = (callback) => (++asked, ask.call(window, callback));
-        // What opening the page has left to do may take a moment on a slow machine; then it is still.
+        // On a slow machine, the work of opening the page may take a moment to finish.
         for (let attempt = 0; attempt < 10; ++attempt) {
             asked = 0;
             for (let i = 0; i < 20; ++i) await new Promise((resolve) => ask.call(window, resolve));
@@ -161,7 +161,7 @@ test("picture: nothing is drawn while nothing changes", async () => {
     await close();
 });
 
-test("picture: a sharp screen gets a sharp picture, in either mode", async () => {
+test("picture: a high-resolution screen gets a high-resolution picture in either mode", async () => {
     const { page, close } = await openPage({ deviceScaleFactor: 2 });
     const sizes = () =>
         page.evaluate(() => {

@@ -1,4 +1,4 @@
-// Mouse and touch on the drawing.
+// Mouse and touch gestures on the drawing.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -7,7 +7,7 @@ import { compare, decode } from "./support/pixels.mjs";
 
 const shot = async (page) => decode(await page.locator("#drawing").screenshot());
 
-test("pointer: dragging looks from another side, at once and in the session", async () => {
+test("pointer: dragging orbits the view, at once and in the session", async () => {
     const { page, script, errors, close } = await openWithScript();
     const before = await shot(page);
     await page.mouse.move(500, 300);
@@ -15,11 +15,11 @@ test("pointer: dragging looks from another side, at once and in the session", as
     await page.mouse.move(440, 330, { steps: 6 });
     await page.mouse.up();
     const { camera, revision } = await script.until((one) => one.camera.azimuth > 0.1, "the orbit in the session");
-    assert.ok(camera.elevation > 0.05, "down: seen from higher");
+    assert.ok(camera.elevation > 0.05, "dragging down raises the camera");
     await presented(page, revision);
     const after = await shot(page);
     assert.ok(compare(before, after).mean > 1);
-    // The server's own picture of that state is the one seen.
+    // The server's picture of that state is the same.
     await page.click("[data-own=frames]");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
     await page.locator("#drawing").focus();
@@ -31,7 +31,7 @@ test("pointer: dragging looks from another side, at once and in the session", as
 test("pointer: the view follows the mouse before the server has answered", async () => {
     const { page, close } = await openWithScript();
     const before = await shot(page);
-    await page.evaluate(() => (WebSocket.prototype.send = () => {})); // the server hears nothing any more
+    await page.evaluate(() => (WebSocket.prototype.send = () => {})); // the server receives nothing more
     await page.mouse.move(500, 300);
     await page.mouse.down();
     await page.mouse.move(380, 300, { steps: 4 });
@@ -40,22 +40,22 @@ test("pointer: the view follows the mouse before the server has answered", async
     await close();
 });
 
-test("pointer: the wheel comes nearer, a double click goes back, undo leaves it", async () => {
+test("pointer: the wheel zooms, a double click resets the viewpoint, undo does not affect it", async () => {
     const { page, script, press, close } = await openWithScript();
     await press("4");
     await page.mouse.move(500, 300);
     await page.mouse.wheel(0, -300);
-    await script.until((one) => one.camera.zoom > 1.2, "the magnification");
+    await script.until((one) => one.camera.zoom > 1.2, "zooming in");
     await page.mouse.wheel(0, 900);
-    await script.until((one) => one.camera.zoom < 0.8, "the reduction");
+    await script.until((one) => one.camera.zoom < 0.8, "zooming out");
     const { camera } = await press("u");
-    assert.ok(camera.zoom < 0.8, "undo takes back the turn, not the view");
+    assert.ok(camera.zoom < 0.8, "undo reverts the rotation, not the zoom");
     await page.mouse.dblclick(500, 300);
-    await script.until((one) => one.camera.zoom === 1 && one.camera.azimuth === 0, "the first view");
+    await script.until((one) => one.camera.zoom === 1 && one.camera.azimuth === 0, "the initial viewpoint");
     await close();
 });
 
-test("pointer: one finger orbits, two come nearer", async () => {
+test("pointer: one finger orbits, two fingers zoom", async () => {
     const { page, script, close } = await openWithScript({ hasTouch: true });
     const touch = await page.context().newCDPSession(page);
     const send = (type, ...points) =>
@@ -68,6 +68,6 @@ test("pointer: one finger orbits, two come nearer", async () => {
     await send("touchStart", [480, 300], [520, 300]);
     for (const d of [30, 45, 60]) await send("touchMove", [500 - d, 300], [500 + d, 300]);
     await send("touchEnd");
-    await script.until(({ camera }) => Math.abs(camera.zoom - 3) < 0.01, "three times as near");
+    await script.until(({ camera }) => Math.abs(camera.zoom - 3) < 0.01, "a zoom of 3");
     await close();
 });

@@ -1,5 +1,5 @@
-// Runs the browser tests; further options go to node's test runner. OVAL4D names the server's binary,
-// OVAL4D_WEB_ROOT the built page, OVAL4D_CHROMIUM the browser.
+// Runs the browser tests; options are passed to node's test runner. OVAL4D names the server's binary, OVAL4D_WEB_ROOT
+// the built page, OVAL4D_CHROMIUM the browser.
 import { spawnSync } from "node:child_process";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -8,7 +8,7 @@ import { buildSync } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url));
 
-// The client that scripts use, as the tests use it.
+// Bundles the TypeScript client for the tests.
 buildSync({
     entryPoints: [join(here, "../../protocol/ts/index.ts")],
     outfile: join(here, "node_modules/.oval4d/client.mjs"),

@@ -1,11 +1,11 @@
-// A browser that cannot draw slices itself.
+// Browsers without WebGL.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { openWithScript, presented, startBrowser } from "./support/browser.mjs";
 import { covered, decode } from "./support/pixels.mjs";
 
-test("without WebGL: the server draws, and the page says why", async () => {
+test("without WebGL: the server renders, and the page says why", async () => {
     const browser = await startBrowser(["--disable-3d-apis"]);
     const { page, press, errors, close } = await openWithScript({ browser });
     assert.equal(await page.getAttribute("#drawing", "data-mode"), "frames");
@@ -22,7 +22,7 @@ test("without WebGL: the server draws, and the page says why", async () => {
     await browser.close();
 });
 
-test("without WebGL: when it fails in mid-use, frames take over", async () => {
+test("without WebGL: when the WebGL context is lost, the page switches to frames", async () => {
     const { page, press, errors, close } = await openWithScript();
     assert.equal(await page.getAttribute("#drawing", "data-mode"), "geometry");
     await page.evaluate(() => {

@@ -46,6 +46,11 @@ def until(condition, what):
         time.sleep(0.01)
 
 
+def wait_for_end(pids):
+    """Processes that were sent a signal: the system takes its time to end one that is stopped."""
+    until(lambda: all(map(has_ended, pids)), "the end of the processes")
+
+
 def has_ended(pid):
     """Also where nobody has asked for its status."""
     try:

@@ -52,7 +52,7 @@ def assimp(path, to):
 
 
 def three_mf(data):
-    """The objects of a 3MF file: name, points, triangles. All of them are built, in millimetres."""
+    """The objects of a 3MF file: name, points, triangles. All of them are built, in millimeters."""
     archive = zipfile.ZipFile(io.BytesIO(data))
     assert archive.testzip() is None
     assert {"[Content_Types].xml", "_rels/.rels"} <= set(archive.namelist())

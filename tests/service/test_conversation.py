@@ -168,3 +168,31 @@ async def test_a_script_may_leave_out_the_subprotocol(server):
     async with connect(server, subprotocols=None) as socket:
         await socket.send('{"type":"hello"}')
         assert '"welcome"' in await socket.recv()
+
+
+IDS = ["0", "1", "1000000", "100000", "123456789012", "9007199254740992", "-1", "-1000000", "-9007199254740992", "1.5"]
+
+
+@pytest.mark.parametrize("encoding", ["json", "cbor"])
+async def test_ids_come_back_as_they_were_sent(server, encoding):
+    async with connect(server) as socket:
+        async def answer(request, id_):
+            """The one message with the id, as bytes or text."""
+            await socket.send(request.replace("}", f',"id":{id_}}}'))
+            while True:
+                data = await socket.recv()
+                message = Client.decode(data)
+                if isinstance(message, dict) and "id" in message:
+                    return data, message
+
+        await answer(f'{{"type":"hello","stream":"none","encoding":"{encoding}"}}', 7)
+        for id_ in IDS:
+            for request, type_ in [('{"type":"key","key":"y"}', "done"), ('{"type":"nonsense"}', "error"),
+                                   ('{"type":"get","what":"state"}', "state"),
+                                   ('{"type":"get","what":"slices"}', "slices"),
+                                   ('{"type":"get","what":"keymap"}', "keymap")]:
+                data, message = await answer(request, id_)
+                assert message["type"] == type_
+                assert repr(message["id"]) == id_
+                if isinstance(data, str):
+                    assert f'"id":{id_},' in data

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import png
 import pytest
-from harness import DEADLINE, PROGRAM, Server, has_ended, sanitized, until
+from harness import DEADLINE, PROGRAM, Server, sanitized, until, wait_for_end
 from wire import Client, Refused
 
 SIZE = {"width": 480, "height": 270}
@@ -106,7 +106,7 @@ async def test_they_end_with_the_server_and_not_before():
             await client.frame()
         assert server.drawing() == pids and server.metric(DEATHS) == 0
         server.kill()
-        until(lambda: all(map(has_ended, pids)), "the end of the processes")
+        wait_for_end(pids)
     finally:
         server.kill()
 
@@ -152,7 +152,7 @@ async def test_one_that_has_no_room_for_a_picture_draws_none(tmp_path):
         assert struct.unpack("=I4xQ", ours.recv(16)) == (0, 0)  # it is ready
         ours.sendall(struct.pack("=I4xQ", 1, 0))  # an order, as yet without anything
         assert drawing.wait(DEADLINE) == 1
-    assert b"an order came without pixels to draw into" in (tmp_path / "log").read_bytes()
+    assert b"a drawing order arrived without the memory to draw into" in (tmp_path / "log").read_bytes()
 
 
 @pytest.mark.skipif(sanitized(), reason="sanitizers open files, too")

@@ -16,8 +16,8 @@ async def test_a_frame_is_a_png_with_its_state_inside(server):
         assert names[:2] == ["IHDR", "iTXt"] and set(names[2:-1]) == {"IDAT"}
         state = png.state_in(frame)
         assert state == client.states()[0]
-        size, colours = png.pixels(frame)
-        assert size == (480, 270) and len(set(zip(*[iter(colours)] * 3))) > 200
+        size, colors = png.pixels(frame)
+        assert size == (480, 270) and len(set(zip(*[iter(colors)] * 3))) > 200
 
 
 async def test_a_key_changes_the_picture_and_its_inverse_brings_it_back(server):
@@ -66,17 +66,17 @@ async def test_a_picture_opens_again_as_a_session(server):
 
 @pytest.mark.parametrize("polytope", ["5-cell", "8-cell", "16-cell", "24-cell", "120-cell", "600-cell"])
 def test_every_polytope_is_drawn(server, polytope):
-    size, colours = png.pixels(server.get(f"/api/v1/frame.png?polytope={polytope}&width=320&height=180").body)
+    size, colors = png.pixels(server.get(f"/api/v1/frame.png?polytope={polytope}&width=320&height=180").body)
     assert size == (320, 180)
-    background = colours[:3]
-    drawn = sum(colours[i:i + 3] != background for i in range(0, len(colours), 3))
+    background = colors[:3]
+    drawn = sum(colors[i:i + 3] != background for i in range(0, len(colors), 3))
     assert drawn > 0.05 * 320 * 180
 
 
 @pytest.mark.parametrize("query, code, says", [
     ("width=0", "out_of_range", "16"), ("width=100000&height=100000", "out_of_range", "8192"),
     ("width=many", "out_of_range", "many"), ("polytope=25-cell", "unknown_polytope", "5-cell"),
-    ("rotate=xw:1/0", "bad_expression", ""), ("rotate=xx:1", "", "xx"), ("colour=red", "", "colour"),
+    ("rotate=xw:1/0", "bad_expression", ""), ("rotate=xx:1", "", "xx"), ("color=red", "", "color"),
     ("slices=4", "out_of_range", "4"),
 ])
 def test_a_bad_query_is_explained(server, query, code, says):

@@ -58,9 +58,9 @@ async def test_a_sound_file_has_no_warnings(server):
 async def test_what_is_repaired_is_told(server):
     async with Client(server) as client:
         done = await load(client, "off", tesseract_file(edges=7))
-        assert done["warnings"] == ["the file says 7 edges; its 2-faces have 32"]
+        assert done["warnings"] == ["the file states 7 edges, but its 2-faces have 32"]
         stray = tesseract_file().replace("16 24", "17 24").replace("\n4 0", "\n9 9 9 9\n4 0", 1)
-        assert (await load(client, "off", stray))["warnings"] == ["1 vertex lies on no 2-face: left out"]
+        assert (await load(client, "off", stray))["warnings"] == ["1 vertex lies on no 2-face and was left out"]
         assert await counts(client) == [16, 32, 24, 8]
 
 
@@ -70,16 +70,27 @@ async def test_points_become_their_hull(server):
         points = tesseract() + inside
         random.shuffle(points)
         done = await load(client, "points", "x,y,z,w\n" + lines(points).replace(" ", ","))
-        assert done["warnings"] == ["20 of 36 points are no vertices of the hull: left out"]
+        assert done["warnings"] == ["20 of 36 points are not hull vertices and were left out"]
         assert await counts(client) == [16, 32, 24, 8]
 
 
+async def test_a_hull_does_not_depend_on_where_its_points_stand(server):
+    cell24 = [[x, y, z, w] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) for w in (-1, 0, 1)
+              if x * x + y * y + z * z + w * w == 2]
+    async with Client(server) as client:
+        for by in (0, 10, -100000):
+            for size in (1, 1e-9, 0.5, 1e4):
+                points = [[size * (x + by), *(size * c for c in rest)] for x, *rest in cell24]
+                assert "warnings" not in await load(client, "points", lines(points))
+                assert await counts(client) == [24, 96, 96, 24]
+
+
 @pytest.mark.parametrize("format_, data, says", [
-    ("off", "4OFF\n3 1 3\n", "line 2: three counts: this is Geomview's 4OFF"),
+    ("off", "4OFF\n3 1 3\n", "line 2: the file has three counts, as in Geomview's 4OFF"),
     ("off", tesseract_file().replace("-1 -1 -1 1\n", "-1 -1 -1 nan\n", 1), "line 4: 'nan' is not a coordinate"),
     ("off", tesseract_file().replace("-1 -1 -1 1\n", "-1 -1 -1 1.2\n", 1), "is not flat"),
     ("off", tesseract_file().rsplit("\n", 2)[0] + "\n", "the file ends before cell 7 of 8"),
-    ("off", "\n".join(line for line in tesseract_file().splitlines() if line) + "\n4 0 1 2 3", "after the last cell"),
+    ("off", "\n".join(line for line in tesseract_file().splitlines() if line) + "\n4 0 1 2 3", "follows the last cell"),
     ("points", "1 2 3 4\n1 2 3\n", "line 2: a point has 3 coordinates"),
     ("points", lines(p[:3] + (0,) for p in tesseract()), "all points lie in one hyperplane"),
     ("points", "1 2 3 4\n", "at least 5 points"),

@@ -22,7 +22,7 @@ async def test_the_welcome_tells_the_limits():
                 "--max-file-triangles", 5000, "--max-file-bytes", "1M", "--max-file-time", 7) as server:
         async with Client(server, width=900, height=500) as client:
             assert client.welcome["limits"] == {
-                "message": 65536, "depth": 9, "requests_per_second": 77, "min_side": 20, "max_width": 900,
+                "message": 65536, "request_bytes": 65536, "depth": 9, "requests_per_second": 77, "min_side": 20, "max_width": 900,
                 "max_height": 800, "max_pixels": 500_000, "slices": 41, "shown_timeout": 2.5,
                 "file_triangles": 5000, "file_bytes": 1 << 20, "file_time": 7}
             assert (await refused(client, "set", slices={"count": 43})).code == "out_of_range"
@@ -89,6 +89,9 @@ async def connected(server):
 async def test_connections():
     with Server("--max-connections", 3) as server:
         sockets = [await connected(server) for _ in range(3)]
+        for socket in sockets:  # in use: they keep their places
+            await socket.send('{"type":"hello"}')
+            await socket.recv()
         with pytest.raises(websockets.InvalidHandshake) as full:
             await connect(server)
         assert status_of(full.value) == 503

@@ -74,7 +74,7 @@ def test_render_to_standard_output_and_with_any_setting():
 
 
 @pytest.mark.parametrize("words, says", [
-    (["--polytope", "25-cell"], "5-cell"), (["--width", "0"], "16"), (["--colour", "red"], "colour"),
+    (["--polytope", "25-cell"], "5-cell"), (["--width", "0"], "16"), (["--color", "red"], "color"),
     (["--rotate", "xw:pi/0"], ""), (["--slices"], "slices"), (["frame.png"], "frame.png"),
     (["-o", "/nonexistent/frame.png"], "/nonexistent"),
 ])

@@ -63,8 +63,8 @@ async def test_a_file_has_one_server(path):
 
 
 @pytest.mark.parametrize("store, says", [
-    ("disk", "a store is memory, sqlite:PATH or redis://host, not 'disk'"),
-    ("redis://host:x", "the port of a Redis is a number from 1 to 65535"),
+    ("disk", "the store must be memory, sqlite:PATH or redis://host, not 'disk'"),
+    ("redis://host:x", "the Redis port must be a number from 1 to 65535"),
     ("sqlite:/proc/nowhere/sessions", "unable to open"),
 ])
 def test_a_store_that_cannot_be_is_refused(store, says):

@@ -37,8 +37,9 @@ class Client:
     `messages` is all that came: dictionaries, and bytes for frames and files. With `shows`, each picture is acknowledged.
     """
 
-    def __init__(self, server, session="", shows=True, **hello):
+    def __init__(self, server, session="", shows=True, address=None, **hello):
         self.server, self.session, self.shows = server, session, shows
+        self.connecting = {} if address is None else {"local_addr": (address, 0)}  # from this one of its addresses
         self.hello = hello
         self.messages = []
         self.close_code = None
@@ -46,7 +47,7 @@ class Client:
         self._news = asyncio.Condition()
 
     async def __aenter__(self):
-        self.socket = await connect(self.server, self.session)
+        self.socket = await connect(self.server, self.session, **self.connecting)
         self._reader = asyncio.ensure_future(self._read())
         try:
             self.welcome = await self.request("hello", **self.hello)

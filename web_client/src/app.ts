@@ -1,8 +1,8 @@
-// Puts the parts together: the connection, the picture, keys, buttons and what is said about the state.
+// The application: connects the session with the picture, the keys, the buttons and the display of the state.
 
 import { Client, RequestError, type KeyBinding, type Keymap, type Request, type State } from "@oval4d/protocol";
 
-import { Colours } from "./colours";
+import { Colors } from "./colors";
 import { CommandLine } from "./command_line";
 import { ConnectionView } from "./connection";
 import { download, fileName } from "./download";
@@ -24,8 +24,8 @@ import { type Mode, Stage } from "./picture/stage";
 import { Readings } from "./readings";
 import { Tools } from "./tools";
 
-const kMode = "oval4d.mode"; // of drawing
-const kSettled = 120; // milliseconds after the last change of the window's size
+const kMode = "oval4d.mode"; // storage key of the rendering mode
+const kResizeDelay = 120; // milliseconds after the last change of the window's size
 
 type Command = Exclude<Request, { type: "hello" | "get" | "shown" }>;
 
@@ -40,7 +40,7 @@ export class App {
     private readonly stage = new Stage(this.drawing, {
         presented: (revision, by) => this.presented(revision, by),
         resized: () => this.resized(),
-        lost: () => this.setMode("frames", "The graphics card gave up: pictures come from the server now."),
+        lost: () => this.setMode("frames", "The graphics card is unavailable; the server now renders the pictures."),
     });
     private readonly client = new Client({
         url: new URL(".", location.href),
@@ -72,10 +72,10 @@ export class App {
     private readonly loading = new Loading(this.client);
     private readonly exporting = new ExportDialog(this.client, () => this.stage.size);
     private readonly tools = new Tools({ press: (...binding) => this.press(...binding) });
-    private readonly colours = new Colours((change) => this.send({ type: "set", ...change }));
+    private readonly colors = new Colors((change) => this.send({ type: "set", ...change }));
     private keymap: Keymap | undefined;
     private state: State | undefined;
-    private restored: State | undefined; // what a lost session showed
+    private lostState: State | undefined; // the last state of a lost session, to be restored in the new one
     private resizing: ReturnType<typeof setTimeout> | undefined;
 
     start(): void {
@@ -84,7 +84,8 @@ export class App {
         this.drawing.addEventListener("keydown", (event) => this.keydown(event));
         this.polytope.addEventListener("click", () => this.find());
         document.querySelector("header")!.addEventListener("mousedown", (event) => {
-            if (event.target instanceof Element && event.target.closest("button")) event.preventDefault(); // as in Tools
+            // The drawing keeps the focus, as in Tools.
+            if (event.target instanceof Element && event.target.closest("button")) event.preventDefault();
         });
         byId("help-button").addEventListener("click", () => this.help.open());
         this.listenForTools();
@@ -92,11 +93,11 @@ export class App {
         window.addEventListener("online", () => this.stream());
         window.addEventListener("pageshow", (event) => event.persisted && this.client.connect());
         this.drawing.focus();
-        this.client.hello({ viewport: this.stage.size }).catch(() => {}); // for the connection to come
+        this.client.hello({ viewport: this.stage.size }).catch(() => {}); // sets the size for the connection to come
         this.client.connect();
     }
 
-    /** A connection has been made: the tables may be another server's by now. */
+    /** Handles a new connection, which may be to another server with another key table. */
     private async opened(): Promise<void> {
         this.pace.restart();
         this.latency.restart();
@@ -123,27 +124,27 @@ export class App {
             share: () => void this.share(),
             save: () => void this.save(),
         });
-        this.tools.show(keymap, [this.colours.section, ...own]);
+        this.tools.show(keymap, [this.colors.section, ...own]);
     }
 
-    /** In a new session: the view that the address asks for, or that of a session that is no more. */
+    /** In a new session, restores the view of a lost session or applies the view in the page's address. */
     private async restoreView(): Promise<void> {
         const { lines } = this.begin;
-        const lost = this.restored;
+        const lost = this.lostState;
         this.begin.lines = [];
-        this.restored = undefined;
+        this.lostState = undefined;
         if (lost) await this.restore(lost);
         for (const line of lines) {
             await this.client.request({ type: "command", line }).catch((error: RequestError) => {
-                this.notice.show(`In the address, “${line}”: ${error.message}`);
+                this.notice.show(`The address contains “${line}”: ${error.message}`);
             });
         }
     }
 
-    /** A polytope that cannot be had again, such as another page's file, leaves the rest of the view. */
+    /** Restores a view, but without its polytope if that is not available, such as another page's file. */
     private async restore(lost: State): Promise<void> {
         try {
-            await this.loading.again(lost.polytope.name);
+            await this.loading.reload(lost.polytope.name);
             await this.client.request({ ...lost, type: "set", turning: false });
         } catch (error) {
             if ((error as RequestError).code === "not_connected") throw error;
@@ -153,13 +154,13 @@ export class App {
         }
     }
 
-    /** Asks for what is to be drawn; for nothing while nobody looks. */
+    /** Requests the stream for the current mode, or none while the page is hidden; checks the connection. */
     private stream(): void {
         const stream = document.hidden ? "none" : this.stage.mode;
-        this.client.hello({ stream, viewport: this.stage.size }).catch(() => {}); // no connection: it will be asked for
+        this.client.hello({ stream, viewport: this.stage.size }).catch(() => {}); // later, if there is no connection
         if (document.hidden) return;
         if (this.client.status.kind === "waiting") this.client.connect();
-        else this.client.test(); // it may have died unnoticed meanwhile
+        else this.client.test(); // the connection may have died unnoticed
     }
 
     private update(state: State): void {
@@ -170,7 +171,7 @@ export class App {
         document.title = `${name} \u2013 oval4d`;
         this.readings.update(state);
         this.tools.update(state);
-        this.colours.update(state);
+        this.colors.update(state);
     }
 
     private presented(revision: number, by: Mode): void {
@@ -182,7 +183,7 @@ export class App {
 
     private resized(): void {
         clearTimeout(this.resizing);
-        this.resizing = setTimeout(() => this.stream(), kSettled);
+        this.resizing = setTimeout(() => this.stream(), kResizeDelay);
     }
 
     private setMode(mode: Mode, why?: string): void {
@@ -194,7 +195,7 @@ export class App {
     }
 
     private keydown(event: KeyboardEvent): void {
-        if (event.key === "Escape") this.putAway();
+        if (event.key === "Escape") this.dismissMessages();
         const stroke = strokeOf(event, this.keymap?.keys ?? []);
         if (!stroke) return;
         event.preventDefault();
@@ -213,7 +214,7 @@ export class App {
         else for (const stroke of strokesOf(binding, inverse)) this.send({ type: "key", ...stroke });
     }
 
-    /** The catalogue is asked for each time: polytopes may have been loaded meanwhile. */
+    /** Opens the picker. Requests the catalogue each time, because polytopes may have been loaded meanwhile. */
     private find(): void {
         this.notice.hide();
         this.picker.open(this.state?.polytope.name ?? "");
@@ -223,8 +224,7 @@ export class App {
         );
     }
 
-    /** What was said is no longer of interest. */
-    private putAway(): void {
+    private dismissMessages(): void {
         this.notice.hide();
         this.loading.hide();
     }
@@ -234,24 +234,25 @@ export class App {
         if (this.state) this.exporting.open(this.state);
     }
 
-    /** Asks for a change, and follows it to its picture. */
+    /** Requests a change, and tracks it until its picture is presented. */
     private async request(command: Command): Promise<void> {
         const answer = this.client.request(command);
         await Promise.all([this.pace.follow(answer), this.latency.follow(command.type, answer)]);
     }
 
+    /** Like request(), but shows an error as a notice. */
     private send(command: Command): void {
         this.notice.hide();
         this.request(command).catch((error: Error) => this.notice.show(error.message));
     }
 
     private lost(reason: string): void {
-        this.restored = this.state;
+        this.lostState = this.state;
         this.client.hello({ stream: "none" }).catch(() => {}); // until the view is restored
         this.notice.show(
             this.state
-                ? `That session has ended (${reason}); this is a new one with the same view.`
-                : `That session cannot be opened (${reason}); this is a new one.`,
+                ? `The session has ended (${reason}). This is a new one with the same view.`
+                : `The session cannot be opened (${reason}). This is a new one.`,
         );
     }
 
@@ -260,9 +261,9 @@ export class App {
         const link = shareLink(this.client.credentials);
         try {
             await navigator.clipboard.writeText(link);
-            this.notice.show("The link is copied. Whoever opens it turns this polytope with you.");
+            this.notice.show("Link copied. Anyone who opens it joins this session.");
         } catch {
-            this.notice.show("Copy this link; whoever opens it turns this polytope with you:", link);
+            this.notice.show("Copy this link. Anyone who opens it joins this session:", link);
         }
     }
 

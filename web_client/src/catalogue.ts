@@ -1,4 +1,4 @@
-// The catalogue, searched by name, alias, short name or symbol as one types.
+// Search of the catalogue by name, alias, short name or symbol.
 
 import type { CatalogueEntry } from "@oval4d/protocol";
 
@@ -7,54 +7,54 @@ export interface Family {
     entries: CatalogueEntry[];
 }
 
-/** How well an entry fits: the smaller the better. */
-const kFits = { exactly: 0, begins: 1, beginsWord: 2, contains: 3 };
+/** The quality of a match; smaller is better. */
+const kMatch = { exact: 0, prefix: 1, wordPrefix: 2, substring: 3 };
 
 interface Indexed {
     entry: CatalogueEntry;
     family: string;
-    /** Name, aliases and symbols, plain. */
+    /** Name, aliases and symbols, normalized. */
     names: string[];
-    /** All of them and the family, plain; then without blanks: "120 cell" is found by "120cell", "3 3 5" by "335". */
+    /** The names and the family, normalized; then the names without blanks, so that "120cell" finds "120 cell". */
     all: string;
 }
 
 export class Catalogue {
     private readonly indexed: Indexed[];
-    private readonly families: string[]; // in the catalogue's order
+    private readonly families: string[]; // in the order of the catalogue
 
     constructor(readonly entries: readonly CatalogueEntry[]) {
         this.indexed = entries.map((entry) => {
             const { name, aliases, schlaefli, diagram = "", family = "" } = entry;
-            const names = [name, ...aliases, schlaefli, diagram].map(plain).filter((one) => one !== "");
+            const names = [name, ...aliases, schlaefli, diagram].map(normalized).filter((one) => one !== "");
             const runs = names.map((one) => one.replaceAll(" ", ""));
-            return { entry, family, names, all: [...names, plain(family), ...runs].join("\n") };
+            return { entry, family, names, all: [...names, normalized(family), ...runs].join("\n") };
         });
         this.families = [...new Set(this.indexed.map(({ family }) => family))];
     }
 
-    /** The entries in which every word of `query` is found, by family; what fits best comes first. */
+    /** The entries that contain every word of `query`, by family; the best matches come first. */
     find(query: string): Family[] {
-        const wanted = plain(query);
-        const words = query.split(/\s+/).map(plain);
+        const wanted = normalized(query);
+        const words = query.split(/\s+/).map(normalized);
         const found = this.indexed
             .filter(({ all }) => words.every((word) => contains(all, word)))
-            .map((one) => ({ ...one, fit: fit(one.names, wanted) }));
+            .map((one) => ({ ...one, match: matchOf(one.names, wanted) }));
         const families = this.families
-            .map((name) => ({ name, found: found.filter(({ family }) => family === name).sort(byFit) }))
+            .map((name) => ({ name, found: found.filter(({ family }) => family === name).sort(byMatch) }))
             .filter((family) => family.found.length > 0);
-        families.sort((a, b) => byFit(a.found[0]!, b.found[0]!));
+        families.sort((a, b) => byMatch(a.found[0]!, b.found[0]!));
         return families.map(({ name, found: those }) => ({ name, entries: those.map(({ entry }) => entry) }));
     }
 
-    /** The entry that is called so, whatever the case and the hyphens. */
+    /** The entry with this name, alias or symbol, regardless of case and hyphens. */
     named(text: string): CatalogueEntry | undefined {
-        const wanted = plain(text);
+        const wanted = normalized(text);
         return this.indexed.find(({ names }) => names.includes(wanted))?.entry;
     }
 }
 
-/** Whether `word` is a part of `text`; a number counts only as a whole one: "20" is not in "120". */
+/** Whether `word` occurs in `text`; a number must not begin inside another number: "20" does not occur in "120". */
 function contains(text: string, word: string): boolean {
     for (let at = text.indexOf(word); at >= 0; at = text.indexOf(word, at + 1)) {
         if (!/^\d/.test(word) || !/\d/.test(text[at - 1] ?? "")) return true;
@@ -62,18 +62,18 @@ function contains(text: string, word: string): boolean {
     return false;
 }
 
-function fit(names: string[], wanted: string): number {
-    if (wanted === "" || names.includes(wanted)) return kFits.exactly;
-    if (names.some((name) => name.startsWith(wanted))) return kFits.begins;
-    return names.some((name) => ` ${name}`.includes(` ${wanted}`)) ? kFits.beginsWord : kFits.contains;
+function matchOf(names: string[], wanted: string): number {
+    if (wanted === "" || names.includes(wanted)) return kMatch.exact;
+    if (names.some((name) => name.startsWith(wanted))) return kMatch.prefix;
+    return names.some((name) => ` ${name}`.includes(` ${wanted}`)) ? kMatch.wordPrefix : kMatch.substring;
 }
 
-function byFit(a: { fit: number }, b: { fit: number }): number {
-    return a.fit - b.fit;
+function byMatch(a: { match: number }, b: { match: number }): number {
+    return a.match - b.match;
 }
 
-/** Letters without case and marks, numbers and fractions; all else is a blank. */
-function plain(text: string): string {
+/** Lower-cases the text, strips diacritics, and replaces all but letters, numbers, '/' and '*' by single blanks. */
+function normalized(text: string): string {
     return text
         .normalize("NFKD")
         .replace(/\p{M}/gu, "")

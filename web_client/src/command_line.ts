@@ -1,19 +1,20 @@
-// The ':' line, with a history.
+// The command line, with a history.
 
 import { byId } from "./element";
+import { sentence } from "./format";
 import { recall, remember } from "./memory";
 
 const kHistory = "oval4d.commands";
-const kLongest = 100; // lines kept
+const kMaxHistory = 100; // lines
 
 export class CommandLine {
     private readonly form = byId<HTMLFormElement>("command-line");
     private readonly input = byId<HTMLInputElement>("command");
     private readonly error = byId("command-error");
     private history = recall<string[]>(kHistory) ?? [];
-    private at = 0; // in the history, from its end; 0 is the line being written
+    private at = 0; // position in the history, counted from its end; 0 is the line being typed
 
-    /** `run` carries out a line and throws an Error to be read by the user. */
+    /** `run` executes a line; it throws an Error whose message is shown to the user. */
     constructor(
         private readonly run: (line: string) => Promise<unknown>,
         private readonly closed: () => void,
@@ -55,14 +56,14 @@ export class CommandLine {
     }
 
     private say(error: string): void {
-        this.error.textContent = error;
+        this.error.textContent = error === "" ? "" : sentence(error);
         this.input.toggleAttribute("aria-invalid", error !== "");
     }
 
     private async submit(): Promise<void> {
         const line = this.input.value.trim().replace(/^:\s*/, "");
         if (line === "") return this.close();
-        this.history = [...this.history.filter((one) => one !== line), line].slice(-kLongest);
+        this.history = [...this.history.filter((one) => one !== line), line].slice(-kMaxHistory);
         this.at = 0;
         remember(kHistory, this.history);
         try {

@@ -1,9 +1,9 @@
-// How the connection stands, said truthfully.
+// The display of the connection's status.
 
 import type { Status } from "@oval4d/protocol";
 
 import { byId } from "./element";
-import { time } from "./format";
+import { capitalized, time } from "./format";
 
 export class ConnectionView {
     private readonly root = byId("connection");
@@ -25,11 +25,11 @@ export class ConnectionView {
         if (status.kind === "waiting") this.countdown = setInterval(write, 1000);
     }
 
-    /** A picture has been presented, so many milliseconds after the key that led to it. */
+    /** Notes that a picture has been presented; `latency` is the time from the key to the picture in milliseconds. */
     presented(latency: number | undefined): void {
         this.presentedAt = new Date();
         if (this.status.kind !== "open") return;
-        this.root.title = latency === undefined ? "" : `from key to picture: ${latency.toFixed(0)} ms`;
+        this.root.title = latency === undefined ? "" : `Key to picture: ${latency.toFixed(0)} ms`;
         this.root.dataset["latency"] = latency === undefined ? "" : latency.toFixed(1);
     }
 
@@ -45,9 +45,9 @@ export class ConnectionView {
 }
 
 function words(status: Status, seconds: number): string {
-    if (status.kind === "open") return "connected";
-    if (status.kind === "connecting") return "connecting…";
-    if (status.kind === "closed") return `closed: ${status.reason}`;
+    if (status.kind === "open") return "Connected";
+    if (status.kind === "connecting") return "Connecting…";
+    if (status.kind === "closed") return `Closed: ${status.reason}`;
     const when = seconds < 1 ? "now" : `in ${Math.ceil(seconds)} s`;
-    return `${status.reason}; trying again ${when}`;
+    return `${capitalized(status.reason)}; trying again ${when}`;
 }

@@ -1,5 +1,5 @@
-// A modal dialog: closes with Escape, its button or a click beside it. The browser then gives the focus back to where
-// it was; the mouse leaves it on the drawing all the while.
+// A modal dialog. Escape, its button or a click outside closes it; the browser then returns the focus to the element
+// that had it, which is the drawing if the dialog was opened with the mouse.
 
 import { byId } from "./element";
 
@@ -9,7 +9,7 @@ export class Dialog {
     constructor(id: string) {
         this.root = byId<HTMLDialogElement>(id);
         this.root.addEventListener("pointerdown", (event) => {
-            if (event.target === this.root) this.root.close(); // beside what it shows
+            if (event.target === this.root) this.root.close(); // a click outside the content
         });
         for (const button of this.root.querySelectorAll("[data-close]")) {
             button.addEventListener("click", () => this.root.close());
@@ -20,6 +20,7 @@ export class Dialog {
         return this.root.open;
     }
 
+    /** Opens the dialog and focuses the element `first`. */
     open(first: HTMLElement): void {
         if (!this.root.open) this.root.showModal();
         first.focus();

@@ -1,20 +1,20 @@
-// Bytes as a file on the user's disk.
+// Saves bytes as a file on the user's disk.
 
 import { element } from "./element";
 
-const kTaken = 60_000; // milliseconds, after which the browser has taken it
+const kRevokeDelay = 60_000; // milliseconds, after which the browser has read the data
 
 export function download(bytes: Uint8Array, name: string, type: string): void {
     const url = URL.createObjectURL(new Blob([bytes as Uint8Array<ArrayBuffer>], { type }));
     element("a", { href: url, download: name }).click();
-    setTimeout(() => URL.revokeObjectURL(url), kTaken);
+    setTimeout(() => URL.revokeObjectURL(url), kRevokeDelay);
 }
 
-/** The parts as a name that every file system takes. */
+/** Joins the parts to a file name that is valid on every file system. */
 export function fileName(parts: string[], extension: string): string {
     const name = parts
         .join(" ")
-        .replace(/\.(4?off|txt|csv|xyz)\b/gi, "") // a loaded polytope has its file's name
+        .replace(/\.(4?off|txt|csv|xyz)\b/gi, "") // a loaded polytope is named after its file
         .replace(/[^\p{L}\p{N}.,+-]+/gu, "-")
         .replace(/^[-.]+|[-.]+$/g, "");
     return `${name === "" ? "oval4d" : name}.${extension}`;

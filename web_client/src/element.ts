@@ -1,8 +1,8 @@
-// The one way in which elements are made here.
+// Creation and lookup of HTML elements.
 
 type Attributes = Record<string, string | boolean | undefined>;
 
-/** Makes an element; an attribute that is true is set empty, one that is false or undefined left out. */
+/** Creates an element. An attribute that is true is set to ""; one that is false or undefined is omitted. */
 export function element<K extends keyof HTMLElementTagNameMap>(
     name: K,
     attributes: Attributes = {},
@@ -20,7 +20,7 @@ export function byId<T extends HTMLElement = HTMLElement>(id: string): T {
     return document.getElementById(id) as T;
 }
 
-/** "xw" with each letter in its axis's colour. */
+/** The name of a plane, such as "xw", with each letter in the color of its axis. */
 export function planeName(plane: string): HTMLElement {
     return element(
         "span",

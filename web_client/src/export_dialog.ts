@@ -1,12 +1,12 @@
-// The dialog in which a slice, the oval, the polytope or a picture becomes a file.
+// The dialog for exporting a slice, the oval, the polytope or a picture to a file.
 
-import type { Client, FileWish, State, Viewport } from "@oval4d/protocol";
+import type { Client, FileOptions, State, Viewport } from "@oval4d/protocol";
 
 import { Dialog } from "./dialog";
 import { download, fileName } from "./download";
 import { byId, element } from "./element";
 import { type Format, kFormats } from "./export_formats";
-import { focusW, length } from "./format";
+import { focusW, length, sentence } from "./format";
 import { recall, remember } from "./memory";
 
 const kChosen = "oval4d.export";
@@ -19,9 +19,9 @@ export class ExportDialog {
     private readonly error = byId("export-error");
     private readonly submit = byId<HTMLButtonElement>("export-submit");
     private state: State | undefined;
-    private asked = 0; // counts: the answer to one that was given up is dropped
+    private request = 0; // number of the current request: answers to abandoned ones are dropped
 
-    /** `size` is that of the picture on the page. */
+    /** `size` returns the size of the picture on the page. */
     constructor(
         private readonly client: Client,
         private readonly size: () => Viewport,
@@ -33,7 +33,7 @@ export class ExportDialog {
             event.preventDefault();
             void this.make();
         });
-        byId("export").addEventListener("close", () => this.rest());
+        byId("export").addEventListener("close", () => this.endRequest());
     }
 
     open(state: State): void {
@@ -75,12 +75,12 @@ export class ExportDialog {
         } else if (name === "width" || name === "height") {
             this.preset();
         }
-        this.rest();
+        this.endRequest();
         this.show();
         remember(kChosen, { ...recall<object>(kChosen), ...this.fields() });
     }
 
-    /** Marks the preset that the size is. */
+    /** Selects the preset that equals the current size, if any. */
     private preset(): void {
         const { width, height } = this.size();
         const at = `${this.field("width").value}x${this.field("height").value}`;
@@ -89,7 +89,7 @@ export class ExportDialog {
         }
     }
 
-    /** What was chosen before. */
+    /** Restores the previous choices. */
     private recall(): void {
         for (const [name, value] of Object.entries(recall<Record<string, string>>(kChosen) ?? {})) {
             const field = this.form.elements.namedItem(name) as RadioNodeList | HTMLInputElement | null;
@@ -97,7 +97,7 @@ export class ExportDialog {
         }
     }
 
-    /** Only what the format leaves to be chosen. */
+    /** Shows only the options that the format offers. */
     private show(): void {
         const { format } = this;
         this.about.textContent = format.about;
@@ -109,33 +109,33 @@ export class ExportDialog {
     }
 
     private async make(): Promise<void> {
-        const turn = ++this.asked;
+        const turn = ++this.request;
         const { format } = this;
         this.error.textContent = "";
         this.submit.disabled = true;
         this.submit.textContent = "Making the file…";
         try {
             const bytes = await this.bytes(format);
-            if (turn !== this.asked) return;
+            if (turn !== this.request) return;
             download(bytes, this.name(format), format.type);
             this.dialog.close();
         } catch (error) {
-            if (turn !== this.asked) return;
-            this.rest();
-            this.error.textContent = (error as Error).message;
+            if (turn !== this.request) return;
+            this.endRequest();
+            this.error.textContent = sentence((error as Error).message);
         }
     }
 
-    /** Fields that the format has no use for are disabled, and so left out. */
+    /** Requests the file. Fields that the format does not use are disabled, and therefore omitted. */
     private bytes({ name }: Format): Promise<Uint8Array> {
         const fields = this.fields();
         if (name === "png") {
             const [width, height] = [Number(fields["width"]), Number(fields["height"])];
             return this.client.request({ type: "get", what: "frame", width, height });
         }
-        const { size, ...wish } = fields;
-        const sized = size === undefined ? wish : { ...wish, size: Number(size) };
-        return this.client.request({ type: "get", what: "file", ...(sized as unknown as FileWish) });
+        const { size, ...rest } = fields;
+        const options = size === undefined ? rest : { ...rest, size: Number(size) };
+        return this.client.request({ type: "get", what: "file", ...(options as unknown as FileOptions) });
     }
 
     private fields(): Record<string, string> {
@@ -152,9 +152,9 @@ export class ExportDialog {
         return fileName(parts, name);
     }
 
-    /** Nothing is being made, and nothing was refused. */
-    private rest(): void {
-        ++this.asked;
+    /** Abandons a request in progress, and clears the error. */
+    private endRequest(): void {
+        ++this.request;
         this.error.textContent = "";
         this.submit.disabled = false;
         this.submit.textContent = `Download ${this.format.label}`;

@@ -1,9 +1,9 @@
-// Mouse, pen and touch on the drawing: drag to look from another side, wheel or pinch to come nearer.
+// Mouse, pen and touch on the drawing: dragging orbits the view, the wheel or a pinch zooms.
 
 import type { OrbitControl } from "./orbit";
 
-const kWheel = 0.0015; // of the logarithm of the magnification, a pixel
-const kLine = 16; // pixels
+const kWheelZoom = 0.0015; // change of the logarithm of the zoom per pixel
+const kLineHeight = 16; // pixels
 
 export function listenForGestures(drawing: HTMLElement, orbit: OrbitControl): void {
     const fingers = new Map<number, PointerEvent>();
@@ -33,8 +33,8 @@ export function listenForGestures(drawing: HTMLElement, orbit: OrbitControl): vo
         (event) => {
             if (event.ctrlKey) return; // the browser's own zoom
             event.preventDefault();
-            const pixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY : event.deltaY * kLine;
-            orbit.magnify(Math.exp(-pixels * kWheel));
+            const pixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY : event.deltaY * kLineHeight;
+            orbit.magnify(Math.exp(-pixels * kWheelZoom));
         },
         { passive: false },
     );

@@ -1,13 +1,13 @@
-// The help sheet, made from the key table.
+// The help sheet, generated from the key table.
 
 import type { Keymap } from "@oval4d/protocol";
 
 import { byId, element } from "./element";
 
 const kGestures = [
-    ["Drag", "look from another side"],
-    ["Wheel, pinch", "nearer and farther"],
-    ["Double click", "back to the first view"],
+    ["Drag", "Orbit the view"],
+    ["Wheel, pinch", "Zoom"],
+    ["Double click", "Reset the viewpoint"],
 ] as const;
 
 export class Help {
@@ -20,7 +20,7 @@ export class Help {
             this.dialog.close();
         });
         this.dialog.addEventListener("click", (event) => {
-            if (event.target === this.dialog) this.dialog.close(); // beside the sheet
+            if (event.target === this.dialog) this.dialog.close(); // a click outside the sheet
         });
     }
 
@@ -36,7 +36,7 @@ export class Help {
                     "table",
                     {},
                     ...lines.map((key) => line(key.name, key.text)),
-                    ...(inverse ? [line("Shift +", "any of these: the inverse")] : []),
+                    ...(inverse ? [line("Shift +", "The inverse of any of these")] : []),
                 ),
             );
         });

@@ -1,19 +1,19 @@
-// The time from a request to the presentation of its picture, measured at each one: shown at `:set latency`, saved as
-// a table at `:export latency`, and told to scripts as performance measures.
+// The time from each request to the presentation of its picture: shown by `:set latency`, saved as a table by
+// `:export latency`, and available to scripts as performance measures.
 
 import { download } from "./download";
 import { byId } from "./element";
 import { recall, remember } from "./memory";
 import type { Mode } from "./picture/stage";
 
-export const kMeasure = "oval4d key to picture"; // performance.getEntriesByName finds them
+export const kMeasure = "oval4d key to picture"; // for performance.getEntriesByName
 
-const kMost = 10_000; // measurements kept
-const kRecent = 500; // of which what is shown tells
-const kShown = "oval4d.latency";
+const kMaxSamples = 10_000;
+const kRecentSamples = 500; // samples in the displayed statistics
+const kShown = "oval4d.latency"; // storage key
 
 interface Sample {
-    /** When it was sent, in milliseconds as performance.now() counts. */
+    /** When the request was sent, in milliseconds as in performance.now(). */
     start: number;
     milliseconds: number;
     revision: number;
@@ -34,12 +34,12 @@ export class Latency {
         this.write();
     }
 
-    /** Milliseconds, of the last one. */
+    /** The last sample, in milliseconds. */
     get last(): number | undefined {
         return this.samples.at(-1)?.milliseconds;
     }
 
-    /** Follows a request to its picture. One that changes nothing has none. */
+    /** Tracks a request until its picture is presented. A request that changes nothing has no picture. */
     async follow(request: string, answer: Promise<{ revision: number }>): Promise<void> {
         const start = performance.now();
         const { seen } = this;
@@ -55,13 +55,13 @@ export class Latency {
         this.settle();
     }
 
-    /** A new connection may be to a session that counts anew. */
+    /** Forgets the revisions: a new connection may be to a session whose revisions start at 0. */
     restart(): void {
         this.waiting = [];
         this.seen = 0;
     }
 
-    /** Carries out a line of the command line that is about latency; false if it is not. */
+    /** Executes a command about latency; returns false for any other command. */
     command(line: string): boolean {
         const words = line.trim().replace(/\s*=\s*/, "=").replace(/\s+/g, " ");
         if (/^set latency(=on)?$/.test(words)) this.show(true);
@@ -98,8 +98,8 @@ export class Latency {
     }
 
     private record(sample: Sample): void {
-        if (this.samples.length >= kMost) {
-            this.samples.splice(0, kMost / 2);
+        if (this.samples.length >= kMaxSamples) {
+            this.samples.splice(0, kMaxSamples / 2);
             performance.clearMeasures(kMeasure);
         }
         this.samples.push(sample);
@@ -109,13 +109,19 @@ export class Latency {
 
     private write(): void {
         if (this.output.hidden) return;
-        const recent = this.samples.slice(-kRecent).map((sample) => sample.milliseconds);
+        const recent = this.samples.slice(-kRecentSamples).map((sample) => sample.milliseconds);
+        if (recent.length === 0) {
+            this.output.textContent = "Key to picture: press a key";
+            return;
+        }
         const text = (value: number): string => `${value < 10 ? value.toFixed(1) : value.toFixed(0)} ms`;
         const sorted = [...recent].sort((a, b) => a - b);
         const at = (part: number): string => text(sorted[Math.min(sorted.length - 1, Math.floor(part * sorted.length))]!);
-        this.output.textContent =
-            recent.length === 0
-                ? "key to picture: press a key"
-                : `key to picture ${text(recent.at(-1)!)} \u00b7 median ${at(0.5)} \u00b7 99 % ${at(0.99)} \u00b7 ${recent.length} measured`;
+        this.output.textContent = [
+            `Key to picture ${text(recent.at(-1)!)}`,
+            `median ${at(0.5)}`,
+            `99th percentile ${at(0.99)}`,
+            `${recent.length} measured`,
+        ].join(" \u00b7 ");
     }
 }

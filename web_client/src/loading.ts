@@ -1,14 +1,15 @@
-// A file that is dropped on the page, or chosen: how far it has come, and what the server says of it.
+// Loads files that are dropped on the page or chosen: shows the progress, and the server's warnings or error.
 
 import type { Client, Done, RequestError } from "@oval4d/protocol";
 
 import { byId, element } from "./element";
-import { FileError, linesAround, readFile, type Readable } from "./files";
+import { FileError, linesAround, type PolytopeFile, readFile } from "./files";
+import { sentence } from "./format";
 
-const kProgress = 100; // milliseconds between two looks at how far it is
-const kDefaultLimit = 8 * 2 ** 20; // bytes of a message, where the server names none
-const kMostKept = 8; // files: as many as a session holds
-const kMostShown = 120; // characters of a line of the file
+const kProgressInterval = 100; // milliseconds
+const kDefaultLimit = 8 * 2 ** 20; // bytes of a message, if the server states no limit
+const kMaxKeptFiles = 8; // as many as a session holds
+const kMaxExcerptWidth = 120; // characters of a line of the file
 
 export class Loading {
     private readonly root = byId("loading");
@@ -17,31 +18,31 @@ export class Loading {
     private readonly report = this.root.querySelector<HTMLElement>(".report")!;
     private readonly chooser = byId<HTMLInputElement>("file");
     private readonly target = byId("drop");
-    private readonly kept = new Map<string, Readable>(); // what the session has of this page's files
+    private readonly kept = new Map<string, PolytopeFile>(); // files from this page that the session holds
     private queue: Promise<void> = Promise.resolve();
 
     constructor(private readonly client: Client) {
         this.chooser.addEventListener("change", () => {
             this.take([...(this.chooser.files ?? [])]);
-            this.chooser.value = ""; // the same file may be chosen again, mended
+            this.chooser.value = ""; // so that the same file can be chosen again after a correction
         });
         this.root.querySelector("[data-close]")!.addEventListener("click", () => this.hide());
         this.root.addEventListener("keydown", (event) => event.key === "Escape" && this.hide());
         this.listenForDrops();
     }
 
-    /** Has the user choose a file. */
+    /** Opens the browser's file chooser. */
     choose(): void {
         this.chooser.click();
     }
 
-    /** Loads the file of this name once more, into a session that has not got it; without such a file nothing. */
-    async again(name: string): Promise<void> {
-        const readable = this.kept.get(name);
-        if (readable) await this.client.request({ type: "load", ...readable });
+    /** Loads a file of this page again, into a new session; does nothing if there is no file of this name. */
+    async reload(name: string): Promise<void> {
+        const file = this.kept.get(name);
+        if (file) await this.client.request({ type: "load", ...file });
     }
 
-    /** Puts away what was said, unless a file is on its way. */
+    /** Hides the panel, unless a file is being loaded. */
     hide(): void {
         if (this.root.hasAttribute("aria-busy")) return;
         const within = this.root.contains(document.activeElement);
@@ -54,34 +55,34 @@ export class Loading {
     }
 
     private async load(file: File): Promise<void> {
-        let readable: Readable | undefined;
+        let read: PolytopeFile | undefined;
         try {
             this.begin(file.name);
-            readable = await readFile(file, this.client.welcome?.limits["message"] ?? kDefaultLimit);
-            const done = await this.send(readable);
-            this.keep(readable);
+            read = await readFile(file, this.client.welcome?.limits["message"] ?? kDefaultLimit);
+            const done = await this.send(read);
+            this.keep(read);
             this.end(done.warnings ?? []);
         } catch (error) {
-            this.fail(error as Error, readable?.data ?? "");
+            this.fail(error as Error, read?.data ?? "");
         }
     }
 
-    private async send(readable: Readable): Promise<Done> {
-        const answer = this.client.request({ type: "load", ...readable });
+    private async send(file: PolytopeFile): Promise<Done> {
+        const answer = this.client.request({ type: "load", ...file });
         const all = this.client.unsent;
         const timer = setInterval(() => {
             const { unsent } = this.client;
-            this.say(unsent > 0 ? `Sending, ${Math.floor(100 * (1 - unsent / all))} %` : "Being read and checked");
+            this.say(unsent > 0 ? `Sending the file: ${Math.floor(100 * (1 - unsent / all))}%` : "Checking the file");
             if (unsent > 0) this.progress.value = 1 - unsent / all;
-            else this.progress.removeAttribute("value"); // it takes as long as it takes
-        }, kProgress);
+            else this.progress.removeAttribute("value"); // the server does not report progress
+        }, kProgressInterval);
         return await answer.finally(() => clearInterval(timer));
     }
 
-    private keep(readable: Readable): void {
-        this.kept.delete(readable.name);
-        this.kept.set(readable.name, readable);
-        if (this.kept.size > kMostKept) this.kept.delete([...this.kept.keys()][0]!);
+    private keep(file: PolytopeFile): void {
+        this.kept.delete(file.name);
+        this.kept.set(file.name, file);
+        if (this.kept.size > kMaxKeptFiles) this.kept.delete([...this.kept.keys()][0]!);
     }
 
     private begin(name: string): void {
@@ -91,28 +92,28 @@ export class Loading {
         this.root.setAttribute("aria-busy", "true");
         this.progress.hidden = false;
         this.progress.removeAttribute("value");
-        this.say("Reading");
+        this.say("Reading the file");
     }
 
     private end(warnings: string[]): void {
-        this.rest("done");
+        this.finish("done");
         if (warnings.length === 0) return this.hide();
         const list = element("ul", {}, ...warnings.map((warning) => element("li", {}, sentence(warning))));
-        this.say("It is shown, after repairs:", list);
+        this.say("Loaded, with these corrections:", list);
         return undefined;
     }
 
     private fail(error: Error, data: string): void {
-        this.rest("failed");
+        this.finish("failed");
         const [, line] = /\bline (\d+)/.exec(error.message) ?? [];
         const refused = error instanceof FileError || (error as RequestError).code !== "not_connected";
         this.say(
-            refused ? sentence(error.message) : "The connection was lost while the file was on its way. Try again.",
+            refused ? sentence(error.message) : "The connection was lost before the file was loaded. Try again.",
             ...(line !== undefined && data !== "" ? [excerpt(data, Number(line))] : []),
         );
     }
 
-    private rest(outcome: "done" | "failed"): void {
+    private finish(outcome: "done" | "failed"): void {
         this.root.removeAttribute("aria-busy");
         this.root.dataset["outcome"] = outcome;
         this.progress.hidden = true;
@@ -142,17 +143,13 @@ export class Loading {
     }
 }
 
-/** The faulty line of the file, and its neighbours. */
+/** The faulty line of the file, with its neighboring lines. */
 function excerpt(data: string, faulty: number): HTMLElement {
     const lines = linesAround(data, faulty).map(({ number, text }) => {
-        const shown = text.length > kMostShown ? `${text.slice(0, kMostShown)}…` : text;
+        const shown = text.length > kMaxExcerptWidth ? `${text.slice(0, kMaxExcerptWidth)}…` : text;
         const attributes = number === faulty ? { class: "faulty" } : {};
         return element("div", attributes, element("i", {}, String(number)), element("code", {}, shown));
     });
-    return element("div", { class: "excerpt", role: "group", "aria-label": "From the file" }, ...lines);
+    return element("div", { class: "excerpt", role: "group", "aria-label": "Excerpt of the file" }, ...lines);
 }
 
-function sentence(text: string): string {
-    const begun = text.charAt(0).toUpperCase() + text.slice(1);
-    return /[.?!]$/.test(begun) ? begun : `${begun}.`;
-}

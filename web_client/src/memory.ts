@@ -1,4 +1,5 @@
-// What is remembered over a reload, in this tab only. A browser that forbids it, or a spoilt entry, is like none.
+// Values that survive a reload, in this tab only. If the browser forbids storage or an entry is invalid, the value is
+// undefined.
 
 export function recall<T>(key: string): T | undefined {
     try {
@@ -12,6 +13,6 @@ export function remember(key: string, value: unknown): void {
     try {
         sessionStorage.setItem(key, JSON.stringify(value));
     } catch {
-        // It will be forgotten.
+        // Storage is not available: the value is lost at a reload.
     }
 }

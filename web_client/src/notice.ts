@@ -1,19 +1,20 @@
-// A short message over the picture, until the next action or a while later.
+// A short message over the picture, shown until the next action or for a few seconds.
 
 import { byId, element } from "./element";
+import { sentence } from "./format";
 
-const kShownFor = 8000; // milliseconds
+const kDuration = 8000; // milliseconds
 
 export class Notice {
     private readonly root = byId("notice");
     private timer: ReturnType<typeof setTimeout> | undefined;
 
-    /** With `text` to be copied by hand, it stays. */
+    /** Shows a message. With a `text` for the user to copy, it stays until the next action. */
     show(message: string, text?: string): void {
         clearTimeout(this.timer);
-        this.root.replaceChildren(message);
+        this.root.replaceChildren(sentence(message));
         if (text === undefined) {
-            this.timer = setTimeout(() => this.hide(), kShownFor);
+            this.timer = setTimeout(() => this.hide(), kDuration);
             return;
         }
         const field = element("input", { type: "text", readonly: true, value: text, "aria-label": "Link" });

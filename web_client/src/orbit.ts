@@ -1,10 +1,10 @@
-// The viewer's own motion about the slices: applied here at once, sent to the session as fast as it takes it.
+// The viewer's orbit around the slices: applied on the page at once, and sent to the session as fast as it accepts it.
 
 import type { Client, Orbit, State } from "@oval4d/protocol";
 
 import type { Stage } from "./picture/stage";
 
-const kRest: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
+const kInitial: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
 const kLimits = { elevation: 1.5, zoom: [0.1, 10] as const };
 
 export class OrbitControl {
@@ -16,7 +16,7 @@ export class OrbitControl {
         private readonly stage: Stage,
     ) {}
 
-    /** Half the picture's height turns by a quarter turn. */
+    /** Orbits by a drag in pixels: half the height of the picture is a quarter turn. */
     drag(dx: number, dy: number): void {
         const part = Math.PI / Math.max(1, this.stage.size.height / devicePixelRatio);
         const { azimuth, elevation, zoom } = this.stage.orbit;
@@ -31,10 +31,10 @@ export class OrbitControl {
     }
 
     reset(): void {
-        this.move(kRest);
+        this.move(kInitial);
     }
 
-    /** Takes over what another client, or the history, has done. */
+    /** Adopts the camera of the state, unless changes of this client are still to be sent. */
     follow(state: State): void {
         if (this.sending || this.unsent) return;
         this.stage.orbit = state.camera;

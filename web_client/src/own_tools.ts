@@ -1,4 +1,4 @@
-// The page's own buttons: for what no key does.
+// The page's own buttons, for actions that have no key.
 
 import { element } from "./element";
 import type { Mode } from "./picture/stage";
@@ -15,7 +15,7 @@ export interface OwnTools {
 }
 
 export function ownSections(tools: OwnTools): Section[] {
-    const drawnBy = (mode: Mode, label: string, title: string): HTMLElement => {
+    const renderer = (mode: Mode, label: string, title: string): HTMLElement => {
         const made = button(mode, label, title, () => tools.setMode(mode));
         made.toggleAttribute("disabled", mode === "geometry" && !tools.canDrawGeometry);
         made.setAttribute("aria-pressed", String(tools.mode === mode));
@@ -23,39 +23,34 @@ export function ownSections(tools: OwnTools): Section[] {
     };
     return [
         {
-            title: "Start again",
+            title: "Reset",
             content: [
-                button("reset", "Orientation", "turn the polytope as it was at the start", tools.reset),
-                button(
-                    "reset-view",
-                    "Viewpoint",
-                    "look from where it was at the start (double click)",
-                    tools.resetView,
-                ),
+                button("reset", "Orientation", "Restore the initial orientation and focus", tools.reset),
+                button("reset-view", "Viewpoint", "Restore the initial viewpoint (double click)", tools.resetView),
             ],
         },
         {
-            title: "Drawn by",
+            title: "Rendered by",
             content: [
-                drawnBy(
+                renderer(
                     "geometry",
-                    "this device",
-                    tools.canDrawGeometry ? "drawn here, by WebGL" : "WebGL is missing here",
+                    "This device",
+                    tools.canDrawGeometry ? "Render in this browser with WebGL" : "WebGL 2 is not available here",
                 ),
-                drawnBy("frames", "the server", "drawn by the server, sent as pictures"),
+                renderer("frames", "Server", "Render on the server, which sends pictures"),
             ],
         },
         {
-            title: "Take along",
+            title: "Export and share",
             content: [
-                button("save", "Save picture", "save a picture of the slices as a PNG file", tools.save),
-                button("share", "Copy link", "copy a link with which others join this session", tools.share),
+                button("save", "Save picture", "Save the picture as a PNG file", tools.save),
+                button("share", "Copy link", "Copy a link with which others can join this session", tools.share),
             ],
         },
     ];
 }
 
-/** Shows which mode is on. */
+/** Marks the button of the active mode as pressed. */
 export function markMode(mode: Mode): void {
     for (const one of ["geometry", "frames"]) {
         document.querySelector(`[data-own="${one}"]`)?.setAttribute("aria-pressed", String(one === mode));

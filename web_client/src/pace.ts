@@ -1,15 +1,17 @@
-// How fast a held key may repeat: the next one goes when the last one's picture has been seen. Nothing is queued.
+// Limits the repetition of a held key: it repeats only after the previous picture has been presented. Nothing is
+// queued.
 
 export class Pace {
     private unanswered = 0;
     private awaited = 0; // revision
-    private seen = 0;
+    private seen = 0; // revision
 
+    /** Whether a held key may repeat now. */
     get free(): boolean {
         return this.unanswered === 0 && this.seen >= this.awaited;
     }
 
-    /** Follows a request to its picture. */
+    /** Tracks a request until its picture is presented. */
     async follow(answer: Promise<{ revision: number }>): Promise<void> {
         ++this.unanswered;
         try {
@@ -23,7 +25,7 @@ export class Pace {
         this.seen = revision;
     }
 
-    /** A new connection may be to a session that counts anew. */
+    /** Forgets the revisions: a new connection may be to a session whose revisions start at 0. */
     restart(): void {
         this.awaited = this.seen = 0;
     }

@@ -1,13 +1,13 @@
-// The dialog in which a polytope is found by typing, or asked for by a symbol that the catalogue does not list.
+// The dialog for choosing a polytope: searches the catalogue, or builds a polytope from a symbol that is not listed.
 
 import type { CatalogueEntry } from "@oval4d/protocol";
 
 import { Catalogue } from "./catalogue";
 import { Dialog } from "./dialog";
 import { byId, element } from "./element";
-import { count } from "./format";
+import { count, sentence } from "./format";
 
-const kPage = 8; // options that Page Up and Page Down go
+const kPage = 8; // options by which Page Up and Page Down move
 const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1, PageDown: kPage, PageUp: -kPage };
 
 export class Picker {
@@ -21,9 +21,9 @@ export class Picker {
     private catalogue = new Catalogue([]);
     private current = "";
     private active: HTMLElement | undefined;
-    private choosing = 0; // counts: only the last choice's outcome is shown
+    private choosing = 0; // number of the latest choice: the outcome of earlier ones is not shown
 
-    /** `choose` shows a polytope by name and throws an Error to be read by the user. */
+    /** `choose` selects a polytope by name; it throws an Error whose message is shown to the user. */
     constructor(private readonly choose: (name: string) => Promise<unknown>) {
         this.input.addEventListener("input", () => this.search());
         this.input.addEventListener("keydown", (event) => this.keydown(event));
@@ -38,7 +38,7 @@ export class Picker {
         });
     }
 
-    /** Opens with the polytope that is shown now. */
+    /** Opens the dialog; `current` is the polytope that is shown now. */
     open(current: string): void {
         this.current = current;
         this.input.value = "";
@@ -46,7 +46,7 @@ export class Picker {
         this.search();
     }
 
-    /** The catalogue may be another one than before. */
+    /** Shows these entries, if they differ from the previous ones. */
     show(entries: CatalogueEntry[]): void {
         if (JSON.stringify(entries) === JSON.stringify(this.catalogue.entries)) return;
         this.catalogue = new Catalogue(entries);
@@ -71,7 +71,7 @@ export class Picker {
         this.asTyped.dataset["name"] = text;
         this.list.replaceChildren(...groups, ...(isName ? [] : [this.asTyped]));
         const shown = this.listed.length - (isName ? 0 : 1);
-        this.found.textContent = shown === 1 ? "1 polytope" : `${shown === 0 ? "no" : count(shown)} polytopes`;
+        this.found.textContent = shown === 1 ? "1 polytope" : `${shown === 0 ? "No" : count(shown)} polytopes`;
         for (const one of this.options.values()) {
             one.toggleAttribute("data-current", one.dataset["name"] === this.current);
         }
@@ -123,7 +123,7 @@ export class Picker {
     }
 
     private say(error: string): void {
-        this.error.textContent = error;
+        this.error.textContent = error === "" ? "" : sentence(error);
         this.input.toggleAttribute("aria-invalid", error !== "");
         this.list.removeAttribute("aria-busy");
     }
@@ -142,6 +142,6 @@ function option(entry: CatalogueEntry, id: string): HTMLElement {
         element("b", {}, name),
         element("span", { class: "symbol-of" }, symbol),
         element("small", {}, ...drawn, also),
-        element("small", { class: "counts", title: "vertices, edges, 2-faces, cells" }, counts),
+        element("small", { class: "counts", title: "Vertices, edges, 2-faces, cells" }, counts),
     );
 }

@@ -1,15 +1,15 @@
-// The state, always in sight, and spoken when it changes.
+// The display of the state, which is also announced to screen readers when it changes.
 
 import type { State } from "@oval4d/protocol";
 
-import { spokenKinds } from "./colours";
+import { spokenKinds } from "./colors";
 import { byId, element } from "./element";
 import { degrees, focusW, length, rotation } from "./format";
 
 interface Reading {
     name: string;
     symbol: string;
-    /** What the command line starts with to change it. */
+    /** The beginning of the command that changes the value. */
     command: string;
     value(state: State): string;
     spoken(state: State): string;
@@ -20,14 +20,14 @@ const kReadings: Reading[] = [
     reading("beta", "β", "set beta=", (state) => degrees(state.beta)),
     reading("w", "w", "set focus=", (state) => length(focusW(state))),
     reading("spacing", "δ", "set spacing=", (state) => length(state.slices.spacing)),
-    reading("slices", "slices", "set slices=", (state) => String(state.slices.count)),
+    reading("slices", "Slices", "set slices=", (state) => String(state.slices.count)),
     {
-        ...reading("last", "last turn", "rotate ", (state) => (state.last ? rotation(state.last) : "none")),
+        ...reading("last", "Last rotation", "rotate ", (state) => (state.last ? rotation(state.last) : "none")),
         spoken: ({ last }) => (last ? `turned ${rotation(last)}` : ""),
     },
 ];
 
-const kSettled = 700; // milliseconds without a change, before it is spoken
+const kSpeechDelay = 700; // milliseconds without a change before the state is announced
 
 export class Readings {
     private readonly root = byId("readings");
@@ -37,12 +37,12 @@ export class Readings {
     private spoken: string[] | undefined;
     private timer: ReturnType<typeof setTimeout> | undefined;
 
-    /** `edit` is asked to open the command line with this beginning. */
+    /** `edit` is called to open the command line with the beginning of a command. */
     constructor(edit: (command: string) => void) {
         for (const { name, symbol, command } of kReadings) {
             const value = element("output", { "data-reading": name }, "\u2013");
             const label = element("span", { class: symbol.length === 1 ? "symbol" : "word" }, symbol);
-            const button = element("button", { type: "button", title: `change it: :${command}…` }, label, " ", value);
+            const button = element("button", { type: "button", title: `Change with :${command}…` }, label, " ", value);
             button.addEventListener("click", () => edit(command));
             this.root.append(button);
             this.values.set(name, value);
@@ -56,12 +56,12 @@ export class Readings {
             if (output.textContent !== text) output.textContent = text;
         }
         this.state = state;
-        if (state.turning && this.timer !== undefined) return; // it does not settle
+        if (state.turning && this.timer !== undefined) return; // each step would delay the announcement
         clearTimeout(this.timer);
-        this.timer = setTimeout(() => this.speak(), kSettled);
+        this.timer = setTimeout(() => this.speak(), kSpeechDelay);
     }
 
-    /** Speaks what has changed since it last spoke; at first, what there is. */
+    /** Announces the changes since the last announcement; the first time, only the polytope's name. */
     private speak(): void {
         this.timer = undefined;
         const state = this.state!;
@@ -72,7 +72,7 @@ export class Readings {
             ...kReadings.map((one) => one.spoken(state)),
             state.view === "oval" ? "oval view" : "single view",
             state.turning ? "turning" : "at rest",
-            `colours by ${state.color}`,
+            `colors by ${state.color}`,
             spokenKinds(state),
             ...Object.entries(shown).map(([what, is]) => on(what, is as boolean)),
         ];

@@ -1,64 +1,65 @@
-// A button for every action: those of the key table, and the page's own.
+// The tools panel: a button for every action of the key table, and the page's own sections.
 
-import type { KeyBinding, Keymap, Plane, State } from "@oval4d/protocol";
+import type { KeyBinding, Keymap, Parts, Plane, State } from "@oval4d/protocol";
 
+import parts from "../../protocol/schema/parts.schema.json";
 import { byId, element, planeName } from "./element";
 
 export interface ToolEvents {
-    /** `held`: the button is being held down, and this is not its first time. */
+    /** Presses the key of a button; `held` is true for repetitions while the button is held down. */
     press(binding: KeyBinding, inverse: boolean, held: boolean): void;
 }
 
-/** A page's own section, shown among those of the table; under a title that the table has too, they are one. */
+/** A section of the page's own, shown among the groups of the key table; merged with a group of the same title. */
 export interface Section {
     title: string;
-    /** The group of the table that it follows; else it stands at the end. */
+    /** The group of the key table after which the section is placed; by default it is the last. */
     after?: string;
     content: Node[];
 }
 
-// Sections stand together on a small screen's tabs. Groups that are not named here come last.
+// The tabs in which sections are grouped on small screens. Groups that are not listed are in the last tab.
 const kTabs = [
     { title: "Turn", groups: ["turn", "history"] },
     { title: "Slices", groups: ["angle", "focus", "slices"] },
-    { title: "Show", groups: ["polytope", "look", "Colours"] },
+    { title: "Show", groups: ["polytope", "look", "Colors"] },
 ];
 const kOther = "More";
 
 const kRepeating =
     /^(rotate|repeat|undo|redo|(alpha|beta|focus|spacing|slices|polytope)_(up|down|left|right|smaller|larger|fewer|more|next|previous))$/;
-const kHoldDelay = 400; // milliseconds
-const kHoldInterval = 60;
+const kHoldDelay = 400; // milliseconds until a held button repeats
+const kHoldInterval = 60; // milliseconds between repetitions
 
-/** Which actions are switches, and how they stand. */
+/** The actions that are toggles, and whether each is on. The name of a part of the picture is also the action that
+ * switches it. */
 const kSwitches: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
     view: (state) => state.view === "single",
-    coordinates: (state) => state.shown.coordinates,
-    faces: (state) => state.shown.faces,
-    bars: (state) => state.shown.bars,
-    balls: (state) => state.shown.balls,
+    ...Object.fromEntries(
+        Object.keys(parts.properties).map((part) => [part, (state: State) => state.shown[part as keyof Parts]]),
+    ),
 };
-/** Where the table's word would say too little on a button. */
-const kLabels: Record<string, string> = { view: "single", command_line: "command" };
+/** Button labels for actions whose label in the key table is not clear enough on a button. */
+const kLabels: Record<string, string> = { view: "Single", command_line: "Command" };
 const kFocusOrder = ["focus_first", "focus_left", "focus_zero", "focus_right", "focus_last"];
 
-/** Pairs that make one stepper: less, more, of what. */
+/** Pairs of actions that are combined in one stepper: decrease, increase, and the name of the quantity. */
 const kPairs = [
     ["alpha_down", "alpha_up", "α"],
     ["beta_down", "beta_up", "β"],
     ["spacing_smaller", "spacing_larger", "δ"],
-    ["slices_fewer", "slices_more", "slices"],
+    ["slices_fewer", "slices_more", "Slices"],
 ] as const;
 
-const kColumns: Plane[] = ["xy", "xz", "xw"]; // of the pad; their perpendiculars zw, yw, yz stand below
+const kColumns: Plane[] = ["xy", "xz", "xw"]; // columns of the pad; the perpendicular planes zw, yw, yz are below them
 
 export class Tools {
     private readonly root = byId("tools");
     private readonly switches = new Map<string, HTMLElement>();
 
     constructor(private readonly events: ToolEvents) {
-        // The drawing keeps the focus, and with it the keys, when the mouse presses a button.
+        // The drawing keeps the focus, and therefore receives the keys, when a button is clicked.
         this.root.addEventListener("mousedown", (event) => event.preventDefault());
     }
 
@@ -106,7 +107,7 @@ export class Tools {
             for (const button of buttons) button.setAttribute("aria-pressed", String(button.textContent === title));
         };
         choose(titles.includes(this.root.dataset["tab"] ?? "") ? this.root.dataset["tab"]! : titles[0]!);
-        return element("div", { class: "tabs", role: "group", "aria-label": "Tools to show" }, ...buttons);
+        return element("div", { class: "tabs", role: "group", "aria-label": "Groups of tools" }, ...buttons);
     }
 
     private button(binding: KeyBinding): HTMLElement {
@@ -121,7 +122,7 @@ export class Tools {
         return button;
     }
 
-    /** Steppers for the pairs, buttons for the rest. */
+    /** The controls for a group of keys: steppers for the pairs, buttons for the rest. */
     private controls(keys: KeyBinding[]): HTMLElement[] {
         const find = (action: string): KeyBinding | undefined => keys.find((key) => key.action === action);
         const steppers = kPairs.flatMap(([lessName, moreName, of]) => {
@@ -135,7 +136,7 @@ export class Tools {
         return [...steppers, ...rest.map((key) => this.button(key))];
     }
 
-    /** − xy +: a rotation and its inverse. */
+    /** A stepper for a rotation and its inverse: − xy +. */
     private rotation(binding: KeyBinding): HTMLElement {
         const planes = binding.planes ?? [];
         const made = this.stepper(binding, true, planes.map(planeName), binding.name, binding);
@@ -146,7 +147,7 @@ export class Tools {
 
     private stepper(less: KeyBinding, inverse: boolean, name: Node[], keys: string, more: KeyBinding): HTMLElement {
         const step = (sign: string, binding: KeyBinding, inverted: boolean): HTMLElement => {
-            const text = inverted ? `${binding.text}, the inverse` : binding.text;
+            const text = inverted ? `Inverse: ${uncapitalized(binding.text)}` : binding.text;
             const key = inverted ? `Shift+${binding.name}` : binding.name;
             const button = element("button", { type: "button", ...this.names(binding, text, key) }, sign);
             this.onPress(button, binding, inverted);
@@ -165,7 +166,7 @@ export class Tools {
         };
     }
 
-    /** Presses at a click, and again and again while held down. */
+    /** Sends presses: one at a click, and repeated ones while the button is held down. */
     private onPress(button: HTMLElement, binding: KeyBinding, inverse: boolean): void {
         let timer: ReturnType<typeof setTimeout> | undefined;
         let repeated = false;
@@ -182,7 +183,7 @@ export class Tools {
             });
             for (const end of ["pointerup", "pointercancel", "pointerleave", "blur"])
                 button.addEventListener(end, stop);
-            button.addEventListener("contextmenu", (event) => event.preventDefault()); // of a long touch
+            button.addEventListener("contextmenu", (event) => event.preventDefault()); // no menu after a long touch
         }
         button.addEventListener("click", () => {
             stop();
@@ -192,6 +193,11 @@ export class Tools {
     }
 }
 
+function uncapitalized(text: string): string {
+    return text.charAt(0).toLowerCase() + text.slice(1);
+}
+
+/** The column of a plane, or of its perpendicular plane. */
 function columnOf(plane: Plane): number {
     const column = kColumns.indexOf(plane);
     return column >= 0 ? column : kColumns.findIndex((one) => ![...one].some((axis) => plane.includes(axis)));

@@ -1,4 +1,4 @@
-// Headless Chromium, and what the tests ask of a page.
+// Starts headless Chromium, and has helpers for tests of the page.
 import { existsSync } from "node:fs";
 
 import { chromium } from "playwright-core";
@@ -12,7 +12,7 @@ const kArguments = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-
 const kBrowsers = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 const executablePath = process.env.OVAL4D_CHROMIUM ?? kBrowsers.find((path) => existsSync(path));
 
-/** Starts a browser that is closed at the end of all tests. */
+/** Starts a browser; it is closed after all tests. */
 export async function startBrowser(args = []) {
     const browser = await chromium.launch({ executablePath, args: [...kArguments, ...args] });
     atEnd(() => browser.close());
@@ -31,12 +31,12 @@ export function common() {
 }
 
 /**
- * Opens the page and waits for its first picture. `before` runs in the page before its own scripts, `seen` is told of
- * each response; `errors` collects what the console calls an error.
+ * Opens the page and waits for its first picture. `before` runs in the page before its scripts; `seen` is called with
+ * each response; `errors` collects the console's errors and uncaught exceptions.
  */
 export async function openPage({ url, browser, picture = true, before, seen, ...options } = {}) {
-    const our = await common();
-    const context = await (browser ?? our.browser).newContext({ viewport: { width: 1280, height: 720 }, ...options });
+    const usual = await common();
+    const context = await (browser ?? usual.browser).newContext({ viewport: { width: 1280, height: 720 }, ...options });
     const page = await context.newPage();
     page.setDefaultTimeout(30_000);
     const errors = [];
@@ -44,7 +44,7 @@ export async function openPage({ url, browser, picture = true, before, seen, ...
     page.on("pageerror", (error) => errors.push(error.message));
     if (before) await page.addInitScript(before);
     if (seen) page.on("response", seen);
-    await page.goto(url ?? our.url);
+    await page.goto(url ?? usual.url);
     if (picture) await presented(page, 0);
     return { page, context, errors, close: () => context.close() };
 }
@@ -57,12 +57,12 @@ export async function presented(page, revision) {
     );
 }
 
-/** Waits until the tools are there: the key table has arrived. */
+/** Waits until the key table has arrived and the tools are shown. */
 export async function ready(page) {
     await page.waitForSelector("[data-action=help]", { state: "attached" });
 }
 
-/** A script that has joined the page's session. */
+/** Joins the page's session with a script. */
 export async function scriptFor(page, url) {
     const credentials = await page.evaluate(() => {
         return JSON.parse(sessionStorage.getItem(`oval4d.session ${location.pathname}`)).credentials;
@@ -70,12 +70,12 @@ export async function scriptFor(page, url) {
     return joinSession(url ?? (await common()).url, credentials);
 }
 
-/** Waits until the page names this polytope as the one shown. */
+/** Waits until the page shows the name of this polytope. */
 export async function named(page, polytope) {
     await page.waitForFunction((name) => document.querySelector("#polytope b").textContent === name, polytope);
 }
 
-/** What the page shows of the state. */
+/** The values of the state that the page displays. */
 export async function readings(page) {
     return page.evaluate(() => {
         const outputs = [...document.querySelectorAll("[data-reading]")];
@@ -84,7 +84,7 @@ export async function readings(page) {
     });
 }
 
-/** Opens the page with a script in its session, for one test. */
+/** Opens the page, and joins its session with a script. */
 export async function openWithScript(options) {
     const opened = await openPage(options);
     await ready(opened.page);
@@ -92,7 +92,7 @@ export async function openWithScript(options) {
     return {
         ...opened,
         script,
-        /** Presses keys; resolves with the state once it has changed and its picture has been presented. */
+        /** Presses keys; resolves to the changed state once its picture has been presented. */
         async press(...keys) {
             const { revision } = await script.state();
             for (const key of keys) await opened.page.keyboard.press(key);

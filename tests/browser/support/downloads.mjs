@@ -1,4 +1,4 @@
-// What the page gives to be saved.
+// Files that the page downloads.
 
 /** The bytes of a download. */
 export async function bytesOf(download) {

@@ -1,22 +1,22 @@
-// Pictures as pixels.
+// Pictures as arrays of pixels.
 import pngjs from "pngjs";
 
 export function decode(png) {
     return pngjs.PNG.sync.read(Buffer.from(png));
 }
 
-/** Red, green, blue at a point, from the upper left. */
+/** Red, green and blue at a point, measured from the upper left. */
 export function pixelAt({ width, data }, x, y) {
     const at = 4 * (Math.round(y) * width + Math.round(x));
     return [...data.subarray(at, at + 3)];
 }
 
-/** The largest difference of a channel. */
+/** The largest difference between two colors in any channel. */
 export function distance(a, b) {
     return Math.max(...a.map((value, i) => Math.abs(value - b[i])));
 }
 
-/** Lays two pictures of one size over each other. */
+/** The mean difference of two pictures of the same size, and the fraction of pixels that differ much. */
 export function compare(a, b) {
     if (a.width !== b.width || a.height !== b.height) throw new Error("the pictures differ in size");
     let sum = 0;
@@ -34,7 +34,7 @@ export function compare(a, b) {
     return { mean: sum / (3 * pixels), far: far / pixels };
 }
 
-/** The part of the pixels that differ from the background. */
+/** The fraction of pixels that differ from the background. */
 export function covered(picture, background) {
     let count = 0;
     for (let i = 0; i < picture.data.length; i += 4) {

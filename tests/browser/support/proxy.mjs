@@ -1,4 +1,4 @@
-// A reverse proxy that puts the service under a path, as an operator's web server does.
+// A reverse proxy that mounts the service under a path, as an operator's web server does.
 import { createServer, request } from "node:http";
 import { connect } from "node:net";
 
@@ -8,7 +8,7 @@ export async function startProxy(target, prefix, extraHeaders = {}) {
     const { hostname, port } = new URL(target);
     const sockets = new Set();
     let broken = false;
-    const outside = []; // what was asked for that is not under the prefix
+    const outside = []; // requested URLs that are not under the prefix
     const inner = (url) => {
         if (url.startsWith(`${prefix}/`)) return url.slice(prefix.length);
         outside.push(url);
@@ -50,12 +50,12 @@ export async function startProxy(target, prefix, extraHeaders = {}) {
     return {
         url: `http://127.0.0.1:${server.address().port}${prefix}/`,
         outside,
-        /** Breaks all WebSockets, as a network does, and lets none through until it is mended. */
+        /** Breaks all WebSockets, like a network failure, and refuses new ones until restore(). */
         cut() {
             broken = true;
             sockets.forEach((socket) => socket.destroy());
         },
-        mend() {
+        restore() {
             broken = false;
         },
         async stop() {

@@ -1,11 +1,11 @@
-// Where the points of a `slices` message are seen, computed from the specification, not from the page's code.
+// Projects the points of a `slices` message, following the specification and not the page's code.
 
 const minus = (a, b) => a.map((x, i) => x - b[i]);
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
 const cross = ([a, b, c], [x, y, z]) => [b * z - c * y, c * x - a * z, a * y - b * x];
 const unit = (a) => a.map((x) => x / Math.hypot(...a));
 
-/** Pixels from the upper left corner of a picture of this size. */
+/** Projects a world position to pixels from the upper left corner of a picture of this size. */
 export function project(scene, world, { width, height }) {
     const { eye, target, up, fov, shift } = scene.camera;
     const back = unit(minus(eye, target));
@@ -18,7 +18,7 @@ export function project(scene, world, { width, height }) {
     return [((x + 1) / 2) * width, ((1 - y) / 2) * height];
 }
 
-/** The slice's vertices in the world. */
+/** The world positions of a slice's vertices. */
 export function worldPoints(scene, slice) {
     const points = [];
     for (let i = 0; i < slice.vertices.length; i += 3) {
@@ -27,6 +27,6 @@ export function worldPoints(scene, slice) {
     return points;
 }
 
-export function rgb(colour) {
-    return [colour >> 16, (colour >> 8) & 255, colour & 255];
+export function rgb(color) {
+    return [color >> 16, (color >> 8) & 255, color & 255];
 }

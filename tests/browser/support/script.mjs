@@ -1,11 +1,11 @@
-// A second client of a page's session, as a script is one.
+// A second client of a page's session: a script.
 import WebSocket from "ws";
 
 import { Client } from "../node_modules/.oval4d/client.mjs";
 import { atEnd } from "./suite.mjs";
 import { within } from "./within.mjs";
 
-/** Joins a session, or makes one. */
+/** Joins a session, or creates one. */
 export async function joinSession(url, credentials) {
     const watchers = new Set();
     let state;
@@ -30,7 +30,7 @@ export async function joinSession(url, credentials) {
         client,
         request: (message) => client.request(message),
         state: () => client.request({ type: "get", what: "state" }),
-        /** The first state for which `holds` is true, now or later. */
+        /** Waits for a state for which `holds` is true, and returns it. */
         async until(holds, what) {
             let watch;
             const found = new Promise((resolve) => {

@@ -1,4 +1,4 @@
-// The real server, on a port of its own.
+// Starts the real server on its own port.
 import { spawn } from "node:child_process";
 import { existsSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -10,7 +10,7 @@ const top = join(dirname(fileURLToPath(import.meta.url)), "../../..");
 const binary = process.env.OVAL4D ?? process.env.OVAL4D_SERVER ?? join(top, "build/release/bin/oval4d");
 const webRoot = process.env.OVAL4D_WEB_ROOT ?? join(top, "web_client/dist");
 
-/** Starts a server; port 0 is any free one. */
+/** Starts a server; port 0 means any free port. */
 export async function startServer({ port = 0, options = [] } = {}) {
     if (!existsSync(binary)) throw new Error(`there is no server at ${binary}: build it, or set OVAL4D`);
     if (!existsSync(join(webRoot, "app.js"))) throw new Error(`there is no page in ${webRoot}: npm run build makes it`);
@@ -31,7 +31,7 @@ export async function startServer({ port = 0, options = [] } = {}) {
     return {
         url,
         port: Number(new URL(url).port),
-        /** Stops it as an operator would. */
+        /** Stops the server as an operator does. */
         async stop() {
             child.kill("SIGTERM");
             await ended;

@@ -1,7 +1,7 @@
-// All tests run in one suite, one after the other, and what they opened is closed at its end, however they ended.
+// Runs all tests in one suite, one after the other; everything they opened is closed at the end, even if tests fail.
 import { after, describe, it } from "node:test";
 
-const kLongest = 90_000; // milliseconds a test
+const kTimeout = 90_000; // milliseconds per test
 
 const tests = [];
 const closings = [];
@@ -10,14 +10,14 @@ export function test(name, run) {
     tests.push([name, run]);
 }
 
-/** Has `close` called at the end. */
+/** Registers a function that is called after all tests. */
 export function atEnd(close) {
     closings.push(close);
 }
 
 export function runAll(name) {
     describe(name, () => {
-        for (const [title, run] of tests) it(title, { timeout: kLongest }, run);
+        for (const [title, run] of tests) it(title, { timeout: kTimeout }, run);
         after(async () => {
             for (const close of closings.reverse()) await close();
         });

@@ -1,10 +1,10 @@
-const kPatience = 30_000; // milliseconds: how long a condition may take to come true on a busy machine
+const kTimeout = 30_000; // milliseconds, long enough for a busy machine
 
-/** The promise's value, or an error that says what was waited for. */
+/** The promise's value; throws an error that names `what` if it takes too long. */
 export async function within(promise, what) {
     let timer;
     const late = new Promise((_, reject) => {
-        timer = setTimeout(() => reject(new Error(`waited in vain for ${what}`)), kPatience);
+        timer = setTimeout(() => reject(new Error(`timed out waiting for ${what}`)), kTimeout);
     });
     try {
         return await Promise.race([promise, late]);

@@ -1,11 +1,11 @@
-// The parallel coordinates along the bottom: the lines of each vertex, or of very many the density of lines.
+// Draws the parallel coordinates along the bottom: the lines of each vertex, or for many vertices the density of lines.
 
 import type { SceneDescription, Slices, Viewport } from "@oval4d/protocol";
 
 import { DensityImage } from "./density_image";
-import { css, kLeastText, setFont } from "./pen";
+import { css, kMinTextSize, setFont } from "./pen";
 
-const kFocusReach = 0.009; // of the focus's mark to either side of its axis, as a part of the viewport's height
+const kFocusMark = 0.009; // half the width of the focus mark, as a fraction of the viewport's height
 
 const density = new DensityImage();
 
@@ -24,7 +24,7 @@ function drawLines(
     const { per_row: perRow, amplitude, named, ...layout } = scene.coordinates;
     const [left, columnStep, lineStep] = [layout.left * height, layout.column_step * height, layout.line_step * height];
     const thickness = layout.line_width * height;
-    // Lines of a pixel or more are sharpest on whole pixels.
+    // Lines at least one pixel wide are sharpest at whole pixels.
     const snap = (x: number): number => (thickness >= 1 ? Math.round(x) : x);
     const zeroOf = (row: number): number => height - Math.round((layout.zero - row * layout.row_step) * height);
     const count = values.length / 4;
@@ -45,8 +45,8 @@ function drawLines(
         pen.fill();
     }
     if (!named) return;
-    const least = columnStep > 3 * kLeastText * devicePixelRatio ? kLeastText * devicePixelRatio : 0;
-    const digits = setFont(pen, Math.max(0.85 * scene.text * height, least));
+    const minSize = columnStep > 3 * kMinTextSize * devicePixelRatio ? kMinTextSize * devicePixelRatio : 0;
+    const digits = setFont(pen, Math.max(0.85 * scene.text * height, minSize));
     pen.fillStyle = css(scene.colors.text);
     for (let i = 0; i < count; ++i) {
         const x = left + (i % perRow) * columnStep + (3 * lineStep + thickness) / 2;
@@ -61,14 +61,14 @@ function drawLines(
 function drawStrip(pen: CanvasRenderingContext2D, picture: Slices, { height }: Viewport): void {
     const { colors, circumradius, coordinates: layout, text } = picture.scene;
     const [zero, amplitude] = [(1 - layout.zero) * height, layout.amplitude * height];
-    const middleOf = (k: number): number => (layout.left + k * layout.line_step + layout.line_width / 2) * height;
+    const centerOf = (k: number): number => (layout.left + k * layout.line_step + layout.line_width / 2) * height;
     density.take(picture);
-    density.draw(pen, middleOf(0), zero - amplitude, middleOf(3) - middleOf(0), 2 * amplitude);
+    density.draw(pen, centerOf(0), zero - amplitude, centerOf(3) - centerOf(0), 2 * amplitude);
 
     const thickness = Math.max(1, Math.round(layout.line_width * height));
-    const digits = setFont(pen, Math.max(0.85 * text * height, kLeastText * devicePixelRatio));
+    const digits = setFont(pen, Math.max(0.85 * text * height, kMinTextSize * devicePixelRatio));
     for (let k = 0; k < 4; ++k) {
-        const left = Math.round(middleOf(k) - thickness / 2);
+        const left = Math.round(centerOf(k) - thickness / 2);
         pen.fillStyle = css(colors.axes[k]!);
         pen.fillRect(left, zero - amplitude, thickness, 2 * amplitude);
         if (layout.named) pen.fillText("xyzw"[k]!, left + thickness / 2, Math.round(zero + amplitude + 1.4 * digits));
@@ -77,5 +77,5 @@ function drawStrip(pen: CanvasRenderingContext2D, picture: Slices, { height }: V
     if (!focus || Math.abs(focus.w) > circumradius) return;
     const level = Math.round(zero - (focus.w / circumradius) * amplitude);
     pen.fillStyle = css(colors.focus);
-    pen.fillRect(middleOf(3) - kFocusReach * height, level - thickness / 2, 2 * kFocusReach * height, thickness);
+    pen.fillRect(centerOf(3) - kFocusMark * height, level - thickness / 2, 2 * kFocusMark * height, thickness);
 }

@@ -1,5 +1,5 @@
-// Decodes PNG files off the page's thread, one after the other: each message is a file, each answer its bitmap, or words
-// on why there is none.
+// A worker that decodes PNG files off the page's thread, one after the other. Each message is a file; each answer is
+// its bitmap, or the text of an error.
 
 let last = Promise.resolve();
 

@@ -1,29 +1,30 @@
-// The page's side of decode_worker.ts.
+// Decodes PNG files in a worker, decode_worker.ts.
 
-interface Asked {
+interface PendingDecode {
     resolve(bitmap: ImageBitmap): void;
     reject(error: Error): void;
 }
 
 export class Decoder {
     private readonly worker = new Worker(new URL("decode_worker.js", import.meta.url), { type: "module" });
-    private readonly asked: Asked[] = []; // answered in order
+    private readonly pending: PendingDecode[] = []; // answered in order
 
     constructor() {
         this.worker.onmessage = ({ data }: MessageEvent<ImageBitmap | string>) => {
-            const { resolve, reject } = this.asked.shift()!;
-            if (typeof data === "string") reject(new Error(`The server's picture cannot be shown: ${data}`));
+            const { resolve, reject } = this.pending.shift()!;
+            if (typeof data === "string") reject(new Error(`The picture from the server cannot be decoded: ${data}`));
             else resolve(data);
         };
         this.worker.onerror = (event) => {
-            for (const { reject } of this.asked.splice(0)) reject(new Error(`Pictures cannot be decoded: ${event.message}`));
+            const error = new Error(`The pictures from the server cannot be decoded: ${event.message}`);
+            for (const { reject } of this.pending.splice(0)) reject(error);
         };
     }
 
-    /** The file is handed over: it is no longer there afterwards. */
+    /** Decodes a PNG file. Transfers the file's buffer to the worker, so the caller can no longer use it. */
     decode(png: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
         return new Promise((resolve, reject) => {
-            this.asked.push({ resolve, reject });
+            this.pending.push({ resolve, reject });
             this.worker.postMessage(png.buffer, [png.buffer]);
         });
     }

@@ -1,4 +1,4 @@
-// The density of the parallel coordinates as a picture, kept and written in place.
+// The density strip of the parallel coordinates as an image that is updated in place.
 
 import type { Slices } from "@oval4d/protocol";
 
@@ -8,7 +8,7 @@ export class DensityImage {
     private pixels: ImageData | undefined;
     private taken: Uint8Array | undefined;
 
-    /** Between two axes the colour passes from the one's to the other's. */
+    /** Converts the density to pixels. Between two axes, the color is interpolated between the colors of the axes. */
     take({ density, scene: { colors, coordinates } }: Slices): void {
         if (density === this.taken) return;
         this.taken = density;
@@ -34,7 +34,7 @@ export class DensityImage {
         this.pen.putImageData(this.pixels, 0, 0);
     }
 
-    /** Its outermost pixels' middles lie on the edges of the place. */
+    /** Draws the image such that the centers of its outermost pixels lie on the edges of the rectangle. */
     draw(pen: CanvasRenderingContext2D, x: number, y: number, width: number, height: number): void {
         pen.drawImage(this.canvas, 0.5, 0.5, this.canvas.width - 1, this.canvas.height - 1, x, y, width, height);
     }

@@ -1,19 +1,19 @@
-// The vertices, edges and faces of all slices that are drawn, placed in the world, one after the other in flat arrays
-// that are kept from picture to picture.
+// The vertices, edges and faces of all drawn slices in world coordinates, in flat arrays that are reused from picture
+// to picture.
 
 import type { SceneDescription, Slice, Slices, Vector } from "@oval4d/protocol";
 
-/** Half-open, in the arrays of all. */
+/** A half-open range in the arrays of Elements. */
 export type Range = [begin: number, end: number];
 
-/** What belongs to one slice. */
+/** The elements of one slice. */
 export interface Body {
     slice: Slice;
     position: Vector;
     vertices: Range;
     edges: Range;
     faces: Range;
-    distance: number; // from the eye, when last put in order
+    distance: number; // from the eye, at the last sorting
 }
 
 export class Elements {
@@ -29,8 +29,9 @@ export class Elements {
     cornerEdges = new Uint32Array(0); // the edge from each corner to the next
     normals = new Float32Array(0); // x, y, z of each face, outward
     readonly buckets = new Buckets();
-    private readonly spare: Body[] = []; // of pictures with more slices
+    private readonly spare: Body[] = []; // for reuse in pictures with more slices
 
+    /** Takes over the slices of a new picture. */
     take({ slices, scene }: Slices): void {
         this.vertexCount = this.edgeCount = this.faceCount = this.cornerCount = 0;
         while (this.bodies.length > 0) this.spare.push(this.bodies.pop()!);
@@ -121,7 +122,7 @@ function setRange(range: Range, begin: number, end: number): void {
     range[1] = end;
 }
 
-/** A counting sort of one slice's edges by a vertex: those of vertex v are items[begin[v]] … items[begin[v + 1] − 1]. */
+/** A counting sort of one slice's edges by vertex: those of vertex v are items[begin[v]] … items[begin[v + 1] − 1]. */
 export class Buckets {
     begin = new Uint32Array(0);
     items = new Uint32Array(0);
@@ -133,12 +134,12 @@ export class Buckets {
         begin.fill(0, vertices[0], vertices[1] + 1);
         for (let e = edges[0]; e < edges[1]; ++e) ++begin[vertexOf(e)]!;
         for (let v = vertices[0] + 1; v <= vertices[1]; ++v) begin[v]! += begin[v - 1]!;
-        // Each entry is now where its edges end; filling from the back leaves it where they begin.
+        // Each entry is now the end of its edges; filling from the back turns it into their beginning.
         for (let e = edges[1]; e-- > edges[0]; ) items[--begin[vertexOf(e)]!] = e;
     }
 }
 
-/** The array, or a larger one with the same contents. */
+/** The array if it has at least `length` elements, otherwise a larger one with the same contents. */
 export function roomFor<T extends Float32Array | Uint32Array | Uint8Array>(array: T, length: number): T {
     if (array.length >= length) return array;
     const larger = new (array.constructor as new (length: number) => T)(2 ** Math.ceil(Math.log2(length)));

@@ -1,11 +1,11 @@
-// The triangles that stand for the faces of slices that need not be convex, for a depth buffer: first all that are
-// seen fully, then the faded ones, slices from far to near.
+// The triangles that are drawn instead of the faces of slices that need not be convex, with a depth buffer: first all
+// fully visible ones, then the faded ones, with the slices ordered from far to near.
 
 import { BufferGeometry } from "three";
 
 import type { Fill, Slices, Vector } from "@oval4d/protocol";
 
-import { Growing } from "./growing";
+import { GrowingBuffer } from "./growing";
 import type { Lens } from "./lens";
 import { kFace } from "./shaders";
 
@@ -17,19 +17,19 @@ const kFull = 2;
 interface Part {
     fill: Fill;
     position: Vector;
-    first: number; // of its points
+    first: number; // index of its first point
 }
 
 export class FillMesh {
     readonly geometry = new BufferGeometry();
     private parts: Part[] = [];
-    private readonly at = new Growing(Float32Array, 3);
-    private readonly to = new Growing(Float32Array, 3);
-    private readonly shape = new Growing(Int8Array, 4);
-    private readonly colour = new Growing(Uint8Array, 4, true);
-    private readonly index = new Growing(Uint32Array, 1);
+    private readonly at = new GrowingBuffer(Float32Array, 3);
+    private readonly to = new GrowingBuffer(Float32Array, 3);
+    private readonly shape = new GrowingBuffer(Int8Array, 4);
+    private readonly color = new GrowingBuffer(Uint8Array, 4, true);
+    private readonly index = new GrowingBuffer(Uint32Array, 1);
 
-    /** Takes in new slices; false if none of them has to be filled. */
+    /** Takes over the slices of a new picture; returns false if none of them has a fill. */
     fill(picture: Slices): boolean {
         const { slices, scene } = picture;
         let points = 0;
@@ -43,11 +43,11 @@ export class FillMesh {
         }
         this.reserve(points, corners);
         for (const part of this.parts) this.place(part, picture);
-        for (const buffer of [this.at, this.to, this.shape, this.colour]) buffer.written();
+        for (const buffer of [this.at, this.to, this.shape, this.color]) buffer.written();
         return slices.some((slice) => slice.fill);
     }
 
-    /** Puts the slices in order for this camera. */
+    /** Orders the slices for this camera. */
     arrange({ eye }: Lens): void {
         const distance = ({ position: [x, y, z] }: Part): number => Math.hypot(x - eye.x, y - eye.y, z - eye.z);
         this.parts.sort((a, b) => distance(b) - distance(a));
@@ -66,12 +66,12 @@ export class FillMesh {
     }
 
     private reserve(points: number, corners: number): void {
-        const { at, to, shape, colour, index } = this;
+        const { at, to, shape, color, index } = this;
         let grown = index.reserve(corners);
-        for (const buffer of [at, to, shape, colour]) grown = buffer.reserve(points) || grown;
+        for (const buffer of [at, to, shape, color]) grown = buffer.reserve(points) || grown;
         if (!grown && this.geometry.index) return;
         this.geometry.dispose();
-        for (const [name, { attribute }] of Object.entries({ at, to, shape, colour })) {
+        for (const [name, { attribute }] of Object.entries({ at, to, shape, color })) {
             this.geometry.setAttribute(name, attribute);
         }
         this.geometry.setIndex(index.attribute);
@@ -81,7 +81,7 @@ export class FillMesh {
         const { points, triangles, tints, seen } = fill;
         const { colors, opacity, faded } = scene;
         const { array: normals } = this.to;
-        const { array: rgba } = this.colour;
+        const { array: rgba } = this.color;
         for (let i = 0; i < points.length; ++i) {
             this.at.array[3 * first + i] = position[i % 3]! + scene.scale * points[i]!;
         }
@@ -93,7 +93,7 @@ export class FillMesh {
             const length = Math.hypot(nx, ny, nz) || 1;
             const tint = colors.cells[tints[t]!] ?? colors.bar;
             const alpha = 255 * opacity * (seen?.[t] === kFaded ? faded : 1);
-            // A triangle's values are those of its last point; none is the last of two tints.
+            // A triangle takes its values from its last point, which is never the last point of another tint.
             const item = first + c / 3;
             normals[3 * item] = nx / length;
             normals[3 * item + 1] = ny / length;

@@ -1,4 +1,4 @@
-// Frame mode: shows pictures that the server drew.
+// Frame mode: shows pictures that the server has rendered.
 
 import { Decoder } from "./decoder";
 
@@ -11,7 +11,7 @@ export class FrameView {
         this.context = canvas.getContext("bitmaprenderer", { alpha: false })!;
     }
 
-    /** The file is handed over, to be decoded off this thread. */
+    /** Decodes a frame off this thread, to be drawn next. Transfers the buffer: the caller can no longer use it. */
     async take(png: Uint8Array): Promise<void> {
         this.decoder ??= new Decoder();
         const bitmap = await this.decoder.decode(png as Uint8Array<ArrayBuffer>);

@@ -1,4 +1,4 @@
-// Geometry mode: draws slices with WebGL, their labels, axes and coordinates on a canvas above.
+// Geometry mode: renders the slices with WebGL; draws labels, axes and parallel coordinates on a canvas above.
 
 import { type BufferGeometry, Camera, Color, ColorManagement, GLSL3, LinearSRGBColorSpace } from "three";
 import { Mesh as Drawing, RawShaderMaterial, Scene, Vector3, Vector4, WebGLRenderer } from "three";
@@ -11,7 +11,7 @@ import { Mesh } from "./mesh";
 import { drawOverlay } from "./overlay";
 import { fragmentShader, vertexShader } from "./shaders";
 
-ColorManagement.enabled = false; // colours are sRGB values, shown as they are
+ColorManagement.enabled = false; // colors are sRGB values, shown unchanged
 
 export class GeometryView {
     readonly lens = new Lens();
@@ -34,10 +34,10 @@ export class GeometryView {
     private readonly pen: CanvasRenderingContext2D;
     private picture: Slices | undefined;
     private pictureOrbit: Orbit | undefined;
-    private arranged: Orbit | undefined; // for which the mesh is in order
+    private arranged: Orbit | undefined; // the orbit for which the mesh is ordered
     private readonly background = new Color();
 
-    /** WebGL 2 must be there. */
+    /** Requires WebGL 2. */
     constructor(
         canvas: HTMLCanvasElement,
         private readonly overlay: HTMLCanvasElement,
@@ -60,17 +60,20 @@ export class GeometryView {
         this.camera.matrixWorldAutoUpdate = false;
     }
 
-    /** Balls and bars as bodies with depth, antialiased by the samples that they cover; or all in painter's order. */
+    /**
+     * The material of the mesh: if `solid`, balls and bars have depth and are antialiased by alpha to coverage;
+     * otherwise everything is drawn in painter's order.
+     */
     private material(solid: boolean): RawShaderMaterial {
         return new RawShaderMaterial({
             ...{ vertexShader, fragmentShader, glslVersion: GLSL3, uniforms: this.uniforms },
             ...{ transparent: !solid, alphaToCoverage: solid, depthTest: solid, depthWrite: solid },
             defines: solid ? { SOLID: 1 } : {},
-            side: 2, // both: patches may be seen from either side
+            side: 2, // DoubleSide: patches may be seen from either side
         });
     }
 
-    /** The newest slices, and the orbit for which they were laid out. */
+    /** Takes over the newest slices; `orbit` is the orbit for which they were laid out. */
     take(picture: Slices, orbit: Orbit): void {
         this.picture = picture;
         this.pictureOrbit = orbit;
@@ -86,7 +89,7 @@ export class GeometryView {
         this.uniforms.barRadius.value = bar;
     }
 
-    /** Draws what was taken last, as seen in this orbit; `size` is in device pixels. */
+    /** Draws the slices taken last, as seen in this orbit; `size` is in device pixels. */
     draw(orbit: Orbit, size: Viewport): void {
         if (!this.picture || !this.pictureOrbit) return;
         const { scene } = this.picture;

@@ -1,10 +1,10 @@
-// A vertex buffer that is written in place and grows by doubling: a steady stream of pictures allocates nothing.
+// A vertex buffer that is written in place and grows by doubling, so a steady stream of pictures allocates nothing.
 
 import { BufferAttribute, DynamicDrawUsage } from "three";
 
 type Numbers = Float32Array | Int8Array | Uint8Array | Uint32Array;
 
-export class Growing<T extends Numbers> {
+export class GrowingBuffer<T extends Numbers> {
     attribute: BufferAttribute;
     used = 0; // items
 
@@ -20,7 +20,7 @@ export class Growing<T extends Numbers> {
         return this.attribute.array as T;
     }
 
-    /** Makes room for this many items, whose values are then all to be written; true if the buffer is another one. */
+    /** Makes room for this many items, which must then all be written; returns true if the buffer was replaced. */
     reserve(items: number): boolean {
         this.used = items;
         if (items <= this.attribute.count) return false;
@@ -28,7 +28,7 @@ export class Growing<T extends Numbers> {
         return true;
     }
 
-    /** Hands what was written to the graphics card at the next drawing. */
+    /** Marks the contents as changed: they are uploaded to the graphics card at the next rendering. */
     written(): void {
         this.attribute.clearUpdateRanges();
         this.attribute.addUpdateRange(0, this.used * this.itemSize);

@@ -1,4 +1,4 @@
-// The scene's camera as matrices, moved by what the viewer has done since the server placed it.
+// The view and projection matrices of the scene's camera, with the viewer's orbit since the server placed it applied.
 
 import { Matrix4, Vector3, Vector4 } from "three";
 
@@ -9,7 +9,7 @@ export interface Point {
     y: number;
 }
 
-const kSteepest = 1.55; // short of straight down, where "up" would be lost
+const kMaxPitch = 1.55; // radians; at π/2 the up direction would be undefined
 
 export class Lens {
     readonly view = new Matrix4();
@@ -20,7 +20,7 @@ export class Lens {
     private width = 1;
     private height = 1;
 
-    /** `from` is the orbit in which the server placed the camera, `to` the one wanted. */
+    /** Sets the camera; `from` is the orbit in which the server placed it, `to` the desired one. */
     set(camera: SceneDescription["camera"], viewport: Viewport, from: Orbit, to: Orbit): void {
         this.width = viewport.width;
         this.height = viewport.height;
@@ -29,8 +29,8 @@ export class Lens {
         const { x, y, z } = back.fromArray(camera.eye).sub(target);
         const distance = Math.hypot(x, y, z);
         const azimuth = Math.atan2(x, z) + to.azimuth - from.azimuth;
-        const steep = Math.asin(y / distance) + to.elevation - from.elevation;
-        const pitch = Math.min(kSteepest, Math.max(-kSteepest, steep));
+        const elevation = Math.asin(y / distance) + to.elevation - from.elevation;
+        const pitch = Math.min(kMaxPitch, Math.max(-kMaxPitch, elevation));
         back.set(Math.sin(azimuth) * Math.cos(pitch), Math.sin(pitch), Math.cos(azimuth) * Math.cos(pitch));
         this.eye.copy(back).multiplyScalar(distance).add(target);
         right.fromArray(camera.up).cross(back).normalize();
@@ -48,7 +48,7 @@ export class Lens {
         );
     }
 
-    /** Pixels of the viewport from its upper left corner, or nothing behind the viewer. */
+    /** Projects a world position to pixels from the viewport's upper left corner; undefined behind the viewer. */
     project(world: readonly [number, number, number]): Point | undefined {
         const { x, y, w } = this.clip
             .set(...world, 1)
@@ -57,12 +57,12 @@ export class Lens {
         return w > 0 ? { x: ((x / w + 1) / 2) * this.width, y: ((1 - y / w) / 2) * this.height } : undefined;
     }
 
-    /** The world's x, y or z axis as the camera sees it. */
+    /** The world's x, y or z axis in camera coordinates. */
     axis(i: 0 | 1 | 2): Vector3 {
         return new Vector3().setFromMatrixColumn(this.view, i);
     }
 
-    /** Pixels of a world length at distance 1. */
+    /** Pixels per world unit at distance 1. */
     get pixels(): number {
         return (this.projection.elements[5]! * this.height) / 2;
     }

@@ -1,11 +1,11 @@
-// What stands beside the slices and explains them: axes, labels and the parallel coordinates. All in the canvas's own
-// pixels, so that lines stay sharp.
+// Draws the axes, the labels and the parallel coordinates over the picture. Positions are in canvas pixels, so that
+// lines are sharp.
 
 import type { SceneDescription, Slice, Slices, Viewport } from "@oval4d/protocol";
 
 import { drawCoordinates } from "./coordinates";
 import type { Lens } from "./lens";
-import { css, kLeastText, setFont } from "./pen";
+import { css, kMinTextSize, setFont } from "./pen";
 
 export function drawOverlay(pen: CanvasRenderingContext2D, picture: Slices, lens: Lens, viewport: Viewport): void {
     const { scene, slices } = picture;
@@ -21,12 +21,12 @@ interface Label {
     slice: Slice;
     x: number;
     y: number;
-    size: number; // of the font
-    digits: number; // their height
-    half: number; // of the text's width
+    size: number; // font size
+    digits: number; // height of the digits
+    half: number; // half the width of the text
 }
 
-/** The w under each slice. Where letters would be too small to read they are larger, and some are left out. */
+/** Draws the w below each slice. Labels too small to read are enlarged, and omitted where they overlap. */
 function drawLabels(
     pen: CanvasRenderingContext2D,
     slices: Slice[],
@@ -34,18 +34,18 @@ function drawLabels(
     lens: Lens,
     viewport: Viewport,
 ): void {
-    const least = kLeastText * devicePixelRatio;
+    const minSize = kMinTextSize * devicePixelRatio;
     const taken: Label[] = [];
-    const labelled = slices.filter((slice) => slice.drawn && slice.label !== "");
-    labelled.sort((a, b) => Number(b.focus) - Number(a.focus) || Math.abs(a.position[0]) - Math.abs(b.position[0]));
-    for (const slice of labelled) {
+    const labeled = slices.filter((slice) => slice.drawn && slice.label !== "");
+    labeled.sort((a, b) => Number(b.focus) - Number(a.focus) || Math.abs(a.position[0]) - Math.abs(b.position[0]));
+    for (const slice of labeled) {
         const at = lens.project(slice.label_at);
         if (!at) continue;
         const wanted = scene.text * slice.label_size * viewport.height;
-        const size = Math.max(wanted, least);
+        const size = Math.max(wanted, minSize);
         const digits = setFont(pen, size);
         const label = { slice, ...at, size, digits, half: pen.measureText(slice.label).width / 2 };
-        if (wanted < least) {
+        if (wanted < minSize) {
             const apart = (one: Label): boolean =>
                 Math.abs(one.x - label.x) > one.half + label.half + digits / 2 ||
                 Math.abs(one.y - label.y) > 1.5 * digits;
@@ -53,7 +53,7 @@ function drawLabels(
         }
         taken.push(label);
     }
-    for (const label of taken.reverse()) drawLabel(pen, scene, label); // the focus over all others
+    for (const label of taken.reverse()) drawLabel(pen, scene, label); // the focus slice's label last, on top
 }
 
 function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, label: Label): void {
@@ -62,14 +62,14 @@ function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, 
     setFont(pen, label.size);
     const x = Math.round(label.x);
     const baseline = Math.round(label.y + digits);
-    // A plate keeps the label legible where it lies over another slice.
+    // A background plate keeps the label legible where it covers another slice.
     const half = Math.round(label.half) + Math.round((focus ? 0.9 : 0.45) * digits);
     const margin = Math.round((focus ? 0.6 : 0.35) * digits);
     const height = digits + 2 * margin;
     pen.beginPath();
     pen.roundRect(x - half, baseline - digits - margin, 2 * half, height, height / 2);
-    const fill = (colour: number, opacity: number): void => {
-        pen.fillStyle = css(colour);
+    const fill = (color: number, opacity: number): void => {
+        pen.fillStyle = css(color);
         pen.globalAlpha = opacity;
         pen.fill();
     };
@@ -80,31 +80,31 @@ function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, 
     pen.fillText(slice.label, x, baseline);
 }
 
-/** The x, y and z axes as the camera sees them, far ones first. */
+/** Draws the x, y and z axes as seen by the camera, from far to near. */
 function drawAxes(pen: CanvasRenderingContext2D, scene: SceneDescription, lens: Lens, viewport: Viewport): void {
     const length = scene.axes.length * viewport.height;
     const [x, y] = [scene.axes.x * viewport.height, scene.axes.y * viewport.height];
-    const ball = (atX: number, atY: number, radius: number, colour: string): void => {
-        pen.fillStyle = colour;
+    const ball = (atX: number, atY: number, radius: number, color: string): void => {
+        pen.fillStyle = color;
         pen.beginPath();
         pen.arc(atX, atY, radius * length, 0, 2 * Math.PI);
         pen.fill();
     };
     const axes = ([0, 1, 2] as const).map((i) => {
-        return { direction: lens.axis(i), colour: css(scene.colors.axes[i]), name: "xyz"[i]! };
+        return { direction: lens.axis(i), color: css(scene.colors.axes[i]), name: "xyz"[i]! };
     });
     axes.sort((a, b) => a.direction.z - b.direction.z);
     const digits = setFont(pen, scene.text * viewport.height);
-    const paint = ({ direction, colour, name }: (typeof axes)[number]): void => {
+    const paint = ({ direction, color, name }: (typeof axes)[number]): void => {
         const [tipX, tipY] = [x + direction.x * length, y - direction.y * length];
-        pen.strokeStyle = colour;
+        pen.strokeStyle = color;
         pen.lineWidth = 0.09 * length;
         pen.beginPath();
         pen.moveTo(x, y);
         pen.lineTo(tipX, tipY);
         pen.stroke();
-        ball(tipX, tipY, 0.065, colour);
-        // An axis that points at the viewer has its name beside it.
+        ball(tipX, tipY, 0.065, color);
+        // The name of an axis that points toward the viewer is placed beside it.
         const across = Math.hypot(direction.x, direction.y);
         const [nameX, nameY] = across * 1.28 < 0.3 ? [0.3, -0.3] : [direction.x * 1.28, direction.y * 1.28];
         pen.fillText(name, Math.round(x + nameX * length), Math.round(y - nameY * length + 0.4 * digits));

@@ -1,7 +1,7 @@
-// The order in which a mesh is painted, exact for convex slices that stand clear of each other: slices from far to
-// near; in each the faces turned away, the balls and bars among them, the faces turned to the eye, the other balls and
-// bars. Within a slice vertices come from far to near, each with the bars that begin at it: so a bar lies over the ball
-// that it comes from and under the one that it goes to.
+// The painter's order of a mesh, which is exact for convex slices that do not overlap: slices from far to near; within
+// a slice the back faces, the balls and bars on them, the front faces, and the other balls and bars. Vertices are
+// ordered from far to near, each followed by the bars to nearer vertices; a bar therefore covers its farther ball and
+// is covered by its nearer ball.
 
 import type { Parts } from "@oval4d/protocol";
 
@@ -9,25 +9,28 @@ import { type Body, Buckets, type Elements, roomFor } from "./elements";
 import type { Lens } from "./lens";
 import { sortByKey } from "./sort";
 
+type SolidParts = Pick<Parts, "faces" | "bars" | "balls">;
+
 const kQuad = [0, 1, 2, 2, 1, 3] as const;
 
 export class PaintersOrder {
-    private shown: Parts = { faces: true, bars: true, balls: true, coordinates: true };
+    private shown: SolidParts = { faces: true, bars: true, balls: true };
     private vertexToward = new Uint8Array(0);
     private edgeToward = new Uint8Array(0);
     private faceToward = new Uint8Array(0);
     private depth = new Float32Array(0); // of each vertex
     private order = new Uint32Array(0); // each slice's vertices from far to near
     private scratch = new Uint32Array(0); // for sorting
-    private rank = new Uint32Array(0); // where a vertex stands in it
+    private rank = new Uint32Array(0); // the position of each vertex in `order`
     private readonly bodies: Body[] = []; // from far to near
-    private readonly bars = new Buckets(); // by the rank of the farther end
+    private readonly bars = new Buckets(); // edges by the rank of the farther vertex
     private out = new Uint32Array(0);
     private used = 0;
 
     constructor(private readonly elements: Elements) {}
 
-    show(parts: Parts): void {
+    /** Sets which parts are painted, and makes room for new elements. */
+    show(parts: SolidParts): void {
         this.shown = parts;
         const { vertexCount, edgeCount, faceCount } = this.elements;
         this.vertexToward = roomFor(this.vertexToward, vertexCount);
@@ -39,7 +42,7 @@ export class PaintersOrder {
         this.rank = roomFor(this.rank, vertexCount);
     }
 
-    /** Writes the mesh's indices into `out`; returns how many. */
+    /** Writes the mesh's indices into `out`; returns their number. */
     write(lens: Lens, out: Uint32Array<ArrayBuffer>): number {
         this.out = out;
         this.used = 0;
@@ -65,7 +68,7 @@ export class PaintersOrder {
         this.bodies.sort((a, b) => b.distance - a.distance);
     }
 
-    /** A vertex or an edge is on the side of the eye if any of its faces is. */
+    /** Determines which faces are front faces; a vertex or edge is in front if any of its faces is. */
     private classify({ vertices, edges, faces }: Body, { eye }: Lens): void {
         const { points, corners, cornerBegin, cornerEdges, normals } = this.elements;
         this.vertexToward.fill(0, ...vertices);

@@ -1,15 +1,15 @@
-// Colours and letters on a canvas.
+// Colors and fonts for drawing on a canvas.
 
 const kFont = '"DejaVu Sans", Verdana, system-ui, sans-serif';
 
-export const kLeastText = 9; // pixels of the page
+export const kMinTextSize = 9; // CSS pixels
 
-/** 0xRRGGBB as CSS has it. */
-export function css(colour: number): string {
-    return `#${colour.toString(16).padStart(6, "0")}`;
+/** Converts 0xRRGGBB to a CSS color. */
+export function css(color: number): string {
+    return `#${color.toString(16).padStart(6, "0")}`;
 }
 
-/** Sets the font; returns the height of its digits. */
+/** Sets the font, with `size` in canvas pixels; returns the height of its digits. */
 export function setFont(pen: CanvasRenderingContext2D, size: number): number {
     pen.font = `${Math.max(1, Math.round(size))}px ${kFont}`;
     return pen.measureText("0").actualBoundingBoxAscent;

@@ -1,6 +1,7 @@
-// Balls, bars and faces as flat patches with coordinates (u, v): the normal is X·u + Y·v + Z·√(1 − u² − v²). A ball
-// fills the unit disc and Z points to the eye; on a bar v is 0 and u runs across; on a face u = v = 0. Light enters
-// through its products with the axes. Edges fade over a pixel, and what is thinner than a pixel is fainter instead.
+// Shaders that draw balls, bars and faces as flat patches with coordinates (u, v); the normal is
+// X·u + Y·v + Z·√(1 − u² − v²). A ball fills the unit disk and Z points to the eye; on a bar, v is 0 and u runs across;
+// on a face, u = v = 0. The light is given by its dot products with the axes X, Y and Z. Edges fade over one pixel, and
+// anything thinner than a pixel is drawn fainter instead.
 
 /** Values of the attribute `shape`'s third component. */
 export const kBall = 0;
@@ -13,9 +14,9 @@ uniform mat4 viewMatrix, projectionMatrix;
 uniform vec3 light;
 uniform vec4 shading;  // ambient, diffuse, specular, shininess
 uniform float ballRadius, barRadius, pixels;
-in vec3 at, to;  // a ball's centre; a bar's ends; a face's corner and normal
-in vec4 shape;   // across: -1, 1; along: -1, 1; the kind
-in vec4 colour;
+in vec3 at, to;  // a ball's center and relative radius (to.x); a bar's ends; a face's corner and normal
+in vec4 shape;   // across: -1, 1; along: -1, 1; the kind of patch
+in vec4 color;
 out vec3 place;  // u, v, and half the radius in pixels
 flat out vec3 diffuse, specular, tint;
 flat out float alpha;
@@ -26,7 +27,7 @@ flat out float bulge;   // how far the body rises from it toward the viewer
 
 const float kThinnest = 0.6;  // radius in pixels
 
-// Widens a thin radius; returns the factor, and sets the coverage and the fading.
+// Widens a thin radius; returns the factor, and sets alpha and place.z accordingly.
 float widen(float radius, bool round) {
     float part = min(radius / kThinnest, 1.0);
     alpha = round ? part * part : part;
@@ -34,19 +35,19 @@ float widen(float radius, bool round) {
     return 1.0 / part;
 }
 
-void ball(vec3 centre, vec3 h) {
-    float d2 = dot(centre, centre), inside2 = d2 - ballRadius * ballRadius;
-    if (centre.z > -ballRadius || inside2 <= 0.0) return;
-    float wide = widen(ballRadius * pixels / -centre.z, true), reach = sqrt(1.0 + 0.5 / place.z);
-    vec3 z = -centre / sqrt(d2), x = normalize(vec3(z.z, 0.0, -z.x)), y = cross(z, x);
+void ball(vec3 center, float radius, vec3 h) {
+    float d2 = dot(center, center), inside2 = d2 - radius * radius;
+    if (center.z > -radius || inside2 <= 0.0) return;
+    float wide = widen(radius * pixels / -center.z, true), reach = sqrt(1.0 + 0.5 / place.z);
+    vec3 z = -center / sqrt(d2), x = normalize(vec3(z.z, 0.0, -z.x)), y = cross(z, x);
     place.xy = shape.xy * reach;
     diffuse = shading.y * vec3(dot(x, light), dot(y, light), dot(z, light));
     specular = vec3(dot(x, h), dot(y, h), dot(z, h));
-    float silhouette = ballRadius * wide * sqrt(d2 / inside2);
-    gl_Position = projectionMatrix * vec4(centre + silhouette * (x * place.x + y * place.y), 1.0);
+    float silhouette = radius * wide * sqrt(d2 / inside2);
+    gl_Position = projectionMatrix * vec4(center + silhouette * (x * place.x + y * place.y), 1.0);
 #ifdef SOLID
-    depth = centre.z;
-    bulge = ballRadius;
+    depth = center.z;
+    bulge = radius;
 #endif
 }
 
@@ -71,19 +72,19 @@ void bar(vec3 from, vec3 end, vec3 h) {
 }
 
 void main() {
-    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // out of sight, unless placed
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside the clip volume, unless set below
     place = diffuse = specular = vec3(0.0);
 #ifdef SOLID
     depth = -1.0;
     bulge = 0.0;
 #endif
     alpha = 1.0;
-    tint = colour.rgb;
+    tint = color.rgb;
     vec3 h = normalize(light + vec3(0.0, 0.0, 1.0));
     vec3 seen = (viewMatrix * vec4(at, 1.0)).xyz;
-    if (colour.a == 0.0 && shape.z != ${kFace}.0) return;
+    if (color.a == 0.0 && shape.z != ${kFace}.0) return;
     if (shape.z == ${kBall}.0) {
-        ball(seen, h);
+        ball(seen, ballRadius * to.x, h);
     } else if (shape.z == ${kBar}.0) {
         bar(seen, (viewMatrix * vec4(to, 1.0)).xyz, h);
     } else {
@@ -91,7 +92,7 @@ void main() {
         diffuse.z = shading.y * abs(dot(mat3(viewMatrix) * to, light));
         gl_Position = projectionMatrix * vec4(seen, 1.0);
     }
-    alpha *= colour.a;
+    alpha *= color.a;
 }
 `;
 

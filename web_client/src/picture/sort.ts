@@ -1,8 +1,8 @@
-// Sorting in place, without the lists that the language's own sort makes.
+// A stable merge sort that allocates no memory, unlike the built-in sort.
 
-const kRun = 8; // sorted by insertion
+const kRun = 8; // items per run that is sorted by insertion
 
-/** Puts items[begin] … items[end − 1] in the order of their keys, equal ones as they stood. `scratch` is as long. */
+/** Sorts items[begin] … items[end − 1] by key, stably. `scratch` must be at least as long as `items`. */
 export function sortByKey(
     items: Uint32Array,
     [begin, end]: readonly [begin: number, end: number],

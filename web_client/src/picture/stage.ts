@@ -1,21 +1,22 @@
-// The place of the picture: draws either kind of stream, on demand only, and says when a picture has been presented.
+// The area of the picture: draws either kind of stream, only when needed, and reports when a picture has been
+// presented.
 
 import { pngText, type Orbit, type Slices, type State, type Viewport } from "@oval4d/protocol";
 
 import { FrameView } from "./frame_view";
 import { GeometryView } from "./geometry_view";
 
-/** Where the slices are drawn: by this page, or by the server. */
+/** Where the slices are rendered: on this page, or on the server. */
 export type Mode = "geometry" | "frames";
 
 export interface StageEvents {
     presented(revision: number, by: Mode): void;
     resized(size: Viewport): void;
-    /** WebGL ceased to work. */
+    /** The WebGL context was lost. */
     lost(): void;
 }
 
-/** The sizes of pictures that the server takes. */
+/** The server's limits on the size of pictures. */
 export interface SizeLimits {
     min_side?: number;
     max_width?: number;
@@ -23,7 +24,7 @@ export interface SizeLimits {
     max_pixels?: number;
 }
 
-const kMostPixels = 4_000_000; // more cost time and are not seen
+const kMaxPixels = 4_000_000; // more pixels take time without a visible benefit
 
 export class Stage {
     orbit: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
@@ -34,7 +35,7 @@ export class Stage {
     private readonly canvases: Record<"solids" | "overlay" | "frame", HTMLCanvasElement>;
     private unpresented: number | undefined;
     private drawn: { revision: number; by: Mode } = { revision: 0, by: "frames" };
-    private readonly painted = new MessageChannel(); // brings a message after the browser has painted
+    private readonly painted = new MessageChannel(); // delivers a message after the browser has painted
     private scheduled = false;
     private limits: SizeLimits = {};
 
@@ -87,12 +88,13 @@ export class Stage {
         this.redraw();
     }
 
-    /** Keeps the size within these limits. */
+    /** Sets the limits on the size. */
     limit(limits: SizeLimits): void {
         this.limits = limits;
         this.measure();
     }
 
+    /** Schedules a drawing for the next animation frame. */
     redraw(): void {
         if (this.scheduled) return;
         this.scheduled = true;
@@ -119,15 +121,15 @@ export class Stage {
     private measure(): void {
         const { clientWidth, clientHeight } = this.root;
         if (clientWidth === 0 || clientHeight === 0) return;
-        const { min_side: least = 1, max_width: widest = Infinity, max_height: highest = Infinity } = this.limits;
-        const most = Math.min(kMostPixels, this.limits.max_pixels ?? Infinity);
+        const { min_side: minSide = 1, max_width: maxWidth = Infinity, max_height: maxHeight = Infinity } = this.limits;
+        const maxPixels = Math.min(kMaxPixels, this.limits.max_pixels ?? Infinity);
         const ratio = Math.min(
             devicePixelRatio,
-            Math.sqrt(most / (clientWidth * clientHeight)),
-            widest / clientWidth,
-            highest / clientHeight,
+            Math.sqrt(maxPixels / (clientWidth * clientHeight)),
+            maxWidth / clientWidth,
+            maxHeight / clientHeight,
         );
-        const side = (length: number): number => Math.max(least, Math.floor(length * ratio));
+        const side = (length: number): number => Math.max(minSide, Math.floor(length * ratio));
         const size = { width: side(clientWidth), height: side(clientHeight) };
         if (size.width === this.size.width && size.height === this.size.height) return;
         this.size = size;

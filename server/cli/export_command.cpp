@@ -1,0 +1,55 @@
+#include "cli/export_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <limits>
+
+#include "cli/one_shot.hpp"
+#include "pipeline/file_pipeline.hpp"
+#include "text/suggest.hpp"
+
+namespace oval4d {
+
+namespace {
+
+const exports::Format& formatOf(const ExportOptions& options) {
+    std::string name = options.format;
+    if (name.empty()) name = std::filesystem::path(options.output).extension().string();
+    if (name.starts_with('.')) name.erase(0, 1);
+    if (const exports::Format* format = exports::formatNamed(name)) return *format;
+    const std::string known = text::listed(exports::formatNames());
+    throw std::runtime_error(name.empty()
+                                 ? "give a --format, one of " + known
+                                 : "no format is called " + text::inQuotes(name) + "; the formats are " + known);
+}
+
+/// Far above a server's limits: here the user decides how much time and memory to spend.
+exports::Limits commandLineLimits() {
+    exports::Limits limits;
+    limits.triangles = 50'000'000;
+    limits.bytes = std::numeric_limits<std::size_t>::max();
+    limits.time = std::chrono::hours(1);
+    return limits;
+}
+
+}  // namespace
+
+void addExportOptions(CLI::App& app, ExportOptions& options) {
+    app.add_option("-o,--output", options.output, "The file to write, - for standard output")->capture_default_str();
+    app.add_option("--format", options.format,
+                   text::listed(exports::formatNames()) + "; default: from the output's extension");
+    app.allow_extras();
+    app.footer(std::string("The content of the file:\n"
+                           "  --of focus|oval  --body solid|frame  --size MILLIMETERS  --label "
+                           "none|engraved|separate\n") +
+               kStateHelp);
+}
+
+void exportFile(const CLI::App& app, const ExportOptions& options) {
+    session::Query query = queryOf(app.remaining());
+    const auto request = valueOrThrow(pipeline::takeExportRequest(query, formatOf(options)));
+    const auto state = stateOf(query);
+    writeOutput(options.output, valueOrThrow(pipeline::fileOf(state, request, commandLineLimits())));
+}
+
+}  // namespace oval4d

@@ -1,0 +1,39 @@
+#pragma once
+// Shared by the subcommands that make one file from a state given on the command line, without a server.
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "errors/error.hpp"
+#include "session/query.hpp"
+
+namespace oval4d {
+
+/// Converts options "--name value" and "--name=value" to a query, in the order given. Throws std::runtime_error.
+session::Query queryOf(const std::vector<std::string>& words);
+
+/// Returns the state that the query describes. Its parameter "load" names a polytope file to show; warnings about the
+/// file are printed to standard error. Throws std::runtime_error.
+session::State stateOf(session::Query query);
+
+/// Returns the value, or throws the error's message as a std::runtime_error.
+template <typename T>
+T valueOrThrow(Result<T> result) {
+    if (!result) throw std::runtime_error(result.error().message);
+    return std::move(*result);
+}
+
+/// Writes a file, or to standard output if `path` is "-". Throws std::runtime_error.
+void writeOutput(const std::string& path, std::string_view bytes);
+
+/// The part of `--help` on the options that describe a state.
+inline constexpr const char* kStateHelp =
+    "All other options describe the state, as for :set and the query of frame.png:\n"
+    "  --polytope 24-cell --rotate xw,yz:pi/8,pi/sqrt(3)-pi/8 --slices 31 --view single\n"
+    "--load FILE shows a polytope from a 4OFF file, or the convex hull of a list of points.\n"
+    "--rotate may be repeated; the rotations are applied in the order given.";
+
+}  // namespace oval4d

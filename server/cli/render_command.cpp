@@ -1,0 +1,31 @@
+#include "cli/render_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string_view>
+
+#include "cli/one_shot.hpp"
+#include "pipeline/frame_limits.hpp"
+#include "pipeline/pipeline.hpp"
+#include "wire/messages.hpp"
+
+namespace oval4d {
+
+void addRenderOptions(CLI::App& app, RenderOptions& options) {
+    app.add_option("-o,--output", options.output, "The file to write, - for standard output")->capture_default_str();
+    app.add_option("--width", options.width, "The width of the picture in pixels")->capture_default_str();
+    app.add_option("--height", options.height, "The height of the picture in pixels")->capture_default_str();
+    app.allow_extras();
+    app.footer(kStateHelp);
+}
+
+void renderPicture(const CLI::App& app, const RenderOptions& options, parallel::ForkJoin& forkJoin) {
+    const auto viewport = valueOrThrow(pipeline::checked({options.width, options.height}, {}));
+    const auto state = stateOf(queryOf(app.remaining()));
+    pipeline::Pipeline pipeline(std::make_unique<raster::LocalRasterizer>(&forkJoin), &forkJoin);
+    std::vector<std::uint8_t> png;
+    pipeline.frame(state, wire::stateMessage(state, 0), viewport, png);
+    writeOutput(options.output, {reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+}  // namespace oval4d

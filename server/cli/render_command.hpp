@@ -1,0 +1,27 @@
+#pragma once
+// The subcommand `oval4d render`: writes one picture, without a server.
+
+#include <string>
+
+#include "parallel/fork_join.hpp"
+
+#include "session/query.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace oval4d {
+
+struct RenderOptions {
+    std::string output = "frame.png";  ///< "-" for standard output
+    int width = 1280, height = 720;    ///< pixels
+};
+
+/// Adds the options of the subcommand to its `app`. Options that describe the state remain in `app.remaining()`.
+void addRenderOptions(CLI::App& app, RenderOptions& options);
+
+/// Writes the picture that the parsed command line describes. Throws std::runtime_error with a message for the user.
+void renderPicture(const CLI::App& app, const RenderOptions& options, parallel::ForkJoin& forkJoin);
+
+}  // namespace oval4d

@@ -1,0 +1,21 @@
+#pragma once
+// Appends little-endian numbers to the bytes of a file.
+
+#include <bit>
+#include <cstdint>
+#include <string>
+
+#include <glm/vec3.hpp>
+
+namespace oval4d::exports {
+
+template <std::unsigned_integral Number>
+void put(std::string& out, Number number) {
+    for (std::size_t i = 0; i < sizeof number; ++i) out += static_cast<char>(number >> (8 * i) & 0xffU);
+}
+inline void put(std::string& out, float number) { put(out, std::bit_cast<std::uint32_t>(number)); }
+inline void put(std::string& out, const glm::dvec3& point) {
+    for (int i = 0; i < 3; ++i) put(out, static_cast<float>(point[i]));
+}
+
+}  // namespace oval4d::exports

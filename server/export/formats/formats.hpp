@@ -1,0 +1,22 @@
+#pragma once
+// The table of file formats.
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "export/formats/format.hpp"
+
+namespace oval4d::exports {
+
+/// All formats: each row of protocol/export_formats.json with its writer. Throws std::logic_error if a row has no
+/// writer, or a writer has no row.
+std::span<const Format> formats();
+
+/// The format of this name, or nullptr.
+const Format* formatNamed(std::string_view name);
+
+/// The names of all formats.
+std::vector<std::string_view> formatNames();
+
+}  // namespace oval4d::exports

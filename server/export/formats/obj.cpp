@@ -1,0 +1,45 @@
+#include "export/formats/obj.hpp"
+
+#include "export/formats/text.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+// Object names must not contain white space.
+std::string wordOf(std::string name) {
+    for (char& c : name) {
+        if (c == ' ' || c == '\n') c = '_';
+    }
+    return name;
+}
+
+}  // namespace
+
+std::string obj(const Bodies& bodies) {
+    std::string out = "# oval4d, millimeters\n";
+    std::size_t first = 1;
+    for (const Solid& solid : bodies.solids) {
+        const Mesh& mesh = solid.mesh;
+        out += "o " + wordOf(solid.name) + "\n";
+        for (const glm::dvec3& point : mesh.points) {
+            out += "v ";
+            append(out, point + solid.at);
+            out += '\n';
+        }
+        std::uint32_t cell = kNoCell;
+        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+            if (mesh.cells[t] != cell) {
+                cell = mesh.cells[t];
+                out += cell == kNoCell ? "g body\n" : "g cell_" + std::to_string(cell) + "\n";
+            }
+            out += 'f';
+            for (const std::uint32_t corner : mesh.triangles[t]) out += ' ' + std::to_string(first + corner);
+            out += '\n';
+        }
+        first += mesh.points.size();
+    }
+    return out;
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,7 @@
+#include "export/formats/off.hpp"
+
+namespace oval4d::exports {
+
+std::string off(const Source& source) { return slicing::write4Off(source.object, source.scene.slices->turned); }
+
+}  // namespace oval4d::exports

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "export/formats/format.hpp"
+
+namespace oval4d::exports {
+
+/// Binary little-endian PLY, with all bodies in one mesh and a color for each triangle.
+std::string ply(const Bodies& bodies);
+
+}  // namespace oval4d::exports

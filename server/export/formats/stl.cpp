@@ -1,0 +1,38 @@
+#include "export/formats/stl.hpp"
+
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include <glm/geometric.hpp>
+
+#include "export/formats/bytes.hpp"
+
+// Binary STL: a header of 80 bytes, the number of triangles and, for each triangle, its normal, three corners and two
+// unused bytes; all numbers are little-endian.
+
+namespace oval4d::exports {
+
+std::string stl(const Bodies& bodies) {
+    const auto solids = bodies.solids;
+    constexpr std::size_t kHeader = 80;
+    constexpr std::size_t kTriangle = 50;
+    std::size_t count = 0;
+    for (const Solid& solid : solids) count += solid.mesh.triangles.size();
+    std::string out = "oval4d, millimeters";
+    out.reserve(kHeader + 4 + kTriangle * count);
+    out.resize(kHeader, ' ');
+    put(out, static_cast<std::uint32_t>(count));
+    for (const Solid& solid : solids) {
+        for (const auto& triangle : solid.mesh.triangles) {
+            const glm::dvec3 across = normalOf(solid.mesh, triangle);
+            const double length = glm::length(across);
+            put(out, length > 0 ? across / length : glm::dvec3(0));
+            for (const std::uint32_t corner : triangle) put(out, solid.mesh.points[corner] + solid.at);
+            put(out, std::uint16_t{0});
+        }
+    }
+    return out;
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "export/formats/format.hpp"
+
+namespace oval4d::exports {
+
+/// Binary STL, with all bodies in one mesh.
+std::string stl(const Bodies& bodies);
+
+}  // namespace oval4d::exports

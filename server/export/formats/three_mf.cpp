@@ -1,0 +1,93 @@
+#include "export/formats/three_mf.hpp"
+
+#include <lib3mf/Model/COM/NMR_DLLInterfaces.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+namespace oval4d::exports {
+
+namespace {
+
+using namespace NMR;
+
+void check(LIB3MFRESULT result, const char* what) {
+    if (result != LIB3MF_OK) throw std::runtime_error(std::string("lib3mf: ") + what);
+}
+
+template <typename Thing>
+using Owned = std::unique_ptr<Thing, decltype(&lib3mf_release)>;
+
+// Calls `make(&pointer)`, which creates a lib3mf object, and returns the object as an owning pointer.
+template <typename Thing, typename Make>
+Owned<Thing> owned(const char* what, Make&& make) {
+    Thing* made = nullptr;
+    check(make(&made), what);
+    return {made, &lib3mf_release};
+}
+
+// The output of the library: a seekable buffer.
+struct Sink {
+    std::string bytes;
+    std::size_t at = 0;
+
+    static DWORD write(const void* data, DWORD count, Sink* sink) {
+        sink->bytes.resize(std::max(sink->bytes.size(), sink->at + count));
+        std::copy_n(static_cast<const char*>(data), count, sink->bytes.data() + sink->at);
+        sink->at += count;
+        return 0;
+    }
+    static DWORD seek(ULONG64 to, Sink* sink) {
+        sink->at = to;
+        return 0;
+    }
+};
+
+// A progress callback: returns false to cancel writing.
+bool mayContinue(int /*progress*/, ProgressIdentifier /*step*/, void* budget) {
+    return !static_cast<const Budget*>(budget)->isOver();
+}
+
+void addSolid(PLib3MFModel* model, const Solid& solid) {
+    std::vector<MODELMESHVERTEX> points;
+    points.reserve(solid.mesh.points.size());
+    for (const glm::dvec3& p : solid.mesh.points) {
+        const glm::vec3 q(p + solid.at);
+        points.push_back({{q.x, q.y, q.z}});
+    }
+    std::vector<MODELMESHTRIANGLE> triangles;
+    triangles.reserve(solid.mesh.triangles.size());
+    for (const auto& [a, b, c] : solid.mesh.triangles) triangles.push_back({{a, b, c}});
+    const auto object = owned<PLib3MFModelMeshObject>(
+        "cannot create an object", [&](auto** out) { return lib3mf_model_addmeshobject(model, out); });
+    check(lib3mf_meshobject_setgeometry(object.get(), points.data(), static_cast<DWORD>(points.size()),
+                                        triangles.data(), static_cast<DWORD>(triangles.size())),
+          "cannot set the mesh");
+    check(lib3mf_object_setnameutf8(object.get(), solid.name.c_str()), "cannot name the object");
+    owned<PLib3MFModelBuildItem>("cannot add the object to the build", [&](auto** out) {
+        return lib3mf_model_addbuilditem(model, object.get(), nullptr, out);
+    });
+}
+
+}  // namespace
+
+std::string threeMf(const Bodies& bodies) {
+    const auto model = owned<PLib3MFModel>("cannot create a model", [](auto** out) { return lib3mf_createmodel(out); });
+    check(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER), "cannot set the unit");
+    check(lib3mf_model_addmetadatautf8(model.get(), "Title", bodies.title.c_str()), "cannot set the title");
+    check(lib3mf_model_addmetadatautf8(model.get(), "Application", "oval4d"), "cannot set the application");
+    for (const Solid& solid : bodies.solids) addSolid(model.get(), solid);
+    const auto writer = owned<PLib3MFModelWriter>(
+        "cannot create a writer", [&](auto** out) { return lib3mf_model_querywriter(model.get(), "3mf", out); });
+    check(lib3mf_writer_setprogresscallback(writer.get(), &mayContinue, const_cast<Budget*>(&bodies.budget)),
+          "cannot set the progress callback");
+    Sink sink;
+    const auto result = lib3mf_writer_writetocallback(writer.get(), reinterpret_cast<void*>(&Sink::write),
+                                                      reinterpret_cast<void*>(&Sink::seek), &sink);
+    bodies.budget.checkTime();
+    check(result, "cannot write the file");
+    return std::move(sink.bytes);
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,49 @@
+#include "export/formats/x3d.hpp"
+
+#include "export/formats/text.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+constexpr double kMeter = 1e-3;  // millimeters
+
+void appendColor(std::string& out, scene::Color color) {
+    for (const unsigned shift : {16U, 8U, 0U}) {
+        append(out, static_cast<float>(color >> shift & 0xffU) / 255.0F);
+        out += ' ';
+    }
+}
+
+void appendBody(std::string& out, const Solid& solid, const Bodies& bodies) {
+    out += "<Transform translation=\"";
+    append(out, glm::dvec3(solid.at * kMeter));
+    out += "\"><Shape><Appearance><Material/></Appearance>\n<IndexedFaceSet colorPerVertex=\"false\" coordIndex=\"";
+    for (const auto& [a, b, c] : solid.mesh.triangles)
+        out += std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c) + " -1 ";
+    out += "\">\n<Coordinate point=\"";
+    for (const glm::dvec3& point : solid.mesh.points) {
+        append(out, glm::dvec3(point * kMeter));
+        out += ' ';
+    }
+    out += "\"/>\n<Color color=\"";
+    for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) appendColor(out, bodies.colorOf(solid, t));
+    out += "\"/>\n</IndexedFaceSet>\n<MetadataString name=\"name\" value='\"" + xmlEscaped(solid.name) +
+           "\"'/>\n</Shape></Transform>\n";
+}
+
+}  // namespace
+
+std::string x3d(const Bodies& bodies) {
+    std::string out =
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<X3D profile=\"Interchange\" version=\"3.3\">\n<head><meta name=\"title\" content=\"" +
+        xmlEscaped(bodies.title) + "\"/><meta name=\"generator\" content=\"oval4d\"/></head>\n<Scene>\n";
+    for (const Solid& solid : bodies.solids) {
+        bodies.budget.checkTime();
+        appendBody(out, solid, bodies);
+    }
+    return out + "</Scene>\n</X3D>\n";
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,232 @@
+#include "export/label/label.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "export/mesh/hull.hpp"
+#include "export/mesh/tessellate.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+constexpr double kMinHeight = 1;    // of a capital letter in millimeters
+constexpr double kMargin = 0.6;     // around the text, in heights of a capital letter
+constexpr double kMinDepth = 0.25;  // of the letters in millimeters
+constexpr double kMaxDepth = 0.8;
+
+/// The face formed by the triangles of one cell.
+struct Face {
+    std::vector<std::uint32_t> loop;  // counterclockwise
+    glm::dvec3 normal{0};
+    glm::dvec3 middle{0};  // centroid of the area
+};
+
+/// A placement of the text on a face. `right` is the reading direction; a unit of the text is `height` millimeters.
+struct TextPlacement {
+    std::uint32_t cell = kNoCell;
+    const Lettering* text = nullptr;
+    glm::dvec3 middle{0}, right{0}, up{0}, normal{0};
+    double height = 0, depth = 0;
+};
+
+/// The faces by cell, without those that have more than one boundary loop.
+std::map<std::uint32_t, Face> facesOf(const Mesh& mesh) {
+    std::map<std::uint32_t, Face> faces;
+    std::map<std::uint32_t, std::map<std::pair<std::uint32_t, std::uint32_t>, int>> edges;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& triangle = mesh.triangles[t];
+        Face& face = faces[mesh.cells[t]];
+        const glm::dvec3 across = normalOf(mesh, triangle);
+        face.normal += across;
+        for (int i = 0; i < 3; ++i) {
+            face.middle += glm::length(across) / 3 * mesh.points[triangle[i]];
+            edges[mesh.cells[t]][{triangle[i], triangle[(i + 1) % 3]}] = 1;
+        }
+    }
+    for (auto& [cell, face] : faces) {
+        const double area = glm::length(face.normal);
+        std::map<std::uint32_t, std::uint32_t> next;
+        bool simple = area > 0;
+        for (const auto& [edge, one] : edges[cell]) {
+            if (!edges[cell].contains({edge.second, edge.first})) simple &= next.emplace(edge).second;
+        }
+        if (!simple || next.empty()) continue;
+        face.normal /= area;
+        face.middle /= area;
+        for (auto at = next.begin()->first; face.loop.size() < next.size(); at = next.at(at)) face.loop.push_back(at);
+        if (next.at(face.loop.back()) != face.loop.front()) face.loop.clear();  // more than one boundary loop
+    }
+    std::erase_if(faces, [](const auto& entry) { return entry.second.loop.empty(); });
+    return faces;
+}
+
+/// The placement with the largest letters that leave the margin on this face, read along `right` or, so that the text
+/// is not upside down, along its opposite.
+TextPlacement fit(const Mesh& mesh, const Face& face, const glm::dvec3& right, const Lettering& text) {
+    TextPlacement placement{kNoCell, &text, face.middle, right, glm::cross(face.normal, right), face.normal, 1e300, 0};
+    if (placement.up.z < -1e-9 || (std::abs(placement.up.z) < 1e-9 && placement.up.y < 0)) {
+        placement.right = -placement.right;
+        placement.up = -placement.up;
+    }
+    const glm::dvec2 half = text.size / 2.0 + kMargin;
+    for (std::size_t i = 0; i < face.loop.size(); ++i) {
+        const glm::dvec3& a = mesh.points[face.loop[i]];
+        const glm::dvec3& b = mesh.points[face.loop[(i + 1) % face.loop.size()]];
+        const glm::dvec3 outward = glm::normalize(glm::cross(b - a, face.normal));
+        const double room = glm::dot(a - face.middle, outward);
+        const double need =
+            half.x * std::abs(glm::dot(outward, placement.right)) + half.y * std::abs(glm::dot(outward, placement.up));
+        placement.height = std::min(placement.height, room / need);
+    }
+    return placement;
+}
+
+/// The depth of the letters: at most half the distance from the box under the text to the next face, and at most a
+/// quarter of the height.
+double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, Face>& faces, const Mesh& mesh) {
+    double depth = kMaxDepth;
+    const glm::dvec2 half = (placement.text->size / 2.0 + kMargin / 2) * placement.height;
+    for (const auto& [cell, face] : faces) {
+        const double sinking = glm::dot(face.normal, -placement.normal);
+        if (cell == placement.cell || sinking <= 0) continue;
+        const double room = glm::dot(face.normal, mesh.points[face.loop[0]] - placement.middle) -
+                            half.x * std::abs(glm::dot(face.normal, placement.right)) -
+                            half.y * std::abs(glm::dot(face.normal, placement.up));
+        depth = std::min(depth, room / sinking / 2);
+    }
+    return std::min(depth, placement.height / 4);
+}
+
+bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, Face>& faces, const Grid& grid) {
+    std::size_t corners = 0;
+    for (const auto& [cell, face] : faces) {
+        corners += face.loop.size() - 2;
+        for (const glm::dvec3& p : mesh.points) {
+            if (glm::dot(p - face.middle, face.normal) > 4 * grid.step()) return false;
+        }
+    }
+    return corners == mesh.triangles.size();
+}
+
+/// Engraves the text: replaces the face by one with holes for the letters, and adds their walls and floors. Returns
+/// false and leaves the mesh unchanged if the result would not be a closed manifold.
+bool engraveText(Mesh& mesh, const Face& face, const TextPlacement& placement, const Grid& grid) {
+    const auto flat = [&](const glm::dvec3& p) {
+        return glm::dvec2(glm::dot(p - placement.middle, placement.right),
+                          glm::dot(p - placement.middle, placement.up));
+    };
+    std::vector<Contour> holed(1);
+    std::vector<Contour> letters;
+    std::vector<std::uint32_t> boundary = face.loop;  // the mesh point of each corner of `holed`
+    std::vector<std::uint32_t> bottoms;               // the mesh point at the bottom of each corner of `letters`
+    std::vector<std::uint32_t> tops;                  // likewise at the top
+    for (const std::uint32_t p : face.loop) holed[0].push_back(flat(mesh.points[p]));
+    Mesh result = mesh;
+    for (const Contour& outline : placement.text->contours) {
+        Contour contour;
+        const std::size_t first = tops.size();
+        for (const glm::dvec2& p : outline) {
+            const glm::dvec3 top =
+                grid.snap(placement.middle + placement.height * (p.x * placement.right + p.y * placement.up));
+            if (tops.size() > first && result.points[tops.back()] == top) continue;
+            tops.push_back(static_cast<std::uint32_t>(result.points.size()));
+            result.points.push_back(top);
+            contour.push_back(flat(top));
+        }
+        letters.push_back(contour);
+        holed.emplace_back(contour.rbegin(), contour.rend());
+        boundary.insert(boundary.end(), tops.rbegin(), tops.rbegin() + static_cast<std::ptrdiff_t>(contour.size()));
+    }
+    for (const std::uint32_t p : tops) {
+        bottoms.push_back(static_cast<std::uint32_t>(result.points.size()));
+        result.points.push_back(grid.snap(result.points[p] - placement.depth * placement.normal));
+    }
+    result.triangles.clear();
+    result.cells.clear();
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        if (mesh.cells[t] != placement.cell) result.add(a, b, c, mesh.cells[t]);
+    }
+    for (const auto& [a, b, c] : triangulate(holed)) result.add(boundary[a], boundary[b], boundary[c], placement.cell);
+    for (const auto& [a, b, c] : triangulate(letters)) result.add(bottoms[a], bottoms[b], bottoms[c], kNoCell);
+    std::size_t first = 0;
+    for (const Contour& contour : letters) {
+        for (std::size_t i = 0; i < contour.size(); ++i) {
+            const std::size_t p = first + i;
+            const std::size_t q = first + (i + 1) % contour.size();
+            result.add(tops[p], tops[q], bottoms[q], kNoCell);
+            result.add(tops[p], bottoms[q], bottoms[p], kNoCell);
+        }
+        first += contour.size();
+    }
+    if (!isClosedManifold(result)) return false;
+    mesh = std::move(result);
+    return true;
+}
+
+}  // namespace
+
+Caption::Caption(const std::string& name, const std::string& w)
+    : versions_{letteringOf({name + "  " + w}), letteringOf({name, w})} {}
+
+bool Caption::engrave(Mesh& mesh, double size, const Grid& grid) const {
+    const auto faces = facesOf(mesh);
+    if (!isConvex(mesh, faces, grid)) return false;
+    std::vector<TextPlacement> placements;
+    for (const auto& [cell, face] : faces) {
+        for (std::size_t i = 0; i < face.loop.size(); ++i) {
+            const glm::dvec3 along = mesh.points[face.loop[(i + 1) % face.loop.size()]] - mesh.points[face.loop[i]];
+            const glm::dvec3 right = glm::normalize(along - glm::dot(along, face.normal) * face.normal);
+            for (const Lettering& text : versions_) {
+                TextPlacement placement = fit(mesh, face, right, text);
+                placement.cell = cell;
+                placement.height = std::min(placement.height, size / 10);
+                if (placement.height < kMinHeight) continue;
+                placement.depth = depthAt(placement, faces, mesh);
+                if (placement.depth >= kMinDepth) placements.push_back(placement);
+            }
+        }
+    }
+    std::ranges::stable_sort(placements, std::greater<>{}, &TextPlacement::height);
+    return std::ranges::any_of(placements, [&](const TextPlacement& placement) {
+        return engraveText(mesh, faces.at(placement.cell), placement, grid);
+    });
+}
+
+Mesh Caption::plate(double size, const Grid& grid) const {
+    const double height = std::clamp(size / 15, 3.0, 12.0);
+    const Lettering& text = versions_.back();
+    const glm::dvec2 extent = (text.size + 2.2 * kMargin) * height;
+    constexpr double kThickness = 2;
+    std::vector<glm::dvec3> corners;
+    for (const double x : {-extent.x / 2, extent.x / 2}) {
+        for (const double y : {-extent.y, 0.0}) {
+            for (const double z : {0.0, kThickness}) corners.push_back(grid.snap({x, y, z}));
+        }
+    }
+    Mesh mesh = hullOf(corners, grid);
+    // The faces of the box are numbered by axis and side.
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const glm::dvec3 normal = normalOf(mesh, mesh.triangles[t]);
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+            if (normal[axis] != 0) mesh.cells[t] = 2 * axis + (normal[axis] > 0 ? 1 : 0);
+        }
+    }
+    const auto faces = facesOf(mesh);
+    const Face& top = faces.at(5);
+    TextPlacement placement = fit(mesh, top, {1, 0, 0}, text);
+    placement.cell = 5;
+    placement.height = height;
+    placement.depth = std::min(kMaxDepth, height / 4);
+    if (!engraveText(mesh, top, placement, grid)) throw std::runtime_error("the label cannot be engraved in its plate");
+    std::ranges::fill(mesh.cells, kNoCell);
+    return mesh;
+}
+
+}  // namespace oval4d::exports

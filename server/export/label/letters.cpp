@@ -1,0 +1,148 @@
+#include "export/label/letters.hpp"
+
+#include <ft2build.h>
+#include FT_FREETYPE_H
+#include FT_OUTLINE_H
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+
+#include <glm/common.hpp>
+
+namespace oval4d::exports {
+
+namespace {
+
+constexpr double kLineStep = 1.7;  // distance between baselines, in heights of a capital letter
+constexpr int kPieces = 4;         // line segments per curve
+
+class Pen {
+  public:
+    Pen() {
+        if (FT_Init_FreeType(&library_) != 0) throw std::runtime_error("FreeType cannot be initialized");
+        const char* const named = std::getenv("OVAL4D_FONT");
+        const std::string file = named != nullptr && *named != 0 ? named : OVAL4D_FONT;
+        if (FT_New_Face(library_, file.c_str(), 0, &face_) != 0) {
+            FT_Done_FreeType(library_);
+            throw std::runtime_error("cannot read a font from " + file);
+        }
+        if (FT_Load_Char(face_, 'H', FT_LOAD_NO_SCALE) == 0)
+            capital_ = static_cast<double>(face_->glyph->metrics.horiBearingY);
+    }
+    ~Pen() {
+        FT_Done_Face(face_);
+        FT_Done_FreeType(library_);
+    }
+    Pen(const Pen&) = delete;
+    Pen& operator=(const Pen&) = delete;
+
+    /// Appends the contours of a line of text that starts at (0, y), and returns its length.
+    double write(const std::string& text, double y, std::vector<Contour>& out) {
+        origin_ = {0, y};
+        out_ = &out;
+        for (const char32_t character : decoded(text)) {
+            if (FT_Load_Char(face_, character, FT_LOAD_NO_SCALE) != 0) continue;
+            FT_Outline_Funcs funcs{};
+            funcs.move_to = [](const FT_Vector* to, void* pen) { return static_cast<Pen*>(pen)->move(to); };
+            funcs.line_to = [](const FT_Vector* to, void* pen) { return static_cast<Pen*>(pen)->line(to); };
+            funcs.conic_to = [](const FT_Vector* control, const FT_Vector* to, void* pen) {
+                return static_cast<Pen*>(pen)->curve(control, control, to, 2);
+            };
+            funcs.cubic_to = [](const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, void* pen) {
+                return static_cast<Pen*>(pen)->curve(first, second, to, 3);
+            };
+            FT_Outline_Decompose(&face_->glyph->outline, &funcs, this);
+            origin_.x += static_cast<double>(face_->glyph->metrics.horiAdvance) / capital_;
+        }
+        return origin_.x;
+    }
+
+  private:
+    static std::u32string decoded(const std::string& text) {
+        std::u32string out;
+        for (const char c : text) {
+            const auto byte = static_cast<unsigned char>(c);
+            if ((byte & 0xc0U) != 0x80U) {
+                out += byte < 0x80 ? byte : byte < 0xe0 ? byte & 0x1fU : byte < 0xf0 ? byte & 0xfU : byte & 0x7U;
+            } else if (!out.empty()) {
+                out.back() = out.back() << 6U | (byte & 0x3fU);
+            }
+        }
+        return out;
+    }
+
+    glm::dvec2 place(const FT_Vector* v) const {
+        return origin_ + glm::dvec2(static_cast<double>(v->x), static_cast<double>(v->y)) / capital_;
+    }
+    int move(const FT_Vector* to) {
+        out_->push_back({place(to)});
+        return 0;
+    }
+    int line(const FT_Vector* to) {
+        out_->back().push_back(place(to));
+        return 0;
+    }
+    int curve(const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, int degree) {
+        const glm::dvec2 a = out_->back().back();
+        const glm::dvec2 d = place(to);
+        // A quadratic curve equals a cubic one whose control points lie two thirds of the way to its own.
+        const glm::dvec2 b = degree == 3 ? place(first) : glm::mix(a, place(first), 2.0 / 3);
+        const glm::dvec2 c = degree == 3 ? place(second) : glm::mix(d, place(second), 2.0 / 3);
+        for (int i = 1; i <= kPieces; ++i) {
+            const double t = static_cast<double>(i) / kPieces;
+            const double s = 1 - t;
+            out_->back().push_back(s * s * s * a + 3 * s * s * t * b + 3 * s * t * t * c + t * t * t * d);
+        }
+        return 0;
+    }
+
+    FT_Library library_ = nullptr;
+    FT_Face face_ = nullptr;
+    double capital_ = 1;  // height of a capital letter in font units
+    glm::dvec2 origin_{0};
+    std::vector<Contour>* out_ = nullptr;
+};
+
+/// Removes consecutive equal points of a closed contour.
+void removeDuplicates(Contour& contour) {
+    contour.erase(std::unique(contour.begin(), contour.end()), contour.end());
+    while (contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();
+}
+
+}  // namespace
+
+Lettering letteringOf(const std::vector<std::string>& lines) {
+    Pen pen;
+    std::vector<Contour> drawn;
+    double y = 0;
+    for (const std::string& line : lines) {
+        const std::size_t first = drawn.size();
+        const double length = pen.write(line, y, drawn);
+        for (std::size_t i = first; i < drawn.size(); ++i) {
+            for (glm::dvec2& p : drawn[i]) p.x -= length / 2;
+        }
+        y -= kLineStep;
+    }
+    for (Contour& contour : drawn) removeDuplicates(contour);
+    Lettering out;
+    out.contours = outlineOf(drawn);
+    glm::dvec2 least(1e300);
+    glm::dvec2 most(-1e300);
+    for (Contour& contour : out.contours) {
+        removeDuplicates(contour);
+        for (const glm::dvec2& p : contour) {
+            least = glm::min(least, p);
+            most = glm::max(most, p);
+        }
+    }
+    if (out.contours.empty()) return out;
+    out.size = most - least;
+    for (Contour& contour : out.contours) {
+        for (glm::dvec2& p : contour) p -= (least + most) / 2.0;
+    }
+    return out;
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,221 @@
+#include "export/mesh/marching.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+
+namespace oval4d::exports {
+
+namespace {
+
+constexpr int kSide = SampledField::kSide;
+constexpr int kPoints = kSide * kSide * kSide;
+constexpr std::uint32_t kNone = 0xffffffffU;
+
+glm::ivec3 blockOf(const glm::ivec3& point) { return {point.x >> 3, point.y >> 3, point.z >> 3}; }
+
+int indexIn(const glm::ivec3& point) { return (point.x & 7) | (point.y & 7) << 3 | (point.z & 7) << 6; }
+
+std::uint64_t keyOf(const glm::ivec3& point) {
+    const glm::ivec3 block = blockOf(point);
+    const auto part = [](int i) { return static_cast<std::uint64_t>(i + SampledField::kFarthest) & 0xfffffU; };
+    return part(block.z) << 40U | part(block.y) << 20U | part(block.x);
+}
+
+// A corner of a cube, or the direction of an edge, has one bit per axis.
+glm::ivec3 offset(unsigned bits) { return {bits & 1U, bits >> 1U & 1U, bits >> 2U & 1U}; }
+
+// The six tetrahedra of a cube, positively oriented: from corner 0 to corner 7 along the axes in each order.
+constexpr std::array<std::array<unsigned, 4>, 6> kTetrahedra{
+    {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}};
+
+// For each set of inside corners, as bits: an even permutation that puts the inside corners first or, if only one
+// corner is outside, that one.
+constexpr std::array<std::array<unsigned, 4>, 16> kOrder{{{0, 1, 2, 3},
+                                                          {0, 1, 2, 3},
+                                                          {1, 0, 3, 2},
+                                                          {0, 1, 2, 3},
+                                                          {2, 3, 0, 1},
+                                                          {0, 2, 3, 1},
+                                                          {1, 2, 0, 3},
+                                                          {3, 2, 1, 0},
+                                                          {3, 2, 1, 0},
+                                                          {0, 3, 1, 2},
+                                                          {1, 3, 2, 0},
+                                                          {2, 3, 0, 1},
+                                                          {2, 3, 0, 1},
+                                                          {1, 0, 3, 2},
+                                                          {0, 1, 2, 3},
+                                                          {0, 1, 2, 3}}};
+
+class MarchingTetrahedra {
+  public:
+    MarchingTetrahedra(const SampledField& field, const FindCrossing& crossing, const Grid& grid, const Budget& budget)
+        : field_(field), crossing_(crossing), grid_(grid), budget_(budget) {}
+
+    Mesh run() {
+        for (const SampledField::Block* block : field_.blocks()) {
+            budget_.checkTime();
+            budget_.checkTriangles(mesh_.triangles.size());
+            load(block->corner);
+            for (int i = 0; i < kPoints; ++i) cube(block->corner, {i & 7, i >> 3 & 7, i >> 6});
+        }
+        assignCells();
+        return std::move(mesh_);
+    }
+
+  private:
+    // Determines which corners of the cubes whose lowest corners are in this block are inside.
+    void load(const glm::ivec3& corner) {
+        inside_.fill(false);
+        for (unsigned c = 0; c < 8; ++c) {
+            const SampledField::Block* block = field_.find(corner + kSide * offset(c));
+            if (block == nullptr) continue;
+            const glm::ivec3 shift = kSide * offset(c);
+            const glm::ivec3 count = glm::mix(glm::ivec3(kSide), glm::ivec3(1), glm::bvec3(offset(c)));
+            for (int z = 0; z < count.z; ++z) {
+                for (int y = 0; y < count.y; ++y) {
+                    for (int x = 0; x < count.x; ++x) {
+                        inside_[slot(shift + glm::ivec3(x, y, z))] = block->values[indexIn({x, y, z})] < 0;
+                    }
+                }
+            }
+        }
+    }
+
+    static int slot(const glm::ivec3& in) { return in.x + (kSide + 1) * (in.y + (kSide + 1) * in.z); }
+
+    void cube(const glm::ivec3& block, const glm::ivec3& in) {
+        unsigned inside = 0;
+        for (unsigned c = 0; c < 8; ++c) inside |= (inside_[slot(in + offset(c))] ? 1U : 0U) << c;
+        if (inside == 0 || inside == 0xffU) return;
+        const glm::ivec3 at = block + in;
+        for (const auto& tetrahedron : kTetrahedra) {
+            unsigned mask = 0;
+            for (unsigned c = 0; c < 4; ++c) mask |= (inside >> tetrahedron[c] & 1U) << c;
+            if (mask != 0 && mask != 0xfU) section(at, tetrahedron, mask);
+        }
+    }
+
+    void section(const glm::ivec3& at, const std::array<unsigned, 4>& tetrahedron, unsigned mask) {
+        std::array<unsigned, 4> v{};
+        for (unsigned c = 0; c < 4; ++c) v[c] = tetrahedron[kOrder[mask][c]];
+        const auto corner = [&](unsigned i, unsigned o) { return vertex(at, v[i], v[o]); };
+        const int count = std::popcount(mask);
+        if (count == 2) {
+            const std::array<std::uint32_t, 4> q{corner(0, 2), corner(0, 3), corner(1, 3), corner(1, 2)};
+            mesh_.triangles.push_back({q[0], q[1], q[2]});
+            mesh_.triangles.push_back({q[0], q[2], q[3]});
+        } else if (count == 1) {
+            mesh_.triangles.push_back({corner(0, 1), corner(0, 2), corner(0, 3)});
+        } else {
+            mesh_.triangles.push_back({corner(1, 0), corner(3, 0), corner(2, 0)});
+        }
+    }
+
+    // Returns the mesh point on an edge. The bits of one corner are a subset of the other's.
+    std::uint32_t vertex(const glm::ivec3& at, unsigned inside, unsigned outside) {
+        const glm::ivec3 lower = at + offset(inside & outside);
+        auto& ids = idsOf(lower);
+        std::uint32_t& id = ids[static_cast<std::size_t>(indexIn(lower)) * 7 + (inside ^ outside) - 1];
+        if (id == kNone) {
+            id = static_cast<std::uint32_t>(mesh_.points.size());
+            // Crossings near the same grid point stay several grid steps apart.
+            const double off = std::min(1.0 / 12, 6 * grid_.step() / field_.step());
+            const glm::ivec3 from = at + offset(inside);
+            const glm::ivec3 to = at + offset(outside);
+            const EdgeCrossing cross = crossing_(from, to);
+            const double part = std::clamp(cross.part, off, 1 - off);
+            mesh_.points.push_back(grid_.snap(glm::mix(field_.place(from), field_.place(to), part)));
+            pointCells_.push_back(cross.cell);
+        }
+        return id;
+    }
+
+    // Assigns a triangle to the cell of at least two of its corners, or else to that of the first corner.
+    void assignCells() {
+        for (const auto& [a, b, c] : mesh_.triangles) {
+            mesh_.cells.push_back(pointCells_[b] == pointCells_[c] ? pointCells_[b] : pointCells_[a]);
+        }
+    }
+
+    using Ids = std::array<std::uint32_t, static_cast<std::size_t>(kPoints) * 7>;
+    Ids& idsOf(const glm::ivec3& point) {
+        const std::uint64_t key = keyOf(point);
+        if (last_ == nullptr || lastKey_ != key) {
+            auto& ids = ids_[key];
+            if (!ids) {
+                ids = std::make_unique<Ids>();
+                ids->fill(kNone);
+            }
+            last_ = ids.get();
+            lastKey_ = key;
+        }
+        return *last_;
+    }
+
+    const SampledField& field_;
+    const FindCrossing& crossing_;
+    const Grid& grid_;
+    const Budget& budget_;
+    Mesh mesh_;
+    std::vector<std::uint32_t> pointCells_;
+    std::array<bool, (kSide + 1) * (kSide + 1) * (kSide + 1)> inside_{};
+    std::unordered_map<std::uint64_t, std::unique_ptr<Ids>> ids_;
+    Ids* last_ = nullptr;
+    std::uint64_t lastKey_ = 0;
+};
+
+}  // namespace
+
+glm::ivec3 SampledField::below(const glm::dvec3& place) const { return {glm::floor((place - origin_) / step_)}; }
+
+float& SampledField::at(const glm::ivec3& point) {
+    const glm::ivec3 corner = blockOf(point) * kSide;
+    if (last_ == nullptr || last_->corner != corner) {
+        auto& block = blocks_[keyOf(point)];
+        if (!block) {
+            block = std::make_unique<Block>();
+            block->corner = corner;
+            block->values.fill(std::numeric_limits<float>::infinity());
+        }
+        last_ = block.get();
+    }
+    return last_->values[indexIn(point)];
+}
+
+const SampledField::Block* SampledField::find(const glm::ivec3& point) const {
+    const auto found = blocks_.find(keyOf(point));
+    return found == blocks_.end() ? nullptr : found->second.get();
+}
+
+float SampledField::value(const glm::ivec3& point) const {
+    const Block* block = find(point);
+    return block != nullptr ? block->values[indexIn(point)] : std::numeric_limits<float>::infinity();
+}
+
+std::vector<const SampledField::Block*> SampledField::blocks() const {
+    std::vector<std::pair<std::uint64_t, const Block*>> sorted;
+    for (const auto& [key, block] : blocks_) sorted.emplace_back(key, block.get());
+    std::ranges::sort(sorted);
+    std::vector<const Block*> out;
+    for (const auto& [key, block] : sorted) out.push_back(block);
+    return out;
+}
+
+Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const Grid& grid, const Budget& budget) {
+    return MarchingTetrahedra(field, crossing, grid, budget).run();
+}
+
+FindCrossing linearCrossing(const SampledField& field) {
+    return [&field](const glm::ivec3& inside, const glm::ivec3& outside) {
+        const double in = field.value(inside);
+        const double out = field.value(outside);
+        return EdgeCrossing{in / (in - out), kNoCell};
+    };
+}
+
+}  // namespace oval4d::exports

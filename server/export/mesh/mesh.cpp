@@ -1,0 +1,79 @@
+#include "export/mesh/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace oval4d::exports {
+
+Grid::Grid(double size, double extent) {
+    // A float32 has 24 binary digits, so extent / 2^23 is exact. size / 131,072 is half a micrometer for 60 mm.
+    const double needed = std::max(size / 131'072, extent / 8'388'608);
+    step_ = std::exp2(std::ceil(std::log2(needed)));
+}
+
+glm::dvec3 Grid::snap(const glm::dvec3& point) const {
+    // Adding zero turns -0 into 0.
+    return glm::round(point / step_) * step_ + 0.0;
+}
+
+bool isClosedManifold(const Mesh& mesh) {
+    // For each point, the corners of the triangles around it. The ring continues from the previous corner of one
+    // triangle to the triangle that has it as its next corner.
+    std::vector<std::uint32_t> begin(mesh.points.size() + 1, 0);
+    for (const auto& triangle : mesh.triangles) {
+        for (const std::uint32_t corner : triangle) ++begin[corner + 1];
+    }
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) begin[i + 1] += begin[i];
+    std::vector<std::array<std::uint32_t, 2>> fans(3 * mesh.triangles.size());  // next, previous corner
+    std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
+    for (const auto& t : mesh.triangles) {
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
+        for (int i = 0; i < 3; ++i) fans[cursor[t[i]]++] = {t[(i + 1) % 3], t[(i + 2) % 3]};
+    }
+    for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+        const auto first = fans.begin() + begin[p];
+        const auto last = fans.begin() + begin[p + 1];
+        if (first == last) continue;
+        std::sort(first, last);
+        std::ptrdiff_t steps = 0;
+        for (auto at = first; steps == 0 || at != first; ++steps) {
+            if (steps == last - first) return false;
+            const auto next = std::lower_bound(first, last, std::array<std::uint32_t, 2>{(*at)[1], 0});
+            if (next == last || (*next)[0] != (*at)[1] || (next + 1 != last && (*(next + 1))[0] == (*at)[1]))
+                return false;
+            at = next;
+        }
+        if (steps != last - first) return false;
+    }
+    return true;
+}
+
+double volumeOf(const Mesh& mesh) {
+    if (mesh.points.empty()) return 0;
+    double six = 0;
+    const glm::dvec3 base = mesh.points.front();
+    for (const auto& t : mesh.triangles) {
+        six += glm::dot(mesh.points[t[0]] - base, glm::cross(mesh.points[t[1]] - base, mesh.points[t[2]] - base));
+    }
+    return six / 6;
+}
+
+glm::dvec3 normalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
+    return glm::cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);
+}
+
+void Box::include(const glm::dvec3& point) {
+    least = glm::min(least, point);
+    most = glm::max(most, point);
+}
+
+Box boxOf(const Mesh& mesh) {
+    Box box;
+    for (const glm::dvec3& point : mesh.points) box.include(point);
+    return box;
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,72 @@
+#pragma once
+// Triangle meshes with coordinates that every file format represents exactly.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "scene/scene.hpp"
+
+namespace oval4d::exports {
+
+inline constexpr std::uint32_t kNoCell = 0xffffffffU;
+
+/// A mesh of triangles, which are counterclockwise seen from outside.
+struct Mesh {
+    std::vector<glm::dvec3> points;  ///< millimeters
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::uint32_t> cells;  ///< for each triangle, the cell that it was cut from, or kNoCell
+
+    void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t cell) {
+        triangles.push_back({a, b, c});
+        cells.push_back(cell);
+    }
+};
+
+/// One body of a file.
+struct Solid {
+    std::string name;
+    Mesh mesh;
+    scene::Color color;  ///< of triangles without a cell
+    glm::dvec3 at{0};    ///< position of the mesh's origin in millimeters; a multiple of the grid step
+};
+
+/// Rounds coordinates to multiples of a power of two, which float32 and decimal formats represent exactly. So points
+/// are equal in a file if and only if they are equal here, and meshes remain closed for programs that compare
+/// coordinates.
+class Grid {
+  public:
+    /// `size`: the diameter of the polytope in mm. `extent`: the largest coordinate in the file in mm.
+    Grid(double size, double extent);
+
+    double step() const { return step_; }
+    glm::dvec3 snap(const glm::dvec3& point) const;
+
+  private:
+    double step_;
+};
+
+/// Whether every edge belongs to exactly two triangles, which traverse it in opposite directions, and the triangles
+/// around every point form one ring.
+bool isClosedManifold(const Mesh& mesh);
+
+/// The signed volume that the mesh encloses.
+double volumeOf(const Mesh& mesh);
+
+/// The triangle's normal, whose length is twice the area.
+glm::dvec3 normalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle);
+
+/// An axis-aligned bounding box.
+struct Box {
+    glm::dvec3 least{1e300}, most{-1e300};
+    void include(const glm::dvec3& point);
+    glm::dvec3 size() const { return most - least; }
+};
+Box boxOf(const Mesh& mesh);
+
+}  // namespace oval4d::exports

@@ -1,0 +1,110 @@
+#include "export/mesh/skeleton.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "export/mesh/marching.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+/// A capsule: a bar with round ends, or a ball if the ends coincide.
+struct Capsule {
+    glm::dvec3 from, to;
+    double radius;
+
+    double distance(const glm::dvec3& place) const {
+        const glm::dvec3 along = to - from;
+        const double squared = glm::dot(along, along);
+        const double t = squared > 0 ? std::clamp(glm::dot(place - from, along) / squared, 0.0, 1.0) : 0;
+        return glm::distance(place, from + t * along) - radius;
+    }
+};
+
+/// Takes the minimum of the field and the capsule's distance at all points that are inside the capsule or share a cube
+/// with such a point.
+void include(const Capsule& capsule, SampledField& field) {
+    const double reach = capsule.radius + 1.01 * std::sqrt(3) * field.step();
+    const glm::ivec3 least = field.below(glm::min(capsule.from, capsule.to) - reach);
+    const glm::ivec3 most = field.below(glm::max(capsule.from, capsule.to) + reach) + 1;
+    // Visits the grid lines along x; on each, only the points near the capsule.
+    const glm::dvec3 along = capsule.to - capsule.from;
+    for (int k = least.z; k <= most.z; ++k) {
+        for (int j = least.y; j <= most.y; ++j) {
+            const glm::dvec3 row = field.place({0, j, k});
+            // The part of the capsule's axis whose y and z are within reach of this line.
+            double low = 0;
+            double high = 1;
+            for (const int axis : {1, 2}) {
+                const double from = row[axis] - reach - capsule.from[axis];
+                const double to = row[axis] + reach - capsule.from[axis];
+                if (std::abs(along[axis]) < 1e-12) {
+                    if (from > 0 || to < 0) high = -1;
+                    continue;
+                }
+                low = std::max(low, std::min(from / along[axis], to / along[axis]));
+                high = std::min(high, std::max(from / along[axis], to / along[axis]));
+            }
+            if (low > high) continue;
+            const double x0 = capsule.from.x + low * along.x;
+            const double x1 = capsule.from.x + high * along.x;
+            const int first = field.below({std::min(x0, x1) - reach, 0, 0}).x;
+            const int last = field.below({std::max(x0, x1) + reach, 0, 0}).x + 1;
+            for (int i = first; i <= last; ++i) {
+                const double distance = capsule.distance(field.place({i, j, k}));
+                if (distance > reach - capsule.radius) continue;
+                float& value = field.at({i, j, k});
+                value = std::min(value, static_cast<float>(distance));
+            }
+        }
+    }
+}
+
+std::vector<Capsule> capsulesOf(const slicing::SliceSet& slices, int i, double scale, const Thickness& thickness) {
+    const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
+    std::vector<Capsule> capsules;
+    for (std::size_t v = 0; v < slices.vertexCount(i); ++v)
+        capsules.push_back({points[v] * scale, points[v] * scale, thickness.ball});
+    for (std::uint32_t e = slices.edgeBegin[i]; e < slices.edgeBegin[i + 1]; ++e) {
+        const auto [a, b] = slices.edges[e];
+        capsules.push_back({points[a] * scale, points[b] * scale, thickness.bar});
+    }
+    return capsules;
+}
+
+}  // namespace
+
+Thickness thicknessFor(const scene::Scene& scene, double scale) {
+    return {scene.ballRadius / scene.scale * scale, scene.barRadius / scene.scale * scale};
+}
+
+double coarseTriangles(const slicing::SliceSet& slices, double scale, const Thickness& thickness) {
+    double area = 4 * std::numbers::pi * thickness.ball * thickness.ball * static_cast<double>(slices.vertices.size());
+    for (int i = 0; i < slices.planes.count; ++i) {
+        const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
+        for (std::uint32_t e = slices.edgeBegin[i]; e < slices.edgeBegin[i + 1]; ++e) {
+            const double length = scale * glm::distance(points[slices.edges[e][0]], points[slices.edges[e][1]]);
+            area += 2 * std::numbers::pi * thickness.bar * std::max(0.0, length - 2 * thickness.ball);
+        }
+    }
+    constexpr double kPerSquare = 9;  // measured
+    return kPerSquare * area / (thickness.bar * thickness.bar);
+}
+
+Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const Thickness& thickness, double cube,
+                const Grid& grid, const Budget& budget) {
+    // An offset away from symmetric positions of polytopes, where many values would be equal.
+    SampledField field(glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
+    for (const Capsule& capsule : capsulesOf(slices, i, scale, thickness)) {
+        budget.checkTime();
+        include(capsule, field);
+    }
+    return marchTetrahedra(field, linearCrossing(field), grid, budget);
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,27 @@
+#pragma once
+// The balls and bars of a slice, merged into one body.
+
+#include "export/budget.hpp"
+#include "export/mesh/mesh.hpp"
+#include "scene/scene.hpp"
+
+namespace oval4d::exports {
+
+/// The thickness of balls and bars in millimeters.
+struct Thickness {
+    double ball = 0, bar = 0;  ///< radii
+};
+
+/// The same thickness as in the picture. `scale`: millimeters per unit of the polytope.
+Thickness thicknessFor(const scene::Scene& scene, double scale);
+
+/// The approximate number of triangles of the skeletons of all slices if the meshing cubes are as wide as the bars'
+/// radius. Cubes of half the width give four times as many.
+double coarseTriangles(const slicing::SliceSet& slices, double scale, const Thickness& thickness);
+
+/// The skeleton of slice i, meshed by marching tetrahedra in cubes of width `cube`. `scale`: millimeters per unit of
+/// the polytope.
+Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const Thickness& thickness, double cube,
+                const Grid& grid, const Budget& budget);
+
+}  // namespace oval4d::exports

@@ -1,0 +1,214 @@
+#include "export/mesh/skin.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "export/mesh/marching.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+constexpr double kCubes = 128;  // along the slice's largest dimension
+
+/// A triangle of the fan that decomposes a face. The winding number of a loop, also of a star, around a point of its
+/// plane is the sum of those of the triangles.
+struct FanTriangle {
+    std::array<std::uint32_t, 3> corners;
+    std::uint32_t cell;
+};
+
+class OuterSurface {
+  public:
+    OuterSurface(const slicing::SliceSet& slices, int i, double scale, const Budget& budget) : budget_(budget) {
+        for (std::uint32_t v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v) {
+            points_.push_back(slices.vertices[v] * scale);
+            box_.include(points_.back());
+        }
+        for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
+            const std::uint32_t first = slices.cornerBegin[f];
+            for (std::uint32_t c = first + 1; c + 1 < slices.cornerBegin[f + 1]; ++c) {
+                triangles_.push_back(
+                    {{slices.corners[first], slices.corners[c], slices.corners[c + 1]}, slices.faceSource[f]});
+            }
+        }
+    }
+
+    Mesh mesh(const Grid& grid) {
+        const glm::dvec3 size = box_.size();
+        const double cube = std::max({size.x, size.y, size.z}) / kCubes;
+        if (!(cube > 64 * grid.step())) return {};
+        // An offset away from symmetric positions of polytopes.
+        SampledField field(box_.least - glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
+        fill(field);
+        sortIntoBoxes(4 * cube);
+        return marchTetrahedra(
+            field,
+            [&](const glm::ivec3& inside, const glm::ivec3& outside) {
+                return cross(field.place(inside), field.place(outside));
+            },
+            grid, budget_);
+    }
+
+  private:
+    struct Hit {
+        double at;
+        int turns;
+        std::uint32_t cell;
+    };
+
+    // The signed number of crossings of the edge from a to b with the ray y = row.y, z > row.z in the yz-plane. The
+    // edge from b to a gives exactly the negative. So, despite rounding, a closed surface crosses every line along x
+    // equally often in both directions.
+    int crossings(std::uint32_t a, std::uint32_t b, const glm::dvec3& row) const {
+        if (a > b) return -crossings(b, a, row);
+        const glm::dvec3& p = points_[a];
+        const glm::dvec3& q = points_[b];
+        if ((p.y <= row.y) == (q.y <= row.y)) return 0;
+        const double z = p.z + (q.z - p.z) * ((row.y - p.y) / (q.y - p.y));
+        if (z <= row.z) return 0;
+        return p.y <= row.y ? -1 : 1;
+    }
+
+    /// Marks the inside points of the field, line by line along x.
+    void fill(SampledField& field) const {
+        std::unordered_map<std::uint64_t, std::vector<Hit>> lines;
+        for (const FanTriangle& triangle : triangles_) {
+            const auto [a, b, c] = triangle.corners;
+            Box box;
+            for (const std::uint32_t corner : triangle.corners) box.include(points_[corner]);
+            const glm::ivec3 least = field.below(box.least);
+            const glm::ivec3 most = field.below(box.most) + 1;
+            const glm::dvec3 normal = glm::cross(points_[b] - points_[a], points_[c] - points_[a]);
+            for (int k = least.z; k <= most.z; ++k) {
+                for (int j = least.y; j <= most.y; ++j) {
+                    const glm::dvec3 row = field.place({0, j, k});
+                    const int turns = crossings(a, b, row) + crossings(b, c, row) + crossings(c, a, row);
+                    if (turns == 0) continue;
+                    const glm::dvec3 to = row - points_[a];
+                    const double x = points_[a].x - (normal.y * to.y + normal.z * to.z) / normal.x;
+                    lines[key(j, k)].push_back({std::clamp(x, box.least.x, box.most.x), turns, triangle.cell});
+                }
+            }
+        }
+        for (auto& [where, hits] : lines) {
+            budget_.checkTime();
+            std::ranges::sort(hits, {}, &Hit::at);
+            const int j = static_cast<int>(where >> 32U) - kShift;
+            const int k = static_cast<int>(where & 0xffffffffU) - kShift;
+            int winding = 0;
+            for (std::size_t h = 0; h + 1 < hits.size(); ++h) {
+                winding += hits[h].turns;
+                if (winding == 0) continue;
+                const int first = field.below({hits[h].at, 0, 0}).x + 1;
+                const int last = field.below({hits[h + 1].at, 0, 0}).x;
+                for (int i = first; i <= last; ++i) field.at({i, j, k}) = -1;
+                // Creates the blocks of the lowest corners of all cubes that contain these points.
+                for (int i = first - 1; i <= last; ++i) {
+                    for (const int n : {j - 1, j}) {
+                        field.at({i, n, k});
+                        field.at({i, n, k - 1});
+                    }
+                }
+            }
+        }
+    }
+
+    /// Sorts the triangles into boxes of this width.
+    void sortIntoBoxes(double width) {
+        width_ = width;
+        for (std::uint32_t p = 0; p < triangles_.size(); ++p) {
+            budget_.checkTime();
+            const auto& corners = triangles_[p].corners;
+            Box box;
+            for (const std::uint32_t corner : corners) box.include(points_[corner]);
+            const glm::dvec3 base = points_[corners[0]];
+            const glm::dvec3 normal = glm::cross(points_[corners[1]] - base, points_[corners[2]] - base);
+            const double reach = 0.51 * width * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
+            const glm::ivec3 least = boxAt(box.least);
+            const glm::ivec3 most = boxAt(box.most);
+            for (int z = least.z; z <= most.z; ++z) {
+                for (int y = least.y; y <= most.y; ++y) {
+                    for (int x = least.x; x <= most.x; ++x) {
+                        const glm::dvec3 middle = box_.least + width * (glm::dvec3(x, y, z) + 0.5);
+                        if (std::abs(glm::dot(middle - base, normal)) <= reach) boxes_[key({x, y, z})].push_back(p);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The crossing, on the way from `outside` to `inside`, at which the winding number first becomes nonzero.
+    EdgeCrossing cross(const glm::dvec3& inside, const glm::dvec3& outside) const {
+        std::vector<std::uint32_t> near;
+        const glm::ivec3 least = boxAt(glm::min(inside, outside));
+        const glm::ivec3 most = boxAt(glm::max(inside, outside));
+        for (int z = least.z; z <= most.z; ++z) {
+            for (int y = least.y; y <= most.y; ++y) {
+                for (int x = least.x; x <= most.x; ++x) {
+                    const auto found = boxes_.find(key({x, y, z}));
+                    if (found != boxes_.end()) near.insert(near.end(), found->second.begin(), found->second.end());
+                }
+            }
+        }
+        std::ranges::sort(near);
+        near.erase(std::unique(near.begin(), near.end()), near.end());
+        std::vector<Hit> hits;
+        const glm::dvec3 way = inside - outside;
+        for (const std::uint32_t p : near) {
+            // T. Möller, B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
+            const auto& [a, b, c] = triangles_[p].corners;
+            const glm::dvec3 u = points_[b] - points_[a];
+            const glm::dvec3 v = points_[c] - points_[a];
+            const glm::dvec3 across = glm::cross(way, v);
+            const double determinant = glm::dot(u, across);
+            if (determinant == 0) continue;
+            const glm::dvec3 to = outside - points_[a];
+            const double s = glm::dot(to, across) / determinant;
+            const glm::dvec3 up = glm::cross(to, u);
+            const double t = glm::dot(way, up) / determinant;
+            const double at = glm::dot(v, up) / determinant;
+            if (s < 0 || t < 0 || s + t > 1 || at < 0 || at > 1) continue;
+            hits.push_back({at, determinant > 0 ? 1 : -1, triangles_[p].cell});
+        }
+        std::ranges::sort(hits, {}, &Hit::at);
+        int winding = 0;
+        for (const Hit& hit : hits) {
+            winding += hit.turns;
+            if (winding != 0) return {1 - hit.at, hit.cell};
+        }
+        return {};
+    }
+
+    glm::ivec3 boxAt(const glm::dvec3& place) const { return {glm::floor((place - box_.least) / width_)}; }
+    static constexpr int kShift = 1 << 20;
+    static std::uint64_t key(int j, int k) {
+        return std::uint64_t{static_cast<std::uint32_t>(j + kShift)} << 32U | static_cast<std::uint32_t>(k + kShift);
+    }
+    static std::uint64_t key(const glm::ivec3& box) {
+        const auto bits = [](int i) { return std::uint64_t{static_cast<std::uint32_t>(i + kShift)}; };
+        return bits(box.z) << 42U | bits(box.y) << 21U | bits(box.x);
+    }
+
+    const Budget& budget_;
+    std::vector<glm::dvec3> points_;
+    std::vector<FanTriangle> triangles_;
+    Box box_;
+    double width_ = 1;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> boxes_;
+};
+
+}  // namespace
+
+Mesh outerSurfaceOf(const slicing::SliceSet& slices, int i, double scale, const Grid& grid, const Budget& budget) {
+    return OuterSurface(slices, i, scale, budget).mesh(grid);
+}
+
+}  // namespace oval4d::exports

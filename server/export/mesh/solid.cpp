@@ -1,0 +1,157 @@
+#include "export/mesh/solid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "export/mesh/hull.hpp"
+#include "export/mesh/skin.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+using Loop = std::vector<std::uint32_t>;
+
+std::span<const std::uint32_t> cornersOf(const slicing::SliceSet& slices, std::uint32_t face) {
+    return {slices.corners.data() + slices.cornerBegin[face], slices.cornerBegin[face + 1] - slices.cornerBegin[face]};
+}
+
+/// The face's normal, whose length is twice the area.
+glm::dvec3 crossOf(const slicing::SliceSet& slices, int i, std::uint32_t face) {
+    const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
+    const auto corners = cornersOf(slices, face);
+    const glm::dvec3 base = points[corners[0]];
+    glm::dvec3 normal(0);
+    for (std::size_t c = 1; c + 1 < corners.size(); ++c)
+        normal += glm::cross(points[corners[c]] - base, points[corners[c + 1]] - base);
+    return normal;
+}
+
+glm::dvec3 directionOf(const slicing::SliceSet& slices, int i, std::uint32_t face) {
+    const glm::dvec3 normal = crossOf(slices, i, face);
+    const double length = glm::length(normal);
+    return length > 0 ? normal / length : glm::dvec3(0);
+}
+
+/// Whether the whole slice is on the inner side of every face.
+bool isConvex(const slicing::SliceSet& slices, int i) {
+    const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
+    const std::size_t count = slices.vertexCount(i);
+    double extent = 0;
+    for (std::size_t v = 0; v < count; ++v) extent = std::max(extent, glm::distance(points[v], points[0]));
+    constexpr double kFlat = 1e-7;
+    for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
+        const glm::dvec3 base = points[cornersOf(slices, f)[0]];
+        glm::dvec3 normal = crossOf(slices, i, f);
+        // The height above a sliver is unreliable; its neighbors are sufficient.
+        if (glm::length(normal) < kFlat * extent * extent) continue;
+        normal = glm::normalize(normal);
+        for (std::size_t v = 0; v < count; ++v) {
+            if (glm::dot(points[v] - base, normal) > kFlat * extent) return false;
+        }
+    }
+    return true;
+}
+
+/// The slice's vertices snapped to the grid and welded: equal points are merged.
+class Welded {
+  public:
+    Welded(const slicing::SliceSet& slices, int i, double scale, const Grid& grid) {
+        std::map<std::tuple<double, double, double>, std::uint32_t> known;
+        for (std::uint32_t v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v) {
+            const glm::dvec3 point = grid.snap(slices.vertices[v] * scale);
+            const auto [at, fresh] = known.try_emplace({point.x, point.y, point.z}, points_.size());
+            if (fresh) points_.push_back(point);
+            index_.push_back(at->second);
+        }
+    }
+    /// The loop in welded indices, without edges of length zero.
+    Loop loop(std::span<const std::uint32_t> corners) const {
+        Loop out;
+        for (const std::uint32_t corner : corners) {
+            if (out.empty() || out.back() != index_[corner]) out.push_back(index_[corner]);
+        }
+        while (out.size() > 1 && out.back() == out.front()) out.pop_back();
+        return out;
+    }
+    const std::vector<glm::dvec3>& points() const { return points_; }
+
+  private:
+    std::vector<glm::dvec3> points_;
+    std::vector<std::uint32_t> index_;
+};
+
+/// Triangulates a convex loop as a fan from the corner that maximizes the area of the smallest triangle.
+void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh) {
+    const std::size_t n = loop.size();
+    std::size_t best = 0;
+    double bestLeast = -1;
+    for (std::size_t apex = 0; apex < n; ++apex) {
+        double least = 1e300;
+        for (std::size_t c = 1; c + 1 < n; ++c) {
+            const glm::dvec3 normal = normalOf(mesh, {loop[apex], loop[(apex + c) % n], loop[(apex + c + 1) % n]});
+            least = std::min(least, glm::dot(normal, normal));
+        }
+        if (least > bestLeast) {
+            bestLeast = least;
+            best = apex;
+        }
+    }
+    for (std::size_t c = 1; c + 1 < n; ++c) mesh.add(loop[best], loop[(best + c) % n], loop[(best + c + 1) % n], cell);
+}
+
+/// Whether the mesh has a volume: its mean thickness must exceed 4 grid steps.
+bool hasVolume(const Mesh& mesh, const Grid& grid) {
+    double twiceArea = 0;
+    for (const auto& triangle : mesh.triangles) twiceArea += glm::length(normalOf(mesh, triangle));
+    constexpr double kLeastThickness = 4;
+    return volumeOf(mesh) > kLeastThickness * grid.step() * twiceArea / 4;
+}
+
+Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const Grid& grid) {
+    const Welded welded(slices, i, scale, grid);
+    Mesh mesh;
+    mesh.points = welded.points();
+    for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
+        const Loop loop = welded.loop(cornersOf(slices, f));
+        if (loop.size() > 2) addConvex(loop, slices.faceSource[f], mesh);
+    }
+    return mesh;
+}
+
+/// Where points of a convex slice coincide on the grid, two faces may share more than an edge. Then the convex hull of
+/// the points replaces them. Each triangle is assigned to the cell of the face with the most similar normal.
+Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const Grid& grid) {
+    Mesh hull = hullOf(faces.points, grid);
+    std::vector<std::pair<glm::dvec3, std::uint32_t>> normals;
+    for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f)
+        normals.emplace_back(directionOf(slices, i, f), slices.faceSource[f]);
+    for (std::size_t t = 0; t < hull.triangles.size(); ++t) {
+        const glm::dvec3 normal = normalOf(hull, hull.triangles[t]);
+        hull.cells[t] = std::ranges::max_element(normals, {}, [&](const auto& face) {
+                            return glm::dot(face.first, normal);
+                        })->second;
+    }
+    return hull;
+}
+
+}  // namespace
+
+Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const Grid& grid, const Budget& budget) {
+    if (slices.faceCount(i) < 4) return {};
+    if (isConvex(slices, i)) {
+        Mesh mesh = convexSolid(slices, i, scale, grid);
+        if (!isClosedManifold(mesh)) mesh = convexHull(slices, i, mesh, grid);
+        return hasVolume(mesh, grid) ? mesh : Mesh{};
+    }
+    Mesh surface = outerSurfaceOf(slices, i, scale, grid, budget);
+    return hasVolume(surface, grid) ? surface : Mesh{};
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,91 @@
+#include "export/mesh/tessellate.hpp"
+
+#include <GL/glu.h>
+
+#include <deque>
+#include <memory>
+
+namespace oval4d::exports {
+
+namespace {
+
+// GLU's tessellator passes to its callbacks the vertex pointers that it was given, and those that `combine` creates
+// where contours cross. It needs no OpenGL context.
+struct Tessellation {
+    // A deque, because pointers to elements must remain valid.
+    std::deque<std::pair<std::array<double, 3>, std::uint32_t>> corners;
+    std::vector<std::uint32_t> out;
+    std::vector<Contour> contours;
+    bool crossed = false;
+    bool failed = false;
+};
+
+using Corner = decltype(Tessellation::corners)::value_type;
+
+void begin(GLenum /*kind*/, void* to) { static_cast<Tessellation*>(to)->contours.emplace_back(); }
+
+void vertex(void* data, void* to) {
+    auto* tessellation = static_cast<Tessellation*>(to);
+    const auto* corner = static_cast<Corner*>(data);
+    tessellation->out.push_back(corner->second);
+    tessellation->contours.back().emplace_back(corner->first[0], corner->first[1]);
+}
+
+// Registering this callback makes GLU output only independent triangles, no strips or fans.
+void edgeFlag(GLboolean /*flag*/, void* /*to*/) {}
+
+void combine(GLdouble* at, void** /*joined*/, GLfloat* /*weights*/, void** made, void* to) {
+    auto* tessellation = static_cast<Tessellation*>(to);
+    tessellation->crossed = true;
+    tessellation->corners.push_back({{at[0], at[1], at[2]}, 0xffffffffU});
+    *made = &tessellation->corners.back();
+}
+
+void fail(GLenum /*code*/, void* to) { static_cast<Tessellation*>(to)->failed = true; }
+
+template <typename Function>
+_GLUfuncptr callback(Function* function) {
+    return reinterpret_cast<_GLUfuncptr>(function);
+}
+
+Tessellation tessellate(const std::vector<Contour>& contours, bool outline) {
+    Tessellation tessellation;
+    const std::unique_ptr<GLUtesselator, decltype(&gluDeleteTess)> tess(gluNewTess(), &gluDeleteTess);
+    gluTessProperty(tess.get(), GLU_TESS_WINDING_RULE, GLU_TESS_WINDING_NONZERO);
+    gluTessProperty(tess.get(), GLU_TESS_BOUNDARY_ONLY, outline ? GL_TRUE : GL_FALSE);
+    gluTessNormal(tess.get(), 0, 0, 1);
+    gluTessCallback(tess.get(), GLU_TESS_BEGIN_DATA, callback(&begin));
+    gluTessCallback(tess.get(), GLU_TESS_VERTEX_DATA, callback(&vertex));
+    gluTessCallback(tess.get(), GLU_TESS_COMBINE_DATA, callback(&combine));
+    gluTessCallback(tess.get(), GLU_TESS_ERROR_DATA, callback(&fail));
+    if (!outline) gluTessCallback(tess.get(), GLU_TESS_EDGE_FLAG_DATA, callback(&edgeFlag));
+    gluTessBeginPolygon(tess.get(), &tessellation);
+    for (const Contour& contour : contours) {
+        gluTessBeginContour(tess.get());
+        for (const glm::dvec2& p : contour) {
+            tessellation.corners.push_back({{p.x, p.y, 0}, static_cast<std::uint32_t>(tessellation.corners.size())});
+            gluTessVertex(tess.get(), tessellation.corners.back().first.data(), &tessellation.corners.back());
+        }
+        gluTessEndContour(tess.get());
+    }
+    gluTessEndPolygon(tess.get());
+    return tessellation;
+}
+
+}  // namespace
+
+std::vector<Contour> outlineOf(const std::vector<Contour>& contours) {
+    Tessellation tessellation = tessellate(contours, true);
+    return tessellation.failed ? std::vector<Contour>{} : std::move(tessellation.contours);
+}
+
+std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Contour>& contours) {
+    const Tessellation tessellation = tessellate(contours, false);
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    if (tessellation.failed || tessellation.crossed) return triangles;
+    for (std::size_t i = 0; i + 2 < tessellation.out.size(); i += 3)
+        triangles.push_back({tessellation.out[i], tessellation.out[i + 1], tessellation.out[i + 2]});
+    return triangles;
+}
+
+}  // namespace oval4d::exports

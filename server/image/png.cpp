@@ -1,0 +1,144 @@
+#include "image/png.hpp"
+
+#include <isa-l/crc.h>
+#include <isa-l/igzip_lib.h>
+
+#include <cstring>
+#include <functional>
+#include <stdexcept>
+
+#include "image/filter.hpp"
+
+namespace oval4d::image {
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::uint8_t kSignature[] = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
+// Keyword and its zero, then: not compressed, method 0, no language, no translated keyword.
+constexpr char kStateHeader[] = "oval4d\0\0\0\0";
+constexpr std::uint8_t kZlibHeader[] = {0x78, 1};  // RFC 1950: deflate, window of 32 KiB, fastest level
+constexpr int kLevel = 1;
+constexpr std::uint32_t kLevelBuffer = ISAL_DEF_LVL1_DEFAULT;
+constexpr std::size_t kLarge = 1'000'000;  // bytes; a second core does not pay for smaller images
+
+void store32(std::uint8_t* at, std::uint32_t value) {
+    for (int i = 0; i < 4; ++i) at[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
+}
+
+void append(Bytes& out, const void* data, std::size_t size) {
+    if (size == 0) return;
+    out.resize(out.size() + size);
+    std::memcpy(out.data() + out.size() - size, data, size);
+}
+
+/// Begins a chunk at the end of `out`, and returns its position. endChunk() writes its length and CRC.
+std::size_t beginChunk(Bytes& out, const char* type) {
+    const std::size_t start = out.size();
+    out.resize(start + 4);
+    append(out, type, 4);
+    return start;
+}
+
+void endChunk(Bytes& out, std::size_t start) {
+    const std::size_t length = out.size() - start - 8;
+    store32(out.data() + start, static_cast<std::uint32_t>(length));
+    const std::uint32_t crc = crc32_gzip_refl(0, out.data() + start + 4, length + 4);
+    out.resize(out.size() + 4);
+    store32(out.data() + out.size() - 4, crc);
+}
+
+/// Compresses `in`, and appends it to `out`. Unless it is the last piece of a deflate stream, another may follow.
+void deflate(Bytes& in, bool last, Bytes& levelBuffer, Bytes& out) {
+    isal_zstream stream;
+    isal_deflate_init(&stream);
+    levelBuffer.resize(kLevelBuffer);
+    stream.level = kLevel;
+    stream.level_buf = levelBuffer.data();
+    stream.level_buf_size = kLevelBuffer;
+    stream.end_of_stream = last ? 1 : 0;
+    stream.flush = last ? NO_FLUSH : FULL_FLUSH;
+    stream.next_in = in.data();
+    stream.avail_in = static_cast<std::uint32_t>(in.size());
+
+    const std::size_t start = out.size();
+    out.resize(start + in.size() / 4 + 1024);
+    while (true) {
+        stream.next_out = out.data() + start + stream.total_out;
+        stream.avail_out = static_cast<std::uint32_t>(out.size() - start - stream.total_out);
+        if (isal_deflate(&stream) != COMP_OK) throw std::runtime_error("igzip failed");
+        if (last ? stream.internal_state.state == ZSTATE_END : stream.avail_in == 0 && stream.avail_out > 0) break;
+        out.resize(out.size() + in.size() / 2 + 1024);
+    }
+    out.resize(start + stream.total_out);
+}
+
+/// The Adler-32 checksum (RFC 1950) of two concatenated pieces, from the checksums of both and the size of the second.
+std::uint32_t combinedAdler32(std::uint32_t first, std::uint32_t second, std::size_t size) {
+    constexpr std::uint64_t kBase = 65521;
+    const std::uint64_t a = (first & 0xffffU) + kBase - 1;  // both checksums start at 1
+    const std::uint64_t low = a + (second & 0xffffU);
+    const std::uint64_t high = (first >> 16U) + (second >> 16U) + size % kBase * a;
+    return static_cast<std::uint32_t>(((high % kBase) << 16U) | (low % kBase));
+}
+
+}  // namespace
+
+void PngEncoder::encode(const ImageView& image, int from, int to, Band& band) {
+    filterRows(image, from, to, band.filtered);
+    band.checksum = isal_adler32(1, band.filtered.data(), band.filtered.size());
+    band.chunk.clear();
+    const std::size_t start = beginChunk(band.chunk, "IDAT");
+    if (from == 0) append(band.chunk, kZlibHeader, sizeof kZlibHeader);
+    deflate(band.filtered, to == image.height, band.levelBuffer, band.chunk);
+    endChunk(band.chunk, start);
+}
+
+void PngEncoder::encode(const ImageView& image, std::string_view state, std::vector<std::uint8_t>& out) {
+    const std::size_t size = (static_cast<std::size_t>(image.width) * 3 + 1) * static_cast<std::size_t>(image.height);
+    if (image.width < 1 || image.height < 1 ||
+        image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4)
+        throw std::invalid_argument("cannot encode an image that is empty or lacks pixels");
+    if (size > UINT32_MAX / 2) throw std::invalid_argument("cannot encode an image of more than 2 GiB");
+
+    auto& [upper, lower] = bands_;
+    const int middle = size < kLarge || image.height < 2 ? image.height : image.height / 2;
+    const auto encodeUpper = [&] { encode(image, 0, middle, upper); };
+    const auto encodeLower = [&] { encode(image, middle, image.height, lower); };
+    if (middle == image.height) {
+        encodeUpper();
+    } else {
+        parallel::invoke(forkJoin_, std::ref(encodeUpper), std::ref(encodeLower));
+    }
+    out.clear();
+    append(out, kSignature, sizeof kSignature);
+
+    std::size_t chunk = beginChunk(out, "IHDR");
+    std::uint8_t header[13] = {0, 0, 0, 0, 0, 0, 0, 0, 8, 2, 0, 0, 0};  // 8 bits, RGB, not interlaced
+    store32(header, static_cast<std::uint32_t>(image.width));
+    store32(header + 4, static_cast<std::uint32_t>(image.height));
+    append(out, header, sizeof header);
+    endChunk(out, chunk);
+
+    chunk = beginChunk(out, "iTXt");
+    append(out, kStateHeader, sizeof kStateHeader);  // the literal's terminating zero is the last separator
+    append(out, state.data(), state.size());
+    endChunk(out, chunk);
+
+    append(out, upper.chunk.data(), upper.chunk.size());
+    std::uint32_t checksum = upper.checksum;
+    if (middle < image.height) {
+        append(out, lower.chunk.data(), lower.chunk.size());
+        checksum = combinedAdler32(checksum, lower.checksum, lower.filtered.size());
+    }
+    chunk = beginChunk(out, "IDAT");
+    out.resize(out.size() + 4);
+    store32(out.data() + out.size() - 4, checksum);
+    endChunk(out, chunk);
+
+    chunk = beginChunk(out, "IEND");
+    endChunk(out, chunk);
+}
+
+}  // namespace oval4d::image

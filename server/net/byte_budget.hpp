@@ -1,0 +1,72 @@
+#pragma once
+// The limits on the memory and disk that the server uses for clients.
+
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+namespace oval4d::net {
+
+/// Counts and limits the bytes held for clients: files and messages not yet read, polytopes loaded or built on request,
+/// and undo history. One budget covers all clients together; each client has an account in it. Bytes are reserved
+/// before they are used. Every function may be called from any thread.
+class ByteBudget {
+  public:
+    class Account;
+
+    /// Bytes reserved on an account; the destructor releases them.
+    class Reservation {
+      public:
+        Reservation() = default;
+        Reservation(Reservation&& other) noexcept;
+        Reservation& operator=(Reservation&& other) noexcept;
+        ~Reservation();
+
+        std::size_t size() const { return size_; }
+        /// Changes the size without checking the limits, for bytes that are already in use.
+        void resize(std::size_t bytes);
+        /// Enlarges the reservation to `bytes`. Returns false, and changes nothing, if that would exceed a limit.
+        [[nodiscard]] bool grow(std::size_t bytes);
+
+      private:
+        friend Account;
+        Reservation(std::shared_ptr<Account> account, std::size_t size) : account_(std::move(account)), size_(size) {}
+        std::shared_ptr<Account> account_;
+        std::size_t size_ = 0;
+    };
+
+    /// The bytes held for one client, at most `limit`.
+    class Account : public std::enable_shared_from_this<Account> {
+      public:
+        Account(ByteBudget& budget, std::size_t limit) : budget_(budget), limit_(limit) {}
+
+        /// Reserves bytes; returns nothing if that would exceed the limit of the client or of the budget.
+        std::optional<Reservation> reserve(std::size_t bytes);
+        /// Reserves bytes without checking the limits, for what cannot be refused.
+        Reservation forceReserve(std::size_t bytes);
+        /// The bytes now reserved on this account.
+        std::size_t held() const;
+
+      private:
+        friend Reservation;
+        void change(std::size_t from, std::size_t to);
+
+        ByteBudget& budget_;
+        const std::size_t limit_;
+        std::size_t held_ = 0;  // guarded by the budget's mutex
+    };
+
+    /// `total`: the limit in bytes for all clients together.
+    explicit ByteBudget(std::size_t total) : total_(total) {}
+
+    /// The bytes now reserved on all accounts.
+    std::size_t held() const;
+
+  private:
+    const std::size_t total_;
+    mutable std::mutex mutex_;
+    std::size_t held_ = 0;  // guarded by mutex_
+};
+
+}  // namespace oval4d::net

@@ -1,0 +1,146 @@
+#include "net/clients.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+#include "text/words.hpp"
+
+namespace oval4d::net {
+
+namespace asio = boost::asio;
+using asio::ip::address;
+using asio::ip::address_v6;
+
+namespace {
+
+constexpr double kMinute = 60;
+constexpr std::size_t kFirstSweep = 256;
+constexpr std::size_t kMaxClients = 65'536;  // all further ones share one client
+constexpr unsigned kBits = 128, kMappedBits = 96;
+
+address_v6 mapped(const address& any) {
+    return any.is_v6() ? any.to_v6() : asio::ip::make_address_v6(asio::ip::v4_mapped, any.to_v4());
+}
+
+/// The address, or the /64 network of an IPv6 address other than ::1 and mapped IPv4.
+std::string nameOf(const address& any) {
+    if (any.is_v4()) return any.to_string();
+    address_v6 whole = any.to_v6();
+    if (whole.is_v4_mapped()) return asio::ip::make_address_v4(asio::ip::v4_mapped, whole).to_string();
+    if (whole.is_loopback()) return whole.to_string();
+    auto bytes = whole.to_bytes();
+    std::fill(bytes.begin() + bytes.size() / 2, bytes.end(), static_cast<unsigned char>(0));
+    return address_v6(bytes).to_string() + "/64";
+}
+
+}  // namespace
+
+Client::Client(std::string name, const ClientLimits& limits, ByteBudget& budget, Clock::time_point now)
+    : name_(std::move(name)),
+      bytes_(std::make_shared<ByteBudget::Account>(budget, limits.bytes)),
+      newSessions_(limits.newSessions / kMinute, limits.newSessions, now),
+      wrongTokens_(limits.wrongTokens / kMinute, limits.wrongTokens, now),
+      requests_(limits.requests, limits.requests, now),
+      messageBytes_(static_cast<double>(limits.messageBytes), static_cast<double>(limits.messageBytes), now) {}
+
+bool Client::tryOpenSession(Clock::time_point now) {
+    const std::lock_guard lock(mutex_);
+    if (newSessions_.level(now) < 1) return false;
+    newSessions_.take(1, now);
+    return true;
+}
+
+void Client::countWrongToken(Clock::time_point now) {
+    const std::lock_guard lock(mutex_);
+    if (wrongTokens_.level(now) > 0) wrongTokens_.take(1, now);
+}
+
+bool Client::mayTryToken(Clock::time_point now) const {
+    const std::lock_guard lock(mutex_);
+    return wrongTokens_.level(now) >= 1;
+}
+
+std::chrono::duration<double> Client::countMessage(std::size_t bytes, Clock::time_point now) {
+    const std::lock_guard lock(mutex_);
+    requests_.take(1, now);
+    messageBytes_.take(static_cast<double>(bytes), now);
+    return std::max(requests_.debt(now), messageBytes_.debt(now));
+}
+
+bool Client::idle(Clock::time_point now) const {
+    const std::lock_guard lock(mutex_);
+    return newSessions_.full(now) && wrongTokens_.full(now) && requests_.full(now) && messageBytes_.full(now);
+}
+
+Network::Network(const std::string& text) {
+    const std::size_t slash = text.find('/');
+    boost::system::error_code fault;
+    const address given = asio::ip::make_address(text.substr(0, slash), fault);
+    const unsigned most = given.is_v4() ? kBits - kMappedBits : kBits;
+    bits_ = most;
+    if (slash != std::string::npos) {
+        const char* const end = text.data() + text.size();
+        const auto [stopped, bad] = std::from_chars(text.data() + slash + 1, end, bits_);
+        if (bad != std::errc{} || stopped != end) bits_ = kBits + 1;
+    }
+    if (fault || bits_ > most)
+        throw std::invalid_argument("a network must be an address or a CIDR range, such as ::1 or 10.0.0.0/8, not '" +
+                                    text + "'");
+    bits_ += kBits - most;
+    first_ = mapped(given);
+}
+
+bool Network::contains(const address& any) const {
+    const auto own = first_.to_bytes(), other = mapped(any).to_bytes();
+    for (unsigned bit = 0; bit < bits_; ++bit) {
+        const unsigned shift = 7 - bit % 8;
+        if (((own[bit / 8] ^ other[bit / 8]) >> shift & 1U) != 0) return false;
+    }
+    return true;
+}
+
+Clients::Clients(const ClientLimits& limits, const std::vector<std::string>& trustedProxies, std::size_t bytes)
+    : limits_(limits), trusted_(trustedProxies.begin(), trustedProxies.end()), budget_(bytes), sweepAt_(kFirstSweep) {}
+
+ClientPtr Clients::at(const address& any) {
+    const auto now = TokenBucket::Clock::now();
+    const std::lock_guard lock(mutex_);
+    std::string name = nameOf(any);
+    if (clients_.size() >= sweepAt_ && !clients_.contains(name)) forgetIdle(now);
+    if (clients_.size() >= kMaxClients && !clients_.contains(name)) name = "others";
+    ClientPtr& client = clients_[name];
+    if (!client) client = std::make_shared<Client>(name, limits_, budget_, now);
+    return client;
+}
+
+void Clients::forgetIdle(TokenBucket::Clock::time_point now) {
+    std::erase_if(clients_,
+                  [now](const auto& entry) { return entry.second.use_count() == 1 && entry.second->idle(now); });
+    sweepAt_ = std::min(std::max(kFirstSweep, 2 * clients_.size()), kMaxClients);
+}
+
+bool Clients::isTrustedProxy(const address& any) const {
+    return std::ranges::any_of(trusted_, [&](const Network& network) { return network.contains(any); });
+}
+
+address Clients::clientAddress(std::string_view forwardedFor, const address& proxy) const {
+    address nearest = proxy;
+    while (!forwardedFor.empty() && isTrustedProxy(nearest)) {
+        const std::size_t comma = forwardedFor.rfind(',');
+        const std::size_t start = comma == std::string_view::npos ? 0 : comma + 1;
+        boost::system::error_code fault;
+        const address before = asio::ip::make_address(std::string(text::trimmed(forwardedFor.substr(start))), fault);
+        if (fault) break;
+        nearest = before;
+        forwardedFor = forwardedFor.substr(0, comma == std::string_view::npos ? 0 : comma);
+    }
+    return nearest;
+}
+
+std::size_t Clients::size() const {
+    const std::lock_guard lock(mutex_);
+    return clients_.size();
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,49 @@
+#include "net/confinement.hpp"
+
+namespace oval4d::net {
+
+namespace {
+
+using process::Sandbox;
+
+// File descriptors: the standard streams, the channel, one received through it, and those that libraries keep open.
+constexpr std::size_t kOwnFiles = 16;
+
+/// An upper bound on the memory that a picture within the limits needs, in bytes of address space; most of it is never
+/// touched.
+std::size_t drawMemory(const Options& options) {
+    if (options.drawMemory > 0) return options.drawMemory;
+    // kOwn: llvmpipe and the C library, with a heap for each thread. kEachPixel: sixteen buffers of four bytes a pixel.
+    // The rest: slices of the largest polytope, each of whose edges is cut by a few hyperplanes.
+    constexpr std::size_t kOwn = std::size_t{3} << 30U, kEachPixel = 64, kEachCut = 1024, kCuts = 16;
+    const auto pixels = static_cast<std::size_t>(options.frame.maxPixels);
+    return kOwn + kEachPixel * pixels + kEachCut * kCuts * options.session.maxVertices + options.polytopeCache;
+}
+
+bool filtered(const Options& options) {
+    std::string why;
+    return process::isSandboxed(options.sandbox, why);
+}
+
+}  // namespace
+
+std::vector<std::string> childEnvironment(const Options& options, std::size_t workers, std::string& warning) {
+    std::string why;
+    const bool sandboxed = process::isSandboxed(options.sandbox, why);
+    if (!sandboxed && options.sandbox == Sandbox::automatic)
+        warning = "the rasterizer and file reader processes are not in a sandbox reason=\"" + why + "\"";
+    return {std::string("OVAL4D_SANDBOX=") + (sandboxed ? "required" : "off"),
+            "OVAL4D_DRAW_MEMORY=" + std::to_string(drawMemory(options)),
+            "OVAL4D_LOAD_MEMORY=" + std::to_string(options.loadMemory), "OVAL4D_WORKERS=" + std::to_string(workers)};
+}
+
+process::Confinement rasterizerConfinement(const Options& options) {
+    // One file descriptor for the shared pixel buffer of each worker.
+    return {filtered(options), drawMemory(options), kOwnFiles + static_cast<std::size_t>(options.workers)};
+}
+
+process::Confinement readingConfinement(const Options& options) {
+    return {filtered(options), options.loadMemory, kOwnFiles};
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,116 @@
+#include "net/connection_registry.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace oval4d::net {
+
+ConnectionRegistry::Slot::Slot(ConnectionRegistry& connections, ClientPtr client) : connections_(connections) {
+    const std::lock_guard lock(connections_.mutex_);
+    number_ = ++connections_.last_;
+    ++connections_.counts_[client.get()];
+    connections_.entries_.emplace(number_, Entry{std::move(client), nullptr});
+}
+
+ConnectionRegistry::Slot::~Slot() {
+    Entry gone;  // destroyed outside the lock: it may own the connection
+    const std::lock_guard lock(connections_.mutex_);
+    const auto found = connections_.entries_.find(number_);
+    if (found == connections_.entries_.end()) return;  // the connection was evicted
+    gone = std::move(found->second);
+    connections_.entries_.erase(found);
+    connections_.uncount(gone.client.get());
+}
+
+void ConnectionRegistry::Slot::onEndRequest(EndHandler handler) {
+    bool now = false;
+    EndReason reason = EndReason::stopping;
+    {
+        const std::lock_guard lock(connections_.mutex_);
+        const auto found = connections_.entries_.find(number_);
+        const bool evicted = found == connections_.entries_.end();
+        if (evicted) reason = EndReason::evicted;
+        now = connections_.stopping_ || evicted;
+        if (!evicted) {
+            std::swap(found->second.end, handler);
+            if (now) handler = found->second.end;
+        }
+    }
+    if (now && handler) handler(reason);
+}
+
+void ConnectionRegistry::Slot::setInUse(bool inUse) {
+    const std::lock_guard lock(connections_.mutex_);
+    const auto found = connections_.entries_.find(number_);
+    if (found != connections_.entries_.end()) found->second.inUse = inUse;
+}
+
+void ConnectionRegistry::Slot::setClient(const ClientPtr& client) {
+    ClientPtr before;
+    const std::lock_guard lock(connections_.mutex_);
+    const auto found = connections_.entries_.find(number_);
+    if (found == connections_.entries_.end()) return;
+    before = std::exchange(found->second.client, client);
+    connections_.uncount(before.get());
+    ++connections_.counts_[client.get()];
+}
+
+void ConnectionRegistry::uncount(const Client* client) {
+    const auto count = counts_.find(client);
+    if (--count->second == 0) counts_.erase(count);
+}
+
+std::size_t ConnectionRegistry::countOf(const Client* client) const {
+    const auto count = counts_.find(client);
+    return count == counts_.end() ? 0 : count->second;
+}
+
+/// Removes the oldest idle connection of this client and returns the handler that ends it; null if none is idle.
+ConnectionRegistry::EndHandler ConnectionRegistry::evictIdle(const Client* client) {
+    const auto idle = std::ranges::find_if(entries_, [client](const auto& entry) {
+        return entry.second.client.get() == client && !entry.second.inUse && entry.second.end;
+    });
+    if (idle == entries_.end()) return {};
+    EndHandler end = std::move(idle->second.end);
+    entries_.erase(idle);
+    uncount(client);
+    return end;
+}
+
+ConnectionRegistry::Admission ConnectionRegistry::admit(const Client& client, std::size_t registered, bool isProxy) {
+    EndHandler end;
+    {
+        const std::lock_guard lock(mutex_);
+        if (!isProxy && countOf(&client) - registered >= maxPerClient_) {
+            end = evictIdle(&client);
+            if (!end) return Admission::client_full;
+        } else if (entries_.size() - registered >= maxConnections_) {
+            const auto most = std::ranges::max_element(counts_, {}, &decltype(counts_)::value_type::second);
+            end = evictIdle(most->first);
+            if (!end) return Admission::server_full;
+        }
+    }
+    if (end) end(EndReason::evicted);
+    return Admission::admitted;
+}
+
+std::size_t ConnectionRegistry::size() const {
+    const std::lock_guard lock(mutex_);
+    return entries_.size();
+}
+
+void ConnectionRegistry::stopAll() {
+    // Call the handlers outside the lock: a connection may end at once and destroy its slot.
+    std::vector<EndHandler> ends;
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+        for (const auto& [number, entry] : entries_) {
+            if (entry.end) ends.push_back(entry.end);
+        }
+    }
+    for (const auto& end : ends) end(EndReason::stopping);
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,29 @@
+#pragma once
+// One accepted socket: serves HTTP requests until the connection ends or becomes a WebSocket.
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <memory>
+
+#include "net/clients.hpp"
+#include "net/connection_registry.hpp"
+#include "net/http/access.hpp"
+#include "net/http/routes.hpp"
+#include "net/live/hub.hpp"
+#include "net/services.hpp"
+
+namespace oval4d::net {
+
+/// The objects that all connections share.
+struct ServerContext {
+    Services services;
+    const Access& access;
+    Routes& routes;
+    std::shared_ptr<Hub> hub;
+    ConnectionRegistry& connections;
+};
+
+/// Serves a socket until it closes. Beyond the connection limits, requests get status 503 or 429.
+boost::asio::awaitable<void> serve(boost::asio::ip::tcp::socket socket, ServerContext context);
+
+}  // namespace oval4d::net

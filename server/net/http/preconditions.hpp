@@ -1,0 +1,24 @@
+#pragma once
+// Conditional requests and byte ranges (RFC 9110, sections 13 and 14).
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+namespace oval4d::net {
+
+/// Whether an If-None-Match field matches an entity tag by weak comparison. `tag` includes its quotes; `*` matches any
+/// tag.
+bool matchesEntityTag(std::string_view ifNoneMatch, std::string_view tag);
+
+/// The byte range of a representation that a Range field requests.
+struct ByteRange {
+    std::size_t first = 0, size = 0;
+    bool satisfiable = true;
+};
+
+/// Parses a Range field for a representation of `size` bytes. Returns nothing if the whole is to be sent: for units
+/// other than bytes, several ranges, and malformed fields, all of which a server may ignore (RFC 9110, section 14.2).
+std::optional<ByteRange> parseRange(std::string_view range, std::size_t size);
+
+}  // namespace oval4d::net

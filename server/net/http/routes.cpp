@@ -1,0 +1,267 @@
+#include "net/http/routes.hpp"
+
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+
+#include "net/http/file_job.hpp"
+#include "net/http/preconditions.hpp"
+#include "net/loader_job.hpp"
+#include "net/on_pool.hpp"
+#include "pipeline/cost.hpp"
+#include "session/object_loader.hpp"
+#include "text/suggest.hpp"
+#include "wire/messages.hpp"
+
+namespace oval4d::net {
+
+namespace asio = boost::asio;
+
+namespace {
+
+constexpr const char* kJson = "application/json";
+
+const Error kMethodNotAllowed{ErrorCode::bad_message, "only the methods GET and HEAD are allowed"};
+const Error kMakingFailed{ErrorCode::internal, "the server failed to make this picture or file"};
+
+Error notFound(const std::string& path) {
+    return {ErrorCode::not_found, "there is nothing at the path " + text::inQuotes(path)};
+}
+
+Reply reply(std::string type, Bytes body, unsigned status = 200) {
+    return {status, std::move(type), std::move(body), {{"Cache-Control", "no-cache"}, {"Accept-Ranges", "none"}}};
+}
+
+Reply textReply(std::string type, std::string body, unsigned status = 200) {
+    return reply(std::move(type), Bytes(std::move(body)), status);
+}
+
+unsigned statusFor(ErrorCode code) {
+    switch (code) {
+        case ErrorCode::not_found:
+            return 404;
+        case ErrorCode::bad_token:
+            return 401;
+        case ErrorCode::too_large:
+            return 413;
+        case ErrorCode::too_many:
+            return 503;
+        case ErrorCode::internal:
+            return 500;
+        default:
+            return 400;
+    }
+}
+
+/// Parses a number of pixels; `name` is the parameter, for the error.
+Result<int> pixels(const std::string& name, const std::string& text) {
+    int value = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (fault != std::errc{} || end != text.data() + text.size()) {
+        return Error{ErrorCode::out_of_range, name + " must be a whole number of pixels, not " + text::inQuotes(text)};
+    }
+    return value;
+}
+
+/// The resident memory of this process in bytes; 0 without /proc.
+double residentBytes() {
+    double whole = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> whole >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+/// Removes width and height from a query and returns the viewport that they describe, checked against the limits.
+Result<scene::Viewport> takeViewport(session::Query& query, const pipeline::FrameLimits& limits) {
+    scene::Viewport viewport;
+    session::Query rest;
+    for (auto& [name, value] : query) {
+        if (name == "width" || name == "height") {
+            const auto parsed = pixels(name, value);
+            if (!parsed) return parsed.error();
+            (name == "width" ? viewport.width : viewport.height) = *parsed;
+        } else {
+            rest.emplace_back(std::move(name), std::move(value));
+        }
+    }
+    query = std::move(rest);
+    return pipeline::checked(viewport, limits);
+}
+
+/// The file format that a path requests: stl for "/api/v1/file.stl"; null for other paths.
+const exports::Format* formatIn(std::string_view path) {
+    constexpr std::string_view kFile = "/api/v1/file.";
+    return path.starts_with(kFile) ? exports::formatNamed(path.substr(kFile.size())) : nullptr;
+}
+
+/// A job that draws a picture as PNG. Its result is empty if the client's byte account has no room for it.
+std::function<std::optional<Bytes>(pipeline::Pipeline&)> frameJob(const session::State& state, scene::Viewport viewport,
+                                                                  const ClientPtr& client, Metrics& metrics) {
+    return [state, viewport, client, &metrics](pipeline::Pipeline& pipeline) -> std::optional<Bytes> {
+        auto held = client->byteAccount().reserve(image::bytesOf(viewport));  // a PNG file is rarely larger
+        if (!held) return std::nullopt;
+        std::vector<std::uint8_t> png;
+        pipeline.frame(state, wire::stateMessage(state, 0), viewport, png);
+        metrics.observe(pipeline.times());
+        held->resize(png.capacity());
+        return Bytes(std::move(png)).keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(*held)));
+    };
+}
+
+/// The page loads only its own files and connects only to its own server; pictures for download are blobs.
+constexpr const char* kContentSecurityPolicy =
+    "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
+
+/// The reply to a request for a file of the web client, with content negotiation, If-None-Match and ranges.
+Reply fileReply(const WebFile& file, const Routes::ParsedRequest& request) {
+    const Representation& representation = file.negotiate(request.acceptEncoding);
+    Reply reply{200,
+                file.type,
+                representation.bytes,
+                {{"ETag", representation.etag},
+                 {"Cache-Control", "no-cache"},
+                 {"Vary", "Accept-Encoding"},
+                 {"Accept-Ranges", "bytes"},
+                 {"Content-Security-Policy", kContentSecurityPolicy}}};
+    if (matchesEntityTag(request.ifNoneMatch, representation.etag)) return {304, "", {}, reply.headers};
+    if (representation.coding != "identity") reply.headers.emplace_back("Content-Encoding", representation.coding);
+    const bool unchanged = request.ifRange.empty() || request.ifRange == representation.etag;
+    const auto range =
+        request.method == "GET" && unchanged ? parseRange(request.range, representation.bytes.size()) : std::nullopt;
+    if (!range) return reply;
+    const std::string size = std::to_string(representation.bytes.size());
+    if (!range->satisfiable) {
+        Reply refused = textReply("text/plain", "the file has " + size + " bytes\n", 416);
+        refused.headers.emplace_back("Content-Range", "bytes */" + size);
+        return refused;
+    }
+    reply.status = 206;
+    reply.body = representation.bytes.subrange(range->first, range->size);
+    reply.headers.emplace_back("Content-Range", "bytes " + std::to_string(range->first) + '-' +
+                                                    std::to_string(range->first + range->size - 1) + '/' + size);
+    return reply;
+}
+
+}  // namespace
+
+Reply errorReply(const Error& error, unsigned status) {
+    return textReply(kJson, wire::errorMessage(error, {}), status != 0 ? status : statusFor(error.code));
+}
+
+asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
+    if (request.method != "GET" && request.method != "HEAD") {
+        Reply refused = errorReply(kMethodNotAllowed, 405);
+        refused.headers.emplace_back("Allow", "GET, HEAD");
+        co_return refused;
+    }
+    const std::string& path = request.target.path;
+    if (path == "/healthz") co_return textReply("text/plain", "ok\n");
+    if (path == "/readyz") co_return readiness();
+    if (path == "/metrics") co_return metrics();
+    if (path == "/api/v1/catalogue") co_return textReply(kJson, wire::catalogueMessage({}));
+    if (path == "/api/v1/keymap") co_return textReply(kJson, wire::keymapMessage({}));
+    if (path == "/api/v1/frame.png") co_return co_await frame(std::move(request.target.query), request.client);
+    if (const auto format = formatIn(path))
+        co_return co_await file(std::move(request.target.query), *format, request.client);
+    if (const WebFile* file = files_.find(path)) co_return fileReply(*file, request);
+    co_return errorReply(notFound(path));
+}
+
+/// The state that a query describes. Builds the polytope on a worker if necessary. Throws what onPool() throws.
+asio::awaitable<Result<session::State>> Routes::state(session::Query query, ClientPtr client) {
+    std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
+    const session::Limits& limits = services_.options.session;
+    const auto loader = std::make_shared<session::ObjectLoader>(
+        limits, services_.polytopes, session::ObjectLoader::Pace::later, session::FileReader());
+    for (;;) {
+        auto state = session::stateFromQuery(query, limits, *loader);
+        if (!loader->ordered()) co_return state;
+        const auto reservation = client->byteAccount().reserve(loader->bytesNeeded());
+        if (!reservation) co_return kTooManyBytes;
+        co_await onPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader), client->lane(),
+                                        loader->cost());
+    }
+}
+
+Reply Routes::countedError(const Error& error) {
+    services_.metrics.countError(error.code);
+    return errorReply(error);
+}
+
+asio::awaitable<Reply> Routes::frame(session::Query query, ClientPtr client) {
+    try {
+        const auto viewport = takeViewport(query, services_.options.frame);
+        if (!viewport) co_return countedError(viewport.error());
+        const auto requested = co_await state(std::move(query), client);
+        if (!requested) co_return countedError(requested.error());
+        auto png = co_await onPool<std::optional<Bytes>>(services_.pictureWorkers,
+                                                         frameJob(*requested, *viewport, client, services_.metrics),
+                                                         client->lane(), pipeline::frameCost(*requested, *viewport));
+        if (!png) co_return countedError(kTooManyBytes);
+        co_return reply("image/png", std::move(*png));
+    } catch (const parallel::QueueFull&) {
+        co_return countedError(kTooManyJobs);
+    } catch (const std::exception& fault) {
+        spdlog::error("picture failed fault=\"{}\"", fault.what());
+        co_return errorReply(kMakingFailed);
+    }
+}
+
+asio::awaitable<Reply> Routes::file(session::Query query, const exports::Format& format, ClientPtr client) {
+    try {
+        const auto exported = pipeline::takeExportRequest(query, format);
+        if (!exported) co_return countedError(exported.error());
+        const auto requested = co_await state(std::move(query), client);
+        if (!requested) co_return countedError(requested.error());
+        const FileResult made =
+            co_await onPool<FileResult>(services_.fileWorkers, fileJob(services_, *requested, *exported, client),
+                                        client->fileLane(), pipeline::fileCost(*requested));
+        if (!*made) co_return countedError(made->error());
+        Reply answer = reply(format.mediaType, **made);
+        answer.headers.emplace_back("Content-Disposition",
+                                    "attachment; filename=\"" + pipeline::fileName(*requested, *exported) + "\"");
+        co_return answer;
+    } catch (const parallel::QueueFull&) {
+        co_return countedError(kTooManyJobs);
+    } catch (const std::exception& fault) {
+        spdlog::error("file failed fault=\"{}\"", fault.what());
+        co_return errorReply(kMakingFailed);
+    }
+}
+
+Reply Routes::readiness() const {
+    if (readiness_.stopping()) return textReply("text/plain", "stopping\n", 503);
+    if (readiness_.ready()) {
+        // Stay ready if the store fails: it fails on the other servers too.
+        const std::string trouble = hub_.writeBehind().trouble();
+        return textReply("text/plain", trouble.empty() ? "ready\n"
+                                                       : "ready, but the store fails, so sessions are kept in memory "
+                                                         "for now: " +
+                                                             trouble + "\n");
+    }
+    const bool broken = readiness_.broken();
+    return textReply("text/plain",
+                     broken ? "not ready: frames cannot be drawn; see the log\n" : "not ready: warming up\n", 503);
+}
+
+Reply Routes::metrics() {
+    Metrics& shown = services_.metrics;
+    shown.sessions.Set(static_cast<double>(hub_.writeBehind().count()));
+    shown.openSessions.Set(static_cast<double>(hub_.openCount()));
+    shown.unsaved.Set(static_cast<double>(hub_.writeBehind().unsaved()));
+    shown.storeUp.Set(hub_.writeBehind().trouble().empty() ? 1 : 0);
+    shown.workers.Set(static_cast<double>(services_.pictureWorkers.workers().size()));
+    shown.workerSeconds.Increment(
+        std::max(0.0, Seconds(services_.pictureWorkers.workers().worked()).count() - shown.workerSeconds.Value()));
+    shown.jobsWaiting.Set(static_cast<double>(services_.pictureWorkers.workers().waiting()));
+    shown.memory.Set(residentBytes());
+    shown.bytesHeld.Set(static_cast<double>(services_.clients.bytesHeld()));
+    shown.clients.Set(static_cast<double>(services_.clients.size()));
+    shown.polytopes.Set(static_cast<double>(services_.polytopes.bytes()));
+    return textReply("text/plain; version=0.0.4; charset=utf-8", shown.text());
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,62 @@
+#pragma once
+// The HTTP routes: pictures, files, metadata, health probes, metrics and the web client.
+
+#include <boost/asio/awaitable.hpp>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "export/export_request.hpp"
+#include "net/http/target.hpp"
+#include "net/http/web_files.hpp"
+#include "net/live/hub.hpp"
+#include "net/readiness.hpp"
+#include "net/services.hpp"
+#include "net/ws/peer.hpp"
+
+namespace oval4d::net {
+
+/// An HTTP response, independent of the HTTP library.
+struct Reply {
+    unsigned status = 200;
+    std::string type;
+    Bytes body;
+    std::vector<std::pair<std::string, std::string>> headers;
+};
+
+/// A reply with the body `{"type":"error", …}`. Its HTTP status is `status`, or derived from the error code if that is
+/// 0.
+Reply errorReply(const Error& error, unsigned status = 0);
+
+/// Answers HTTP requests. Every function may be called from any thread.
+class Routes {
+  public:
+    Routes(Services services, const WebFiles& files, const Readiness& readiness, const Hub& hub)
+        : services_(services), files_(files), readiness_(readiness), hub_(hub) {}
+
+    /// The parts of a request that the routes use.
+    struct ParsedRequest {
+        std::string method;
+        Target target;
+        std::string ifNoneMatch, acceptEncoding, range, ifRange;
+        ClientPtr client;
+    };
+    boost::asio::awaitable<Reply> answer(ParsedRequest request);
+
+  private:
+    boost::asio::awaitable<Reply> frame(session::Query query, ClientPtr client);
+    boost::asio::awaitable<Reply> file(session::Query query, const exports::Format& format, ClientPtr client);
+    boost::asio::awaitable<Result<session::State>> state(session::Query query, ClientPtr client);
+    Reply countedError(const Error& error);
+    Reply readiness() const;
+    Reply metrics();
+
+    const Services services_;
+    const WebFiles& files_;
+    const Readiness& readiness_;
+    const Hub& hub_;
+};
+
+}  // namespace oval4d::net

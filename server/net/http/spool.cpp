@@ -1,0 +1,66 @@
+#include "net/http/spool.hpp"
+
+#include <fcntl.h>
+#include <spdlog/spdlog.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+namespace oval4d::net {
+
+namespace {
+
+constexpr std::size_t kSpoolThreshold = 1U << 20U;
+
+/// Opens an unnamed file, which is deleted with its last descriptor. Returns -1 and sets errno if that fails.
+int openUnnamedFile(const std::filesystem::path& folder) {
+    constexpr mode_t kOwnersOnly = 0600;
+    const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kOwnersOnly);
+    if (file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT)) return file;
+    std::string name = folder / "oval4d-XXXXXX";  // for file systems without O_TMPFILE
+    const int named = mkostemp(name.data(), O_CLOEXEC);
+    if (named >= 0) unlink(name.c_str());
+    return named;
+}
+
+bool writeAll(int file, std::string_view rest) {
+    while (!rest.empty()) {
+        const ssize_t written = write(file, rest.data(), rest.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return false;
+        rest.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
+}
+
+std::filesystem::path folderOrDefault(const std::string& folder) {
+    std::error_code fault;
+    if (!folder.empty()) return folder;
+    const auto temporary = std::filesystem::temp_directory_path(fault);
+    return fault ? std::filesystem::path("/tmp") : temporary;
+}
+
+}  // namespace
+
+Bytes spool(std::string bytes, const std::string& folder) {
+    if (bytes.size() < kSpoolThreshold) return Bytes(std::move(bytes));
+    const int file = openUnnamedFile(folderOrDefault(folder));
+    const bool written = file >= 0 && writeAll(file, bytes);
+    void* const at = written ? mmap(nullptr, bytes.size(), PROT_READ, MAP_SHARED, file, 0) : MAP_FAILED;
+    const int fault = errno;
+    if (file >= 0) close(file);  // the mapping keeps the file alive
+    if (at == MAP_FAILED) {
+        spdlog::warn("a file stays in memory because it cannot be spooled bytes={} reason=\"{}\"", bytes.size(),
+                     std::strerror(fault));
+        return Bytes(std::move(bytes));
+    }
+    const std::size_t size = bytes.size();
+    return {std::string_view(static_cast<const char*>(at), size),
+            std::shared_ptr<const void>(at, [size](const void* mapped) { munmap(const_cast<void*>(mapped), size); })};
+}
+
+}  // namespace oval4d::net

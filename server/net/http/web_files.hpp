@@ -1,0 +1,45 @@
+#pragma once
+// The files of the built web client, held in memory.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "net/ws/peer.hpp"
+
+namespace oval4d::net {
+
+/// One representation of a file, plain or compressed.
+struct Representation {
+    Bytes bytes;
+    std::string coding;  ///< the content coding (Content-Encoding); "identity" if uncompressed
+    std::string etag;
+};
+
+/// A file with all its representations, the smallest first.
+struct WebFile {
+    std::string type;  ///< the Content-Type
+    std::vector<Representation> representations;
+
+    /// The representation that an Accept-Encoding field prefers (RFC 9110, section 12.5.3); the smallest of equals. The
+    /// uncompressed one if the field accepts none.
+    const Representation& negotiate(std::string_view acceptEncoding) const;
+};
+
+/// The files of a folder, read once at startup: later changes have no effect. `app.js.br` and `app.js.gz` are
+/// compressed representations of `app.js`.
+class WebFiles {
+  public:
+    /// Reads all files below `root`. Logs a warning if there is no index.html; a missing folder counts as empty.
+    explicit WebFiles(const std::filesystem::path& root);
+
+    /// The file at this URL path; "/" is index.html. Returns nullptr if there is none.
+    const WebFile* find(std::string_view path) const;
+
+  private:
+    std::map<std::string, WebFile, std::less<>> files_;
+};
+
+}  // namespace oval4d::net

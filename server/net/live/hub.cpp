@@ -1,0 +1,260 @@
+#include "net/live/hub.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include "store/codec.hpp"
+#include "store/object_codec.hpp"
+#include "store/secret.hpp"
+
+namespace oval4d::net {
+
+using store::WriteBehindStore;
+
+namespace {
+
+store::WriteBehindStore::Settings settingsFrom(const Options& options) {
+    return {std::chrono::duration_cast<store::Milliseconds>(options.sessionExpiry), options.keptUndo,
+            options.storeQuota};
+}
+
+/// Decodes the objects of a stored record on demand, as store::decode() requires, and collects their keys.
+class RecordObjects {
+  public:
+    explicit RecordObjects(const store::Record& record) {
+        for (const auto& [key, bytes] : record.polytopes) bytes_[key] = bytes;
+    }
+    std::optional<slicing::Object> operator()(const std::string& key) {
+        auto& object = decoded_[key];
+        if (!object && bytes_.contains(key)) object = store::decodeObject(bytes_[key]);
+        return object;
+    }
+    WriteBehindStore::Keys keys() const {
+        WriteBehindStore::Keys keys;
+        for (const auto& [key, object] : decoded_) {
+            if (object) keys[slicing::infoOf(*object).serial] = key;
+        }
+        return keys;
+    }
+
+  private:
+    std::map<std::string, std::string_view> bytes_;
+    std::map<std::string, std::optional<slicing::Object>> decoded_;
+};
+
+/// The estimated time to decode a record.
+Seconds decodingCost(const store::Record& record) {
+    constexpr double kByte = 1e-7;
+    std::size_t bytes = record.whole.size() + record.head.size();
+    for (const auto& [key, polytope] : record.polytopes) bytes += polytope.size();
+    return Seconds(1e-4 + kByte * static_cast<double>(bytes));
+}
+
+}  // namespace
+
+Hub::Hub(Services services, std::unique_ptr<store::Store> store)
+    : services_(services),
+      ledger_(std::chrono::duration_cast<SessionLedger::Clock::duration>(services.options.sessionExpiry)),
+      writeBehind_(std::move(store), settingsFrom(services.options), listener()) {}
+
+WriteBehindStore::Listener Hub::listener() {
+    return {[this](const std::string& id) { dismiss(id); },
+            [this](const std::string& id) {
+                if (const auto session = find(id)) session->save();
+            },
+            [this] { saveAll(); },
+            [this](const char* operation, double seconds, bool succeeded) {
+                services_.metrics.observeStore(operation, seconds, succeeded);
+            }};
+}
+
+/// Checks whether a client may open one more session; evicts one if necessary. Returns the error if it may not. Call
+/// with mutex_ held.
+std::optional<Error> Hub::admitSession(Client& client) {
+    const auto now = SessionLedger::Clock::now();
+    const Options& options = services_.options;
+    if (ledger_.count(client.name(), now) >= options.client.sessions) {
+        const auto unmodified = ledger_.oldestUnmodified(now, &client.name());
+        if (!unmodified) {
+            return Error{ErrorCode::too_many, "the server stores at most " + std::to_string(options.client.sessions) +
+                                                  " sessions for one address; reopen one of them or try again later"};
+        }
+        evict(*unmodified);
+    }
+    if (!client.tryOpenSession(now)) {
+        return Error{ErrorCode::too_many, "one address may open at most " +
+                                              std::to_string(static_cast<long long>(options.client.newSessions)) +
+                                              " sessions per minute; try again soon"};
+    }
+    if (writeBehind_.count() >= options.maxSessions) {
+        const auto unmodified = ledger_.oldestUnmodified(now);
+        if (!unmodified) {
+            return Error{ErrorCode::too_many, "the server stores at most " + std::to_string(options.maxSessions) +
+                                                  " sessions, and all are in use; try again later"};
+        }
+        evict(*unmodified);
+    }
+    return std::nullopt;
+}
+
+/// Deletes a session to make room for a new one. Call with mutex_ held.
+void Hub::evict(const std::string& id) {
+    spdlog::debug("session evicted for a new one session={}", id);
+    writeBehind_.forget(id);
+    ledger_.remove(id);
+}
+
+void Hub::create(const ClientPtr& client, const JoinHandler& done) {
+    std::unique_lock lock(mutex_);
+    if (auto refused = admitSession(*client)) {
+        lock.unlock();
+        done(std::move(*refused));
+        return;
+    }
+    const store::SessionCredentials credentials = writeBehind_.create();
+    const auto session = activate(credentials, client, session::Session{});
+    lock.unlock();
+    spdlog::info("session created session={}", credentials.id);
+    if (writeBehind_.pace() == store::Store::Pace::at_once) {
+        // Every server must know the session before its client is told about it.
+        writeBehind_.save(credentials.id, session::Session{}, WriteBehindStore::Part::whole,
+                          [done, session](bool) { done(session); });
+    } else {
+        if (writeBehind_.pace() == store::Store::Pace::soon) session->save();
+        done(session);
+    }
+}
+
+void Hub::join(const store::SessionCredentials& credentials, const ClientPtr& client, const JoinHandler& done) {
+    std::unique_lock lock(mutex_);
+    if (const auto found = live_.find(credentials.id); found != live_.end()) {
+        LiveEntry& live = found->second;
+        const auto session = live.session;
+        const bool authorized = store::sameSecret(credentials.token, session->credentials().token);
+        if (authorized) ++live.clients;
+        lock.unlock();
+        done(authorized ? JoinResult(session) : Error{ErrorCode::bad_token, "this token does not match the session"});
+        return;
+    }
+    const auto [opening, isFirst] = opening_.try_emplace(credentials.id);
+    if (!isFirst) {
+        opening->second.push_back({credentials, client, done});
+        return;
+    }
+    lock.unlock();
+    writeBehind_.fetch(credentials, [self = shared_from_this(), pending = PendingJoin{credentials, client, done}](
+                                        WriteBehindStore::Fetch fetch) { self->onFetched(pending, std::move(fetch)); });
+}
+
+/// Runs on the store's thread, so a worker decodes the record.
+void Hub::onFetched(const PendingJoin& pending, WriteBehindStore::Fetch fetch) {
+    if (!fetch) {
+        finishOpening(pending, fetch.error());
+    } else if (fetch->session) {
+        finishOpening(pending, std::move(*fetch->session));
+    } else {
+        const Seconds cost = decodingCost(fetch->record);
+        const bool accepted = services_.pictureWorkers.workers().post(
+            [self = shared_from_this(), pending, record = std::move(fetch->record)](std::size_t /*worker*/) {
+                self->decode(pending, record);
+            },
+            pending.client->lane(), cost);
+        if (accepted) return;
+        writeBehind_.letGo(pending.credentials.id);
+        finishOpening(pending, kTooManyJobs);
+    }
+}
+
+void Hub::decode(const PendingJoin& pending, const store::Record& record) {
+    const std::string& id = pending.credentials.id;
+    try {
+        RecordObjects objects(record);
+        auto value = store::decode(record.whole, record.head, std::ref(objects), services_.polytopes);
+        if (!record.damage.empty()) throw store::Unreadable(record.damage);
+        writeBehind_.know(id, objects.keys());
+        finishOpening(pending, std::move(value));
+    } catch (const std::exception& fault) {
+        spdlog::error("session cannot be read session={} store={} fault=\"{}\"", id, writeBehind_.name(), fault.what());
+        writeBehind_.letGo(id);
+        finishOpening(pending,
+                      Error{ErrorCode::not_found, "this session is stored in a form that the server cannot read: " +
+                                                      std::string(fault.what())});
+    }
+}
+
+/// Passes the session to the first client that asked for it, then joins the others that waited.
+void Hub::finishOpening(const PendingJoin& pending, Result<session::Session> value) {
+    const std::string& id = pending.credentials.id;
+    std::vector<PendingJoin> others;
+    std::shared_ptr<LiveSession> session;
+    {
+        const std::lock_guard lock(mutex_);
+        others = std::move(opening_[id]);
+        opening_.erase(id);
+        if (value) session = activate(pending.credentials, pending.client, std::move(*value));
+    }
+    if (session) spdlog::info("session opened session={}", id);
+    pending.done(session ? JoinResult(session) : value.error());
+    for (const auto& [credentials, client, done] : others) join(credentials, client, done);
+}
+
+std::shared_ptr<LiveSession> Hub::activate(store::SessionCredentials credentials, const ClientPtr& client,
+                                           session::Session value) {
+    const std::string id = credentials.id;
+    auto session =
+        std::make_shared<LiveSession>(services_, writeBehind_, std::move(credentials), client, std::move(value));
+    live_.emplace(id, LiveEntry{session, 1});
+    ledger_.open(id, client->name());
+    return session;
+}
+
+void Hub::leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer) {
+    session->leave(std::move(peer), [self = shared_from_this(), session](const session::Session& value) {
+        const std::string& id = session->credentials().id;
+        const std::lock_guard lock(self->mutex_);
+        const auto found = self->live_.find(id);
+        if (found == self->live_.end() || found->second.session != session || --found->second.clients > 0) return false;
+        const bool unmodified = value.revision == 0 && value.loaded.empty();
+        self->ledger_.close(id, unmodified, SessionLedger::Clock::now());
+        self->writeBehind_.close(id, value);
+        self->live_.erase(found);
+        spdlog::info("session closed session={}", id);
+        return true;
+    });
+}
+
+/// Disconnects the clients of a session that another server has taken over.
+void Hub::dismiss(const std::string& id) {
+    std::shared_ptr<LiveSession> session;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = live_.find(id);
+        if (found == live_.end()) return;
+        session = std::move(found->second.session);
+        live_.erase(found);
+        ledger_.remove(id);
+    }
+    services_.metrics.sessionsTaken.Increment();
+    spdlog::info("session taken over by another server session={}", id);
+    session->dismiss();
+}
+
+std::shared_ptr<LiveSession> Hub::find(const std::string& id) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = live_.find(id);
+    return found == live_.end() ? nullptr : found->second.session;
+}
+
+void Hub::saveAll(const std::shared_ptr<void>& completion) {
+    if (writeBehind_.pace() == store::Store::Pace::at_close) return;
+    const std::lock_guard lock(mutex_);
+    for (const auto& [id, live] : live_) live.session->save(completion);
+}
+
+void Hub::stop(Seconds limit) { writeBehind_.stop(std::chrono::duration_cast<store::Milliseconds>(limit)); }
+
+std::size_t Hub::openCount() const {
+    const std::lock_guard lock(mutex_);
+    return live_.size();
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,590 @@
+#include "net/live/live_session.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/dispatch.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/use_awaitable.hpp>
+
+#include "net/awaited.hpp"
+#include "net/http/file_job.hpp"
+#include "net/loader_job.hpp"
+#include "net/on_pool.hpp"
+#include "pipeline/cost.hpp"
+#include "session/history.hpp"
+#include "session/object_loader.hpp"
+#include "wire/messages.hpp"
+
+namespace oval4d::net {
+
+namespace asio = boost::asio;
+using wire::Stream;
+
+namespace {
+
+using namespace std::chrono_literals;
+
+// Delay from a change until the session is saved. The store must be at most a second behind, even on a busy machine.
+constexpr std::chrono::milliseconds kSaveDelay{250};
+
+Message doneMessage(LiveSession::Id id, std::uint64_t revision) { return textMessage(wire::doneMessage(id, revision)); }
+
+/// A file reader that runs in a reader process.
+session::FileReader fileReader(const Services& services) {
+    return [&readers = services.readers, stop = services.loadWorkers.stopToken()](
+               std::string_view format, std::string_view text, const std::string& name, const session::Limits& limits) {
+        return readers.read(format, text, name, limits, stop);
+    };
+}
+
+constexpr auto kTurnInterval = std::chrono::duration_cast<Pacing::Clock::duration>(1s) / 60;
+// The longest time that one step of a continuous turn covers: after a pause, or with a client that shows one picture
+// per second, the turn continues without a jump.
+constexpr auto kMaxTurnStep = 250ms;
+
+constexpr auto kRetryInterval = 100ms;
+
+const Error kNoPicture{ErrorCode::internal, "this picture could not be made; the session continues"};
+
+}  // namespace
+
+LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
+                         ClientPtr client, session::Session value)
+    : services_(services),
+      writeBehind_(writeBehind),
+      credentials_(std::move(credentials)),
+      client_(std::move(client)),
+      strand_(asio::make_strand(services.io)),
+      session_(std::move(value)),
+      objectBytes_(session::objectBytes(session_)),
+      held_(client_->byteAccount().forceReserve(objectBytes_ + session::historyBytes(session_))),
+      changed_(Clock::now()),
+      turnTimer_(strand_),
+      paceTimer_(strand_),
+      saveTimer_(strand_),
+      retryTimer_(strand_) {}
+
+asio::awaitable<void> LiveSession::welcome(std::shared_ptr<Peer> peer, wire::Hello hello, Id id) {
+    return asio::co_spawn(strand_, welcomeOnStrand(std::move(peer), std::move(hello), id), asio::use_awaitable);
+}
+
+asio::awaitable<void> LiveSession::execute(std::shared_ptr<Peer> peer, wire::Request request) {
+    return asio::co_spawn(strand_, executeOnStrand(std::move(peer), std::move(request)), asio::use_awaitable);
+}
+
+void LiveSession::leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left) {
+    asio::post(strand_, [self = shared_from_this(), peer = std::move(peer), left = std::move(left)] {
+        self->clients_.erase(peer.get());
+        self->detached_ = left(self->session_) || self->detached_;
+    });
+}
+
+void LiveSession::save(std::shared_ptr<void> completion) {
+    asio::post(strand_, [self = shared_from_this(), completion = std::move(completion)] {
+        self->saveNow([completion](bool /*written*/) {});
+    });
+}
+
+void LiveSession::dismiss() {
+    asio::post(strand_, [self = shared_from_this()] {
+        self->detached_ = true;
+        for (const auto& [key, client] : self->clients_) {
+            if (const auto peer = client.peer.lock()) {
+                peer->close(close_code::kStopping, "another server has taken over this session");
+            }
+        }
+    });
+}
+
+/// Adjusts the client's byte account to what the session holds after a command. If the limit is exceeded, forgets the
+/// older half of the history.
+void LiveSession::updateReservation(bool polytopesChanged) {
+    assertOnStrand();
+    if (polytopesChanged) objectBytes_ = session::objectBytes(session_);
+    const std::size_t bytes = objectBytes_ + session::historyBytes(session_);
+    if (bytes > held_.size() && !held_.grow(bytes)) {
+        session::forgetOldest(session_);
+        objectBytes_ = session::objectBytes(session_);
+    }
+    held_.resize(objectBytes_ + session::historyBytes(session_));
+}
+
+void LiveSession::saveNow(store::WriteBehindStore::Written written) {
+    assertOnStrand();
+    if (!detached_)
+        writeBehind_.save(credentials_.id, session_, store::WriteBehindStore::Part::whole, std::move(written));
+}
+
+/// Schedules a save. Call after each change.
+void LiveSession::scheduleSave() {
+    assertOnStrand();
+    if (saveTimerSet_ || writeBehind_.pace() == store::Store::Pace::at_close) return;
+    saveTimerSet_ = true;
+    saveTimer_.expires_after(kSaveDelay);
+    saveTimer_.async_wait([weak = weak_from_this()](boost::system::error_code) {
+        if (const auto self = weak.lock()) {
+            self->saveTimerSet_ = false;
+            self->saveNow();
+        }
+    });
+}
+
+/// Returns a function that writes the session, or only its head, to the store and calls back when that is done.
+std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::WriteBehindStore::Part part) {
+    session::Session value;
+    if (part == store::WriteBehindStore::Part::whole) {
+        value = session_;
+    } else {
+        value.now = session_.now;
+        value.revision = revision();
+    }
+    return [self = shared_from_this(), part, value](const std::function<void(bool)>& written) {
+        self->writeBehind_.save(self->credentials_.id, value, part, written);
+    };
+}
+
+asio::awaitable<void> LiveSession::welcomeOnStrand(std::shared_ptr<Peer> peer, wire::Hello hello, Id id) {
+    assertOnStrand();
+    Lanes lanes = lanesOf(*peer);
+    clients_[peer.get()] = Client{peer, std::move(lanes), {hello.stream, hello.encoding, hello.viewport}, {}, false};
+    peer->send(
+        textMessage(wire::welcomeMessage(credentials_.id, credentials_.token, limitsText(services_.options), id)));
+    update();
+    co_return;
+}
+
+/// The lanes of this client in this session. All connections of a client to a session share them, so that several
+/// connections get no larger share of the workers.
+LiveSession::Lanes LiveSession::lanesOf(const Peer& peer) const {
+    const ClientPtr& own = peer.client();
+    for (const auto& [key, client] : clients_) {
+        if (client.lanes.client == own) return client.lanes;
+    }
+    return {own, std::make_shared<parallel::WorkerPool::Lane>(own->share()),
+            std::make_shared<parallel::WorkerPool::Lane>(own->fileShare())};
+}
+
+asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request) {
+    assertOnStrand();
+    if (const auto* command = std::get_if<session::Command>(&request.body)) {
+        co_await applyCommand(peer, *command, request.id);
+    } else if (const auto* shown = std::get_if<wire::ShownRevision>(&request.body)) {
+        if (request.id) peer->send(doneMessage(request.id, revision()));
+        if (const auto client = clients_.find(peer.get()); client != clients_.end()) {
+            client->second.pacing.shown(shown->revision);
+            update();
+        }
+    } else if (const auto* get = std::get_if<wire::Get>(&request.body)) {
+        co_await answer(peer, *get, request.id);
+    }
+}
+
+/// Applies a command. Slow work runs on a worker: later messages of this client wait for it, those of other clients do
+/// not. With a store shared by several servers, the command is acknowledged only once its result is in the store.
+asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, const session::Command& command, Id id) {
+    const auto loader = std::make_shared<session::ObjectLoader>(
+        services_.options.session, services_.polytopes, session::ObjectLoader::Pace::later, fileReader(services_));
+    Result<std::monostate> done = kInternalError;
+    std::uint64_t before = 0;
+    slicing::Object shown;
+    try {
+        for (;;) {
+            before = revision();
+            shown = session_.now.object;
+            done = session::apply(session_, command, services_.options.session, *loader);
+            if (!loader->ordered()) break;
+            auto reservation = client_->byteAccount().reserve(loader->bytesNeeded());
+            if (!reservation) {
+                done = kTooManyBytes;
+                break;
+            }
+            if (loader->orderedFile()) {
+                co_await onPool<std::monostate>(services_.loadWorkers, loaderJob(loader), client_->loadingLane(),
+                                                loader->cost());
+            } else {
+                co_await onPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader),
+                                                lanesOf(*peer).pictures, loader->cost());
+            }
+        }
+        if (done) updateReservation(loader->hasWorked() || session_.now.object != shown);
+    } catch (const parallel::QueueFull&) {
+        done = kTooManyJobs;
+    } catch (const std::exception& fault) {
+        spdlog::error("command failed session={} fault=\"{}\"", credentials_.id, fault.what());
+        done = kInternalError;
+    }
+    if (!done) {
+        sendError(*peer, done.error(), id);
+        co_return;
+    }
+    const std::uint64_t reached = revision();
+    if (reached != before) {
+        changed_ = Clock::now();
+        scheduleSave();
+        if (writeBehind_.pace() == store::Store::Pace::at_once) {
+            // The head of a record does not contain polytopes, so a new one requires the whole.
+            const bool whole = session_.now.object != shown;
+            auto write =
+                storeWriter(whole ? store::WriteBehindStore::Part::whole : store::WriteBehindStore::Part::head);
+            if (id) {
+                const bool written = co_await awaitCallback<bool>(std::move(write));
+                if (!written) co_return;  // another server owns the session; the client is being sent there
+            } else {
+                write([](bool) {});
+            }
+        }
+    }
+    if (id) peer->send(textMessage(wire::doneMessage(id, reached, loader->warnings())));
+    update();
+}
+
+asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get get, Id id) {
+    const auto client = clients_.find(peer.get());
+    if (client == clients_.end()) co_return;
+    StreamKey key = client->second.streamKey;
+    if (get.viewport) key.viewport = *get.viewport;
+    switch (get.what) {
+        case wire::What::state:
+            peer->send(textMessage(wire::stateMessage(session_.now, revision(), id)));
+            break;
+        case wire::What::catalogue: {
+            std::vector<slicing::Object> loaded;
+            for (const auto& [name, object] : session_.loaded) loaded.push_back(object);
+            peer->send(textMessage(wire::catalogueMessage(id, loaded)));
+            break;
+        }
+        case wire::What::keymap:
+            peer->send(textMessage(wire::keymapMessage(id)));
+            break;
+        case wire::What::slices:
+            key.stream = Stream::geometry;
+            co_await answerWithPicture(peer, key, id);
+            break;
+        case wire::What::frame:
+            key.stream = Stream::frames;
+            co_await answerWithPicture(peer, key, id);
+            break;
+        case wire::What::file:
+            co_await answerWithFile(peer, get.file, id);
+            break;
+    }
+}
+
+asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request, Id id) {
+    const std::uint64_t askedRevision = revision();
+    FileResult made;
+    try {
+        made = co_await onPool<FileResult>(services_.fileWorkers,
+                                           fileJob(services_, session_.now, request, peer->client()),
+                                           lanesOf(*peer).files, pipeline::fileCost(session_.now));
+    } catch (const parallel::QueueFull&) {
+        made = kTooManyJobs;
+    } catch (const std::exception& fault) {
+        spdlog::error("file failed session={} revision={} fault=\"{}\"", credentials_.id, askedRevision, fault.what());
+    }
+    if (!made || !*made) {
+        sendError(*peer, made ? made->error() : kInternalError, id);
+        co_return;
+    }
+    Message message;
+    message.bytes = **made;
+    message.binary = true;
+    peer->send(std::move(message));
+    peer->send(doneMessage(id, askedRevision));
+}
+
+asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, Id id) {
+    const std::uint64_t askedRevision = revision();
+    std::optional<Error> failed;
+    try {
+        Message picture = co_await onPool<Message>(services_.pictureWorkers, requestedPictureJob(key, id),
+                                                   lanesOf(*peer).pictures, pictureCost(session_.now, key));
+        peer->send(std::move(picture));
+        if (key.stream == Stream::frames) peer->send(doneMessage(id, askedRevision));
+    } catch (const parallel::QueueFull&) {
+        failed = kTooManyJobs;
+    } catch (const std::exception& fault) {
+        spdlog::error("picture failed session={} revision={} fault=\"{}\"", credentials_.id, askedRevision,
+                      fault.what());
+        failed = kInternalError;
+    }
+    if (failed) sendError(*peer, *failed, id);
+}
+
+/// A job that makes a picture of the current state.
+std::function<Message(pipeline::Pipeline&)> LiveSession::requestedPictureJob(const StreamKey& key, Id id) const {
+    const SnapshotPtr known = snapshot_ && snapshot_->revision == revision() ? snapshot_ : nullptr;
+    return [known, state = session_.now, askedRevision = revision(), changed = changed_, key, id,
+            &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
+        const SnapshotPtr snapshot =
+            suffices(known, key) ? known : makeSnapshot(pipeline, state, askedRevision, changed, key);
+        Message picture = makePicture(pipeline, *snapshot, key, id);
+        metrics.observe(pipeline.times());
+        return picture;
+    };
+}
+
+void LiveSession::sendError(Peer& peer, const Error& error, Id id) {
+    services_.metrics.countError(error.code);
+    peer.send(textMessage(wire::errorMessage(error, id)));
+}
+
+/// Sends every client the newest state or picture that is ready and requests missing pictures. Call after anything that
+/// may have changed the session, or made a client or a worker available.
+void LiveSession::update() {
+    assertOnStrand();
+    advanceTurn();
+    std::vector<StreamKey> missing;
+    bool allServed = true;
+    for (auto& [key, client] : clients_) {
+        if (client.pacing.newest() == revision()) continue;
+        if (client.streamKey.stream == Stream::none) {
+            if (!client.stateInFlight) sendState(client);
+            continue;
+        }
+        allServed = false;
+        if (!client.pacing.hasRoom()) continue;
+        if (const Message* picture = findPicture(client.streamKey, revision())) {
+            sendPicture(client, *picture);
+        } else if (!isEncoding(client.streamKey, revision()) &&
+                   client.pacing.hasRoom(countEncoding(client.streamKey)) &&
+                   std::ranges::find(missing, client.streamKey) == missing.end()) {
+            missing.push_back(client.streamKey);
+        }
+    }
+    if (!missing.empty()) requestPictures(std::move(missing));
+    if (allServed) {
+        snapshot_.reset();
+        pictures_ = {};
+    }
+}
+
+/// Advances a continuous turn when the next step is due and a client that has the current revision can receive another.
+void LiveSession::advanceTurn() {
+    assertOnStrand();
+    if (!session_.now.turning) {
+        lastTurn_.reset();
+        return;
+    }
+    if (drawing_ != 0 ||
+        std::ranges::none_of(clients_, [this](const auto& entry) { return readyForNext(entry.second); }))
+        return;
+    const auto now = Clock::now();
+    if (lastTurn_ && now - *lastTurn_ < kTurnInterval) {
+        if (turnTimerSet_) return;
+        turnTimerSet_ = true;
+        turnTimer_.expires_at(*lastTurn_ + kTurnInterval);
+        turnTimer_.async_wait([weak = weak_from_this()](boost::system::error_code) {
+            if (const auto self = weak.lock()) {
+                self->turnTimerSet_ = false;
+                self->update();
+            }
+        });
+        return;
+    }
+    const auto passed = lastTurn_ ? std::min<Clock::duration>(now - *lastTurn_, kMaxTurnStep) : kTurnInterval;
+    lastTurn_ = now;
+    changed_ = now;
+    session::advance(session_, Seconds(passed).count());
+    scheduleSave();
+}
+
+bool LiveSession::readyForNext(const Client& client) const {
+    if (client.pacing.newest() != revision() && !isEncoding(client.streamKey, revision())) return false;
+    return client.streamKey.stream == Stream::none ? !client.stateInFlight
+                                                   : client.pacing.hasRoom(countEncoding(client.streamKey));
+}
+
+std::size_t LiveSession::countEncoding(const StreamKey& key) const {
+    return static_cast<std::size_t>(std::ranges::count(encoding_, key, &EncodingPicture::streamKey));
+}
+
+bool LiveSession::isEncoding(const StreamKey& key, std::uint64_t ofRevision) const {
+    return std::ranges::any_of(
+        encoding_, [&](const EncodingPicture& each) { return each.streamKey == key && each.revision == ofRevision; });
+}
+
+/// Replaces the queued job, or posts a new one. Does nothing while a job is being drawn: update() runs again
+/// afterwards.
+void LiveSession::requestPictures(std::vector<StreamKey> wanted) {
+    assertOnStrand();
+    const SnapshotPtr known = snapshot_ && snapshot_->revision == revision() ? snapshot_ : nullptr;
+    const bool isNew = drawing_ == 0;
+    const parallel::WorkerPool::LanePtr lane = nextPayer(wanted).lanes.pictures;
+    Seconds cost{0};
+    for (const StreamKey& key : wanted) cost += pictureCost(session_.now, key);
+    PictureJob next{isNew ? jobs_ + 1 : drawing_, session_.now, revision(), changed_, known, std::move(wanted)};
+    {
+        const std::lock_guard lock(queuedJobMutex_);
+        if (!isNew && !queuedJob_) return;
+        queuedJob_ = std::move(next);
+    }
+    if (!isNew) return;
+    const auto job = [self = shared_from_this()](pipeline::Pipeline& pipeline) { self->runJob(pipeline); };
+    if (services_.pictureWorkers.post(job, lane, cost)) {
+        drawing_ = ++jobs_;
+    } else {
+        queuedJob_.reset();
+        scheduleRetry();
+    }
+}
+
+/// The client to which a job is charged: the clients that want its pictures take turns.
+const LiveSession::Client& LiveSession::nextPayer(const std::vector<StreamKey>& wanted) const {
+    std::vector<const Client*> payers;
+    for (const auto& [peer, client] : clients_) {
+        if (std::ranges::find(wanted, client.streamKey) != wanted.end()) payers.push_back(&client);
+    }
+    return *payers[jobs_ % payers.size()];
+}
+
+/// Schedules another attempt after the pool has refused a job because its queue is full.
+void LiveSession::scheduleRetry() {
+    if (retryTimerSet_) return;
+    retryTimerSet_ = true;
+    retryTimer_.expires_after(kRetryInterval);
+    retryTimer_.async_wait([weak = weak_from_this()](boost::system::error_code) {
+        if (const auto self = weak.lock()) {
+            self->retryTimerSet_ = false;
+            self->update();
+        }
+    });
+}
+
+void LiveSession::runJob(pipeline::Pipeline& pipeline) {
+    PictureJob job;
+    {
+        const std::lock_guard lock(queuedJobMutex_);
+        job = std::move(*queuedJob_);
+        queuedJob_.reset();
+    }
+    JobResult result{job.number, job.revision, job.snapshot, {}, {}};
+    for (const StreamKey& key : job.wanted) {
+        try {
+            if (!suffices(result.snapshot, key))
+                result.snapshot = makeSnapshot(pipeline, job.state, job.revision, job.changed, key);
+            std::function<void()> whenDrawn;
+            if (&key == &job.wanted.back()) whenDrawn = [this, &job, &key] { onDrawn(job, key); };
+            result.pictures.emplace_back(key, makePicture(pipeline, *result.snapshot, key, {}, whenDrawn));
+            services_.metrics.observe(pipeline.times());
+        } catch (const std::exception& fault) {
+            spdlog::error("picture failed session={} revision={} fault=\"{}\"", credentials_.id, job.revision,
+                          fault.what());
+            result.failed.push_back(key);
+        }
+    }
+    asio::post(strand_, [self = shared_from_this(), result = std::move(result)]() mutable {
+        self->onJobDone(std::move(result));
+    });
+}
+
+/// Called on a worker when the last picture of a job is drawn but not yet encoded: the next job may be queued.
+void LiveSession::onDrawn(const PictureJob& job, const StreamKey& key) {
+    asio::post(strand_, [self = shared_from_this(), drawn = EncodingPicture{job.number, job.revision, key}] {
+        if (self->drawing_ == drawn.job) self->drawing_ = 0;
+        self->encoding_.push_back(drawn);
+        self->update();
+    });
+}
+
+/// Sends the pictures that a worker has made. The session may have changed since, but the pictures are newer than what
+/// the clients have: under a flood of changes they see every picture that there is time to make.
+void LiveSession::onJobDone(JobResult result) {
+    assertOnStrand();
+    if (drawing_ == result.job) drawing_ = 0;
+    std::erase_if(encoding_, [&](const EncodingPicture& each) { return each.job == result.job; });
+    const bool outdated = result.snapshot && snapshot_ && result.snapshot->revision < snapshot_->revision;
+    if (result.snapshot && result.snapshot != snapshot_ && !outdated) {
+        snapshot_ = result.snapshot;
+        pictures_.clear();
+    }
+    if (!outdated) std::ranges::move(result.pictures, std::back_inserter(pictures_));
+    for (auto& [key, client] : clients_) {
+        if (client.streamKey.stream == Stream::none || !client.pacing.hasRoom()) continue;
+        if (client.pacing.newest() && *client.pacing.newest() >= result.revision) continue;
+        if (const Message* picture = findPicture(client.streamKey, result.revision)) {
+            sendPicture(client, *picture);
+        } else if (std::ranges::find(result.failed, client.streamKey) != result.failed.end()) {
+            client.pacing.skipped(result.revision);
+            if (const auto peer = client.peer.lock()) sendError(*peer, kNoPicture, {});
+        }
+    }
+    update();
+}
+
+const Message* LiveSession::findPicture(const StreamKey& key, std::uint64_t ofRevision) const {
+    if (!snapshot_ || snapshot_->revision != ofRevision) return nullptr;
+    const auto found = std::ranges::find(pictures_, key, &Pictures::value_type::first);
+    return found == pictures_.end() ? nullptr : &found->second;
+}
+
+/// Sends the state of `snapshot_`, followed by a picture of it.
+void LiveSession::sendPicture(Client& client, const Message& picture) {
+    const auto peer = client.peer.lock();
+    if (!peer) return;
+    client.pacing.sent(snapshot_->revision);
+    services_.metrics.countPicture(client.streamKey.stream);
+    peer->send({snapshot_->stateText, false});
+    peer->send(picture,
+               [weak = weak_from_this(), to = client.peer, sent = snapshot_->revision, since = snapshot_->changed] {
+                   const auto now = Clock::now();
+                   const auto session = weak.lock();
+                   if (!session) return;
+                   session->services_.metrics.latency.Observe(Seconds(now - since).count());
+                   asio::post(session->strand_, [session, to, sent, now] {
+                       const auto written = session->clients_.find(to.lock().get());
+                       if (written == session->clients_.end()) return;
+                       written->second.pacing.written(sent, now);
+                       session->schedulePacing();
+                   });
+               });
+}
+
+/// Sends the newest state to a client without a stream, one at a time: states that change faster than its socket
+/// accepts them are skipped.
+void LiveSession::sendState(Client& client) {
+    const auto peer = client.peer.lock();
+    if (!peer) return;
+    if (stateRevision_ != revision()) {
+        stateText_ = Bytes(wire::stateMessage(session_.now, revision()));
+        stateRevision_ = revision();
+    }
+    client.pacing.skipped(revision());
+    client.stateInFlight = true;
+    peer->send({stateText_, false}, [weak = weak_from_this(), to = client.peer] {
+        const auto session = weak.lock();
+        if (!session) return;
+        asio::post(session->strand_, [session, to] {
+            const auto written = session->clients_.find(to.lock().get());
+            if (written == session->clients_.end()) return;
+            written->second.stateInFlight = false;
+            session->update();
+        });
+    });
+}
+
+/// Starts a timer after which pictures that a client does not acknowledge count as shown.
+void LiveSession::schedulePacing() {
+    if (paceTimerSet_) return;
+    const auto timeout = std::chrono::duration_cast<Clock::duration>(services_.options.shownTimeout);
+    std::optional<Clock::time_point> first;
+    for (const auto& [key, client] : clients_) {
+        const auto deadline = client.pacing.deadline(timeout);
+        if (deadline && (!first || *deadline < *first)) first = deadline;
+    }
+    if (!first) return;
+    paceTimerSet_ = true;
+    paceTimer_.expires_at(*first);
+    paceTimer_.async_wait([weak = weak_from_this(), timeout](boost::system::error_code) {
+        const auto self = weak.lock();
+        if (!self) return;
+        self->paceTimerSet_ = false;
+        for (auto& [key, client] : self->clients_) client.pacing.expire(Clock::now(), timeout);
+        self->update();
+        self->schedulePacing();
+    });
+}
+
+}  // namespace oval4d::net

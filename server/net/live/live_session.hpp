@@ -1,0 +1,164 @@
+#pragma once
+// A session with connected clients.
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/strand.hpp>
+#include <cassert>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "net/live/snapshot.hpp"
+#include "net/services.hpp"
+#include "net/ws/pacing.hpp"
+#include "net/ws/peer.hpp"
+#include "session/session.hpp"
+#include "store/write_behind_store.hpp"
+#include "wire/request.hpp"
+
+namespace oval4d::net {
+
+/// Holds the value of a session and its clients on a strand. Every command is applied when it arrives. Pictures follow
+/// as fast as workers make them and clients show them, always of the newest state: a session has at most one picture
+/// job running, or one queued whose state is replaced by each newer one; while a picture is encoded, the next one may
+/// be drawn. The picture of a revision is made once and shared by all clients with the same stream, encoding and
+/// viewport. Public functions may be called from any thread.
+class LiveSession : public std::enable_shared_from_this<LiveSession> {
+  public:
+    using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
+    using Id = std::optional<double>;  ///< the id of a request
+
+    /// `client`: the client that opened the session and pays for the memory that it holds.
+    LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
+                ClientPtr client, session::Session value);
+
+    const store::SessionCredentials& credentials() const { return credentials_; }
+
+    /// Adds a client, or changes its stream, and sends `welcome`; the state and a picture follow.
+    boost::asio::awaitable<void> welcome(std::shared_ptr<Peer> peer, wire::Hello hello, Id id);
+
+    /// Executes a request of a client that was welcomed, and returns once it is answered.
+    boost::asio::awaitable<void> execute(std::shared_ptr<Peer> peer, wire::Request request);
+
+    /// Removes a client, then calls `left` with the session's value on the session's strand. If `left` returns true,
+    /// that was the last client, and this object no longer writes the session.
+    void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
+
+    /// Writes the whole session to the store. Releases `completion` once it is written or the store has failed.
+    void save(std::shared_ptr<void> completion = {});
+
+    /// Closes all connections because another server has taken over the session.
+    void dismiss();
+
+  private:
+    using Clock = Pacing::Clock;
+
+    /// The job queues of one client in this session.
+    struct Lanes {
+        ClientPtr client;
+        parallel::WorkerPool::LanePtr pictures, files;
+    };
+    struct Client {
+        std::weak_ptr<Peer> peer;
+        Lanes lanes;
+        StreamKey streamKey;
+        Pacing pacing;
+        bool stateInFlight = false;  ///< without a stream: a `state` message is not yet written to the socket
+    };
+    using Pictures = std::vector<std::pair<StreamKey, Message>>;
+    /// A job that makes pictures of one revision.
+    struct PictureJob {
+        std::uint64_t number = 0;
+        session::State state;
+        std::uint64_t revision = 0;
+        Clock::time_point changed;
+        SnapshotPtr snapshot;  ///< if there is one of this revision already
+        std::vector<StreamKey> wanted;
+    };
+    /// A picture that has been drawn and is being encoded.
+    struct EncodingPicture {
+        std::uint64_t job = 0, revision = 0;
+        StreamKey streamKey;
+    };
+    struct JobResult {
+        std::uint64_t job = 0;
+        std::uint64_t revision = 0;
+        SnapshotPtr snapshot;
+        Pictures pictures;
+        std::vector<StreamKey> failed;
+    };
+
+    // These run on the strand.
+    void assertOnStrand() const {
+        assert(strand_.running_in_this_thread() && "the session is used outside its strand");
+    }
+    boost::asio::awaitable<void> welcomeOnStrand(std::shared_ptr<Peer> peer, wire::Hello hello, Id id);
+    boost::asio::awaitable<void> executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request);
+    Lanes lanesOf(const Peer& peer) const;
+    boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, wire::Get get, Id id);
+    boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, Id id);
+    boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request, Id id);
+    std::function<Message(pipeline::Pipeline&)> requestedPictureJob(const StreamKey& key, Id id) const;
+    boost::asio::awaitable<void> applyCommand(std::shared_ptr<Peer> peer, const session::Command& command, Id id);
+    std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::Part part);
+    void updateReservation(bool polytopesChanged);
+    void scheduleSave();
+    void saveNow(store::WriteBehindStore::Written written = {});
+    void sendError(Peer& peer, const Error& error, Id id);
+
+    void update();
+    void advanceTurn();
+    void requestPictures(std::vector<StreamKey> wanted);
+    const Client& nextPayer(const std::vector<StreamKey>& wanted) const;
+    void scheduleRetry();
+    void onJobDone(JobResult result);
+    void sendPicture(Client& client, const Message& picture);
+    void sendState(Client& client);
+    void schedulePacing();
+    const Message* findPicture(const StreamKey& key, std::uint64_t ofRevision) const;
+    bool readyForNext(const Client& client) const;
+    std::size_t countEncoding(const StreamKey& key) const;
+    bool isEncoding(const StreamKey& key, std::uint64_t ofRevision) const;
+    std::uint64_t revision() const { return session_.revision; }
+
+    // These run on a worker.
+    void runJob(pipeline::Pipeline& pipeline);
+    void onDrawn(const PictureJob& job, const StreamKey& key);
+
+    // Constant after construction.
+    const Services services_;  // declared first: other members are initialized from it
+    store::WriteBehindStore& writeBehind_;
+    const store::SessionCredentials credentials_;
+    const ClientPtr client_;
+    Strand strand_;
+
+    // Used only on the strand.
+    session::Session session_;
+    std::size_t objectBytes_ = 0;   ///< bytes of the polytopes of session_ that are not in the catalogue
+    ByteBudget::Reservation held_;  ///< objectBytes_ and the history
+    std::map<const Peer*, Client> clients_;
+    Clock::time_point changed_;  ///< the time at which the session reached its revision
+    SnapshotPtr snapshot_;       ///< the newest, kept while a client waits for it
+    Pictures pictures_;          ///< of snapshot_
+    Bytes stateText_;            ///< the `state` message of stateRevision_, for clients without a stream
+    std::optional<std::uint64_t> stateRevision_;
+    std::uint64_t jobs_ = 0;     ///< the number of jobs so far
+    std::uint64_t drawing_ = 0;  ///< the number of the job that is queued or being drawn; 0: none
+    std::vector<EncodingPicture> encoding_;
+    std::optional<Clock::time_point> lastTurn_;
+    boost::asio::steady_timer turnTimer_, paceTimer_, saveTimer_, retryTimer_;
+    bool turnTimerSet_ = false, paceTimerSet_ = false, saveTimerSet_ = false, retryTimerSet_ = false;
+    bool detached_ = false;  ///< this object must no longer write the session
+
+    // Shared by the strand and a worker.
+    std::mutex queuedJobMutex_;
+    std::optional<PictureJob> queuedJob_;  ///< guarded by queuedJobMutex_
+};
+
+}  // namespace oval4d::net

@@ -1,0 +1,71 @@
+#include "net/live/session_ledger.hpp"
+
+namespace oval4d::net {
+
+void SessionLedger::open(const std::string& id, const std::string& client) {
+    const auto [found, isNew] = sessions_.try_emplace(id);
+    if (isNew) {
+        found->second.client = client;
+        ++clients_[client].sessions;
+    } else {
+        reopen(found->second);
+    }
+}
+
+void SessionLedger::close(const std::string& id, bool unmodified, Clock::time_point now) {
+    const auto found = sessions_.find(id);
+    if (found == sessions_.end()) return;
+    Entry& entry = found->second;
+    entry.closed = ++last_;
+    entry.unmodified = unmodified;
+    entry.expires = now + expiry_;
+    closed_.emplace(entry.closed, id);
+    if (!unmodified) return;
+    unmodified_.emplace(entry.closed, id);
+    clients_[entry.client].unmodified.emplace(entry.closed, id);
+}
+
+void SessionLedger::reopen(Entry& entry) {
+    closed_.erase(entry.closed);
+    unmodified_.erase(entry.closed);
+    clients_[entry.client].unmodified.erase(entry.closed);
+    entry.closed = 0;
+}
+
+void SessionLedger::remove(const std::string& id) {
+    if (const auto found = sessions_.find(id); found != sessions_.end()) erase(found);
+}
+
+void SessionLedger::erase(Sessions::iterator session) {
+    reopen(session->second);
+    const auto owner = clients_.find(session->second.client);
+    if (--owner->second.sessions == 0) clients_.erase(owner);
+    sessions_.erase(session);
+}
+
+void SessionLedger::expire(Clock::time_point now) {
+    while (!closed_.empty()) {
+        const auto first = sessions_.find(closed_.begin()->second);
+        if (first->second.expires > now) return;
+        erase(first);
+    }
+}
+
+std::size_t SessionLedger::count(const std::string& client, Clock::time_point now) {
+    expire(now);
+    const auto owner = clients_.find(client);
+    return owner == clients_.end() ? 0 : owner->second.sessions;
+}
+
+std::optional<std::string> SessionLedger::oldestUnmodified(Clock::time_point now, const std::string* client) {
+    expire(now);
+    const auto* sessions = &unmodified_;
+    if (client != nullptr) {
+        const auto owner = clients_.find(*client);
+        if (owner == clients_.end()) return std::nullopt;
+        sessions = &owner->second.unmodified;
+    }
+    return sessions->empty() ? std::nullopt : std::optional(sessions->begin()->second);
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,46 @@
+#include "net/live/snapshot.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/cost.hpp"
+#include "wire/messages.hpp"
+
+namespace oval4d::net {
+
+using wire::Stream;
+
+SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
+                         std::chrono::steady_clock::time_point changed, const StreamKey& key) {
+    auto made = std::make_shared<Snapshot>();
+    made->state = state;
+    made->revision = revision;
+    made->changed = changed;
+    made->stateText = Bytes(wire::stateMessage(state, revision));
+    made->sliced = key.stream != Stream::frames;
+    if (made->sliced) pipeline.cut(state, made->slices);
+    return made;
+}
+
+bool suffices(const SnapshotPtr& snapshot, const StreamKey& key) {
+    return snapshot && (snapshot->sliced || key.stream == wire::Stream::frames);
+}
+
+Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
+                    std::optional<double> id, const std::function<void()>& whenDrawn) {
+    if (key.stream == Stream::frames) {
+        std::vector<std::uint8_t> png;
+        pipeline.frame(snapshot.state, snapshot.stateText.view(), key.viewport, png, whenDrawn);
+        return {Bytes(std::move(png)), true};
+    }
+    std::string text;
+    pipeline.message(snapshot.state, snapshot.slices, snapshot.revision, id, key.viewport, key.encoding, text);
+    return {Bytes(std::move(text)), key.encoding != wire::Encoding::json};
+}
+
+Seconds pictureCost(const session::State& state, const StreamKey& key) {
+    return key.stream == Stream::frames ? pipeline::frameCost(state, key.viewport) : pipeline::geometryCost(state);
+}
+
+}  // namespace oval4d::net

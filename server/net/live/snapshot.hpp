@@ -1,0 +1,53 @@
+#pragma once
+// Pictures of one revision of a session.
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "net/options.hpp"
+#include "net/ws/peer.hpp"
+#include "pipeline/pipeline.hpp"
+#include "session/session.hpp"
+#include "slicing/slice_set.hpp"
+#include "wire/request.hpp"
+
+namespace oval4d::net {
+
+/// The kind of picture that a client receives for each revision.
+struct StreamKey {
+    wire::Stream stream = wire::Stream::none;
+    wire::Encoding encoding = wire::Encoding::json;
+    scene::Viewport viewport;
+    bool operator==(const StreamKey&) const = default;
+};
+
+/// One revision, with its slices if a client needs them. Immutable once made.
+struct Snapshot {
+    session::State state;
+    std::uint64_t revision = 0;
+    std::chrono::steady_clock::time_point changed;  ///< the time at which the session reached this revision
+    Bytes stateText;                                ///< its `state` message
+    bool sliced = false;
+    slicing::SliceSet slices;
+};
+using SnapshotPtr = std::shared_ptr<const Snapshot>;
+
+/// Makes the snapshot of a revision, with slices if pictures of this kind need them. Runs on a worker.
+SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
+                         std::chrono::steady_clock::time_point changed, const StreamKey& key);
+
+/// Whether the snapshot has what pictures of this kind need; false for a null pointer.
+bool suffices(const SnapshotPtr& snapshot, const StreamKey& key);
+
+/// Makes a picture: a `slices` message with this id, or a PNG file, for which `whenDrawn` is called when only encoding
+/// is left. Runs on a worker. Throws std::runtime_error.
+Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
+                    std::optional<double> id, const std::function<void()>& whenDrawn = {});
+
+/// The estimated time that a picture of this kind takes.
+Seconds pictureCost(const session::State& state, const StreamKey& key);
+
+}  // namespace oval4d::net

@@ -1,0 +1,108 @@
+#pragma once
+// A WebSocket connection.
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "net/http/request_rules.hpp"
+#include "net/live/hub.hpp"
+#include "net/services.hpp"
+#include "net/ws/peer.hpp"
+#include "net/ws/rate_limit.hpp"
+#include "net/ws/reading_rate.hpp"
+#include "net/ws/websocket_close_codes.hpp"
+#include "wire/parse.hpp"
+#include "wire/request.hpp"
+
+namespace oval4d::net {
+
+/// The WebSocket subprotocol of the server.
+inline constexpr std::string_view kSubprotocol = "oval4d.v1";
+
+/// Handles the requests of one client over a WebSocket. Each request is answered before the next one is read, so TCP
+/// back-pressure slows down a client that sends too fast. Writes one message at a time and drops a client that reads
+/// too slowly. `send`, `close`, `stop` and `drop` may be called from any thread; all else runs on the stream's strand.
+class Connection final : public Peer, public std::enable_shared_from_this<Connection> {
+  public:
+    /// `session`: the session id in the request path, or empty for a new session. `joined` is called once the client
+    /// has sent hello and has joined a session.
+    Connection(boost::beast::tcp_stream stream, Services services, std::shared_ptr<Hub> hub, ClientPtr client,
+               std::string session, std::function<void()> joined);
+
+    /// Serves the connection from the handshake until it ends.
+    boost::asio::awaitable<void> run(Request upgrade);
+
+    void send(Message message, std::function<void()> written = {}) override;
+    const ClientPtr& client() const override { return client_; }
+    void close(std::uint16_t code, std::string reason) override;
+    /// Discards the queued messages, except one being written, and closes the connection with code kStopping.
+    void stop();
+    /// Closes the socket without a close frame.
+    void drop();
+
+  private:
+    using Id = LiveSession::Id;
+    /// A message in the send queue.
+    struct Outgoing {
+        Message message;
+        std::function<void()> written;
+        ByteBudget::Reservation held;
+    };
+    /// The result of reading a message.
+    struct Incoming {
+        boost::system::error_code fault;
+        std::optional<Error> refusal;  ///< set if the message was discarded because of its length
+        Id id;                         ///< the request id of a discarded message, if it was found
+        ByteBudget::Reservation held;  ///< the memory of a long message
+    };
+
+    void configureStream(bool offersSubprotocol);
+    void startHelloTimer();
+    boost::asio::awaitable<void> readLoop();
+    boost::asio::awaitable<void> waitUntilDrained();
+    boost::asio::awaitable<Incoming> read();
+    void checkLongMessage(Incoming& incoming);
+    boost::asio::awaitable<void> pause(std::chrono::duration<double> wait);
+    boost::asio::awaitable<void> handle(std::string_view text);
+    boost::asio::awaitable<std::variant<wire::Request, wire::BadRequest>> parse(std::string_view text);
+    boost::asio::awaitable<void> execute(wire::Request request);
+    boost::asio::awaitable<void> handleHello(wire::Hello hello, Id id);
+    boost::asio::awaitable<Hub::JoinResult> joinSession(wire::Hello hello);
+    std::function<void(Hub::JoinHandler)> sessionOpener(const std::string& token);
+    void sendError(const Error& error, Id id);
+
+    void dropSlowReader();
+    void startClosing(std::uint16_t code, std::string reason);
+    void writeNext();
+    void writeFragment(std::size_t from);
+    void onWritten(boost::system::error_code fault);
+    void startWriteDeadline();
+
+    boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
+    const Services services_;
+    const std::shared_ptr<Hub> hub_;
+    const ClientPtr client_;
+    const std::string requestedId_;  // the session id in the path
+    std::function<void()> joined_;
+    std::shared_ptr<LiveSession> session_;
+    RateLimit rate_;
+    boost::beast::flat_buffer buffer_;
+
+    std::deque<Outgoing> outbox_;
+    std::size_t unsent_ = 0;  // bytes in outbox_
+    bool writing_ = false, ended_ = false;
+    std::uint64_t writes_ = 0;  // completed writes, by which deadline_ recognizes the write that it watches
+    std::optional<boost::beast::websocket::close_reason> closing_;
+    std::optional<ReadingRate> readingRate_;  // of the message being written
+    boost::asio::steady_timer deadline_, drained_, helloDeadline_;
+};
+
+}  // namespace oval4d::net

@@ -1,0 +1,34 @@
+#include "net/ws/peer.hpp"
+
+#include <utility>
+
+namespace oval4d::net {
+
+Bytes::Bytes(std::string text) {
+    auto owner = std::make_shared<const std::string>(std::move(text));
+    view_ = *owner;
+    owner_ = std::move(owner);
+}
+
+Bytes::Bytes(std::vector<std::uint8_t> bytes) {
+    auto owner = std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
+    view_ = {reinterpret_cast<const char*>(owner->data()), owner->size()};
+    owner_ = std::move(owner);
+}
+
+Bytes Bytes::subrange(std::size_t first, std::size_t size) const {
+    Bytes range(*this);
+    range.view_ = view_.substr(first, size);
+    return range;
+}
+
+Bytes Bytes::keepingAlive(std::shared_ptr<const void> resource) const {
+    Bytes both(*this);
+    both.owner_ = std::make_shared<const std::pair<std::shared_ptr<const void>, std::shared_ptr<const void>>>(
+        owner_, std::move(resource));
+    return both;
+}
+
+Message textMessage(std::string text) { return {Bytes(std::move(text)), false}; }
+
+}  // namespace oval4d::net

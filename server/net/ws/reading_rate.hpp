@@ -1,0 +1,39 @@
+#pragma once
+// The minimum rate at which a client must read.
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+
+#include "net/options.hpp"
+
+namespace oval4d::net {
+
+/// Enforces the minimum reading rate while one message is written. Each fragment must be written within the write
+/// timeout, and the whole at the minimum rate on average, with two write timeouts of grace. Otherwise a client could
+/// make the server hold a message for hours.
+class ReadingRate {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    explicit ReadingRate(const Options& options)
+        : grace_(options.writeTimeout), perSecond_(static_cast<double>(options.leastReadRate)) {}
+
+    /// Counts bytes that the client has accepted.
+    void count(std::size_t bytes) { taken_ += static_cast<double>(bytes); }
+
+    /// The time within which the next fragment must be written; 1 ms if the client is too slow already.
+    Clock::duration timeout() const {
+        const Seconds lived = Clock::now() - start_;
+        const Seconds left = perSecond_ > 0 ? 2 * grace_ + Seconds(taken_ / perSecond_) - lived : grace_;
+        return std::chrono::duration_cast<Clock::duration>(std::clamp(left, Seconds(0.001), grace_));
+    }
+
+  private:
+    const Seconds grace_;
+    const double perSecond_;
+    double taken_ = 0;
+    const Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace oval4d::net

@@ -1,0 +1,170 @@
+#include "parallel/fair_queue.hpp"
+
+#include <algorithm>
+
+namespace oval4d::parallel {
+
+namespace {
+
+using Seconds = FairQueue::Seconds;
+
+constexpr Seconds kMinCost{1e-4};  // of any job: no job is free
+
+constexpr double kDecay = 0.75;        // of the measurements so far, at each further job
+constexpr Seconds kPriorWeight{0.02};  // the prior counts as much as jobs estimated at this in total
+// Measured times are clipped to this multiple of the cost, since other programs sometimes disturb a job.
+constexpr double kMaxOverrun = 2;
+constexpr double kMaxCorrection = 8;  // the largest factor by which estimates are corrected
+
+}  // namespace
+
+double FairQueue::Correction::factor(double general) const {
+    return std::clamp((measured_ + general * kPriorWeight) / (estimated_ + kPriorWeight), 1 / kMaxCorrection,
+                      kMaxCorrection);
+}
+
+void FairQueue::Correction::learn(Seconds estimate, Seconds took) {
+    estimated_ = kDecay * estimated_ + estimate;
+    measured_ = kDecay * measured_ + took;
+}
+
+FairQueue::FairQueue(std::size_t threads, Limits limits)
+    : maxLongRunning_(threads > 1 ? threads - std::max<std::size_t>(1, threads / 4) : 1), limits_(limits) {}
+
+Seconds FairQueue::correctedCost(const Lane& lane, Seconds estimate) const {
+    const double ofClient = lane.client_->correction_.factor(correction_.factor(1));
+    return std::max(kMinCost, lane.correction_.factor(ofClient) * estimate);
+}
+
+/// The cost charged to a class, which is weighted by its number of active clients.
+Seconds FairQueue::classCost(Length length, Seconds cost) const {
+    return cost / std::max<std::size_t>(1, classes_[length].clients.activeFlows());
+}
+
+bool FairQueue::push(Job job, const LanePtr& lane, Seconds estimate, Clock::time_point now) {
+    Client& client = *lane->client_;
+    if (waiting_ >= limits_.all || client.waiting_ >= limits_.ofClient) return false;
+    ++waiting_;
+    ++client.waiting_;
+    estimate = std::max(kMinCost, estimate);
+    const Seconds cost = correctedCost(*lane, estimate);
+    const Length length = cost > kLongJob * std::clamp(correction_.factor(1), 1.0, 2.0) ? long_job : short_job;
+    lane->jobs_.push_back({std::move(job), estimate, cost, length});
+    recordActivity(lane, length, now);
+    if (lane->jobs_.size() == 1) scheduleLane(lane);
+    return true;
+}
+
+std::optional<FairQueue::Begun> FairQueue::pop(Clock::time_point now) {
+    if (scheduler_.empty()) return std::nullopt;
+    const Length length = longJobsMustWait(now) ? short_job : scheduler_.next();
+    Class& schedulers = classes_[length];
+    if (schedulers.clients.empty()) return std::nullopt;
+    const ClientPtr client = schedulers.clients.next();
+    const LanePtr lane = client->lanes_[length].next();
+    Waiting first = std::move(lane->jobs_.front());
+    lane->jobs_.pop_front();
+    --waiting_;
+    --client->waiting_;
+    if (length == long_job) ++longRunning_;
+    scheduler_.start(schedulers.state, classCost(length, first.cost));
+    schedulers.clients.start(client->states_[length], first.cost);
+    client->lanes_[length].start(lane->states_[length], first.cost);
+    client->lanes_[length].dequeue(lane->states_[length]);
+    scheduleClient(client, length);
+    if (!lane->jobs_.empty()) scheduleLane(lane);
+    return Begun{std::move(first.job), lane, first.estimate, first.cost, length};
+}
+
+void FairQueue::finished(const Begun& begun, Seconds took) {
+    Lane& lane = *begun.lane;
+    Client& client = *lane.client_;
+    const Length length = begun.length;
+    if (length == long_job) --longRunning_;
+    for (Correction* each : {&lane.correction_, &client.correction_, &correction_})
+        each->learn(begun.estimate, std::min(took, kMaxOverrun * begun.cost));
+    const Seconds more = took - begun.cost;
+    scheduler_.end(classes_[length].state, classCost(length, more));
+    classes_[length].clients.end(client.states_[length], more);
+    client.lanes_[length].end(lane.states_[length], more);
+    if (lane.states_[length].entry) {
+        scheduleLane(begun.lane);
+    } else {
+        scheduleClient(lane.client_, length);
+    }
+}
+
+Seconds FairQueue::nextCost(const Client& client, Length length) {
+    return client.lanes_[length].next()->jobs_.front().cost;
+}
+
+/// Updates the queue entries of a lane, its client and their class after a change of the lane's first job.
+void FairQueue::scheduleLane(const LanePtr& lane) {
+    const Waiting& first = lane->jobs_.front();
+    lane->client_->lanes_[first.length].enqueue(lane->states_[first.length], lane, first.cost);
+    scheduleClient(lane->client_, first.length);
+}
+
+/// Updates the queue entries of a client and the class after a change of the client's next job of that length.
+void FairQueue::scheduleClient(const ClientPtr& client, Length length) {
+    Class& schedulers = classes_[length];
+    if (client->lanes_[length].empty()) {
+        schedulers.clients.dequeue(client->states_[length]);
+    } else {
+        schedulers.clients.enqueue(client->states_[length], client, nextCost(*client, length));
+    }
+    if (schedulers.clients.empty()) {
+        scheduler_.dequeue(schedulers.state);
+    } else {
+        scheduler_.enqueue(schedulers.state, length, classCost(length, nextCost(*schedulers.clients.next(), length)));
+    }
+}
+
+/// Threads are kept free only for lanes that have no long jobs.
+void FairQueue::recordActivity(const LanePtr& lane, Length length, Clock::time_point now) {
+    forgetInactive(now);
+    if (length == long_job) lane->lastLong_ = now;
+    if (lane->lastLong_ && now - *lane->lastLong_ <= kActive) return;
+    if (const auto before = std::exchange(lane->activity_, active_.emplace(active_.end(), now, lane))) {
+        active_.erase(*before);
+    }
+}
+
+void FairQueue::forgetInactive(Clock::time_point now) {
+    for (; !active_.empty(); active_.pop_front()) {
+        const auto& [last, weak] = active_.front();
+        const LanePtr lane = weak.lock();
+        if (lane && now - last <= kActive) return;
+        if (lane) lane->activity_.reset();
+    }
+}
+
+/// Whether the maximum number of long jobs is running.
+bool FairQueue::longJobsMustWait(Clock::time_point now) {
+    if (longRunning_ < maxLongRunning_) return false;
+    forgetInactive(now);
+    const FairScheduler<ClientPtr>& clients = classes_[long_job].clients;
+    return !active_.empty() || (!clients.empty() && nextCost(*clients.next(), long_job) > kVeryLongJob);
+}
+
+bool FairQueue::crowded(Clock::time_point now) {
+    return waiting_ > 0 && !(classes_[short_job].clients.empty() && longJobsMustWait(now));
+}
+
+std::deque<FairQueue::Job> FairQueue::clear() {
+    std::deque<Job> dropped;
+    while (!scheduler_.empty()) {
+        const Length length = scheduler_.next();
+        const ClientPtr client = classes_[length].clients.next();
+        const LanePtr lane = client->lanes_[length].next();
+        client->waiting_ -= lane->jobs_.size();
+        waiting_ -= lane->jobs_.size();
+        for (Waiting& each : lane->jobs_) dropped.push_back(std::move(each.job));
+        lane->jobs_.clear();
+        client->lanes_[length].dequeue(lane->states_[length]);
+        scheduleClient(client, length);
+    }
+    return dropped;
+}
+
+}  // namespace oval4d::parallel

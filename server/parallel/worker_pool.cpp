@@ -1,0 +1,120 @@
+#include "parallel/worker_pool.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "parallel/canceled.hpp"
+
+namespace oval4d::parallel {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+// The interval at which a free thread checks whether a queued long job may start.
+constexpr auto kRecheckInterval = 1s;
+
+void carryOut(const WorkerPool::Job& job, std::size_t worker) {
+    try {
+        job(worker);
+    } catch (const Canceled&) {  // the result is no longer needed
+    }
+}
+
+}  // namespace
+
+WorkerPool::WorkerPool(Terms terms) : terms_(std::move(terms)), queue_(terms_.threads, terms_.limits) {
+    for (std::size_t i = 0; i < terms_.threads; ++i) threads_.emplace_back([this, i] { run(i); });
+}
+
+WorkerPool::~WorkerPool() { stop(); }
+
+bool WorkerPool::post(Job job, LanePtr lane, Seconds cost) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (stopping_) return true;
+        if (!queue_.push(std::move(job), lane ? lane : common_, cost, Clock::now())) return false;
+    }
+    wake_.notify_one();
+    return true;
+}
+
+void WorkerPool::cleanUpWhenIdle() {
+    {
+        const std::lock_guard lock(mutex_);
+        cleanUp_ = true;
+    }
+    wake_.notify_one();
+}
+
+void WorkerPool::stop() {
+    stopSource_.request_stop();
+    std::deque<Job> dropped;  // destroyed outside the lock, since a job may own much memory
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+        dropped = queue_.clear();
+    }
+    wake_.notify_all();
+    for (std::thread& thread : threads_) thread.join();
+    threads_.clear();
+}
+
+std::size_t WorkerPool::waiting() const {
+    const std::lock_guard lock(mutex_);
+    return queue_.waiting();
+}
+
+bool WorkerPool::crowded() {
+    const std::lock_guard lock(mutex_);
+    return queue_.crowded(Clock::now());
+}
+
+WorkerPool::Seconds WorkerPool::worked() const {
+    const std::lock_guard lock(mutex_);
+    return worked_;
+}
+
+void WorkerPool::run(std::size_t worker) {
+    carryOut(terms_.first, worker);
+    std::unique_lock lock(mutex_);
+    bool used = true;
+    while (!stopping_) {
+        auto next = queue_.pop(Clock::now());
+        if (!next) {
+            wait(lock, used, worker);
+            continue;
+        }
+        used = true;
+        lock.unlock();
+        const auto start = Clock::now();
+        {
+            std::optional<ForkJoin::Work> work;
+            if (terms_.forkJoin != nullptr) work.emplace(*terms_.forkJoin);
+            carryOut(next->job, worker);
+        }
+        next->job = nullptr;  // what the job owns is destroyed outside the lock
+        const Seconds took = Clock::now() - start;
+        lock.lock();
+        worked_ += took;
+        queue_.finished(*next, took);
+        if (queue_.waiting() > 0) wake_.notify_one();  // a long job that had to wait may begin now
+    }
+}
+
+/// Waits for a job. Runs `whenIdle` if none is queued for kIdleDelay after the last job.
+void WorkerPool::wait(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker) {
+    if (queue_.waiting() > 0) {
+        wake_.wait_for(lock, kRecheckInterval);
+        return;
+    }
+    if (!used && !cleanUp_) return wake_.wait(lock);
+    if (wake_.wait_for(lock, kIdleDelay) == std::cv_status::no_timeout) return;
+    used = cleanUp_ = false;
+    lock.unlock();
+    terms_.whenIdle(worker);
+    lock.lock();
+}
+
+}  // namespace oval4d::parallel

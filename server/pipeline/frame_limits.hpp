@@ -1,0 +1,20 @@
+#pragma once
+// Limits on the size of a picture.
+
+#include <cstdint>
+
+#include "errors/error.hpp"
+#include "scene/scene.hpp"
+
+namespace oval4d::pipeline {
+
+/// The allowed sizes in pixels.
+struct FrameLimits {
+    int minSide = 16, maxWidth = 8192, maxHeight = 8192;
+    std::int64_t maxPixels = 16'777'216;
+};
+
+/// Returns the viewport, or `out_of_range` with the allowed range if it exceeds the limits.
+Result<scene::Viewport> checked(scene::Viewport viewport, const FrameLimits& limits);
+
+}  // namespace oval4d::pipeline

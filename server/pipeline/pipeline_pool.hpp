@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <vector>
+
+#include "parallel/worker_pool.hpp"
+#include "pipeline/pipeline.hpp"
+#include "process/heap.hpp"
+
+namespace oval4d::pipeline {
+
+/// A worker pool in which each worker has a pipeline. Thread-safe.
+class PipelinePool {
+  public:
+    using Argument = Pipeline&;  ///< of a job
+    using Job = std::function<void(Pipeline&)>;
+
+    struct Terms {
+        std::size_t threads = 1;
+        parallel::WorkerPool::Limits limits = {};
+        std::size_t fillSteps = Pipeline::kFillSteps;
+        std::function<std::unique_ptr<raster::Rasterizer>(std::stop_token stop)> makeRasterizer;
+        Job first = [](Pipeline&) {};  ///< run once by each worker before any other job
+    };
+
+    PipelinePool(Terms terms, parallel::ForkJoin& forkJoin, process::Heap& heap);
+
+    /// See WorkerPool::post.
+    [[nodiscard]] bool post(Job job, parallel::WorkerPool::LanePtr lane, parallel::WorkerPool::Seconds cost);
+
+    const parallel::WorkerPool& workers() const { return workers_; }
+    parallel::WorkerPool& workers() { return workers_; }
+
+  private:
+    std::vector<std::unique_ptr<Pipeline>> pipelines_;  // one for each worker
+    parallel::WorkerPool workers_;                      // last, because its threads use the other members
+};
+
+}  // namespace oval4d::pipeline

@@ -1,0 +1,198 @@
+#include "polytopes/catalogue/catalogue.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+#include "polytopes/catalogue/names.hpp"
+#include "polytopes/construction/diagram_text.hpp"
+#include "polytopes/construction/diminished.hpp"
+#include "polytopes/construction/uniform.hpp"
+#include "text/words.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+CatalogueEntry entryOf(Design design, std::string family, std::vector<std::string> aliases) {
+    const ElementCounts counts = elementCounts(design);
+    const auto narrow = [](std::uint64_t count) { return static_cast<std::uint32_t>(count); };
+    aliases.erase(std::remove_if(aliases.begin(), aliases.end(),
+                                 [&](const std::string& alias) { return alias.empty() || alias == design.name; }),
+                  aliases.end());
+    return {design.name,          std::move(family),
+            std::move(aliases),   symbolOf(design),
+            schlaefliOf(design),  narrow(counts.vertices),
+            narrow(counts.edges), narrow(counts.faces),
+            narrow(counts.cells), narrow(symmetryOrder(design)),
+            std::move(design)};
+}
+
+CatalogueEntry entryOf(const UniformPolychoron& row) {
+    std::vector<std::string> aliases;
+    for (const std::string_view name : text::listOf(row.otherNames)) aliases.emplace_back(name);
+    aliases.insert(row.family == "regular" ? aliases.begin() + 1 : aliases.begin(), std::string(row.bowers));
+    if (row.family == "regular" && aliases.size() < 2) aliases.emplace_back(row.bowers);
+    const auto add = [&](std::string_view symbol) {
+        for (std::string& name : operationNames(std::get<Diagram>(parseDiagram(symbol)))) {
+            if (std::find(aliases.begin(), aliases.end(), name) == aliases.end()) aliases.push_back(std::move(name));
+        }
+    };
+    add(row.symbol);
+    for (const std::string_view other : text::listOf(row.others)) {
+        add(other);
+        aliases.emplace_back(other);
+    }
+    return entryOf(designOf(std::get<Diagram>(parseDiagram(row.symbol))), std::string(row.family), std::move(aliases));
+}
+
+// The catalogued members of the infinite families, with Bowers' short names.
+struct Duoprism {
+    int p, q;
+    std::string_view bowers;
+};
+constexpr auto kDuoprisms = std::to_array<Duoprism>({{3, 3, "triddip"},
+                                                     {3, 4, "tisdip"},
+                                                     {3, 5, "trapedip"},
+                                                     {3, 6, "thiddip"},
+                                                     {4, 5, "squipdip"},
+                                                     {4, 6, "shiddip"},
+                                                     {5, 5, "pedip"},
+                                                     {5, 6, "phiddip"},
+                                                     {5, 7, ""},
+                                                     {6, 6, "hiddip"},
+                                                     {8, 8, "odip"},
+                                                     {12, 12, ""},
+                                                     {3, 24, ""}});
+constexpr auto kAntiprismPrisms = std::to_array<std::pair<int, std::string_view>>(
+    {{4, "squappip"}, {5, "pappip"}, {6, "happip"}, {8, "oappip"}, {10, "dappip"}});
+
+std::vector<CatalogueEntry> allEntries() {
+    std::vector<CatalogueEntry> entries;
+    for (const UniformPolychoron& row : uniformPolychora()) entries.push_back(entryOf(row));
+    entries.push_back(entryOf(snub24Cell(), "other", {"sadi", "snub icositetrachoron", "snub disicositetrachoron"}));
+    entries.push_back(entryOf(grandAntiprism(), "other", {"gap", "pentagonal double antiprismoid"}));
+    for (const NamedPolyhedron& base : namedPolyhedra()) {
+        // The prism over the cube is the 8-cell; prisms over stars are built on request only.
+        if (base.prism.empty()) continue;
+        entries.push_back(
+            entryOf(prismOf(base), "prism", {std::string(base.prism), std::string(base.name) + " prism"}));
+    }
+    for (const auto& [sides, bowers] : kAntiprismPrisms) {
+        entries.push_back(entryOf(antiprismPrism(sides), "antiprism prism", {std::string(bowers)}));
+    }
+    for (const auto& [p, q, bowers] : kDuoprisms) {
+        const std::string names = adjectiveOf({p, 1}) + (p == q ? "" : "-" + adjectiveOf({q, 1})) + " duoprism";
+        entries.push_back(entryOf(duoprism({p, 1}, {q, 1}), "duoprism", {std::string(bowers), names}));
+    }
+    return entries;
+}
+
+const std::vector<CatalogueEntry>& entries() {
+    static const std::vector<CatalogueEntry> kEntries = allEntries();
+    return kEntries;
+}
+
+// The entries by folded name, alias, diagram and Schläfli symbol.
+const std::unordered_map<std::string, const CatalogueEntry*>& index() {
+    static const auto kIndex = [] {
+        std::unordered_map<std::string, const CatalogueEntry*> byName;
+        for (const CatalogueEntry& entry : entries()) {
+            byName.emplace(text::folded(entry.name), &entry);
+            for (const std::string& alias : entry.aliases) byName.emplace(text::folded(alias), &entry);
+            for (const std::string& symbol : {entry.diagram, entry.schlaefli}) {
+                if (!symbol.empty()) byName.emplace(text::folded(symbol), &entry);
+            }
+        }
+        return byName;
+    }();
+    return kIndex;
+}
+
+struct Near {
+    std::string_view name;
+    const CatalogueEntry* entry;
+};
+
+// The names at the least edit distance. Of equally near names, those of the length nearest to that of `text`: a
+// substituted letter is likelier than a missing one.
+std::vector<Near> nearest(std::string_view text) {
+    const std::size_t wanted = text::folded(text).size();
+    std::vector<Near> best;
+    std::pair<std::size_t, std::size_t> least(-1, -1);
+    for (const polytopes::CatalogueEntry& entry : entries()) {
+        const auto consider = [&](std::string_view name) {
+            const std::size_t known = text::folded(name).size();
+            const std::size_t longer = std::max(known, wanted) - std::min(known, wanted);
+            if (longer > least.first) return;
+            const std::pair distance(polytopes::likeness(text, name), longer);
+            if (distance < least) best.clear();
+            if (distance <= least && (best.empty() || best.back().entry != &entry)) best.push_back({name, &entry});
+            least = std::min(least, distance);
+        };
+        consider(entry.name);
+        for (const std::string& alias : entry.aliases) consider(alias);
+    }
+    return best;
+}
+
+}  // namespace
+
+std::span<const CatalogueEntry> catalogue() { return entries(); }
+
+const CatalogueEntry* findEntry(std::string_view text) {
+    if (const auto found = index().find(text::folded(text)); found != index().end()) return found->second;
+    const auto described = describedBy(text, [](std::string_view base) -> Described {
+        const CatalogueEntry* entry = findEntry(base);
+        return entry != nullptr ? Described(entry->design) : NameError{};
+    });
+    const auto* design = std::get_if<Design>(&described);
+    if (design == nullptr) return nullptr;
+    const auto found = index().find(text::folded(design->name));
+    return found == index().end() ? nullptr : found->second;
+}
+
+Described designNamed(std::string_view text, std::size_t maxVertices) {
+    if (const auto* entry = findEntry(text)) return entry->design;
+    auto described = describedBy(text, [=](std::string_view base) { return designNamed(base, maxVertices); });
+    if (const auto* design = std::get_if<Design>(&described)) {
+        const std::uint64_t vertices = elementCounts(*design).vertices;
+        if (vertices > maxVertices) {
+            return NameError{NameError::Reason::too_large, "the " + design->name + " has " + std::to_string(vertices) +
+                                                               " vertices; at most " + std::to_string(maxVertices) +
+                                                               " are allowed"};
+        }
+    }
+    return described;
+}
+
+std::size_t likeness(std::string_view one, std::string_view other) {
+    constexpr std::size_t kLongest = 64;
+    const std::string a = text::folded(one.substr(0, kLongest));
+    const std::string b = text::folded(other.substr(0, kLongest));
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i + 1);
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+std::string_view nearestName(std::string_view text) { return nearest(text).front().name; }
+
+std::vector<std::string_view> nearestNames(std::string_view text) {
+    constexpr std::size_t kMost = 3;
+    std::vector<std::string_view> names;
+    for (const Near& near : nearest(text)) names.push_back(near.name);
+    names.resize(std::min(names.size(), kMost));
+    return names;
+}
+
+}  // namespace oval4d::polytopes

@@ -1,0 +1,73 @@
+#include "polytopes/catalogue/polytope_cache.hpp"
+
+#include <algorithm>
+
+#include "polytopes/catalogue/catalogue.hpp"
+#include "polytopes/polytope.hpp"
+
+namespace oval4d::polytopes {
+
+const std::shared_ptr<const Polytope>& fiveCell() {
+    static const auto shared = std::make_shared<const Polytope>(build(catalogue().front().design));
+    return shared;
+}
+
+PolytopeCache::Shared PolytopeCache::get(const Design& design) {
+    if (design.name == fiveCell()->name) return fiveCell();
+    const auto slot = slotOf(design.name);
+    const std::scoped_lock building(slot->building);
+    Shared polytope = peek(design);
+    if (!polytope) polytope = std::make_shared<const Polytope>(build(design));
+    const std::scoped_lock lock(mutex_);
+    slot->polytope = polytope;
+    markUsed(polytope);
+    return polytope;
+}
+
+PolytopeCache::Shared PolytopeCache::find(const Design& design) {
+    if (design.name == fiveCell()->name) return fiveCell();
+    Shared polytope = peek(design);
+    const std::scoped_lock lock(mutex_);
+    if (polytope) markUsed(polytope);
+    return polytope;
+}
+
+std::size_t PolytopeCache::bytes() const {
+    const std::scoped_lock lock(mutex_);
+    return bytes_;
+}
+
+/// Like `find`, but does not count as a use.
+PolytopeCache::Shared PolytopeCache::peek(const Design& design) const {
+    const std::scoped_lock lock(mutex_);
+    const auto found = slots_.find(design.name);
+    return found == slots_.end() ? nullptr : found->second->polytope.lock();
+}
+
+std::shared_ptr<PolytopeCache::Slot> PolytopeCache::slotOf(const std::string& name) {
+    const std::scoped_lock lock(mutex_);
+    // Once there are many slots, those of polytopes that no longer exist are dropped.
+    constexpr std::size_t kMany = 1000;
+    if (slots_.size() >= kMany) {
+        std::erase_if(slots_,
+                      [](const auto& slot) { return slot.second.use_count() == 1 && slot.second->polytope.expired(); });
+    }
+    auto& slot = slots_[name];
+    if (!slot) slot = std::make_shared<Slot>();
+    return slot;
+}
+
+void PolytopeCache::markUsed(const Shared& polytope) {
+    if (const auto at = std::ranges::find(recent_, polytope); at != recent_.end()) {
+        recent_.splice(recent_.begin(), recent_, at);
+        return;
+    }
+    recent_.push_front(polytope);
+    bytes_ += bytesOf(*polytope);
+    while (bytes_ > maxBytes_ && !recent_.empty()) {
+        bytes_ -= bytesOf(*recent_.back());
+        recent_.pop_back();
+    }
+}
+
+}  // namespace oval4d::polytopes

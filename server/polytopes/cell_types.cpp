@@ -1,0 +1,199 @@
+#include "polytopes/cell_types.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+#include <glm/geometric.hpp>
+
+#include "polytopes/construction/polyhedra.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+constexpr double kCongruenceTolerance = 1.0 / 500;  // relative to the polytope's extent
+constexpr double kRegularityTolerance = 0.01;       // relative, for the lengths in one cell
+
+// Least, root-mean-square and greatest of some lengths.
+struct LengthStatistics {
+    double least = 1e300, most = 0, squares = 0;
+    int count = 0;
+
+    void add(double value) {
+        least = std::min(least, value);
+        most = std::max(most, value);
+        squares += value * value;
+        ++count;
+    }
+    double rootMeanSquare() const { return std::sqrt(squares / count); }
+    bool areEqual() const { return most - least <= kRegularityTolerance * most; }
+};
+
+// Metric invariants of a cell.
+struct Measures {
+    std::uint32_t vertices = 0;
+    LengthStatistics edges, radii;  // radii: distances of the vertices from their mean
+
+    std::array<double, 6> values() const {
+        return {edges.least, edges.rootMeanSquare(), edges.most, radii.least, radii.rootMeanSquare(), radii.most};
+    }
+};
+
+// Measures cells one after another in linear time: each cell marks its vertices with a mark of its own, so that
+// duplicates are recognized without a search.
+class CellMeasurer {
+  public:
+    explicit CellMeasurer(const Polytope& polytope) : p_(polytope), markOf_(polytope.vertices.size(), 0) {}
+
+    Measures measure(std::uint32_t cell) {
+        ++mark_;
+        own_.clear();
+        Measures result;
+        glm::dvec4 sum(0);
+        for (const std::uint32_t face : p_.cells[cell]) {
+            const auto loop = p_.faces[face];
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                const glm::dvec4& v = p_.vertices[loop[i]];
+                result.edges.add(glm::distance(v, p_.vertices[loop[(i + 1) % loop.size()]]));
+                if (markOf_[loop[i]] == mark_) continue;
+                markOf_[loop[i]] = mark_;
+                own_.push_back(loop[i]);
+                sum += v;
+            }
+        }
+        result.vertices = static_cast<std::uint32_t>(own_.size());
+        for (const std::uint32_t v : own_) result.radii.add(glm::distance(p_.vertices[v], sum / double(own_.size())));
+        return result;
+    }
+
+  private:
+    const Polytope& p_;
+    std::vector<std::uint64_t> markOf_;
+    std::vector<std::uint32_t> own_;
+    std::uint64_t mark_ = 0;
+};
+
+// The regular polygon {n/d} of a vertex loop; d is its turning number.
+Branch polygonOf(const Polytope& p, std::span<const std::uint32_t> loop) {
+    const auto n = loop.size();
+    if (p.convexFaces || n < 5) return {static_cast<int>(n), 1};
+    double turning = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const glm::dvec4 a = p.vertices[loop[(i + 1) % n]] - p.vertices[loop[i]];
+        const glm::dvec4 b = p.vertices[loop[(i + 2) % n]] - p.vertices[loop[(i + 1) % n]];
+        turning += std::acos(std::clamp(glm::dot(a, b) / (glm::length(a) * glm::length(b)), -1.0, 1.0));
+    }
+    return {static_cast<int>(n), static_cast<int>(std::lround(turning / (2 * std::numbers::pi)))};
+}
+
+// Assigns consecutive numbers to distinct keys, in the order of their first appearance.
+template <typename Key>
+class Numbering {
+  public:
+    std::uint32_t numberOf(const Key& key) {
+        return known_.emplace(key, static_cast<std::uint32_t>(known_.size())).first->second;
+    }
+    std::size_t size() const { return known_.size(); }
+
+  private:
+    std::map<Key, std::uint32_t> known_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> cellTypesByShape(const Polytope& p) {
+    // Cells of one type have the same vertex count and polygons (a number of `polygons`). For each such combination,
+    // `seen` lists the metric invariants of the types found so far.
+    Numbering<std::vector<std::uint32_t>> polygons;
+    Numbering<std::array<std::uint32_t, 2>> sizes;
+    struct Seen {
+        std::uint32_t type;
+        std::array<double, 6> values;
+    };
+    std::map<std::uint32_t, std::vector<Seen>> seen;
+    std::vector<std::uint32_t> types(p.cells.size());
+    std::vector<std::uint32_t> bySize(p.cells.size());
+    std::uint32_t count = 0;
+    CellMeasurer measurer(p);
+    const double tolerance = kCongruenceTolerance * extentOf(p);
+    for (std::uint32_t c = 0; c < p.cells.size(); ++c) {
+        const Measures measures = measurer.measure(c);
+        bySize[c] = sizes.numberOf({measures.vertices, static_cast<std::uint32_t>(p.cells[c].size())});
+        if (count > kMaxCellTypes) continue;
+        std::vector<std::uint32_t> sides{measures.vertices};
+        for (const std::uint32_t f : p.cells[c]) sides.push_back(static_cast<std::uint32_t>(p.faces[f].size()));
+        std::sort(sides.begin() + 1, sides.end());
+        auto& alike = seen[polygons.numberOf(sides)];
+        const auto values = measures.values();
+        const auto same = std::find_if(alike.begin(), alike.end(), [&](const Seen& s) {
+            return std::equal(values.begin(), values.end(), s.values.begin(),
+                              [&](double a, double b) { return std::abs(a - b) <= tolerance; });
+        });
+        types[c] = same == alike.end() ? count++ : same->type;
+        if (same == alike.end()) alike.push_back({types[c], values});
+    }
+    if (count <= kMaxCellTypes) return types;
+    if (sizes.size() <= kMaxCellTypes) return bySize;
+    return std::vector<std::uint32_t>(p.cells.size(), 0);
+}
+
+std::vector<std::uint32_t> cellTypesByNeighbors(const Polytope& p, std::vector<std::uint32_t> types) {
+    for (std::size_t count = 0;;) {
+        Numbering<std::vector<std::uint32_t>> surroundings;
+        std::vector<std::uint32_t> finer(types.size());
+        for (std::uint32_t c = 0; c < p.cells.size(); ++c) {
+            std::vector<std::uint32_t> key{types[c]};
+            for (const std::uint32_t f : p.cells[c]) {
+                const auto& [a, b] = p.faceCells[f];
+                key.push_back(types[a == c ? b : a]);
+            }
+            std::sort(key.begin() + 1, key.end());
+            finer[c] = surroundings.numberOf(key);
+        }
+        if (surroundings.size() == count) return types;
+        count = surroundings.size();
+        types = std::move(finer);
+    }
+}
+
+void numberCellTypes(Polytope& p, const std::vector<std::uint32_t>& labels) {
+    struct Group {
+        std::uint32_t first, cells, number;
+    };
+    std::map<std::uint32_t, Group> groups;
+    for (std::uint32_t c = 0; c < labels.size(); ++c)
+        ++groups.try_emplace(labels[c], Group{c, 0, 0}).first->second.cells;
+    std::vector<Group*> order;
+    for (auto& [ignored, group] : groups) order.push_back(&group);
+    const auto rank = [&](const Group* group) {
+        return std::tuple(group->cells, -static_cast<std::int64_t>(p.cells[group->first].size()), group->first);
+    };
+    std::sort(order.begin(), order.end(), [&](const Group* a, const Group* b) { return rank(a) < rank(b); });
+    p.cellTypes.clear();
+    for (Group* group : order) {
+        group->number = static_cast<std::uint32_t>(p.cellTypes.size());
+        p.cellTypes.push_back({nameOfCell(p, group->first), group->cells});
+    }
+    p.typeOfCell.resize(labels.size());
+    for (std::uint32_t c = 0; c < labels.size(); ++c) p.typeOfCell[c] = groups.at(labels[c]).number;
+}
+
+std::string nameOfCell(const Polytope& p, std::uint32_t cell) {
+    const Measures measures = CellMeasurer(p).measure(cell);
+    const auto faces = p.cells[cell];
+    if (faces.size() == 4) return "tetrahedron";
+    if (measures.edges.areEqual() && measures.radii.areEqual()) {
+        Shape shape;
+        shape.vertices = measures.vertices;
+        shape.circumradius = 2 * measures.radii.rootMeanSquare() / measures.edges.rootMeanSquare();
+        for (const std::uint32_t f : faces) ++shape.faces[polygonOf(p, p.faces[f])];
+        if (std::string name = nameOf(shape, kRegularityTolerance); !name.empty()) return name;
+    }
+    return "cell of " + std::to_string(faces.size()) + " faces";
+}
+
+}  // namespace oval4d::polytopes

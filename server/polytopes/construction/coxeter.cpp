@@ -1,0 +1,244 @@
+#include "polytopes/construction/coxeter.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "geometry/point_index.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+constexpr double kPhi = std::numbers::phi;
+
+// A linear diagram {p, q, r} with mirrors in a chosen position.
+struct PlacedFamily {
+    std::array<Branch, 3> branches;
+    Mirrors mirrors;
+};
+
+Mirrors normalized(Mirrors mirrors) {
+    for (auto& m : mirrors) m = glm::normalize(m);
+    return mirrors;
+}
+
+const std::array<PlacedFamily, 4>& placedFamilies() {
+    static const std::array<PlacedFamily, 4> kPlaced = [] {
+        // The 5-cell of Kageyama's paper; mirror i swaps its vertices i and i + 1.
+        const double y = 1 / std::sqrt(3.0);
+        const double z = -1 / std::sqrt(6.0);
+        const double w = -1 / std::sqrt(10.0);
+        const std::array<glm::dvec4, 5> simplex{
+            {{-1, -y, z, w}, {1, -y, z, w}, {0, 2 * y, z, w}, {0, 0, std::sqrt(1.5), w}, {0, 0, 0, -4 * w}}};
+        Mirrors a4;
+        for (std::size_t i = 0; i < 4; ++i) a4[i] = simplex[i] - simplex[i + 1];
+        const Branch three{3, 1};
+        const Branch four{4, 1};
+        const Branch five{5, 1};
+        return std::array<PlacedFamily, 4>{{
+            {{three, three, three}, normalized(a4)},
+            {{four, three, three}, normalized({{{0, 0, 0, 1}, {0, 0, 1, -1}, {0, 1, -1, 0}, {1, -1, 0, 0}}})},
+            {{three, four, three}, normalized({{{1, -1, -1, -1}, {0, 0, 0, 1}, {0, 0, 1, -1}, {0, 1, -1, 0}}})},
+            {{five, three, three},
+             normalized({{{1, 0, 0, 0}, {-kPhi, 1, -1 / kPhi, 0}, {0, -1, 0, 0}, {0, 1, kPhi, -1 / kPhi}}})},
+        }};
+    }();
+    return kPlaced;
+}
+
+// Normals with the diagram's angles between them: the rows of the Cholesky factor of their Gram matrix.
+Mirrors placedByAngles(const Diagram& diagram) {
+    Mirrors mirrors{};
+    for (int i = 0; i < kMirrors; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            const Branch b = diagram.branches[i][j];
+            double rest = i == j ? 1 : -std::cos(std::numbers::pi * b.denominator / b.numerator);
+            for (int k = 0; k < j; ++k) rest -= mirrors[i][k] * mirrors[j][k];
+            if (i != j) {
+                mirrors[i][j] = rest / mirrors[j][j];
+            } else if (rest > 1e-9) {
+                mirrors[i][i] = std::sqrt(rest);
+            } else {
+                throw std::invalid_argument(
+                    "the mirrors of this diagram do not generate a finite group in four dimensions");
+            }
+        }
+    }
+    return mirrors;
+}
+
+// The action of the mirrors on the numbered members of an orbit: entry 4 · member + mirror is the member's image.
+using Images = std::vector<std::uint32_t>;
+
+struct Orbit {
+    std::vector<glm::dvec4> points;
+    Images images;
+};
+
+Orbit orbitOf(const glm::dvec4& seed, const Mirrors& mirrors, std::size_t most) {
+    Orbit orbit;
+    geometry::PointIndex index(1e-5 * glm::length(seed));
+    index.add(seed, orbit.points);
+    for (std::size_t i = 0; i < orbit.points.size(); ++i) {
+        for (const auto& mirror : mirrors) {
+            const glm::dvec4 p = orbit.points[i];
+            orbit.images.push_back(index.add(p - 2 * glm::dot(p, mirror) * mirror, orbit.points).first);
+        }
+        if (orbit.points.size() > most)
+            throw std::invalid_argument("the polytope has more than " + std::to_string(most) + " vertices");
+    }
+    return orbit;
+}
+
+// Orbits of sets of elements under the mirrors. Each set is stored as a list; an image keeps the order of the list.
+class SetOrbit {
+  public:
+    geometry::JaggedArray lists;
+    Images images;
+
+    /// Adds the orbit of `seed` and returns the number of the seed, or nothing if the seed lies in an orbit already.
+    std::optional<std::uint32_t> addOrbit(const std::vector<std::uint32_t>& seed, const Images& memberImages) {
+        const auto first = static_cast<std::uint32_t>(lists.size());
+        if (add(seed) != first) return std::nullopt;
+        std::vector<std::uint32_t> moved;
+        for (std::size_t i = images.size() / kMirrors; i < lists.size(); ++i) {
+            for (std::size_t mirror = 0; mirror < kMirrors; ++mirror) {
+                moved.assign(lists[i].begin(), lists[i].end());
+                for (auto& member : moved) member = memberImages[kMirrors * member + mirror];
+                images.push_back(add(moved));
+            }
+        }
+        return first;
+    }
+
+  private:
+    std::uint32_t add(const std::vector<std::uint32_t>& list) {
+        std::vector<std::uint32_t> sorted(list);
+        std::sort(sorted.begin(), sorted.end());
+        std::uint64_t hash = sorted.size();
+        for (const auto member : sorted) hash = (hash ^ member) * 0x100000001b3ULL ^ hash >> 31U;
+        auto& bucket = known_[hash];
+        std::vector<std::uint32_t> other;
+        for (const auto number : bucket) {
+            other.assign(lists[number].begin(), lists[number].end());
+            std::sort(other.begin(), other.end());
+            if (other == sorted) return number;
+        }
+        bucket.push_back(static_cast<std::uint32_t>(lists.size()));
+        lists.add(list);
+        return bucket.back();
+    }
+
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> known_;
+};
+
+// The vertex loop of the polygon that mirrors a and b generate from the generating vertex p: p and a·p, rotated
+// repeatedly by ab.
+std::vector<std::uint32_t> polygon(const Images& images, std::uint32_t a, std::uint32_t b) {
+    const auto image = [&](std::uint32_t vertex, std::uint32_t mirror) { return images[kMirrors * vertex + mirror]; };
+    if (image(0, a) == 0) std::swap(a, b);
+    const std::uint32_t beside = image(0, a);
+    const bool bothRinged = image(0, b) != 0;
+    std::vector<std::uint32_t> loop;
+    std::uint32_t first = 0;
+    std::uint32_t second = beside;
+    do {
+        loop.push_back(first);
+        if (bothRinged) loop.push_back(second);
+        first = image(image(first, b), a);
+        second = image(image(second, b), a);
+    } while (first != 0);
+    return loop;
+}
+
+// The 2-faces of the cell generated by the mirrors of `set`: the orbit of its 2-faces at the generating vertex.
+std::vector<std::uint32_t> cellFaces(MirrorSet set, const std::vector<std::uint32_t>& seeds, const Images& faceImages) {
+    std::vector<std::uint32_t> faces(seeds);
+    std::unordered_set<std::uint32_t> known(seeds.begin(), seeds.end());
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        for (int mirror = 0; mirror < kMirrors; ++mirror) {
+            if (!holds(set, mirror)) continue;
+            const auto image = faceImages[kMirrors * faces[i] + mirror];
+            if (known.insert(image).second) faces.push_back(image);
+        }
+    }
+    return faces;
+}
+
+// The least image of the set under the symmetries of the diagram.
+MirrorSet leastImage(MirrorSet set, const std::vector<Permutation>& symmetries) {
+    MirrorSet least = set;
+    for (const Permutation& from : symmetries) {
+        MirrorSet image = 0;
+        for (int i = 0; i < kMirrors; ++i) image |= holds(set, from.at(i)) ? 1U << static_cast<unsigned>(i) : 0U;
+        least = std::min(least, image);
+    }
+    return least;
+}
+
+}  // namespace
+
+Mirrors mirrorsOf(const Diagram& diagram) {
+    for (const auto& family : placedFamilies()) {
+        const auto& [p, q, r] = family.branches;
+        if (Diagram::linear(p, q, r, diagram.ringed).branches == diagram.branches) return family.mirrors;
+        if (Diagram::linear(r, q, p, diagram.ringed).branches == diagram.branches) {
+            Mirrors reversed = family.mirrors;
+            std::reverse(reversed.begin(), reversed.end());
+            return reversed;
+        }
+    }
+    return placedByAngles(diagram);
+}
+
+glm::dvec4 generatingVertex(const Mirrors& mirrors, const std::array<bool, 4>& ringed) {
+    const glm::dmat4 rows = glm::transpose(glm::dmat4(mirrors[0], mirrors[1], mirrors[2], mirrors[3]));
+    glm::dvec4 distances;
+    for (int i = 0; i < kMirrors; ++i) distances[i] = ringed.at(i) ? 1 : 0;
+    return glm::inverse(rows) * distances;
+}
+
+Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirrors, std::size_t maxVertices) {
+    if (!generatesElement(diagram, 0xfU))
+        throw std::invalid_argument("every connected part of the diagram needs a ringed node");
+    Orbit vertices = orbitOf(generatingVertex(mirrors, diagram.ringed), mirrors, maxVertices);
+    SetOrbit faces;
+    std::array<std::uint32_t, 16> faceOfPair{};  // by pair of mirrors, a bit set: its 2-face at the generating vertex
+    for (unsigned a = 0; a < kMirrors; ++a) {
+        for (unsigned b = a + 1; b < kMirrors; ++b) {
+            const MirrorSet pair = 1U << a | 1U << b;
+            if (!generatesElement(diagram, pair)) continue;
+            const auto face = faces.addOrbit(polygon(vertices.images, a, b), vertices.images);
+            if (!face) throw std::invalid_argument("2-faces of " + name + " coincide");
+            faceOfPair.at(pair) = *face;
+        }
+    }
+    SetOrbit cells;
+    std::vector<std::uint32_t> cellTypes;
+    const auto symmetries = symmetriesOf(diagram);
+    for (int left = 0; left < kMirrors; ++left) {
+        const MirrorSet three = 0xfU & ~(1U << static_cast<unsigned>(left));
+        if (!generatesElement(diagram, three)) continue;
+        std::vector<std::uint32_t> seeds;
+        for (MirrorSet pair = 3; pair < 16; ++pair) {
+            if ((pair & ~three) == 0 && std::popcount(pair) == 2 && generatesElement(diagram, pair))
+                seeds.push_back(faceOfPair.at(pair));
+        }
+        cells.addOrbit(cellFaces(three, seeds, faces.images), faces.images);
+        cellTypes.resize(cells.lists.size(), leastImage(three, symmetries));
+    }
+    return makePolytope(std::move(name), std::move(vertices.points), std::move(faces.lists), std::move(cells.lists),
+                        std::move(cellTypes));
+}
+
+}  // namespace oval4d::polytopes

@@ -1,0 +1,168 @@
+#include "polytopes/construction/design.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "polytopes/construction/coxeter.hpp"
+#include "polytopes/construction/diagram_text.hpp"
+#include "polytopes/construction/diminished.hpp"
+#include "polytopes/construction/snub.hpp"
+#include "polytopes/construction/uniform.hpp"
+#include "polytopes/polytope.hpp"
+#include "text/words.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+constexpr Branch kSquare{4, 1};
+
+Diagram known(std::string_view symbol) { return std::get<Diagram>(parseDiagram(symbol)); }
+
+/// Wythoff's construction from a Coxeter–Dynkin diagram.
+class Wythoffian : public Recipe {
+  public:
+    explicit Wythoffian(const Diagram& diagram) : diagram_(diagram) {}
+
+    ElementCounts counts() const override { return elementCounts(diagram_); }
+    std::uint64_t symmetryOrder() const override { return groupOrder(diagram_) * symmetriesOf(diagram_).size(); }
+    std::string symbol() const override { return symbolOf(diagram_); }
+    std::string schlaefli() const override { return schlaefliOf(diagram_); }
+
+    Polytope build(const std::string& name) const override {
+        Mirrors mirrors = mirrorsOf(diagram_);
+        // The usual coordinates of the 120-cell, the even permutations, are those of the mirror image.
+        if (name == "120-cell") {
+            for (auto& mirror : mirrors) std::swap(mirror.x, mirror.y);
+        }
+        Polytope p = wythoff(name, diagram_, mirrors, counts().vertices);
+        if (ElementCounts{p.vertices.size(), p.edges.size(), p.faces.size(), p.cells.size()} != counts())
+            throw std::invalid_argument("elements of " + name + " coincide");
+        return p;
+    }
+
+  private:
+    Diagram diagram_;
+};
+
+/// The prism over the snub of {p, q}; for p = n and q = 2, the prism over the n-antiprism.
+class SnubPrism : public Recipe {
+  public:
+    SnubPrism(Branch p, Branch q) : p_(p), q_(q) {}
+
+    ElementCounts counts() const override {
+        const std::uint64_t vertices = rotations();
+        std::uint64_t edges = vertices / 2;  // between neighboring triangles
+        std::uint64_t faces = vertices;      // the triangles
+        for (const Branch b : {p_, q_}) {
+            edges += b.numerator == 2 ? vertices / 2 : vertices;
+            faces += b.numerator == 2 ? 0 : vertices / static_cast<std::uint64_t>(b.numerator);
+        }
+        return {2 * vertices, 2 * edges + vertices, 2 * faces + edges, faces + 2};
+    }
+    // Twice the number of rotations of the base; for an antiprism, four times.
+    std::uint64_t symmetryOrder() const override { return rotations() * (q_.numerator == 2 ? 4 : 2); }
+    std::string symbol() const override {
+        // The chain of mirrors of an antiprism begins with the right angle (branch 2).
+        const bool antiprism = q_.numerator == 2;
+        return "s" + textOf(antiprism ? q_ : p_) + "s" + textOf(antiprism ? p_ : q_) + "s x";
+    }
+    std::string schlaefli() const override {
+        return q_.numerator == 2 ? "s{2," + std::to_string(2 * p_.numerator) + "}×{}"
+                                 : "sr{" + textOf(p_) + "," + textOf(q_) + "}×{}";
+    }
+    Polytope build(const std::string& name) const override { return prismOver(name, snubOf(p_, q_)); }
+
+  private:
+    // The number of rotations of the base. The snub polyhedron has as many vertices.
+    std::uint64_t rotations() const { return groupOrder(Diagram::linear(p_, q_, {}, {true, true, true, true})) / 4; }
+
+    Branch p_, q_;
+};
+
+std::shared_ptr<const Recipe> wythoffian(const Diagram& diagram) { return std::make_shared<Wythoffian>(diagram); }
+
+// All designs with an individual name, by canonical diagram; a design has an entry for each of its diagrams.
+const std::map<Diagram, Design>& namedDesigns() {
+    static const std::map<Diagram, Design> kDesigns = [] {
+        std::map<Diagram, Design> designs;
+        for (const UniformPolychoron& row : uniformPolychora()) {
+            const Design design{std::string(row.name), wythoffian(known(row.symbol))};
+            designs.emplace(canonical(known(row.symbol)), design);
+            for (const std::string_view other : text::listOf(row.others))
+                designs.emplace(canonical(known(other)), design);
+        }
+        for (const NamedPolyhedron& base : namedPolyhedra()) {
+            if (base.symbol.starts_with('s')) continue;
+            const Diagram diagram = known(std::string(base.symbol) + " x");
+            designs.emplace(canonical(diagram),
+                            base.name == "cube" ? designs.at(canonical(known("x4o3o3o")))
+                                                : Design{std::string(base.adjective) + " prism", wythoffian(diagram)});
+        }
+        // The tetrahedral group has index 2 in the octahedral group.
+        for (const auto& [half, whole] :
+             {std::pair{"o3x3o x", "o4o3x x"}, {"x3o3x x", "o4x3o x"}, {"x3x3x x", "o4x3x x"}})
+            designs.emplace(canonical(known(half)), designs.at(canonical(known(whole))));
+        return designs;
+    }();
+    return kDesigns;
+}
+
+}  // namespace
+
+Design designOf(const Diagram& diagram) {
+    const auto& named = namedDesigns();
+    if (const auto found = named.find(canonical(diagram)); found != named.end()) return found->second;
+    // If every connected component has at most two mirrors, the polytope is a duoprism; two single mirrors generate a
+    // square.
+    std::vector<Branch> polygons;
+    int single = 0;
+    for (const MirrorSet component : componentsOf(diagram)) {
+        if (std::popcount(component) > 2) return {symbolOf(diagram), wythoffian(diagram)};
+        if (std::popcount(component) == 1) {
+            if (++single % 2 == 0) polygons.push_back(kSquare);
+            continue;
+        }
+        const int a = std::countr_zero(component);
+        const int b = std::bit_width(component) - 1;
+        polygons.push_back(diagram.branches[a][b]);
+        if (diagram.ringed.at(a) && diagram.ringed.at(b)) polygons.back().numerator *= 2;
+    }
+    return duoprism(polygons.at(0), polygons.at(1));
+}
+
+Design duoprism(Branch p, Branch q) {
+    if (p == kSquare && q == kSquare) return designOf(known("x4o3o3o"));
+    if (q < p) std::swap(p, q);
+    return {textOf(p) + "," + textOf(q) + "-duoprism",
+            wythoffian(Diagram::linear(p, {}, q, {true, false, true, false}))};
+}
+
+Design antiprismPrism(int sides) {
+    if (sides == 3) return designOf(known("o4o3x x"));
+    return {adjectiveOf({sides, 1}) + " antiprism prism", std::make_shared<SnubPrism>(Branch{sides, 1}, Branch{2, 1})};
+}
+
+Design prismOf(const NamedPolyhedron& base) {
+    if (!base.symbol.starts_with('s')) return designOf(known(std::string(base.symbol) + " x"));
+    const auto digit = [&](std::size_t i) { return Branch{base.symbol[i] - '0', 1}; };
+    return {std::string(base.adjective) + " prism", std::make_shared<SnubPrism>(digit(1), digit(3))};
+}
+
+ElementCounts elementCounts(const Design& design) { return design.recipe->counts(); }
+std::uint64_t symmetryOrder(const Design& design) { return design.recipe->symmetryOrder(); }
+std::string symbolOf(const Design& design) { return design.recipe->symbol(); }
+std::string schlaefliOf(const Design& design) { return design.recipe->schlaefli(); }
+
+Polytope build(const Design& design) {
+    Polytope polytope = design.recipe->build(design.name);
+    polytope.constructed = true;
+    return polytope;
+}
+
+}  // namespace oval4d::polytopes

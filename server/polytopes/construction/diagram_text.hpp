@@ -1,0 +1,47 @@
+#pragma once
+// The notations of Coxeter–Dynkin diagrams.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "polytopes/construction/diagram.hpp"
+
+namespace oval4d::polytopes {
+
+/// The reason why a text names no polytope.
+struct NameError {
+    enum class Reason : std::uint8_t {
+        unknown,     ///< neither a known name nor a known notation; `message` is empty
+        impossible,  ///< a known notation that describes no polytope, such as "2,5-duoprism"
+        too_large,   ///< the polytope has more vertices than allowed
+    };
+    Reason reason = Reason::unknown;
+    std::string message;  ///< says what is wrong and what is allowed
+};
+
+/// Parses linear notation (after Krieger and Klitzing): nodes x (ringed) and o with branch numbers between them, as in
+/// "x5o3o3x" and "x5/2o5o3o". A blank separates connected components, "x5o x7o"; "*b" continues from the second node,
+/// "x3o3o *b3o". Returns an error unless the group is finite and every component has a ringed node.
+std::variant<Diagram, NameError> parseDiagram(std::string_view text);
+
+/// Parses Schläfli symbols of regular and truncated polytopes and of their products: "{3,3,5}", "t0,1{4,3,3}",
+/// "r{3,3,3}", "{5}×{7}", "t{4,3}×{}"; "x" may replace "×". Returns the same errors as parseDiagram.
+std::variant<Diagram, NameError> parseSchlaefli(std::string_view text);
+
+/// Returns the diagram in linear notation, in the order of its mirrors.
+std::string symbolOf(const Diagram& diagram);
+
+/// Returns the Schläfli symbol, such as "{3,3,5}", "t0,1{4,3,3}", "t0,1{4,3}×{}" or "{5}×{7}"; empty for a diagram that
+/// is not a union of chains.
+std::string schlaefliOf(const Diagram& diagram);
+
+/// Returns "5" or "5/2".
+std::string textOf(Branch branch);
+
+/// Parses a branch such as "5" or "5/2": an integer from 2 to 1,000,000, or a fraction in lowest terms greater than 2.
+std::optional<Branch> parseBranch(std::string_view text);
+
+}  // namespace oval4d::polytopes

@@ -1,0 +1,207 @@
+#include "polytopes/construction/diminished.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "polytopes/cell_types.hpp"
+#include "polytopes/construction/coxeter.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+constexpr std::uint32_t kRemoved = 0xffffffffU;
+
+Polytope sixHundredCell() {
+    const Diagram diagram = Diagram::linear({3, 1}, {3, 1}, {5, 1}, {true, false, false, false});
+    return wythoff("600-cell", diagram, mirrorsOf(diagram));
+}
+
+// The vertex loop formed by a cycle of edges given in any order.
+std::vector<std::uint32_t> loopOf(const std::vector<std::array<std::uint32_t, 2>>& edges) {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> beside;
+    for (const auto& [a, b] : edges) {
+        beside[a].push_back(b);
+        beside[b].push_back(a);
+    }
+    std::vector<std::uint32_t> loop{edges[0][0]};
+    std::uint32_t next = edges[0][1];
+    while (next != loop[0]) {
+        const auto& both = beside.at(next);
+        const std::uint32_t on = both[both[0] == loop.back() ? 1 : 0];
+        loop.push_back(next);
+        next = on;
+    }
+    return loop;
+}
+
+// Diminishes a polytope of triangles and tetrahedra: each removed vertex is replaced by a cell, the convex hull of its
+// remaining neighbors. The cells that replace two neighboring vertices share a polygon whose corners are the common
+// neighbors of the two.
+Polytope diminished(std::string name, const Polytope& whole, const std::vector<bool>& removed) {
+    std::vector<glm::dvec4> vertices;
+    std::vector<std::uint32_t> newVertex(whole.vertices.size(), kRemoved);
+    for (std::size_t v = 0; v < whole.vertices.size(); ++v) {
+        if (removed[v]) continue;
+        newVertex[v] = static_cast<std::uint32_t>(vertices.size());
+        vertices.push_back(whole.vertices[v]);
+    }
+    // A tetrahedron with one removed vertex contributes a triangle to the cell that replaces the vertex; one with two
+    // removed vertices contributes an edge to the polygon between the two cells.
+    const auto partition = [&](const std::set<std::uint32_t>& corners) {
+        std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> lostAndKept;
+        for (const std::uint32_t v : corners) (removed[v] ? lostAndKept.first : lostAndKept.second).push_back(v);
+        return lostAndKept;
+    };
+    geometry::JaggedArray faces;
+    std::vector<std::uint32_t> newFace(whole.faces.size(), kRemoved);
+    for (std::size_t f = 0; f < whole.faces.size(); ++f) {
+        std::vector<std::uint32_t> loop;
+        for (const std::uint32_t v : whole.faces[f]) loop.push_back(newVertex[v]);
+        if (std::count(loop.begin(), loop.end(), kRemoved) != 0) continue;
+        newFace[f] = static_cast<std::uint32_t>(faces.size());
+        faces.add(loop);
+    }
+    geometry::JaggedArray cells;
+    std::map<std::uint32_t, std::vector<std::uint32_t>> cellOfLost;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::array<std::uint32_t, 2>>> between;
+    for (std::size_t c = 0; c < whole.cells.size(); ++c) {
+        std::set<std::uint32_t> corners;
+        std::vector<std::uint32_t> kept;
+        for (const std::uint32_t f : whole.cells[c]) {
+            corners.insert(whole.faces[f].begin(), whole.faces[f].end());
+            if (newFace[f] != kRemoved) kept.push_back(newFace[f]);
+        }
+        const auto [lost, remaining] = partition(corners);
+        if (lost.empty()) cells.add(kept);
+        if (lost.size() == 1) cellOfLost[lost[0]].push_back(kept.at(0));
+        if (lost.size() == 2) between[{lost[0], lost[1]}].push_back({newVertex[remaining[0]], newVertex[remaining[1]]});
+    }
+    for (const auto& [pair, edges] : between) {
+        const auto number = static_cast<std::uint32_t>(faces.size());
+        faces.add(loopOf(edges));
+        cellOfLost[pair.first].push_back(number);
+        cellOfLost[pair.second].push_back(number);
+    }
+    for (const auto& [ignored, own] : cellOfLost) cells.add(own);
+    Polytope p = makePolytope(std::move(name), std::move(vertices), std::move(faces), std::move(cells));
+    numberCellTypes(p, cellTypesByNeighbors(p, p.typeOfCell));
+    return p;
+}
+
+Polytope buildSnub24Cell(std::string name) {
+    // In the usual coordinates, the permutations of (±2, 0, 0, 0) and all (±1, ±1, ±1, ±1) are the vertices of a
+    // 24-cell. They are exactly the vertices without irrational coordinates.
+    const Polytope whole = sixHundredCell();
+    const double unit = whole.circumradius / 2;
+    std::vector<bool> removed;
+    for (const glm::dvec4& v : whole.vertices) {
+        bool rational = true;
+        for (int i = 0; i < 4; ++i) rational = rational && std::abs(v[i] / unit - std::round(v[i] / unit)) < 1e-6;
+        removed.push_back(rational);
+    }
+    return diminished(std::move(name), whole, removed);
+}
+
+Polytope buildGrandAntiprism(std::string name) {
+    // Two neighboring vertices span the plane of a decagon of edges; the other decagon lies in the orthogonal plane.
+    const Polytope whole = sixHundredCell();
+    const glm::dvec4 u = glm::normalize(whole.vertices[whole.edges[0][0]]);
+    glm::dvec4 v = whole.vertices[whole.edges[0][1]];
+    v = glm::normalize(v - u * glm::dot(u, v));
+    std::vector<bool> removed;
+    for (const glm::dvec4& x : whole.vertices) {
+        const double part = std::hypot(glm::dot(x, u), glm::dot(x, v)) / whole.circumradius;
+        removed.push_back(part < 1e-6 || part > 1 - 1e-6);
+    }
+    return diminished(std::move(name), whole, removed);
+}
+
+/// A diminished 600-cell. Its element counts follow from the counts of the removed elements.
+class Diminished : public Recipe {
+  public:
+    using Builder = Polytope (*)(std::string name);
+
+    Diminished(ElementCounts counts, std::uint64_t symmetryOrder, std::string symbol, std::string schlaefli,
+               Builder builder)
+        : counts_(counts),
+          symmetryOrder_(symmetryOrder),
+          symbol_(std::move(symbol)),
+          schlaefli_(std::move(schlaefli)),
+          builder_(builder) {}
+
+    ElementCounts counts() const override { return counts_; }
+    std::uint64_t symmetryOrder() const override { return symmetryOrder_; }
+    std::string symbol() const override { return symbol_; }
+    std::string schlaefli() const override { return schlaefli_; }
+    Polytope build(const std::string& name) const override { return builder_(name); }
+
+  private:
+    ElementCounts counts_;
+    std::uint64_t symmetryOrder_;
+    std::string symbol_, schlaefli_;
+    Builder builder_;
+};
+
+}  // namespace
+
+// Cells: 600 − 24 · 20 tetrahedra and 24 icosahedra.
+Design snub24Cell() {
+    return {"snub 24-cell", std::make_shared<Diminished>(ElementCounts{96, 432, 480, 144}, 576, "s3s4o3o", "s{3,4,3}",
+                                                         buildSnub24Cell)};
+}
+
+// Cells: 20 antiprisms and 300 tetrahedra.
+Design grandAntiprism() {
+    return {"grand antiprism",
+            std::make_shared<Diminished>(ElementCounts{100, 500, 720, 320}, 400, "", "", buildGrandAntiprism)};
+}
+
+Polytope prismOver(std::string name, const SnubPolyhedron& base) {
+    const auto n = static_cast<std::uint32_t>(base.vertices.size());
+    const auto m = static_cast<std::uint32_t>(base.faces.size());
+    std::vector<glm::dvec4> vertices;
+    for (const double w : {-1.0, 1.0}) {
+        for (const glm::dvec3& v : base.vertices) vertices.emplace_back(v, w);
+    }
+    geometry::JaggedArray faces;  // the faces of the two bases, then a square for each edge of the base
+    for (const std::uint32_t shift : {0U, n}) {
+        for (std::size_t f = 0; f < m; ++f) {
+            std::vector<std::uint32_t> loop(base.faces[f].begin(), base.faces[f].end());
+            for (std::uint32_t& v : loop) v += shift;
+            faces.add(loop);
+        }
+    }
+    geometry::JaggedArray cells;
+    std::vector<std::uint32_t> bottom(m);
+    std::vector<std::uint32_t> cellTypes;
+    for (const std::uint32_t shift : {0U, m}) {
+        for (std::uint32_t f = 0; f < m; ++f) bottom[f] = f + shift;
+        cells.add(bottom);
+        cellTypes.push_back(0);
+    }
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> squares;
+    for (std::uint32_t f = 0; f < m; ++f) {
+        const auto loop = base.faces[f];
+        std::vector<std::uint32_t> own{f, f + m};
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const auto [a, b] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
+            const auto [square, fresh] = squares.try_emplace({a, b}, static_cast<std::uint32_t>(faces.size()));
+            if (fresh) faces.add(std::array{a, b, b + n, a + n});
+            own.push_back(square->second);
+        }
+        cells.add(own);
+        cellTypes.push_back(1 + base.orbits[f]);
+    }
+    return makePolytope(std::move(name), std::move(vertices), std::move(faces), std::move(cells), std::move(cellTypes));
+}
+
+}  // namespace oval4d::polytopes

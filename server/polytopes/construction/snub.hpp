@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "geometry/jagged_array.hpp"
+#include "polytopes/construction/diagram.hpp"
+
+namespace oval4d::polytopes {
+
+/// A polyhedron of edge length 2 whose vertices are an orbit of a rotation group.
+struct SnubPolyhedron {
+    std::vector<glm::dvec3> vertices;
+    geometry::JaggedArray faces;
+    std::vector<std::uint32_t> orbits;  ///< the number of each face's orbit under the group
+};
+
+/// Builds the snub of {p, q}: the snub cube for {4, 3}, the snub dodecahedron for {5, 3}, the n-antiprism for {n, 2}.
+/// The vertices are the images of one point under the rotations of {p, q}; the faces are the p-gons and q-gons about
+/// the axes and the triangles between them (Coxeter, Regular Polytopes, §8.6). p and q must be integers with
+/// 1/p + 1/q > 1/2.
+SnubPolyhedron snubOf(Branch p, Branch q);
+
+}  // namespace oval4d::polytopes

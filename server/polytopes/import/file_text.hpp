@@ -1,0 +1,60 @@
+#pragma once
+// Tokenizer for text files of numbers.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "polytopes/import/import.hpp"
+
+namespace oval4d::polytopes {
+
+/// The largest absolute value of a coordinate.
+inline constexpr double kMaxCoordinate = 1e14;
+
+/// Throws an ImportError for line `line`; 0 if the error is not in a single line.
+[[noreturn]] void refuse(std::size_t line, std::string reason);
+
+/// Splits a text into words separated by blanks. A comment extends from # to the end of its line. With `commas`, commas
+/// and semicolons count as blanks.
+class FileText {
+  public:
+    explicit FileText(std::string_view text, bool commas = false);
+
+    /// The line of the word read last, counted from 1.
+    std::size_t line() const { return line_; }
+
+    /// Returns the next word, on this or a later line; empty at the end of the text.
+    std::string_view next();
+
+    /// Returns the next word on the current line; empty at the end of the line.
+    std::string_view nextOnLine();
+
+    /// Skips the rest of the current line.
+    void skipLine();
+
+  private:
+    // CR LF is one line end, since CR is a blank. A lone CR, the line end of classic Mac OS, is not supported.
+    static bool isBreak(char c) { return c == '\n'; }
+    bool isBlank(char c) const;
+    std::string_view word();
+
+    std::string_view text_;
+    bool commas_;
+    std::size_t at_ = 0, line_ = 1;
+};
+
+/// Returns the word in quotes for a message: truncated to 24 bytes, non-ASCII and control characters replaced by ?.
+std::string inQuotes(std::string_view word);
+
+/// Parses a nonnegative integer. Throws an ImportError that says that the word is not `what`: "a number of vertices".
+std::uint32_t parseCount(std::string_view word, std::size_t line, const std::string& what);
+
+/// Parses a coordinate into `value`. Returns false unless the word is a number within ±kMaxCoordinate.
+bool tryParseCoordinate(std::string_view word, double& value);
+
+/// Parses a coordinate. Throws an ImportError unless the word is a number within ±kMaxCoordinate.
+double parseCoordinate(std::string_view word, std::size_t line);
+
+}  // namespace oval4d::polytopes

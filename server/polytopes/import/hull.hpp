@@ -1,0 +1,26 @@
+#pragma once
+// Convex hulls of points in four dimensions.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "polytopes/polytope.hpp"
+
+namespace oval4d::polytopes {
+
+struct Hull {
+    std::vector<glm::dvec4> vertices;    ///< in the order of the points
+    geometry::JaggedArray faces, cells;  ///< in the form that makePolytope expects
+    std::size_t ambiguousRidges = 0;     ///< ridges whose two cells may, within the rounding, lie in one hyperplane
+};
+
+/// Computes the convex hull with Qhull. `rounding` is the maximum rounding error of a coordinate along each axis, 0 for
+/// exact coordinates: simplices whose hyperplanes agree within it are merged into one cell, and a point that lies
+/// outside the hull of the others by no more than it is not a vertex. Throws an ImportError if the points do not span
+/// four dimensions or if the hull has more than `maxCells` cells.
+Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, std::size_t maxCells);
+
+}  // namespace oval4d::polytopes

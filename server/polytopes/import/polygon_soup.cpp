@@ -1,0 +1,83 @@
+#include "polytopes/import/polygon_soup.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "polytopes/import/file_text.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+constexpr double kFlat = 5e-3;  // relative to the size; allows for coordinates with three decimals
+constexpr double kThin = 1e-6;  // relative to the size: the minimum extent of a polytope in any direction
+
+// The deviation of the points from a flat of this dimension (2 or 3): their largest distance from the flat through
+// greedily chosen distant points.
+double deviation(std::vector<glm::dvec4> points, int dimension) {
+    if (points.empty()) return 0;  // a cell whose 2-faces were all removed; build() refuses it
+    const glm::dvec4 origin = points.front();
+    for (auto& p : points) p -= origin;
+    const auto shorter = [](const glm::dvec4& a, const glm::dvec4& b) { return glm::dot(a, a) < glm::dot(b, b); };
+    for (int i = 0; i < dimension; ++i) {
+        const glm::dvec4 longest = *std::max_element(points.begin(), points.end(), shorter);
+        const double length = glm::length(longest);
+        if (!(length > 0)) return 0;
+        for (auto& p : points) p -= longest / length * glm::dot(p, longest / length);
+    }
+    return glm::length(*std::max_element(points.begin(), points.end(), shorter));
+}
+
+std::string nameOf(const char* element, const PolygonSoup::Origin& origin) {
+    return std::string(element) + ' ' + std::to_string(origin.number) + ' ';
+}
+
+}  // namespace
+
+double sizeOf(std::span<const glm::dvec4> points) {
+    glm::dvec4 low(std::numeric_limits<double>::infinity());
+    glm::dvec4 high = -low;
+    for (const auto& p : points) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return points.empty() ? 0 : glm::length(high - low) / 2;
+}
+
+void checkFlat(const PolygonSoup& soup) {
+    const double size = sizeOf(soup.vertices);
+    if (soup.vertices.empty() || deviation(soup.vertices, 3) <= kThin * size)
+        refuse(0, "all vertices lie in one hyperplane");
+    std::vector<glm::dvec4> points;
+    for (std::size_t f = 0; f < soup.faces.size(); ++f) {
+        points.clear();
+        for (const std::uint32_t v : soup.faces[f]) points.push_back(soup.vertices[v]);
+        const auto& origin = soup.faceOrigins[f];
+        if (deviation(points, 2) > kFlat * size) refuse(origin.line, nameOf("2-face", origin) + "is not flat");
+    }
+    for (std::size_t c = 0; c < soup.cells.size(); ++c) {
+        points.clear();
+        for (const std::uint32_t f : soup.cells[c]) {
+            for (const std::uint32_t v : soup.faces[f]) points.push_back(soup.vertices[v]);
+        }
+        const auto& origin = soup.cellOrigins[c];
+        if (deviation(points, 3) > kFlat * size)
+            refuse(origin.line, nameOf("cell", origin) + "does not lie in a hyperplane");
+    }
+}
+
+Polytope build(PolygonSoup soup, std::string name) {
+    try {
+        return makePolytope(std::move(name), std::move(soup.vertices), std::move(soup.faces), std::move(soup.cells));
+    } catch (const InvalidPolytope& fault) {
+        const bool face = fault.part == InvalidPolytope::Part::face;
+        if (fault.part == InvalidPolytope::Part::whole) refuse(0, fault.detail);
+        const auto& origin = (face ? soup.faceOrigins : soup.cellOrigins)[fault.index];
+        refuse(origin.line, nameOf(face ? "2-face" : "cell", origin) + fault.detail);
+    }
+}
+
+}  // namespace oval4d::polytopes

@@ -1,0 +1,39 @@
+#pragma once
+// Polygon soup: the elements that a file lists, not yet checked to form a polytope.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+#include "polytopes/polytope.hpp"
+
+namespace oval4d::polytopes {
+
+/// Vertices, 2-faces and cells as read from a file, with their positions in the file.
+struct PolygonSoup {
+    /// The position of an element in the file.
+    struct Origin {
+        std::size_t line = 0;      ///< counted from 1
+        std::uint32_t number = 0;  ///< among the 2-faces or the cells of the file, counted from 0
+    };
+
+    std::vector<glm::dvec4> vertices;
+    geometry::JaggedArray faces, cells;  ///< vertex loops and lists of 2-faces, as in Polytope
+    std::vector<Origin> faceOrigins, cellOrigins;
+};
+
+/// Returns half the diagonal of the bounding box of the points, which the tolerances of the import are relative to.
+double sizeOf(std::span<const glm::dvec4> points);
+
+/// Throws an ImportError with the line of the element unless every 2-face is flat and every cell lies in a hyperplane,
+/// within 5/1000 of the size. Also throws one if all vertices lie in one hyperplane.
+void checkFlat(const PolygonSoup& soup);
+
+/// Calls makePolytope and converts InvalidPolytope to an ImportError with the line of the element.
+Polytope build(PolygonSoup soup, std::string name);
+
+}  // namespace oval4d::polytopes

@@ -1,0 +1,67 @@
+#include "polytopes/import/written_precision.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+namespace oval4d::polytopes {
+
+namespace {
+
+constexpr double kMaxExactUnits = 400;  // a size of at most this many units of the last digit means exact coordinates
+
+// The precision of a single number.
+struct Digits {
+    int significant = 0;  // number of digits from the first nonzero one to the last one written
+    int last = 0;         // the exponent of ten of the last digit written
+    bool whole = true;
+};
+
+Digits digitsOf(std::string_view word) {
+    Digits result;
+    bool decimals = false;
+    const std::size_t end = std::min(word.find_first_of("eE"), word.size());
+    for (const char c : word.substr(0, end)) {
+        if (c == '.') decimals = true;
+        if (c < '0' || c > '9') continue;
+        if (result.significant > 0 || c != '0') ++result.significant;
+        if (decimals) --result.last;
+    }
+    result.whole = !decimals && end == word.size();
+    if (end < word.size()) {
+        word.remove_prefix(end + 1);
+        if (word.starts_with('+')) word.remove_prefix(1);
+        int exponent = 0;
+        std::from_chars(word.data(), word.data() + word.size(), exponent);
+        result.last += exponent;
+    }
+    return result;
+}
+
+}  // namespace
+
+void WrittenPrecision::add(std::string_view word, int axis, double value) {
+    const Digits digits = digitsOf(word);
+    largest_[axis] = std::max(largest_[axis], std::abs(value));
+    whole_ = whole_ && digits.whole;
+    if (digits.significant == 0) return;  // zero gives no evidence
+    digits_ = std::max(digits_, digits.significant);
+    lastPlace_ = std::min(lastPlace_, digits.last);
+}
+
+glm::dvec4 WrittenPrecision::rounding(double size) const {
+    if (digits_ == 0) return glm::dvec4(0);
+    glm::dvec4 unit(0);
+    double least = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 4; ++axis) {
+        double place = lastPlace_;
+        if (largest_[axis] > 0) place = std::max(place, std::floor(std::log10(largest_[axis])) + 1 - digits_);
+        unit[axis] = std::pow(10.0, place);
+        least = std::min(least, unit[axis]);
+    }
+    return size <= kMaxExactUnits * least ? glm::dvec4(0) : unit / 2.0;
+}
+
+}  // namespace oval4d::polytopes

@@ -1,0 +1,320 @@
+#include "polytopes/polytope.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "polytopes/cell_types.hpp"
+#include "polytopes/convexity.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffU;
+
+using Part = InvalidPolytope::Part;
+
+[[noreturn]] void refuse(const std::string& what) { throw InvalidPolytope(Part::whole, 0, what); }
+
+std::string nameOf(Part part, std::size_t index) {
+    if (part == Part::whole) return {};
+    return (part == Part::face ? "2-face " : "cell ") + std::to_string(index) + ' ';
+}
+
+void findEdges(Polytope& p) {
+    std::unordered_map<std::uint64_t, std::uint32_t> known;
+    known.reserve(p.faces.items.size());
+    for (std::size_t f = 0; f < p.faces.size(); ++f) {
+        const auto loop = p.faces[f];
+        std::vector<std::uint32_t> edges;
+        edges.reserve(loop.size());
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const auto [a, b] = std::minmax(loop[i], loop[(i + 1) % loop.size()]);
+            if (a == b) throw InvalidPolytope(Part::face, f, "repeats vertex " + std::to_string(a));
+            const auto [at, fresh] =
+                known.try_emplace((std::uint64_t{a} << 32) | b, static_cast<std::uint32_t>(p.edges.size()));
+            if (fresh) p.edges.push_back({a, b});
+            edges.push_back(at->second);
+        }
+        p.faceEdges.add(edges);
+    }
+}
+
+// +1 if the vertex loop of the 2-face traverses its edge i from the smaller to the larger vertex, else −1.
+int directionOf(const Polytope& p, std::uint32_t face, std::size_t i) {
+    return p.edges[p.faceEdges[face][i]][0] == p.faces[face][i] ? 1 : -1;
+}
+
+// Orients the boundary coherently: assigns a sign to every incidence of a 2-face with a cell such that the vertex loops
+// of a cell, reversed where the sign is negative, traverse each edge of the cell once in each direction, and such that
+// a 2-face has opposite signs in its two cells. A slot is an index into cells.items, that is, one such incidence.
+class Orienter {
+  public:
+    explicit Orienter(Polytope& p) : p_(p), slotsOfFace_(p.faces.size(), {kNone, kNone}), done_(p.cells.size()) {
+        p_.cellSigns.assign(p_.cells.items.size(), 0);
+        cellOfSlot_.resize(p_.cells.items.size());
+        for (std::uint32_t c = 0; c < p_.cells.size(); ++c) {
+            for (std::uint32_t slot = p_.cells.begin[c]; slot < p_.cells.begin[c + 1]; ++slot) note(c, slot);
+        }
+        for (std::size_t f = 0; f < slotsOfFace_.size(); ++f) {
+            if (slotsOfFace_[f][1] == kNone) throw InvalidPolytope(Part::face, f, "does not lie in two cells");
+        }
+        for (std::uint32_t slot = 0; slot < p_.cellSigns.size(); ++slot) {
+            if (p_.cellSigns[slot] == 0) orientComponent(slot);
+        }
+        for (const auto& [one, other] : slotsOfFace_) {
+            const bool ordered = p_.cellSigns[one] < p_.cellSigns[other];
+            p_.faceCells.push_back({cellOfSlot_[ordered ? one : other], cellOfSlot_[ordered ? other : one]});
+        }
+    }
+
+  private:
+    // An edge of a 2-face of the current cell, with the direction (see directionOf) of the 2-face's loop along it.
+    struct Side {
+        std::uint32_t edge, slot;
+        int direction;
+    };
+
+    void note(std::uint32_t cell, std::uint32_t slot) {
+        cellOfSlot_[slot] = cell;
+        const std::uint32_t face = p_.cells.items[slot];
+        auto& slots = slotsOfFace_[face];
+        if (slots[1] != kNone) throw InvalidPolytope(Part::face, face, "lies in more than two cells");
+        slots[slots[0] == kNone ? 0 : 1] = slot;
+    }
+
+    // Orients one connected component of the boundary. The outward orientation is the one with negative signed
+    // hypervolume; it makes the sections that the slicer links up counterclockwise.
+    void orientComponent(std::uint32_t first) {
+        std::vector<std::uint32_t> cells;
+        std::vector<std::uint32_t> waiting{first};
+        p_.cellSigns[first] = 1;
+        double hypervolume = 0;
+        while (!waiting.empty()) {
+            const std::uint32_t slot = waiting.back();
+            waiting.pop_back();
+            const std::uint32_t cell = cellOfSlot_[slot];
+            if (!orientCell(cell)) continue;
+            cells.push_back(cell);
+            hypervolume += coneOver(cell);
+            for (std::uint32_t s = p_.cells.begin[cell]; s < p_.cells.begin[cell + 1]; ++s) {
+                const auto& pair = slotsOfFace_[p_.cells.items[s]];
+                const std::uint32_t other = pair[0] == s ? pair[1] : pair[0];
+                if (p_.cellSigns[other] == 0) {
+                    p_.cellSigns[other] = static_cast<std::int8_t>(-p_.cellSigns[s]);
+                    waiting.push_back(other);
+                } else if (p_.cellSigns[other] == p_.cellSigns[s]) {
+                    throw InvalidPolytope(Part::face, p_.cells.items[s],
+                                          "lies where the boundary cannot be oriented consistently");
+                }
+            }
+        }
+        if (hypervolume < 0) return;
+        for (const std::uint32_t cell : cells) {
+            for (std::uint32_t s = p_.cells.begin[cell]; s < p_.cells.begin[cell + 1]; ++s) {
+                p_.cellSigns[s] = static_cast<std::int8_t>(-p_.cellSigns[s]);
+            }
+        }
+    }
+
+    // Propagates the sign of one 2-face to the whole cell. Returns false if the cell is oriented already.
+    bool orientCell(std::uint32_t cell) {
+        if (done_[cell]) return false;
+        done_[cell] = true;
+        const std::uint32_t begin = p_.cells.begin[cell];
+        const std::uint32_t end = p_.cells.begin[cell + 1];
+        const auto signs = std::span(p_.cellSigns).subspan(begin, end - begin);
+        std::vector<Side> sides;
+        for (std::uint32_t slot = begin; slot < end; ++slot) {
+            const std::uint32_t face = p_.cells.items[slot];
+            for (std::size_t i = 0; i < p_.faces[face].size(); ++i) {
+                sides.push_back({p_.faceEdges[face][i], slot, directionOf(p_, face, i)});
+            }
+        }
+        std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.edge < b.edge; });
+        for (std::size_t i = 0; i < sides.size(); i += 2) {
+            if (i + 1 == sides.size() || sides[i].edge != sides[i + 1].edge ||
+                (i + 2 < sides.size() && sides[i + 2].edge == sides[i].edge)) {
+                throw InvalidPolytope(Part::cell, cell,
+                                      "is not closed: one of its edges does not lie in exactly two of its 2-faces");
+            }
+        }
+        propagateSigns(sides, begin, end);
+        if (std::count(signs.begin(), signs.end(), 0) != 0) {
+            throw InvalidPolytope(Part::cell, cell, "consists of several disconnected pieces");
+        }
+        for (std::size_t i = 0; i < sides.size(); i += 2) {
+            if (p_.cellSigns[sides[i].slot] * sides[i].direction +
+                    p_.cellSigns[sides[i + 1].slot] * sides[i + 1].direction !=
+                0) {
+                throw InvalidPolytope(Part::cell, cell, "is not orientable");
+            }
+        }
+        return true;
+    }
+
+    // Propagates signs across edges to all 2-faces of the cell that are connected to one with a sign. Sides 2i and
+    // 2i + 1 belong to one edge.
+    void propagateSigns(const std::vector<Side>& sides, std::uint32_t begin, std::uint32_t end) {
+        auto& signs = p_.cellSigns;
+        std::vector<std::vector<std::size_t>> sidesOf(end - begin);
+        for (std::size_t i = 0; i < sides.size(); ++i) sidesOf[sides[i].slot - begin].push_back(i);
+        std::vector<std::uint32_t> waiting;
+        for (std::uint32_t slot = begin; slot < end; ++slot) {
+            if (signs[slot] != 0) waiting.push_back(slot);
+        }
+        while (!waiting.empty()) {
+            const std::uint32_t slot = waiting.back();
+            waiting.pop_back();
+            for (const std::size_t i : sidesOf[slot - begin]) {
+                const Side& other = sides[i ^ 1U];
+                if (signs[other.slot] != 0) continue;
+                signs[other.slot] = static_cast<std::int8_t>(-signs[slot] * sides[i].direction * other.direction);
+                waiting.push_back(other.slot);
+            }
+        }
+    }
+
+    // 24 times the signed hypervolume of the cone over the cell, as a sum over fans of simplices. The cone's apex is a
+    // vertex of the polytope: if the apex were the origin, rounding errors would swamp the sum for a distant polytope.
+    double coneOver(std::uint32_t cell) const {
+        double sum = 0;
+        const glm::dvec4 tip = p_.vertices[p_.faces.items[0]];
+        const auto from = [&](std::uint32_t vertex) { return p_.vertices[vertex] - tip; };
+        const glm::dvec4 apex = from(p_.faces[p_.cells[cell][0]][0]);
+        for (std::uint32_t slot = p_.cells.begin[cell]; slot < p_.cells.begin[cell + 1]; ++slot) {
+            const auto loop = p_.faces[p_.cells.items[slot]];
+            for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+                sum +=
+                    p_.cellSigns[slot] * glm::determinant(glm::dmat4(apex, p_.vertices[loop[0]], p_.vertices[loop[i]],
+                                                                     p_.vertices[loop[i + 1]]));
+            }
+        }
+        return sum;
+    }
+
+    Polytope& p_;
+    std::vector<std::array<std::uint32_t, 2>> slotsOfFace_;
+    std::vector<std::uint32_t> cellOfSlot_;
+    std::vector<bool> done_;
+};
+
+// Whether a vertex loop is a convex polygon: it turns the same way at every corner, by 2π in total.
+bool isConvexLoop(const Polytope& p, std::span<const std::uint32_t> loop) {
+    if (loop.size() == 3) return true;
+    const std::size_t n = loop.size();
+    const auto side = [&](std::size_t i) { return p.vertices[loop[(i + 1) % n]] - p.vertices[loop[i % n]]; };
+    double turning = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const glm::dvec4 a = side(i);
+        const glm::dvec4 b = side(i + 1);
+        const double inner = glm::dot(a, b);
+        turning += std::acos(std::clamp(inner / (glm::length(a) * glm::length(b)), -1.0, 1.0));
+    }
+    // The absolute values of the exterior angles add up to 2π for convex loops only.
+    return turning < 2 * std::numbers::pi + 1e-6;
+}
+
+void checkIndices(const geometry::JaggedArray& lists, std::size_t below, Part owner, const char* member,
+                  std::size_t least) {
+    for (std::size_t i = 0; i < lists.size(); ++i) {
+        if (lists[i].size() < least)
+            throw InvalidPolytope(owner, i, "has fewer than " + std::to_string(least) + ' ' + member);
+        for (const std::uint32_t item : lists[i]) {
+            if (item < below) continue;
+            throw InvalidPolytope(
+                owner, i,
+                "lists index " + std::to_string(item) + ", but there are only " + std::to_string(below) + ' ' + member);
+        }
+    }
+}
+
+// Builds edgeFaces. At each of its edges a cell has two 2-faces, and their loops, oriented outward from the cell,
+// traverse the edge in opposite directions. Following the cell from one of them to the other orders the 2-faces
+// cyclically; where several cycles meet at an edge, they are stored one after another.
+void findFacesAtEdges(Polytope& p) {
+    auto& [begin, items] = p.edgeFaces;
+    begin.assign(p.edges.size() + 1, 0);
+    for (const std::uint32_t e : p.faceEdges.items) ++begin[e + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    items.resize(p.faceEdges.items.size());
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for (std::uint32_t f = 0; f < p.faces.size(); ++f) {
+        for (std::size_t i = 0; i < p.faces[f].size(); ++i) {
+            items[next[p.faceEdges[f][i]]++] = 2 * f + (directionOf(p, f, i) > 0 ? 1 : 0);
+        }
+    }
+    std::vector<std::uint32_t> entering(p.cells.size());  // by cell: the position of the side that follows it
+    for (std::size_t e = 0; e < p.edges.size(); ++e) {
+        const auto sides = std::span(items).subspan(begin[e], begin[e + 1] - begin[e]);
+        const auto cellBefore = [&](std::uint32_t side) { return p.faceCells[side >> 1U][side & 1U]; };
+        const auto cellAfter = [&](std::uint32_t side) { return p.faceCells[side >> 1U][1 - (side & 1U)]; };
+        for (std::uint32_t i = 0; i < sides.size(); ++i) entering[cellBefore(sides[i])] = i;
+        for (std::uint32_t i = 0; i + 1 < sides.size(); ++i) {
+            const std::uint32_t follower = entering[cellAfter(sides[i])];
+            if (follower <= i) continue;  // the cycle is closed; another one begins
+            std::swap(sides[i + 1], sides[follower]);
+            entering[cellBefore(sides[follower])] = follower;
+        }
+    }
+}
+
+}  // namespace
+
+InvalidPolytope::InvalidPolytope(Part element, std::size_t number, const std::string& fault)
+    : std::invalid_argument(nameOf(element, number) + fault), part(element), index(number), detail(fault) {}
+
+double extentOf(const Polytope& polytope) {
+    glm::dvec4 middle(0);
+    for (const glm::dvec4& v : polytope.vertices) middle += v;
+    middle /= static_cast<double>(polytope.vertices.size());
+    double extent = 0;
+    for (const glm::dvec4& v : polytope.vertices) extent = std::max(extent, glm::distance(v, middle));
+    return extent;
+}
+
+Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, geometry::JaggedArray faces,
+                      geometry::JaggedArray cells, std::vector<std::uint32_t> typeOfCell) {
+    Polytope p;
+    p.serial = geometry::nextSerial();
+    p.name = std::move(name);
+    p.vertices = std::move(vertices);
+    p.faces = std::move(faces);
+    p.cells = std::move(cells);
+    if (p.cells.size() == 0) refuse("there are no cells");
+    for (const auto& v : p.vertices) {
+        const double r = glm::length(v);
+        if (!std::isfinite(r)) refuse("a vertex is not finite");
+        p.circumradius = std::max(p.circumradius, r);
+    }
+    if (!(p.circumradius > 0)) refuse("all vertices are at the origin");
+    checkIndices(p.faces, p.vertices.size(), Part::face, "vertices", 3);
+    checkIndices(p.cells, p.faces.size(), Part::cell, "2-faces", 4);
+    findEdges(p);
+    for (std::size_t f = 0; f < p.faces.size() && p.convexFaces; ++f) p.convexFaces = isConvexLoop(p, p.faces[f]);
+    Orienter orient(p);
+    findFacesAtEdges(p);
+    numberCellTypes(p, typeOfCell.empty() ? cellTypesByShape(p) : std::move(typeOfCell));
+    p.convex = isConvex(p);
+    return p;
+}
+
+std::size_t bytesOf(const Polytope& p) {
+    const auto bytesOf = [](const geometry::JaggedArray& lists) {
+        return sizeof(std::uint32_t) * (lists.begin.size() + lists.items.size());
+    };
+    return sizeof p + p.vertices.size() * sizeof p.vertices[0] + p.edges.size() * sizeof p.edges[0] +
+           p.faceCells.size() * sizeof p.faceCells[0] + p.cellSigns.size() +
+           p.typeOfCell.size() * sizeof p.typeOfCell[0] + bytesOf(p.faces) + bytesOf(p.faceEdges) +
+           bytesOf(p.edgeFaces) + bytesOf(p.cells);
+}
+
+}  // namespace oval4d::polytopes

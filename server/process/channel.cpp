@@ -1,0 +1,132 @@
+#include "process/channel.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+namespace oval4d::process {
+
+namespace {
+
+struct Header {
+    MessageType type;
+    std::uint64_t size;
+};
+
+// Space for one file descriptor that is sent with a message.
+struct alignas(cmsghdr) AncillaryData {
+    char bytes[CMSG_SPACE(sizeof(int))];
+};
+
+// How often a wait checks for a stop request.
+constexpr std::chrono::milliseconds kStopCheckInterval{100};
+
+/// Waits for a poll(2) event; returns false if it does not happen in time.
+bool waitFor(int socket, short event, const Deadline& deadline) {
+    using std::chrono::milliseconds;
+    const milliseconds longest =
+        deadline.stop.stop_possible() ? kStopCheckInterval : milliseconds(std::numeric_limits<int>::max());
+    for (pollfd what{socket, event, 0};;) {
+        const auto left = std::chrono::ceil<milliseconds>(deadline.until - Deadline::Clock::now());
+        if (poll(&what, 1, static_cast<int>(std::clamp(left, milliseconds(0), longest).count())) > 0) return true;
+        if (left.count() <= 0 || deadline.stop.stop_requested()) return false;
+    }
+}
+
+/// Repeats a system call that sends or receives bytes until it has `moved` some of them.
+template <typename Call>
+Transfer moveSome(int socket, short event, const Deadline& deadline, std::size_t& moved, Call call) {
+    for (;;) {
+        const ssize_t result = call();
+        if (result > 0) {
+            moved = static_cast<std::size_t>(result);
+            return Transfer::complete;
+        }
+        if (result < 0 && errno == EINTR) continue;
+        if (result == 0 || errno != EAGAIN) return Transfer::closed;
+        if (!waitFor(socket, event, deadline)) return Transfer::timed_out;
+    }
+}
+
+}  // namespace
+
+Channel::~Channel() { close(socket_); }
+
+Transfer Channel::send(MessageType type, std::string_view body, int file, const Deadline& deadline) const {
+    Header header{type, body.size()};
+    std::array parts{iovec{&header, sizeof header}, iovec{const_cast<char*>(body.data()), body.size()}};
+    msghdr message{};
+    message.msg_iov = parts.data();
+    message.msg_iovlen = parts.size();
+    AncillaryData ancillary{};
+    if (file != kNoFile) {
+        message.msg_control = ancillary.bytes;
+        message.msg_controllen = sizeof ancillary.bytes;
+        cmsghdr* const tag = CMSG_FIRSTHDR(&message);
+        tag->cmsg_level = SOL_SOCKET;
+        tag->cmsg_type = SCM_RIGHTS;
+        tag->cmsg_len = CMSG_LEN(sizeof file);
+        std::memcpy(CMSG_DATA(tag), &file, sizeof file);
+    }
+    const auto call = [&] { return sendmsg(socket_, &message, MSG_NOSIGNAL | MSG_DONTWAIT); };
+    for (std::size_t left = sizeof header + body.size(); left > 0;) {
+        std::size_t sent = 0;
+        const Transfer transfer = moveSome(socket_, POLLOUT, deadline, sent, call);
+        if (transfer != Transfer::complete) return transfer;
+        left -= sent;
+        message.msg_control = nullptr;
+        message.msg_controllen = 0;
+        for (iovec& part : parts) {
+            const std::size_t taken = std::min(sent, part.iov_len);
+            part = {static_cast<char*>(part.iov_base) + taken, part.iov_len - taken};
+            sent -= taken;
+        }
+    }
+    return Transfer::complete;
+}
+
+Transfer Channel::receive(MessageType& type, std::string& body, int* file, const Deadline& deadline,
+                          std::size_t maxBytes) const {
+    // A sender that never pauses must not prevent the timeout.
+    if (Deadline::Clock::now() > deadline.until) return Transfer::timed_out;
+    if (file != nullptr) *file = kNoFile;
+    const auto read = [&](void* to, std::size_t size) {
+        for (auto* at = static_cast<char*>(to); size > 0;) {
+            iovec part{at, size};
+            AncillaryData ancillary{};
+            msghdr message{};
+            message.msg_iov = &part;
+            message.msg_iovlen = 1;
+            if (file != nullptr) {
+                message.msg_control = ancillary.bytes;
+                message.msg_controllen = sizeof ancillary.bytes;
+            }
+            const auto call = [&] { return recvmsg(socket_, &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC); };
+            std::size_t got = 0;
+            const Transfer transfer = moveSome(socket_, POLLIN, deadline, got, call);
+            if (transfer != Transfer::complete) return transfer;
+            if (const cmsghdr* tag = CMSG_FIRSTHDR(&message); tag != nullptr && tag->cmsg_type == SCM_RIGHTS)
+                std::memcpy(file, CMSG_DATA(tag), sizeof *file);
+            at += got;
+            size -= got;
+        }
+        return Transfer::complete;
+    };
+    Header header{};
+    if (const Transfer transfer = read(&header, sizeof header); transfer != Transfer::complete) return transfer;
+    type = header.type;
+    if (header.size > maxBytes) throw std::runtime_error("a message between processes is too long");
+    body.resize(header.size);
+    return read(body.data(), body.size());
+}
+
+bool Channel::wait(const Deadline& deadline) const { return waitFor(socket_, POLLIN, deadline); }
+
+}  // namespace oval4d::process

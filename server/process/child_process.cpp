@@ -1,0 +1,173 @@
+#include "process/child_process.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "text/suggest.hpp"
+
+namespace oval4d::process {
+
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = Deadline::Clock;
+
+// Of the reason that a child sends with MessageType::failed, in bytes.
+constexpr std::size_t kMaxReason = 64U << 10U;
+
+/// The environment of a child: that of this program without OVAL4D_… (except OVAL4D_FONT), and the added variables.
+class Environment {
+  public:
+    explicit Environment(const std::vector<std::string>& added) {
+        for (char** each = environ; *each != nullptr; ++each) {
+            const std::string_view entry = *each;
+            if (!entry.starts_with("OVAL4D_") || entry.starts_with("OVAL4D_FONT=")) entries_.push_back(*each);
+        }
+        for (const std::string& entry : added) {
+            const std::string_view name = std::string_view(entry).substr(0, entry.find('=') + 1);
+            const auto isSame = [&](const char* other) { return std::string_view(other).starts_with(name); };
+            // posix_spawn does not modify the strings.
+            if (std::ranges::none_of(entries_, isSame)) entries_.push_back(const_cast<char*>(entry.c_str()));
+        }
+        entries_.push_back(nullptr);
+    }
+    char* const* data() const { return entries_.data(); }
+
+  private:
+    std::vector<char*> entries_;
+};
+
+[[noreturn]] void fail(int error) {
+    throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(error));
+}
+
+// The time that a process has to exit after its channel was closed; then it is killed. A killed process is waited for
+// no longer than this, because a debugger, for example, may delay its end.
+constexpr auto kExitTimeout = 1s;
+
+/// Waits for a process to exit; returns false after kExitTimeout.
+bool waitForExit(pid_t process, int& status) {
+    const auto limit = Clock::now() + kExitTimeout;
+    for (auto pause = 100us;; pause *= 2) {
+        if (waitpid(process, &status, WNOHANG) != 0) return true;
+        if (Clock::now() > limit) return false;
+        std::this_thread::sleep_for(pause);
+    }
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(ChildTerms terms) : terms_(std::move(terms)) {}
+
+ChildProcess::~ChildProcess() {
+    if (channel_) end(false);
+}
+
+void ChildProcess::start() {
+    if (channel_) return;
+    std::erase_if(unreaped_, [](pid_t each) { return waitpid(each, nullptr, WNOHANG) != 0; });
+    int sockets[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) fail(errno);
+    channel_ = std::make_unique<Channel>(sockets[0]);
+    const Channel theirs(sockets[1]);
+
+    // Close the server's other files, or its connections would stay open as long as the child runs.
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, sockets[1], kChildSocket);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addclosefrom_np(&files, kChildSocket + 1);
+    const Environment environment(terms_.environment);
+    std::string name = "oval4d", command = terms_.command;
+    char* const words[] = {name.data(), command.data(), nullptr};
+    const int error = posix_spawn(&process_, "/proc/self/exe", &files, nullptr, words, environment.data());
+    posix_spawn_file_actions_destroy(&files);
+    if (error == 0) {
+        // Set here and not by the process, because starting is most of the work of many of them.
+        if (terms_.niceness > 0) setpriority(PRIO_PROCESS, static_cast<id_t>(process_), terms_.niceness);
+        return;
+    }
+    channel_.reset();
+    fail(error);
+}
+
+void ChildProcess::kill() {
+    if (channel_) end(true);
+}
+
+/// Ends the process: kills it at once, or gives it kExitTimeout to exit. Returns its signal or exit status as text.
+std::string ChildProcess::end(bool atOnce) {
+    channel_.reset();
+    ready_ = false;
+    int status = 0;
+    if (atOnce || !waitForExit(process_, status)) {
+        ::kill(process_, SIGKILL);
+        if (!waitForExit(process_, status)) unreaped_.push_back(process_);
+    }
+    return WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
+                               : "status " + std::to_string(WEXITSTATUS(status));
+}
+
+Deadline ChildProcess::deadline(const std::stop_token& stop) const {
+    return {Clock::now() + std::chrono::duration_cast<Clock::duration>(terms_.timeout), stop};
+}
+
+void ChildProcess::awaitReady(Transfer& transfer, const Deadline& deadline) {
+    MessageType type{};
+    std::string reason;
+    transfer = channel_->receive(type, reason, nullptr, deadline, kMaxReason);
+    if (transfer != Transfer::complete) return;
+    if (type != MessageType::ready) throw std::runtime_error(reason);
+    ready_ = true;
+}
+
+void ChildProcess::converse(const Talk& talk, const std::stop_token& stop) {
+    Loss loss{};
+    for (int losses = 0; losses < 2; ++losses) {
+        start();
+        auto transfer = Transfer::complete;
+        bool talked = false;
+        try {
+            // The process may be lost before the conversation, for another reason.
+            if (!ready_) awaitReady(transfer, deadline(stop));
+            talked = ready_;
+            if (talked) transfer = talk(*channel_, deadline(stop));
+        } catch (...) {
+            end(true);  // or its late answer would be taken for that of the next conversation
+            throw;
+        }
+        if (transfer == Transfer::complete) return;
+        const std::string how = end(transfer == Transfer::timed_out);
+        if (stop.stop_requested()) throw Canceled();
+        loss = transfer == Transfer::closed
+                   ? Loss{false, "died: " + how}
+                   : Loss{true, "hung: no answer in " + text::shortest(terms_.timeout.count()) + " s"};
+        terms_.onLoss(loss);
+        if (loss.hung && talked && !terms_.repeatAfterHang)
+            throw ProcessLost("a process was lost in this conversation, it " + loss.how, true);
+    }
+    throw ProcessLost("two processes were lost in a row, the second " + loss.how, false);
+}
+
+void beginChild() {
+    // A terminal or a container sends these to all processes, but the server decides when its children end.
+    std::signal(SIGINT, SIG_IGN);
+    std::signal(SIGTERM, SIG_IGN);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // a process that hangs or is stopped would not notice that its socket is closed
+}
+
+}  // namespace oval4d::process

@@ -1,0 +1,241 @@
+#include "process/sandbox.hpp"
+
+#include <fcntl.h>
+#include <sched.h>
+#include <seccomp.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <thread>
+
+#include "process/child_process.hpp"
+
+namespace oval4d::process {
+
+namespace {
+
+void check(int error) {
+    if (error < 0) throw std::runtime_error(std::string("cannot filter system calls: ") + std::strerror(-error));
+}
+
+// Allowed in all roles, with any arguments. None of them affects anything outside the process and its open files.
+constexpr auto kCommonCalls = std::to_array<const char*>({"brk",
+                                                          "clock_getres",
+                                                          "clock_gettime",
+                                                          "clock_nanosleep",
+                                                          "close",
+                                                          "exit",
+                                                          "exit_group",
+                                                          "fstat",
+                                                          "futex",
+                                                          "futex_time64",
+                                                          "futex_waitv",
+                                                          "getcpu",
+                                                          "getegid",
+                                                          "geteuid",
+                                                          "getgid",
+                                                          "getpid",
+                                                          "getppid",
+                                                          "getrandom",
+                                                          "getrusage",
+                                                          "gettid",
+                                                          "gettimeofday",
+                                                          "getuid",
+                                                          "lseek",
+                                                          "madvise",
+                                                          "membarrier",
+                                                          "munmap",
+                                                          "nanosleep",
+                                                          "newfstatat",
+                                                          "poll",
+                                                          "ppoll",
+                                                          "read",
+                                                          "restart_syscall",
+                                                          "rseq",
+                                                          "rt_sigaction",
+                                                          "rt_sigprocmask",
+                                                          "rt_sigreturn",
+                                                          "rt_sigtimedwait",
+                                                          "sched_getaffinity",
+                                                          "sched_yield",
+                                                          "set_robust_list",
+                                                          "set_tid_address",
+                                                          "sigaltstack",
+                                                          "statx",
+                                                          "sysinfo",
+                                                          "time",
+                                                          "times",
+                                                          "uname"});
+
+// Mesa's threads set their names, processor affinity and priority.
+constexpr auto kThreadCalls = std::to_array<const char*>(
+    {"arch_prctl", "getpriority", "sched_get_priority_max", "sched_get_priority_min", "sched_getparam",
+     "sched_getscheduler", "sched_setaffinity", "sched_setscheduler", "setpriority"});
+
+// These kill the process: no library makes such calls, so that only an attacker who controls the process would. Other
+// calls that are not allowed fail with an error, which libraries can handle: newer versions may try new calls.
+constexpr auto kIntruderCalls = std::to_array<const char*>({"accept",
+                                                            "accept4",
+                                                            "bind",
+                                                            "bpf",
+                                                            "chroot",
+                                                            "connect",
+                                                            "execve",
+                                                            "execveat",
+                                                            "fork",
+                                                            "init_module",
+                                                            "finit_module",
+                                                            "io_uring_setup",
+                                                            "kcmp",
+                                                            "kexec_load",
+                                                            "keyctl",
+                                                            "listen",
+                                                            "mount",
+                                                            "open_by_handle_at",
+                                                            "pidfd_getfd",
+                                                            "pidfd_open",
+                                                            "pivot_root",
+                                                            "process_vm_readv",
+                                                            "process_vm_writev",
+                                                            "ptrace",
+                                                            "setns",
+                                                            "socket",
+                                                            "socketpair",
+                                                            "unshare",
+                                                            "userfaultfd",
+                                                            "vfork"});
+
+/// A seccomp filter under construction. Calls whose name does not exist on this architecture are skipped.
+class Filter {
+  public:
+    Filter(std::uint32_t otherwise, bool allThreads) : context_(seccomp_init(otherwise), &seccomp_release) {
+        if (!context_) check(-ENOMEM);
+        check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_TSYNC, allThreads ? 1 : 0));
+        // Calls by the numbers of another architecture, such as 32-bit ones; no part of this program makes them.
+        check(seccomp_attr_set(context_.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS));
+        // 2: a binary search tree, because calls are frequent.
+        check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_OPTIMIZE, 2));
+    }
+
+    void add(std::uint32_t action, std::span<const char* const> names) {
+        for (const char* name : names) add(action, name, {});
+    }
+    void add(std::uint32_t action, const char* name, std::initializer_list<scmp_arg_cmp> arguments) {
+        const int call = seccomp_syscall_resolve_name(name);
+        if (call == __NR_SCMP_ERROR) return;
+        const int error = seccomp_rule_add_array(context_.get(), action, call, static_cast<unsigned>(arguments.size()),
+                                                 arguments.begin());
+        if (error != -EDOM) check(error);  // EDOM: this architecture has no such call
+    }
+    void load() { check(seccomp_load(context_.get())); }
+
+  private:
+    std::unique_ptr<void, decltype(&seccomp_release)> context_;
+};
+
+scmp_arg_cmp is(unsigned argument, std::uint64_t value) { return {argument, SCMP_CMP_EQ, value, 0}; }
+scmp_arg_cmp hasAll(unsigned argument, std::uint64_t bits) { return {argument, SCMP_CMP_MASKED_EQ, bits, bits}; }
+scmp_arg_cmp hasNone(unsigned argument, std::uint64_t bits) { return {argument, SCMP_CMP_MASKED_EQ, bits, 0}; }
+
+#ifdef OVAL4D_SANITIZED
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+void limit(decltype(RLIMIT_AS) resource, rlim_t most) {
+    rlimit now{};
+    if (getrlimit(resource, &now) != 0) return;
+    now.rlim_max = std::min(now.rlim_max, most);
+    now.rlim_cur = std::min(now.rlim_cur, now.rlim_max);
+    setrlimit(resource, &now);
+}
+
+/// Bytes of address space in use.
+std::size_t addressSpace() {
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// Whether a filter can be set on this system; if not, `why` is set to the reason.
+bool canFilter(std::string& why) {
+    if (kSanitized) {
+        why = "this is a build with a sanitizer";
+        return false;
+    }
+    // Only a trial tells, because a container's own filter may forbid it. The trial's filter ends with its thread.
+    std::thread([&why] {
+        try {
+            Filter filter(SCMP_ACT_ALLOW, false);
+            filter.load();
+        } catch (const std::exception& fault) {
+            why = fault.what();
+        }
+    }).join();
+    return why.empty();
+}
+
+/// Allows all threads only the system calls that `role` needs, from now on.
+void filterSystemCalls(Role role) {
+    Filter filter(SCMP_ACT_ERRNO(EPERM), true);
+    filter.add(SCMP_ACT_ALLOW, kCommonCalls);
+    for (const char* name : {"recvmsg", "sendmsg"}) filter.add(SCMP_ACT_ALLOW, name, {is(0, kChildSocket)});
+    for (const char* name : {"write", "writev"}) filter.add(SCMP_ACT_ALLOW, name, {is(0, STDERR_FILENO)});
+    // abort() sends a signal to its own process.
+    const auto own = static_cast<std::uint64_t>(getpid());
+    for (const char* name : {"kill", "tgkill"}) filter.add(SCMP_ACT_ALLOW, name, {is(0, own)});
+    filter.add(SCMP_ACT_ALLOW, "fcntl", {is(1, F_GETFL)});
+    filter.add(SCMP_ACT_ALLOW, "prlimit64", {is(0, 0), is(2, 0)});  // read-only: the new limit is null
+    // A filter cannot inspect the arguments of clone3, which are in memory. With ENOSYS the C library falls back to
+    // clone.
+    filter.add(SCMP_ACT_ERRNO(ENOSYS), "clone3", {});
+    if (role == Role::draw) {
+        for (const char* name : {"mmap", "mprotect", "mremap"}) filter.add(SCMP_ACT_ALLOW, name, {});
+        filter.add(SCMP_ACT_ALLOW, kThreadCalls);
+        constexpr std::uint64_t kThread = CLONE_VM | CLONE_SIGHAND | CLONE_THREAD;
+        filter.add(SCMP_ACT_ALLOW, "clone", {hasAll(0, kThread)});
+        filter.add(SCMP_ACT_ALLOW, "prctl", {is(0, PR_SET_NAME)});
+    } else {
+        filter.add(SCMP_ACT_ALLOW, "mremap", {});
+        for (const char* name : {"mmap", "mprotect"}) filter.add(SCMP_ACT_ALLOW, name, {hasNone(2, PROT_EXEC)});
+    }
+    filter.add(SCMP_ACT_KILL_PROCESS, kIntruderCalls);
+    filter.load();
+}
+
+/// Sets the resource limits, and disables core dumps, which would contain clients' data.
+void limitResources(const Confinement& limits) {
+    limit(RLIMIT_CORE, 0);
+    if (kSanitized) return;
+    if (limits.memory > 0) limit(RLIMIT_AS, addressSpace() + limits.memory);
+    if (limits.files > 0) limit(RLIMIT_NOFILE, limits.files);
+}
+
+}  // namespace
+
+bool forbidNewPrivileges() { return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0; }
+
+bool isSandboxed(Sandbox wanted, std::string& why) {
+    if (wanted == Sandbox::off) return false;
+    if (canFilter(why)) return true;
+    if (wanted == Sandbox::required) throw std::runtime_error("the sandbox is required, but not available: " + why);
+    return false;
+}
+
+void confine(Role role, const Confinement& confinement) {
+    limitResources(confinement);
+    if (confinement.filtered) filterSystemCalls(role);
+}
+
+}  // namespace oval4d::process

@@ -1,0 +1,34 @@
+#include "raster/rasterizer.hpp"
+
+namespace oval4d::raster {
+
+void LocalRasterizer::warmUp() {
+    if (!renderer_) renderer_.emplace();
+}
+
+std::span<const std::uint8_t> LocalRasterizer::draw(const session::State& state, scene::Viewport viewport,
+                                                    Times& times) {
+    memory_.pixels.resize(image::bytesOf(viewport));
+    draw(state, viewport, memory_.pixels, times);
+    return memory_.pixels;
+}
+
+void LocalRasterizer::draw(const session::State& state, scene::Viewport viewport, std::span<std::uint8_t> pixels,
+                           Times& times) {
+    warmUp();
+    Memory& m = memory_;
+    m.composer.limitFill(fillSteps_);
+    times.slice = secondsOf([&] { m.slicer.slice(state.object, state.orientation, state.hyperplanes(), m.slices); });
+    times.compose = secondsOf([&] {
+        m.composer.compose(state.object, state.orientation, m.slices, state.slices.focus, state.look, viewport,
+                           m.scene);
+    });
+    times.draw = secondsOf([&] { renderer_->draw(m.scene, pixels); });
+}
+
+void LocalRasterizer::freeMemory() {
+    memory_ = Memory(forkJoin_);
+    if (renderer_) renderer_->freeMemory();
+}
+
+}  // namespace oval4d::raster

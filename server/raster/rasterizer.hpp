@@ -1,0 +1,81 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "parallel/fork_join.hpp"
+#include "render/renderer.hpp"
+#include "scene/composer.hpp"
+#include "session/session.hpp"
+#include "slicing/slicer.hpp"
+
+namespace oval4d::raster {
+
+/// The seconds that each step of drawing one picture took.
+struct Times {
+    double slice = 0, compose = 0, draw = 0;
+};
+
+/// Draws pictures of session states, in this process or in another one. One rasterizer serves one thread at a time.
+class Rasterizer {
+  public:
+    virtual ~Rasterizer() = default;
+
+    /// Waits until the first picture can be drawn as fast as later ones. Throws std::runtime_error if no picture can be
+    /// drawn.
+    virtual void warmUp() = 0;
+
+    /// Draws the picture of `state` and returns its pixels: RGBA, 8 bits per channel, rows from the bottom up, valid
+    /// until the next call. Throws std::runtime_error.
+    virtual std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, Times& times) = 0;
+
+    /// Frees cached memory.
+    virtual void freeMemory() = 0;
+};
+
+/// Draws in this process. The GL context is bound to the thread that draws first.
+class LocalRasterizer : public Rasterizer {
+  public:
+    explicit LocalRasterizer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), memory_(forkJoin) {}
+
+    /// Limits the work of filling intersecting faces, in the steps of slicing::Filler.
+    void limitFill(std::size_t steps) { fillSteps_ = steps; }
+
+    void warmUp() override;
+    std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, Times& times) override;
+    /// Frees everything but the GL context.
+    void freeMemory() override;
+
+    /// Draws into `pixels`, whose size must match the viewport.
+    void draw(const session::State& state, scene::Viewport viewport, std::span<std::uint8_t> pixels, Times& times);
+
+  private:
+    /// Memory that the next picture reuses.
+    struct Memory {
+        explicit Memory(parallel::ForkJoin* forkJoin) : slicer(forkJoin) {}
+        slicing::Slicer slicer;
+        slicing::SliceSet slices;
+        scene::Composer composer;
+        scene::Scene scene;
+        std::vector<std::uint8_t> pixels;
+    };
+
+    parallel::ForkJoin* forkJoin_;
+    std::size_t fillSteps_ = slicing::Filler::kNoLimit;
+    std::optional<render::Renderer> renderer_;  // created on first use
+    Memory memory_;
+};
+
+/// Runs `work` and returns the seconds that it took. A template, because a std::function would allocate memory.
+template <typename Work>
+double secondsOf(Work&& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace oval4d::raster

@@ -1,0 +1,43 @@
+#include "raster/rasterizer_messages.hpp"
+
+#include <stdexcept>
+
+#include "serialization/byte_archive.hpp"
+#include "slicing/object.hpp"
+
+namespace oval4d::raster {
+
+namespace {
+
+// Reads and writes with the same code, so that the two always agree. A new member of Look makes the structured bindings
+// fail to compile.
+template <typename Archive, typename Look>
+void visitLook(Archive& archive, Look& look) {
+    auto& [view, parts, orbit, coloring, cellTypes] = look;
+    auto& [hidden, faded] = cellTypes;
+    archive(view), archive(parts), archive(orbit), archive(coloring), archive(hidden), archive(faded);
+}
+
+}  // namespace
+
+void encodeOrder(const session::State& state, scene::Viewport viewport, const RasterizerLimits& limits,
+                 std::string& out) {
+    out.clear();
+    serialization::ByteWriter archive(out);
+    archive(slicing::infoOf(state.object).serial), archive(state.orientation.left());
+    archive(state.orientation.right()), archive(state.slices), visitLook(archive, state.look);
+    archive(viewport), archive(limits);
+}
+
+void decodeOrder(std::string_view bytes, Order& out) {
+    serialization::ByteReader archive(bytes);
+    glm::dquat left, right;
+    archive(out.object), archive(left), archive(right);
+    archive(out.state.slices), visitLook(archive, out.state.look);
+    archive(out.viewport), archive(out.limits);
+    const auto orientation = geometry::Rotation::fromQuaternions(left, right);
+    if (!orientation) throw std::runtime_error("a drawing order contains an invalid rotation");
+    out.state.orientation = *orientation;
+}
+
+}  // namespace oval4d::raster

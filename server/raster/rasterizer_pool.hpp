@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <stop_token>
+
+#include "raster/rasterizer.hpp"
+#include "raster/rasterizer_process.hpp"
+
+namespace oval4d::raster {
+
+/// The state shared by a server's pooled rasterizers: a process with one thread per core (at most 8), which draws a
+/// large picture with the lowest latency while no other picture is being drawn. Concurrent pictures are each drawn by a
+/// single-threaded process: throughput is higher than if they competed for threads. Small pictures are drawn by a
+/// single-threaded process too, since they take less time than waking threads.
+class RasterizerPool {
+  public:
+    /// `crowded` returns whether more pictures are queued; it is called on any thread. Throws std::runtime_error.
+    RasterizerPool(std::size_t cores, RasterizerTerms terms, std::function<bool()> crowded);
+
+  private:
+    friend class PooledRasterizer;
+    const RasterizerTerms terms_;
+    const std::function<bool()> crowded_;
+    std::atomic<int> drawing_ = 0;                                    // the number of rasterizers that are drawing
+    std::atomic<std::chrono::steady_clock::duration> lastCrowded_{};  // since the clock's epoch
+    std::atomic<double> lastTook_ = 0;                                // drawing time of the last picture in seconds
+    std::mutex multithreadedInUse_;
+    std::optional<RasterizerProcess> multithreaded_;  // guarded by multithreadedInUse_; none on a single core
+};
+
+/// A worker's rasterizer: draws in its own single-threaded process, or in the multithreaded process of the pool.
+class PooledRasterizer : public Rasterizer {
+  public:
+    /// After a request on `stop`, functions that wait throw Canceled.
+    PooledRasterizer(RasterizerPool& pool, std::stop_token stop);
+
+    void warmUp() override;
+    std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, Times& times) override;
+    void freeMemory() override;
+
+  private:
+    std::span<const std::uint8_t> drawBest(const session::State& state, scene::Viewport viewport, Times& times);
+
+    RasterizerPool& pool_;
+    const std::stop_token stop_;
+    std::optional<SharedPixels> pixels_;  // created on first use, because creation may fail
+    RasterizerProcess own_;
+};
+
+}  // namespace oval4d::raster

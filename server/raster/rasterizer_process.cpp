@@ -1,0 +1,87 @@
+#include "raster/rasterizer_process.hpp"
+
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "raster/rasterizer_service.hpp"
+#include "slicing/object_bytes.hpp"
+
+namespace oval4d::raster {
+
+using process::Channel;
+using process::Deadline;
+using process::MessageType;
+using process::Transfer;
+
+namespace {
+
+// The maximum length of an answer in bytes; the longest one is the reason why a picture failed.
+constexpr std::size_t kMaxAnswer = 64U << 10U;
+
+process::ChildTerms childTerms(int threads, const RasterizerTerms& terms) {
+    process::ChildTerms child;
+    child.command = kRasterizerCommand;
+    child.environment = terms.environment;
+    child.environment.push_back("LP_NUM_THREADS=" + std::to_string(threads));
+    child.timeout = terms.timeout;
+    child.onLoss = terms.onLoss;
+    return child;
+}
+
+}  // namespace
+
+RasterizerProcess::RasterizerProcess(int threads, const RasterizerTerms& terms)
+    : limits_(terms.limits), process_(childTerms(threads, terms)) {}
+
+/// Receives messages until `answer_` is `drawn` or `failed`. Sends the object if the process lacks it.
+Transfer RasterizerProcess::receiveAnswer(const session::State& state, const Channel& channel,
+                                          const Deadline& deadline) {
+    for (bool sent = false;; sent = true) {
+        Transfer transfer = channel.receive(answer_, body_, nullptr, deadline, kMaxAnswer);
+        if (transfer != Transfer::complete || answer_ == MessageType::drawn || answer_ == MessageType::failed)
+            return transfer;
+        if (answer_ != MessageType::object_missing || sent)
+            throw std::runtime_error("a rasterizer process sent an unexpected message");
+        std::string object;  // large and rarely needed
+        slicing::encodeObject(state.object, object);
+        transfer = channel.send(MessageType::object, object, Channel::kNoFile, deadline);
+        if (transfer != Transfer::complete) return transfer;
+    }
+}
+
+void RasterizerProcess::warmUp(const std::stop_token& stop) {
+    process_.converse([](const Channel&, const Deadline&) { return Transfer::complete; }, stop);
+}
+
+std::span<const std::uint8_t> RasterizerProcess::draw(const session::State& state, scene::Viewport viewport,
+                                                      SharedPixels& pixels, Times& times, const std::stop_token& stop) {
+    encodeOrder(state, viewport, limits_, order_);
+    const auto drawn = pixels.take(image::bytesOf(viewport));
+    process_.converse(
+        [&](const Channel& channel, const Deadline& deadline) {
+            const Transfer sent = channel.send(MessageType::order, order_, pixels.file(), deadline);
+            return sent == Transfer::complete ? receiveAnswer(state, channel, deadline) : sent;
+        },
+        stop);
+    if (answer_ == MessageType::failed) throw std::runtime_error(body_);
+    if (body_.size() != sizeof times) throw std::runtime_error("a rasterizer process sent a truncated message");
+    std::memcpy(&times, body_.data(), sizeof times);
+    restartAfterResizes(viewport);
+    return drawn;
+}
+
+/// Replaces the process after it has drawn pictures of many sizes, so that the new one is ready for the next picture:
+/// OSMesa (of Mesa 22) keeps buffers for each picture size until the process ends.
+void RasterizerProcess::restartAfterResizes(scene::Viewport viewport) {
+    constexpr std::size_t kMost = std::size_t{128} << 20U;
+    if (viewport == lastViewport_) return;
+    lastViewport_ = viewport;
+    resized_ += image::bytesOf(viewport);
+    if (resized_ < kMost) return;
+    resized_ = 0;
+    process_.kill();
+    process_.start();
+}
+
+}  // namespace oval4d::raster

@@ -1,0 +1,122 @@
+#include "reading/file_readers.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "reading/reading_messages.hpp"
+#include "reading/reading_service.hpp"
+#include "text/suggest.hpp"
+
+namespace oval4d::reading {
+
+using process::Channel;
+using process::ChildProcess;
+using process::Deadline;
+using process::MessageType;
+using process::Transfer;
+
+namespace {
+
+// Drawing has priority: a reader that shares a core with a process that draws gets a quarter of it.
+constexpr int kNiceness = 5;
+
+}  // namespace
+
+FileReaders::FileReaders(ReaderTerms terms)
+    : terms_(std::move(terms)), replacing_([this](const std::stop_token& stop) { replaceUsed(stop); }) {}
+
+FileReaders::~FileReaders() {
+    replacing_.request_stop();
+    replacing_.join();
+    for (const Process& process : waiting_) process->kill();  // without waiting, because it has nothing to finish
+}
+
+FileReaders::Process FileReaders::acquire() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!waiting_.empty()) {
+            Process process = std::move(waiting_.back());
+            waiting_.pop_back();
+            return process;
+        }
+    }
+    return std::make_unique<ChildProcess>(
+        process::ChildTerms{kReadingCommand, terms_.environment, terms_.timeout, false, terms_.onLoss, kNiceness});
+}
+
+void FileReaders::release(Process used) {
+    const std::lock_guard lock(mutex_);
+    used_.push_back(std::move(used));
+    lastUsed_ = Clock::now();
+    wake_.notify_all();
+}
+
+/// Runs on its own thread, so that no client waits for it: ends processes that have read a file, starts new ones in
+/// their place, and ends those that were idle for too long.
+void FileReaders::replaceUsed(const std::stop_token& stop) {
+    const auto idle = std::chrono::duration_cast<Clock::duration>(terms_.idle);
+    std::unique_lock lock(mutex_);
+    while (!stop.stop_requested()) {
+        const auto isUsed = [this] { return !used_.empty(); };
+        if (waiting_.empty()) {
+            wake_.wait(lock, stop, isUsed);
+        } else {
+            wake_.wait_until(lock, stop, lastUsed_ + idle, isUsed);
+        }
+        std::vector<Process> used = std::exchange(used_, {});
+        std::vector<Process> surplus;
+        if (used.empty() && Clock::now() >= lastUsed_ + idle) surplus = std::exchange(waiting_, {});
+        // Clients may have started processes while these ended, so that there are now more than needed.
+        while (!used.empty() && waiting_.size() + used.size() > terms_.waiting) {
+            surplus.push_back(std::move(used.back()));
+            used.pop_back();
+        }
+        lock.unlock();
+        for (const Process& process : used) {
+            process->kill();
+            try {
+                if (!stop.stop_requested()) process->start();
+            } catch (const std::runtime_error& fault) {
+                spdlog::warn("cannot start a process in advance to read files fault=\"{}\"", fault.what());
+            }
+        }
+        for (const Process& process : surplus) process->kill();
+        lock.lock();
+        for (Process& process : used) waiting_.push_back(std::move(process));
+    }
+}
+
+Result<session::Reading> FileReaders::read(std::string_view format, std::string_view text, const std::string& name,
+                                           const session::Limits& limits, const std::stop_token& stop) {
+    std::string file, outcome;
+    encodeFile(format, text, name, limits, file);
+    const std::size_t maxBytes = maxOutcomeBytes(text.size(), limits);
+    struct Lease {
+        FileReaders& readers;
+        Process process;
+        ~Lease() { readers.release(std::move(process)); }
+    } const lease{*this, acquire()};
+    try {
+        lease.process->converse(
+            [&](const Channel& channel, const Deadline& deadline) {
+                const Transfer sent = channel.send(MessageType::file, file, Channel::kNoFile, deadline);
+                if (sent != Transfer::complete) return sent;
+                MessageType answer{};
+                const Transfer received = channel.receive(answer, outcome, nullptr, deadline, maxBytes);
+                if (received == Transfer::complete && answer != MessageType::outcome)
+                    throw std::runtime_error("a reader process sent an unexpected message");
+                return received;
+            },
+            stop);
+    } catch (const process::ProcessLost& lost) {
+        if (!lost.hung()) throw;
+        return Error{ErrorCode::too_large, "reading this file takes longer than " +
+                                               text::shortest(terms_.timeout.count()) + " s, the time allowed"};
+    }
+    file = {};
+    return decodeOutcome(outcome, name, limits);
+}
+
+}  // namespace oval4d::reading

@@ -1,0 +1,18 @@
+#pragma once
+// Colors in the format of vertex attributes.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "scene/scene.hpp"
+
+namespace oval4d::render {
+
+/// Packs a color into the bytes R, G, B, A, in memory order on a little-endian machine. `alpha` is clamped to 0 … 1.
+inline std::uint32_t rgba(scene::Color color, float alpha) {
+    const auto a = static_cast<std::uint32_t>(std::lround(std::clamp(alpha, 0.0f, 1.0f) * 255));
+    return (color >> 16 & 255) | (color & 0xff00) | (color & 255) << 16 | a << 24;
+}
+
+}  // namespace oval4d::render

@@ -1,0 +1,189 @@
+#include "render/overlay/annotations.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "render/projection.hpp"
+
+namespace oval4d::render {
+
+namespace {
+
+constexpr double kFocusReach = 0.009;  // half the width of the focus mark, as a fraction of the picture's height
+
+/// A fraction of the picture's height in whole pixels, at least one.
+int wholePixels(double fraction, const scene::Scene& scene) {
+    return std::max(1, static_cast<int>(std::lround(fraction * scene.viewport.height)));
+}
+
+void paintLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView, const Projection& projection,
+                const scene::Scene& scene, Overlay& overlay) {
+    const scene::Style& style = scene::style();
+    const glm::vec3 at(toView * glm::dvec4(placement.labelAt, 1));
+    if (at.z >= 0 || placement.label.empty()) return;
+    const glm::vec2 pixel = projection.pixel(at);
+    const int size = wholePixels(style.textHeight * placement.labelSize, scene);
+    const auto digits = static_cast<float>(overlay.font().digitHeight(size));
+    const auto width = static_cast<float>(overlay.font().width(size, placement.label));
+    const float x = std::round(pixel.x), baseline = std::round(pixel.y - digits);
+    // A background plate keeps the label legible over other slices.
+    const float marginX = std::round((placement.focus ? 0.9f : 0.45f) * digits);
+    const float marginY = std::round((placement.focus ? 0.6f : 0.35f) * digits),
+                half = std::round(0.5f * width) + marginX;
+    const Box plate{x - half, baseline - marginY, x + half, baseline + digits + marginY};
+    const float corner = 0.5f * (plate.top - plate.bottom);
+    overlay.box(plate, style.background, placement.focus ? 0.8f : 0.6f, corner);
+    if (placement.focus) overlay.box(plate, style.focusText, 0.16f, corner);
+    overlay.text(x, baseline, size, placement.label, placement.focus ? style.focusText : style.text);
+}
+
+/// Draws the labeled axes of the density strip, and a mark for the focus slice on the w axis.
+void paintStripAxes(const scene::Scene& scene, Overlay& overlay) {
+    const scene::CoordinatesLayout& layout = scene.coordinates;
+    const scene::Style& style = scene::style();
+    const auto height = static_cast<double>(scene.viewport.height);
+    const std::array colors{style.axisX, style.axisY, style.axisZ, style.axisW};
+    const float thickness = std::max(1.0F, static_cast<float>(std::round(layout.lineWidth * height)));
+    const auto levelOf = [&](double value) {
+        return static_cast<float>((layout.zero + value * layout.amplitude) * height);
+    };
+    const auto middleOf = [&](int k) { return (layout.left + k * layout.lineStep + layout.lineWidth / 2) * height; };
+    const int size = wholePixels(style.textHeight * 0.85, scene);
+    const auto digits = static_cast<float>(overlay.font().digitHeight(size));
+    for (int k = 0; k < 4; ++k) {
+        const auto left = static_cast<float>(std::round(middleOf(k) - thickness / 2));
+        const scene::Color color = colors[static_cast<std::size_t>(k)];
+        overlay.box({left, levelOf(-1), left + thickness, levelOf(1)}, color);
+        overlay.text(left + thickness / 2, levelOf(-1) - 1.4F * digits, size, std::string_view("xyzw").substr(k, 1),
+                     color);
+    }
+    for (const scene::SlicePlacement& placement : scene.placements) {
+        if (!placement.focus || std::abs(placement.w) > scene.circumradius) continue;
+        const auto middle = static_cast<float>(middleOf(3)), reach = static_cast<float>(kFocusReach * height);
+        const float level = std::round(levelOf(placement.w / scene.circumradius));
+        overlay.box({middle - reach, level - thickness / 2, middle + reach, level + thickness / 2}, style.focusText);
+    }
+}
+
+}  // namespace
+
+void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
+    // The axes have a projection of their own, centered on their origin and from so far away that it is nearly
+    // parallel.
+    constexpr float kFar = 16, kBar = 0.045f, kBall = 0.10f, kTip = 0.065f, kName = 1.28f;
+    const scene::Style& style = scene::style();
+    const auto width = static_cast<float>(scene.viewport.width), height = static_cast<float>(scene.viewport.height);
+    const float length = static_cast<float>(scene.axes.length) * height;
+    if (length < 1) return;
+    const glm::vec2 center{static_cast<float>(scene.axes.x) * height, (1 - static_cast<float>(scene.axes.y)) * height};
+    const Projection projection{width,
+                                height,
+                                2 * length * kFar / width,
+                                2 * length * kFar / height,
+                                2 * center.x / width - 1,
+                                2 * center.y / height - 1};
+    const glm::vec3 origin{0, 0, -kFar};
+    const glm::mat3 turn(glm::dmat3(scene.camera.view()));
+
+    struct Axis {
+        glm::vec3 direction;
+        scene::Color color;
+        char name;
+    };
+    std::array axes{Axis{turn[0], style.axisX, 'x'}, Axis{turn[1], style.axisY, 'y'}, Axis{turn[2], style.axisZ, 'z'}};
+    // Ties are broken by name, because std::stable_sort would allocate memory.
+    std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) {
+        return a.direction.z != b.direction.z ? a.direction.z < b.direction.z : a.name < b.name;
+    });
+    shapes.setProjection(projection);
+    bool originPainted = false;
+    const auto paintOrigin = [&] {
+        if (!originPainted) shapes.ball(origin, kBall, style.text);
+        originPainted = true;
+    };
+    const int size = wholePixels(style.textHeight, scene);
+    const auto digits = static_cast<float>(overlay.font().digitHeight(size));
+    for (const Axis& axis : axes) {
+        const bool toward = axis.direction.z > 0;
+        if (toward) {
+            paintOrigin();
+            shapes.bar(origin + axis.direction * kBall, origin + axis.direction, kBar, axis.color);
+            shapes.ball(origin + axis.direction, kTip, axis.color);
+        } else {
+            shapes.ball(origin + axis.direction, kTip, axis.color);
+            shapes.bar(origin + axis.direction, origin + axis.direction * kBall, kBar, axis.color);
+        }
+        // The name of an axis that points at the viewer is drawn beside the axis.
+        glm::vec2 name = glm::vec2(axis.direction) * kName;
+        if (glm::length(name) < 0.3f) name = {0.3f, -0.3f};
+        const glm::vec2 at = center + name * length;
+        overlay.text(at.x, at.y - 0.4f * digits, size, {&axis.name, 1}, axis.color);
+    }
+    paintOrigin();
+}
+
+void paintLabels(const scene::Scene& scene, Overlay& overlay) {
+    const glm::dmat4 toView = scene.camera.view();
+    const Projection projection = Projection::of(scene.camera, scene.viewport);
+    for (const bool focus : {false, true})
+        for (const scene::SlicePlacement& placement : scene.placements)
+            if (!placement.label.empty() && placement.drawn && placement.focus == focus)
+                paintLabel(placement, toView, projection, scene, overlay);
+}
+
+void paintCoordinates(const scene::Scene& scene, Overlay& overlay) {
+    if (!scene.look.parts.coordinates) return;
+    if (scene.coordinates.density) {
+        paintStripAxes(scene, overlay);
+        return;
+    }
+    const scene::CoordinatesLayout& layout = scene.coordinates;
+    const scene::Style& style = scene::style();
+    const auto height = static_cast<double>(scene.viewport.height);
+    const std::array colors{style.axisX, style.axisY, style.axisZ, style.axisW};
+    const auto count = static_cast<int>(scene.slices->turned.size());
+    // Lines at least one pixel wide are sharpest on whole pixels.
+    const double lineWidth = layout.lineWidth * height;
+    const auto snap = [&](double x) { return static_cast<float>(lineWidth >= 1 ? std::round(x) : x); };
+    const auto lineThickness = snap(lineWidth);
+    const auto zeroOf = [&](int row) { return std::round((layout.zero - row * layout.rowStep) * height); };
+
+    for (int row = 0; row * layout.perRow < count; ++row) {
+        const int columns = std::min(layout.perRow, count - row * layout.perRow);
+        const double left = layout.left * height,
+                     right = left + ((columns - 1) * layout.columnStep + 3 * layout.lineStep) * height + lineWidth;
+        const auto zero = static_cast<float>(zeroOf(row));
+        overlay.box({snap(left), zero - 0.5f, snap(right), zero + 0.5f}, style.zeroLine);
+    }
+    for (int i = 0; i < count; ++i) {
+        const double zero = zeroOf(i / layout.perRow);
+        const double column = (layout.left + (i % layout.perRow) * layout.columnStep) * height;
+        for (int k = 0; k < 4; ++k) {
+            const float x = snap(column + k * layout.lineStep * height);
+            const double value = scene.slices->turned[static_cast<std::size_t>(i)][k] / scene.circumradius;
+            const auto end = static_cast<float>(zero + value * layout.amplitude * height);
+            const auto start = static_cast<float>(zero);
+            overlay.box({x, std::min(start, end), x + lineThickness, std::max(start, end)},
+                        colors[static_cast<std::size_t>(k)]);
+        }
+    }
+    if (!layout.named) return;
+    const int size = wholePixels(style.textHeight * 0.85, scene);
+    const auto digits = static_cast<float>(overlay.font().digitHeight(size));
+    for (int i = 0; i < count; ++i) {
+        char name[16] = {'P'};
+        const auto end = std::to_chars(name + 1, name + sizeof name, i).ptr;
+        const double middle =
+            layout.left + (i % layout.perRow) * layout.columnStep + 0.5 * (3 * layout.lineStep + layout.lineWidth);
+        const double below = zeroOf(i / layout.perRow) - layout.amplitude * height;
+        overlay.text(static_cast<float>(middle * height), static_cast<float>(below) - 1.4f * digits, size,
+                     {name, static_cast<std::size_t>(end - name)}, style.text);
+    }
+}
+
+}  // namespace oval4d::render

@@ -1,0 +1,112 @@
+#include "render/slices/crossing_slices.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include <glm/geometric.hpp>
+
+namespace oval4d::render {
+
+using slicing::Visibility;
+
+void CrossingSlicePainter::paint(const scene::Scene& scene, Layers& out) {
+    const glm::dmat4 toView = scene.camera.view();
+    const auto viewOf = [&](std::size_t slice) { return SliceView{*scene.slices, scene, toView, slice}; };
+    transforms_.clear();
+    points_.resize(scene.slices->vertices.size());
+    for (auto* items : {&faces_, &skeleton_, &faded_}) items->clear();
+    Range depths{std::numeric_limits<float>::max(), 0};
+    for (std::size_t i = 0; i < scene.placements.size(); ++i) {
+        transforms_.emplace_back(viewOf(i));
+        if (scene.placements[i].drawn) collect(viewOf(i), depths);
+    }
+    const auto radius = static_cast<float>(scene.ballRadius);
+    out.depths = {std::max(depths.from - radius, static_cast<float>(scene.camera.near)), depths.to + radius};
+
+    // Ties are broken by index, so that equal scenes give equal pictures; std::stable_sort would allocate memory.
+    const auto before = [](const Item& a, const Item& b) {
+        return std::tie(a.slice, a.kind, a.number) < std::tie(b.slice, b.kind, b.number);
+    };
+    const auto nearer = [&](const Item& a, const Item& b) {
+        return a.depth != b.depth ? a.depth < b.depth : before(a, b);
+    };
+    const auto farther = [&](const Item& a, const Item& b) {
+        return a.depth != b.depth ? a.depth > b.depth : before(a, b);
+    };
+    std::sort(faces_.begin(), faces_.end(), nearer);
+    std::sort(skeleton_.begin(), skeleton_.end(), farther);
+    std::sort(faded_.begin(), faded_.end(), farther);
+    const Projection projection = Projection::of(scene.camera, scene.viewport);
+    const Skeleton skeleton(scene);
+    const auto paintAll = [&](const std::vector<Item>& items, ShapeBatch& shapes) {
+        shapes.begin(scene::style());
+        shapes.setProjection(projection);
+        for (const Item& item : items) paintItem(viewOf(item.slice), item, skeleton, shapes);
+    };
+    paintAll(faces_, out.faces);
+    paintAll(skeleton_, out.skeleton);
+    paintAll(faded_, out.faded);
+}
+
+// Collects the items of a slice, and extends `depths` to include them.
+void CrossingSlicePainter::collect(const SliceView& slice, Range& depths) {
+    const scene::Scene& scene = slice.scene;
+    const auto number = static_cast<std::uint32_t>(slice.number);
+    const SliceTransform& transform = transforms_[number];
+    const Skeleton skeleton(scene);
+    glm::vec3* points = points_.data() + slice.firstVertex();
+    for (std::uint32_t v = 0; v < slice.vertices(); ++v) {
+        points[v] = transform(slice.set.vertices[slice.firstVertex() + v]);
+        const float depth = -points[v].z;
+        depths = {std::min(depths.from, depth), std::max(depths.to, depth)};
+        if (skeleton.balls) add({depth, Kind::ball, number, v}, slice.vertexVisibility(v));
+    }
+    for (std::uint32_t e = 0; skeleton.bars && e < slice.edges(); ++e) {
+        const auto& [a, b] = slice.edge(e);
+        // Drawn after everything that is farther away than its far end.
+        add({-std::min(points[a].z, points[b].z), Kind::bar, number, e}, slice.edgeVisibility(e));
+    }
+    const slicing::Fill& fill = scene.fill;
+    if (fill.empty()) return;
+    for (std::uint32_t p = fill.patchBegin[number]; p < fill.patchBegin[number + 1]; ++p) {
+        const glm::vec3 corner = transform(fill.corners[fill.cornerBegin[fill.pieceBegin[p]]]);
+        add({-corner.z, Kind::patch, number, p}, scene.visibilities.face(fill.patches[p].source));
+    }
+}
+
+void CrossingSlicePainter::add(const Item& item, Visibility visibility) {
+    if (visibility == Visibility::faded) faded_.push_back(item);
+    if (visibility == Visibility::full) (item.kind == Kind::patch ? faces_ : skeleton_).push_back(item);
+}
+
+void CrossingSlicePainter::paintItem(const SliceView& slice, const Item& item, const Skeleton& skeleton,
+                                     ShapeBatch& out) {
+    if (item.kind == Kind::patch) return paintPatch(slice, item.number, out);
+    const glm::vec3* points = points_.data() + slice.firstVertex();
+    if (item.kind == Kind::ball) {
+        out.ball(points[item.number], skeleton.ballRadius * slice.ballScale(item.number), skeleton.ballColor,
+                 slice.vertexOpacity(item.number));
+        return;
+    }
+    const auto& [a, b] = slice.edge(item.number);
+    const bool forth = points[a].z < points[b].z;
+    skeleton.bar(points[forth ? a : b], points[forth ? b : a], slice.edgeOpacity(item.number), out);
+}
+
+void CrossingSlicePainter::paintPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out) {
+    const slicing::Fill& fill = slice.scene.fill;
+    const slicing::Fill::Patch& patch = fill.patches[number];
+    const glm::vec3 normal(glm::dmat3(slice.toView) * patch.normal);
+    const auto opacity =
+        static_cast<float>(slice.scene.faceOpacity) * slice.opacity(slice.scene.visibilities.face(patch.source));
+    const scene::Color color = slice.scene.cellColors[slice.scene.patchCells[number]];
+    for (std::uint32_t k = fill.pieceBegin[number]; k < fill.pieceBegin[number + 1]; ++k) {
+        corners_.clear();
+        for (std::uint32_t c = fill.cornerBegin[k]; c < fill.cornerBegin[k + 1]; ++c)
+            corners_.push_back(transforms_[slice.number](fill.corners[c]));
+        out.face(corners_, normal, color, opacity, false);
+    }
+}
+
+}  // namespace oval4d::render

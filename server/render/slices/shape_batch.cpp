@@ -1,0 +1,255 @@
+#include "render/slices/shape_batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include "render/color.hpp"
+
+namespace oval4d::render {
+
+namespace {
+
+// The minimum radius of a shape in pixels. A thinner shape could miss all pixel centers, so it is drawn with this
+// radius but more transparent.
+constexpr float kMinRadius = 0.6f;
+constexpr float kMinAlpha = 0.02f;      // shapes that are more transparent are not drawn
+constexpr float kMinFootRadius = 1.8f;  // in pixels; thinner bars are drawn without a foot
+
+struct Thickness {
+    float scale;  ///< factor for the radius
+    float alpha;
+    float half;   ///< half the radius in pixels
+    float reach;  ///< the u at which the antialiased silhouette ends
+};
+
+/// `pixels`: the radius. `dimensions`: the number of directions in which the shape is thin, 1 for a bar and 2 for a
+/// ball.
+Thickness thickness(float pixels, int dimensions) {
+    Thickness t{1, 1, 0.5f * pixels, 0};
+    if (pixels < kMinRadius) {
+        const float part = pixels / kMinRadius;
+        t = {1 / part, dimensions == 2 ? part * part : part, 0.5f * kMinRadius, 0};
+    }
+    t.reach = std::sqrt(1 + 0.5f / t.half);
+    return t;
+}
+
+}  // namespace
+
+void ShapeBatch::begin(const scene::Style& style) {
+    light_ = glm::normalize(glm::vec3(style.light));
+    half_ = glm::normalize(light_ + glm::vec3(0, 0, 1));
+    diffuse_ = static_cast<float>(style.diffuse);
+    clear();
+}
+
+void ShapeBatch::clear() {
+    vertices_.clear();
+    indices_.clear();
+}
+
+void ShapeBatch::quad(const std::array<glm::vec3, 4>& corners, float u, float v, ShapeVertex vertex) {
+    const auto first = static_cast<std::uint32_t>(vertices_.size());
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        vertex.clip = corners[i];
+        vertex.place.x = i & 1 ? u : -u;
+        vertex.place.y = i & 2 ? v : -v;
+        vertices_.push_back(vertex);
+    }
+    for (const std::uint32_t i : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(first + i);
+}
+
+void ShapeBatch::ball(const glm::vec3& center, float radius, scene::Color color, float opacity) {
+    const float distance2 = glm::dot(center, center), inside2 = distance2 - radius * radius;
+    if (center.z > -radius || inside2 <= 0) return;  // the ball contains the eye or is behind it
+    const Thickness size = thickness(radius * projection_.pixelsPerUnit() / -center.z, 2);
+    if (size.alpha * opacity < kMinAlpha) return;
+    const glm::vec3 z = -center / std::sqrt(distance2);
+    const glm::vec3 x = glm::normalize(glm::vec3(z.z, 0, -z.x));
+    const glm::vec3 y = glm::cross(z, x);
+
+    // The radius, at the depth of the center, of the cone from the eye tangent to the sphere.
+    const float silhouette = radius * size.scale * std::sqrt(distance2 / inside2) * size.reach;
+    const glm::vec3 c = projection_.clip(center), dx = projection_.clip(x) * silhouette,
+                    dy = projection_.clip(y) * silhouette;
+    quad({c - dx - dy, c + dx - dy, c - dx + dy, c + dx + dy}, size.reach, size.reach,
+         {{},
+          {0, 0, size.half},
+          diffuse_ * glm::vec3(glm::dot(x, light_), glm::dot(y, light_), glm::dot(z, light_)),
+          {glm::dot(x, half_), glm::dot(y, half_), glm::dot(z, half_)},
+          rgba(color, size.alpha * opacity)});
+}
+
+void ShapeBatch::bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity) {
+    if (from.z > -radius || to.z > -radius) return;
+    // n is the normal of the plane through the eye and the bar's axis. The silhouette is parallel to the axis.
+    const glm::vec3 axis = to - from;
+    const glm::vec3 n = glm::cross(from, to);
+    const float n2 = glm::dot(n, n), axis2 = glm::dot(axis, axis), inside2 = n2 - radius * radius * axis2;
+    if (inside2 <= 0) return;  // seen along its axis: the ball at its end hides it
+    const Thickness size = thickness(radius * projection_.pixelsPerUnit() / (-0.5f * (from.z + to.z)), 1);
+    if (size.alpha * opacity < kMinAlpha) return;
+    const glm::vec3 x = n / std::sqrt(n2);
+    glm::vec3 z = glm::cross(x, axis) / std::sqrt(axis2);
+    if (glm::dot(z, from) > 0) z = -z;
+
+    const glm::vec3 dx = projection_.clip(x) * (radius * size.scale * std::sqrt(n2 / inside2) * size.reach);
+    const glm::vec3 a = projection_.clip(from), b = projection_.clip(to);
+    const ShapeVertex vertex{{},
+                             {0, 0, size.half},
+                             diffuse_ * glm::vec3(glm::dot(x, light_), 0, glm::dot(z, light_)),
+                             {glm::dot(x, half_), 0, glm::dot(z, half_)},
+                             rgba(color, size.alpha * opacity)};
+    const auto first = static_cast<std::uint32_t>(vertices_.size());
+    quad({a - dx, a + dx, b - dx, b + dx}, size.reach, 0, vertex);
+    if (2 * size.half < kMinFootRadius) return;
+    // The foot: the near half of the circle at the bar's end, beyond the flat end.
+    const glm::vec3 foot = a + projection_.clip(z) * (radius * size.reach);
+    const auto last = static_cast<std::uint32_t>(vertices_.size());
+    for (const float side : {-1.0f, 1.0f}) {
+        vertices_.push_back(vertex);
+        vertices_.back().clip = foot + side * dx;
+        vertices_.back().place = {side * size.reach, size.reach, size.half};
+    }
+    for (const std::uint32_t i : {last, last + 1, first, first, last + 1, first + 1}) indices_.push_back(i);
+}
+
+void ShapeBatch::face(std::span<const glm::vec3> corners, const glm::vec3& normal, scene::Color color, float opacity,
+                      bool soft) {
+    const auto first = static_cast<std::uint32_t>(vertices_.size());
+    const auto count = static_cast<std::uint32_t>(corners.size());
+    const float lit = diffuse_ * std::abs(glm::dot(normal, light_));
+    const ShapeVertex vertex{{}, {0, 0, 0.5f}, {0, 0, lit}, {0, 0, 0}, rgba(color, opacity)};
+    for (const glm::vec3& corner : corners) {
+        vertices_.push_back(vertex);
+        vertices_.back().clip = projection_.clip(corner);
+    }
+    if (soft) soften(first, count);
+    for (std::uint32_t i = 2; i < count; ++i)
+        for (const std::uint32_t k : {0u, i - 1, i}) indices_.push_back(first + k);
+}
+
+/// Antialiases the face: moves its edges half a pixel inward, and adds a rim that fades to zero half a pixel outward.
+void ShapeBatch::soften(std::uint32_t first, std::uint32_t count) {
+    const glm::vec2 halfSize{0.5f * projection_.width, 0.5f * projection_.height};
+    pixels_.clear();
+    float area = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::vec3& c = vertices_[first + i].clip;
+        if (c.z <= 0) return;
+        pixels_.push_back(glm::vec2(c.x, c.y) / c.z * halfSize);
+        if (i > 0) area += pixels_[i - 1].x * pixels_[i].y - pixels_[i - 1].y * pixels_[i].x;
+    }
+    area += pixels_[count - 1].x * pixels_[0].y - pixels_[count - 1].y * pixels_[0].x;
+    const auto inward = [&](const glm::vec2& a, const glm::vec2& b) {
+        const glm::vec2 d = b - a;
+        const float length = std::max(glm::length(d), 1e-6f) * (area < 0 ? -1.0f : 1.0f);
+        return glm::vec2(-d.y, d.x) / length;
+    };
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const glm::vec2 before = inward(pixels_[(i + count - 1) % count], pixels_[i]);
+        const glm::vec2 after = inward(pixels_[i], pixels_[(i + 1) % count]);
+        // The miter of a sharp corner is limited to twice the rim's width.
+        const glm::vec2 miter = (before + after) / std::max(1 + glm::dot(before, after), 0.5f);
+        ShapeVertex outer = vertices_[first + i];
+        const glm::vec2 step = 0.5f * miter / halfSize * outer.clip.z;
+        vertices_[first + i].clip += glm::vec3(step, 0);
+        outer.clip -= glm::vec3(step, 0);
+        outer.place.z = -0.5f;
+        vertices_.push_back(outer);
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t next = (i + 1) % count;
+        for (const std::uint32_t k : {i, next, count + i, count + i, next, count + next}) indices_.push_back(first + k);
+    }
+}
+
+namespace {
+
+constexpr std::string_view kVertexSource = R"(
+layout(location = 0) in vec3 clip;
+layout(location = 1) in vec3 placeIn;
+layout(location = 2) in vec3 diffuseIn;
+layout(location = 3) in vec3 specularIn;
+layout(location = 4) in vec4 colorIn;
+uniform vec3 toDepth;
+// Not perspective-correct: patches are so narrow that it makes no difference, and it is faster.
+noperspective out vec3 place;
+flat out vec3 diffuse, specular;
+flat out vec4 color;
+void main() {
+    place = placeIn;
+    diffuse = diffuseIn;
+    specular = specularIn;
+    color = colorIn;
+    gl_Position = vec4(clip.xy, toDepth.x * clip.z + toDepth.y, clip.z);
+}
+)";
+
+/// Shader code for pow(h, shininess). Uses repeated squaring if shininess is a power of two, because pow would take
+/// longer than the rest of the shader.
+std::string highlight(double shininess) {
+    int squarings = 0;
+    while (std::exp2(squarings) < shininess) ++squarings;
+    if (std::exp2(squarings) != shininess) return "h = pow(h, " + std::to_string(shininess) + ");\n";
+    std::string code;
+    for (int i = 0; i < squarings; ++i) code += "h *= h;\n";
+    return code;
+}
+
+// A shape rises from its patch toward the eye by n.z times its radius, which is 2 place.z pixels.
+constexpr std::string_view kRoundDepth = R"(
+    gl_FragDepth = 0.5 + 0.5 * (toDepth.x + toDepth.y * gl_FragCoord.w / (1.0 - toDepth.z * place.z * n.z));
+)";
+
+std::string fragmentSource(const scene::Style& style, ShapeProgram::Depth depth) {
+    return R"(
+uniform vec3 toDepth;
+noperspective in vec3 place;
+flat in vec3 diffuse, specular;
+flat in vec4 color;
+out vec4 pixel;
+void main() {
+    float q = 1.0 - dot(place.xy, place.xy);
+    vec3 n = vec3(place.xy, sqrt(max(q, 0.0)));
+    float h = max(dot(n, specular), 0.0);
+    )" + highlight(style.shininess) +
+           "vec3 lit = color.rgb * (" + std::to_string(style.ambient) + " + max(dot(n, diffuse), 0.0)) + " +
+           std::to_string(style.specular) + R"( * h;
+    float alpha = color.a * clamp(q * place.z + 0.5, 0.0, 1.0);
+    pixel = vec4(min(lit, 1.0) * alpha, alpha);
+)" + std::string(depth == ShapeProgram::Depth::round ? kRoundDepth : "") +
+           "}\n";
+}
+
+constexpr Attribute kAttributes[] = {{3, GL_FLOAT, offsetof(ShapeVertex, clip)},
+                                     {3, GL_FLOAT, offsetof(ShapeVertex, place)},
+                                     {3, GL_FLOAT, offsetof(ShapeVertex, diffuse)},
+                                     {3, GL_FLOAT, offsetof(ShapeVertex, specular)},
+                                     {4, GL_UNSIGNED_BYTE, offsetof(ShapeVertex, color)}};
+
+}  // namespace
+
+ShapeProgram::ShapeProgram(const scene::Style& style, Depth depth)
+    : program_(kVertexSource, fragmentSource(style, depth), sizeof(ShapeVertex), kAttributes),
+      toDepth_(program_.uniform("toDepth")) {}
+
+void ShapeProgram::draw(const ShapeBatch& shapes) { draw(shapes, 0, 0); }
+
+// The depth −1 … 1 is linear in 1 / distance, so that it is linear in screen space on a plane.
+void ShapeProgram::drawWithDepth(Range range, const ShapeBatch& shapes) {
+    const float offset = 2 / (1 / range.to - 1 / range.from);
+    draw(shapes, 1 - offset / range.to, offset);
+}
+
+void ShapeProgram::draw(const ShapeBatch& shapes, float scale, float offset) {
+    program_.use();
+    glUniform3f(toDepth_, scale, offset, 2 / shapes.projection().pixelsPerUnit());
+    program_.draw(shapes.vertices().data(), shapes.vertices().size(), shapes.indices());
+}
+
+}  // namespace oval4d::render

@@ -1,0 +1,94 @@
+#pragma once
+// Balls, bars and faces as triangles in one vertex format, so that one shader draws them in one call and in any order.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "render/program.hpp"
+#include "render/projection.hpp"
+#include "scene/scene.hpp"
+
+namespace oval4d::render {
+
+/// Every shape is drawn as a flat patch (an impostor) with coordinates (u, v); the normal of the shape is X·u + Y·v +
+/// Z·sqrt(1 − u² − v²). A ball fills the unit disk, and its Z points to the eye; on a bar, v is 0 and u runs across the
+/// bar; on a face, u = v = 0. The vertices hold the dot products of X, Y and Z with the light direction L and the half
+/// vector H, so normals need not be computed.
+struct ShapeVertex {
+    glm::vec3 clip;      ///< x, y, w
+    glm::vec3 place;     ///< u, v and half the radius r in pixels; coverage = (1 − u² − v²) · r/2 + ½
+    glm::vec3 diffuse;   ///< X·L, Y·L, Z·L, times the diffuse intensity
+    glm::vec3 specular;  ///< X·H, Y·H, Z·H
+    std::uint32_t color;
+};
+
+/// A list of shapes in view coordinates. The caller adds them in drawing order.
+class ShapeBatch {
+  public:
+    /// Starts an empty list of shapes, lit as `style` specifies.
+    void begin(const scene::Style& style);
+
+    void clear();
+
+    /// Sets the projection for shapes added from now on.
+    void setProjection(const Projection& projection) { projection_ = projection; }
+
+    void ball(const glm::vec3& center, float radius, scene::Color color, float opacity = 1);
+
+    /// Adds a cylinder. `from` is the end farther from the eye, where a round foot joins it to a ball; `to` has a flat
+    /// end.
+    void bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity = 1);
+
+    /// Adds a flat convex polygon with this unit normal or its negative. With `soft`, edges are antialiased over one
+    /// pixel, for use where no bars cover them.
+    void face(std::span<const glm::vec3> corners, const glm::vec3& normal, scene::Color color, float opacity,
+              bool soft);
+
+    const Projection& projection() const { return projection_; }
+    std::span<const ShapeVertex> vertices() const { return vertices_; }
+    std::span<const std::uint32_t> indices() const { return indices_; }
+
+  private:
+    void quad(const std::array<glm::vec3, 4>& corners, float u, float v, ShapeVertex vertex);
+    void soften(std::uint32_t first, std::uint32_t count);
+
+    Projection projection_;
+    glm::vec3 light_{0}, half_{0};
+    float diffuse_ = 0;
+    std::vector<ShapeVertex> vertices_;
+    std::vector<std::uint32_t> indices_;
+    std::vector<glm::vec2> pixels_;
+};
+
+/// A range of depths along the view axis.
+struct Range {
+    float from = 1, to = 2;
+};
+
+/// The shader program that draws a ShapeBatch, lit as `style` specifies.
+class ShapeProgram {
+  public:
+    /// The depth of a pixel: that of the flat patch, or that of the ball or bar that the patch represents (faces are
+    /// then closer by one pixel).
+    enum class Depth : std::uint8_t { flat, round };
+    ShapeProgram(const scene::Style& style, Depth depth);
+
+    /// Draws the shapes in order, without depths.
+    void draw(const ShapeBatch& shapes);
+
+    /// Draws the shapes with depths, for a depth buffer that covers `range`.
+    void drawWithDepth(Range range, const ShapeBatch& shapes);
+
+  private:
+    void draw(const ShapeBatch& shapes, float scale, float offset);
+
+    Program program_;
+    GLint toDepth_;
+};
+
+}  // namespace oval4d::render

@@ -1,0 +1,92 @@
+#pragma once
+// Access to one slice of a scene, shared by the classes that draw slices.
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "render/slices/shape_batch.hpp"
+#include "scene/scene.hpp"
+#include "slicing/slice_set.hpp"
+
+namespace oval4d::render {
+
+/// One slice, and everything needed to draw it.
+struct SliceView {
+    const slicing::SliceSet& set;
+    const scene::Scene& scene;
+    const glm::dmat4& toView;
+    std::size_t number;
+
+    std::size_t firstVertex() const { return set.vertexBegin[number]; }
+    std::size_t firstEdge() const { return set.edgeBegin[number]; }
+    std::size_t firstFace() const { return set.faceBegin[number]; }
+    std::size_t vertices() const { return set.vertexBegin[number + 1] - firstVertex(); }
+    std::size_t edges() const { return set.edgeBegin[number + 1] - firstEdge(); }
+    std::size_t faces() const { return set.faceBegin[number + 1] - firstFace(); }
+    const std::array<std::uint32_t, 2>& edge(std::size_t e) const { return set.edges[firstEdge() + e]; }
+
+    /// The range of the loop of face f in the set's corners.
+    std::pair<std::size_t, std::size_t> loop(std::size_t f) const {
+        return {set.cornerBegin[firstFace() + f], set.cornerBegin[firstFace() + f + 1]};
+    }
+
+    scene::Color faceColor(std::size_t f) const { return scene.cellColors[scene.cellOfFace(firstFace() + f)]; }
+    float opacity(slicing::Visibility visibility) const { return static_cast<float>(slicing::opacityOf(visibility)); }
+    slicing::Visibility vertexVisibility(std::size_t v) const {
+        return scene.visibilities.vertex(set.vertexSource[firstVertex() + v]);
+    }
+    slicing::Visibility edgeVisibility(std::size_t e) const {
+        return scene.visibilities.edge(set.edgeSource[firstEdge() + e]);
+    }
+    float vertexOpacity(std::size_t v) const {
+        const float own = set.ballOpacity.empty() ? 1 : set.ballOpacity[firstVertex() + v];
+        return own * opacity(vertexVisibility(v));
+    }
+    float ballScale(std::size_t v) const { return set.ballScale.empty() ? 1 : set.ballScale[firstVertex() + v]; }
+    float edgeOpacity(std::size_t e) const { return opacity(edgeVisibility(e)); }
+    float faceOpacity(std::size_t f) const { return opacity(scene.visibilities.face(set.faceSource[firstFace() + f])); }
+};
+
+/// Transforms slice coordinates to view coordinates.
+class SliceTransform {
+  public:
+    explicit SliceTransform(const SliceView& slice)
+        : turn_(glm::dmat3(slice.toView) * slice.scene.scale),
+          origin_(slice.toView * glm::dvec4(slice.scene.placements[slice.number].position, 1)) {}
+    glm::vec3 operator()(const glm::dvec3& point) const { return turn_ * glm::vec3(point) + origin_; }
+
+  private:
+    glm::mat3 turn_;
+    glm::vec3 origin_;
+};
+
+/// The appearance of balls and bars. If balls are off, balls with the radius of the bars round their joints.
+struct Skeleton {
+    bool balls, bars;
+    float ballRadius, barRadius;
+    scene::Color ballColor, barColor;
+    float inBall;  ///< distance from a bar's end at which it emerges from the ball
+
+    explicit Skeleton(const scene::Scene& scene)
+        : balls(scene.look.parts.balls || scene.look.parts.bars),
+          bars(scene.look.parts.bars),
+          ballRadius(static_cast<float>(scene.look.parts.balls ? scene.ballRadius : scene.barRadius)),
+          barRadius(static_cast<float>(scene.barRadius)),
+          ballColor(scene.look.parts.balls ? scene::style().ball : scene::style().bar),
+          barColor(scene::style().bar),
+          inBall(std::sqrt(std::max(ballRadius * ballRadius - barRadius * barRadius, 0.0f))) {}
+
+    /// Adds the part of a bar that is visible between the balls at its ends; `from` is the farther end.
+    void bar(const glm::vec3& from, const glm::vec3& to, float opacity, ShapeBatch& out) const {
+        const float length = glm::length(to - from);
+        if (opacity == 0 || length <= 2 * inBall) return;
+        const glm::vec3 cut = (to - from) * (inBall / length);
+        out.bar(from + cut, to - cut, barRadius, barColor, opacity);
+    }
+};
+
+}  // namespace oval4d::render

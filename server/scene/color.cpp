@@ -1,0 +1,120 @@
+#include "scene/color.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+namespace oval4d::scene {
+
+namespace {
+
+constexpr double kTau = 2 * std::numbers::pi;
+
+Color pack(const std::array<double, 3>& rgb) {
+    Color color = 0;
+    for (const double c : rgb) color = color << 8U | static_cast<Color>(std::lround(255 * std::clamp(c, 0.0, 1.0)));
+    return color;
+}
+
+// Converts Oklch to sRGB (B. Ottosson, "A perceptual color space for image processing", 2020); colors of equal
+// lightness look equally light at every hue. For colors out of gamut, reduces the chroma.
+Color oklch(double lightness, double chroma, double hue) {
+    for (;; chroma *= 0.95) {
+        const double a = chroma * std::cos(hue);
+        const double b = chroma * std::sin(hue);
+        const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
+        const double m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
+        const double s = std::pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
+        std::array<double, 3> rgb{4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
+                                  -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
+                                  -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
+        const auto [least, most] = std::minmax_element(rgb.begin(), rgb.end());
+        if (chroma > 0.01 && (*least < 0 || *most > 1)) continue;
+        for (double& c : rgb) c = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+        return pack(rgb);
+    }
+}
+
+// Returns color i of `count` colors with well-separated hues.
+Color distinct(std::size_t i, std::size_t count) {
+    const double step = count <= 8 ? 1.0 / static_cast<double>(count) : std::numbers::phi - 1;
+    return oklch(i % 2 == 0 ? 0.76 : 0.69, 0.18, kTau * (0.07 + std::fmod(static_cast<double>(i) * step, 1.0)));
+}
+
+// Gives few cells well-separated colors. For many cells, the Hopf map takes the direction of each cell's center to a
+// point of the sphere, whose longitude determines the hue and whose latitude the lightness; the cells of a ring along a
+// Hopf fiber share one color.
+void paintByCell(const slicing::Object& object, std::vector<Color>& out) {
+    constexpr std::size_t kFew = 24;
+    if (out.size() <= kFew) {
+        for (std::size_t c = 0; c < out.size(); ++c) out[c] = distinct(c, out.size());
+        return;
+    }
+    std::vector<glm::dvec4> centers;
+    slicing::findCellCenters(object, centers);
+    for (std::size_t c = 0; c < out.size(); ++c) {
+        const glm::dvec4& d = centers[c];
+        const double r2 = std::max(glm::dot(d, d), 1e-300);
+        const double p = 2 * (d.x * d.z + d.y * d.w) / r2;
+        const double q = 2 * (d.y * d.z - d.x * d.w) / r2;
+        const double height = (d.x * d.x + d.y * d.y - d.z * d.z - d.w * d.w) / r2;
+        out[c] = oklch(0.71 + 0.11 * height, 0.16, std::atan2(q, p) + 0.45);
+    }
+}
+
+void paintByType(const slicing::Object& object, std::vector<Color>& out) {
+    const std::size_t types = slicing::infoOf(object).cellTypes.size();
+    const auto typeOfCell = slicing::cellTypesOf(object);
+    for (std::size_t c = 0; c < out.size(); ++c) out[c] = cellTypeColor(typeOfCell[c], types);
+}
+
+// A diverging color scale for −1 … 1: from blue through gray to amber.
+constexpr int kSteps = 255;
+using Scale = std::array<Color, kSteps>;
+Scale divergingScale() {
+    constexpr double kBlue = 4.5, kAmber = 1.25;  // hues in radians
+    Scale scale{};
+    for (int i = 0; i < kSteps; ++i) {
+        const double t = 2.0 * i / (kSteps - 1) - 1;
+        scale.at(static_cast<std::size_t>(i)) = oklch(0.74 - 0.06 * std::abs(t) * (t < 0 ? 1.5 : -0.5),
+                                                      0.01 + 0.17 * std::pow(std::abs(t), 0.8), t < 0 ? kBlue : kAmber);
+    }
+    return scale;
+}
+
+}  // namespace
+
+Color cellTypeColor(std::size_t type, std::size_t count) { return distinct(type, count); }
+
+void CellColors::paint(const slicing::Object& object, Coloring coloring, const geometry::Rotation& orientation,
+                       std::vector<Color>& out) {
+    const geometry::ObjectInfo& info = slicing::infoOf(object);
+    const std::size_t cells = slicing::elementCounts(object)[3];
+    const bool changed = paintedFor_ != info.serial || coloring_ != coloring || out.size() != cells;
+    paintedFor_ = info.serial;
+    coloring_ = coloring;
+    out.resize(cells);
+    if (changed && coloring == Coloring::cell) paintByCell(object, out);
+    if (changed && coloring == Coloring::cell_type) paintByType(object, out);
+    if (changed && coloring == Coloring::plain) std::fill(out.begin(), out.end(), oklch(0.72, 0.1, 4.2));
+    if (coloring != Coloring::w) return;
+    if (changed) {
+        slicing::findCellCenters(object, centers_);
+        double farthest = 0;
+        for (const glm::dvec4& center : centers_) farthest = std::max(farthest, glm::length(center));
+        // If all cell centers are at the origin, w is 0 for all of them.
+        for (glm::dvec4& center : centers_) center *= farthest > 1e-9 * info.circumradius ? 1 / farthest : 0;
+    }
+    static const Scale kScale = divergingScale();
+    const glm::dmat4 turn = orientation.matrix();
+    const glm::dvec4 toW(turn[0][3], turn[1][3], turn[2][3], turn[3][3]);
+    for (std::size_t c = 0; c < out.size(); ++c) {
+        const double t = std::clamp(glm::dot(toW, centers_[c]), -1.0, 1.0);
+        out[c] = kScale.at(static_cast<std::size_t>(std::lround((t + 1) / 2 * (kSteps - 1))));
+    }
+}
+
+}  // namespace oval4d::scene

@@ -1,0 +1,81 @@
+#include "scene/composer.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace oval4d::scene {
+
+namespace {
+
+using slicing::Object;
+using slicing::SliceSet;
+
+// Writes to `out` the cell that gives each of `elements` its color; leaves `out` empty if each source is a cell, which
+// then gives the color.
+template <typename Sources, typename SourceOf>
+void findCells(const Object& object, const slicing::Visibilities& visibilities, const Sources& elements,
+               SourceOf sourceOf, std::vector<std::uint32_t>& out) {
+    const auto cells = static_cast<std::uint32_t>(slicing::elementCounts(object)[3]);
+    out.clear();
+    if (std::ranges::all_of(elements, [&](const auto& element) { return sourceOf(element) < cells; })) return;
+    for (const auto& element : elements) out.push_back(slicing::coloringCell(object, visibilities, sourceOf(element)));
+}
+
+}  // namespace
+
+void Composer::compose(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int focus,
+                       const Look& look, Viewport viewport, Scene& out) {
+    const geometry::ObjectInfo& info = slicing::infoOf(object);
+    const bool objectChanged = object_ != info.serial;
+    object_ = info.serial;
+    if (objectChanged) ballRadius_ = slicing::ballRadius(object);
+    if (objectChanged || filter_ != look.cellTypes) setFilter(object, look.cellTypes);
+
+    out.slices = &slices;
+    out.title = info.name;
+    out.circumradius = info.circumradius;
+    out.look = look;
+    out.viewport = viewport;
+    out.crossing = !info.convex;
+    out.faceOpacity = info.convex ? style().faceOpacity : 1;
+    out.visibilities = visibilities_;
+    colors_.paint(object, look.coloring, orientation, out.cellColors);
+    layOut(slices.planes, focus, slices.turned.size(), ballRadius_, look, viewport, out);
+    out.scale = out.sliceRadius / info.circumradius;
+    out.ballRadius = ballRadius_ * out.sliceRadius;
+    out.barRadius = 0.4 * out.ballRadius;
+
+    findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
+    out.fill.clear();
+    if (out.crossing && look.parts.faces) filler_.fill(slices, info.circumradius, out.fill, fillSteps_);
+    out.patchCells.clear();
+    for (const slicing::Fill::Patch& patch : out.fill.patches)
+        out.patchCells.push_back(slicing::coloringCell(object, out.visibilities, patch.source));
+    if (out.showsDensity()) measureDensity(orientation, out);
+}
+
+void Composer::setFilter(const Object& object, const CellTypeFilter& filter) {
+    using slicing::Visibility;
+    std::vector<Visibility> ofType(slicing::infoOf(object).cellTypes.size(), Visibility::full);
+    const auto set = [&](const std::vector<std::uint32_t>& types, Visibility visibility) {
+        for (const std::uint32_t type : types) {
+            if (type < ofType.size()) ofType[type] = visibility;
+        }
+    };
+    set(filter.faded, Visibility::faded);
+    set(filter.hidden, Visibility::hidden);
+    slicing::findVisibilities(object, ofType, visibilities_);
+    filter_ = filter;
+}
+
+void Composer::measureDensity(const geometry::Rotation& orientation, Scene& out) {
+    if (densityObject_ != object_ || densityTurn_ != orientation || out.density.empty()) {
+        density_.measure(out.slices->turned, glm::dmat4(1), out.circumradius);
+        densityObject_ = object_;
+        densityTurn_ = orientation;
+    }
+    const auto tones = density_.tones();
+    out.density.assign(tones.begin(), tones.end());
+}
+
+}  // namespace oval4d::scene

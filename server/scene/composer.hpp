@@ -1,0 +1,43 @@
+#pragma once
+// Composes the scene of a picture from an object, its slices, and the user's choices.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "geometry/rotation.hpp"
+#include "scene/density.hpp"
+#include "scene/scene.hpp"
+#include "slicing/object.hpp"
+
+namespace oval4d::scene {
+
+/// Composes scenes. Caches data that stay the same from one scene to the next, and scratch memory. A composer may be
+/// used by one thread at a time, and should always compose into the same Scene, which holds some of the cached data.
+class Composer {
+  public:
+    /// Limits the work of filling faces that cross each other; `steps` is that of slicing::Filler::fill.
+    void limitFill(std::size_t steps) { fillSteps_ = steps; }
+
+    /// Composes the scene of `slices`, which were cut from `object` rotated by `orientation`; `focus` is the index n of
+    /// the focus slice. Overwrites `out` and reuses its memory. `out` refers to `slices`, which must outlive it.
+    void compose(const slicing::Object& object, const geometry::Rotation& orientation, const slicing::SliceSet& slices,
+                 int focus, const Look& look, Viewport viewport, Scene& out);
+
+  private:
+    void setFilter(const slicing::Object& object, const CellTypeFilter& filter);
+    void measureDensity(const geometry::Rotation& orientation, Scene& out);
+
+    std::size_t fillSteps_ = slicing::Filler::kNoLimit;
+    CellColors colors_;
+    slicing::Filler filler_;
+    std::uint64_t object_ = 0;  // the serial number of the object for which the next three members were computed
+    double ballRadius_ = 0;     // as a fraction of the slice radius
+    slicing::Visibilities visibilities_;
+    CellTypeFilter filter_;
+
+    Density density_;
+    std::uint64_t densityObject_ = 0;  // the serial number of the object of which the density was measured
+    geometry::Rotation densityTurn_;
+};
+
+}  // namespace oval4d::scene

@@ -1,0 +1,30 @@
+#pragma once
+// The parts of a picture that can be shown or hidden.
+
+#include <array>
+#include <string_view>
+
+namespace oval4d::scene {
+
+/// Whether each part of a picture is shown.
+struct Parts {
+    bool faces = true, bars = true, balls = true, coordinates = true, labels = true;
+    bool operator==(const Parts&) const = default;
+};
+
+/// One part. Its name is used in messages, queries, stored sessions and on the ':' line, and is also the action of the
+/// key that toggles the part (protocol/keymap.json).
+struct PartRow {
+    std::string_view name;
+    bool Parts::* flag;
+};
+
+/// All parts. Stored sessions contain the flags in this order, so new rows must be added at the end.
+inline constexpr auto kParts = std::to_array<PartRow>({{"faces", &Parts::faces},
+                                                       {"bars", &Parts::bars},
+                                                       {"balls", &Parts::balls},
+                                                       {"coordinates", &Parts::coordinates},
+                                                       {"labels", &Parts::labels}});
+static_assert(sizeof(Parts) == kParts.size(), "every part has a row");
+
+}  // namespace oval4d::scene

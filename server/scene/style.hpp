@@ -1,0 +1,23 @@
+#pragma once
+// The fixed colors and sizes of pictures.
+
+#include <glm/vec3.hpp>
+
+#include "scene/color.hpp"
+
+namespace oval4d::scene {
+
+/// Colors and sizes that do not depend on the state.
+struct Style {
+    Color background, text, focusText, ball, bar, zeroLine;
+    Color axisX, axisY, axisZ, axisW;
+    double faceOpacity;  ///< 0 … 1
+    glm::dvec3 light;    ///< unit vector toward the light, in camera axes
+    /// Blinn–Phong: color · (ambient + diffuse · max(n·l, 0)) + specular · max(n·h, 0)^shininess.
+    double ambient, diffuse, specular, shininess;
+    double textHeight;  ///< of labels, as a fraction of the viewport's height
+};
+/// The style of all pictures.
+const Style& style();
+
+}  // namespace oval4d::scene

@@ -1,0 +1,79 @@
+#pragma once
+// Serializes values for messages between processes of the same program on the same machine.
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace oval4d::serialization {
+
+/// Types whose values are copied byte by byte. They must not contain pointers or references.
+template <typename T>
+concept BytewiseCopyable = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
+
+/// Appends values to a string of bytes. Texts and vectors are preceded by their size.
+class ByteWriter {
+  public:
+    explicit ByteWriter(std::string& out) : out_(out) {}
+
+    template <BytewiseCopyable T>
+    void operator()(const T& value) {
+        out_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    void operator()(std::string_view text) {
+        (*this)(text.size());
+        out_.append(text);
+    }
+    void operator()(const std::string& text) { (*this)(std::string_view(text)); }
+    template <BytewiseCopyable T>
+    void operator()(const std::vector<T>& list) {
+        (*this)(list.size());
+        out_.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T));
+    }
+
+  private:
+    std::string& out_;
+};
+
+/// Reads values in the order in which a ByteWriter wrote them. Throws std::runtime_error if bytes are missing.
+class ByteReader {
+  public:
+    explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
+
+    template <BytewiseCopyable T>
+    void operator()(T& value) {
+        std::memcpy(&value, take(sizeof value), sizeof value);
+    }
+    void operator()(std::string& text) {
+        const std::size_t size = count(1);
+        text.assign(take(size), size);
+    }
+    template <BytewiseCopyable T>
+    void operator()(std::vector<T>& list) {
+        list.resize(count(sizeof(T)));
+        if (!list.empty()) std::memcpy(list.data(), take(list.size() * sizeof(T)), list.size() * sizeof(T));
+    }
+
+  private:
+    std::size_t count(std::size_t each) {
+        std::size_t number = 0;
+        (*this)(number);
+        if (number > rest_.size() / each) throw std::runtime_error("a message between processes is cut short");
+        return number;
+    }
+    const char* take(std::size_t size) {
+        if (size > rest_.size()) throw std::runtime_error("a message between processes is cut short");
+        const char* at = rest_.data();
+        rest_.remove_prefix(size);
+        return at;
+    }
+
+    std::string_view rest_;
+};
+
+}  // namespace oval4d::serialization

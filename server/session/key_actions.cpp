@@ -1,0 +1,125 @@
+#include "session/key_actions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "session/history.hpp"
+#include "session/object_choice.hpp"
+#include "session/settings.hpp"
+#include "slicing/slicer.hpp"
+
+namespace oval4d::session {
+
+namespace {
+
+using Done = Result<std::monostate>;
+
+constexpr double kSpacingFactor = 1.1;
+
+void stepAngle(double& angle, double step) {
+    angle = std::clamp(angle + step, -2 * std::numbers::pi, 2 * std::numbers::pi);
+}
+
+void moveFocus(State& state, int to) { state.slices.focus = std::clamp(to, -kMaxFocus, kMaxFocus); }
+
+// Returns the indices n of the first and the last hyperplane that intersect the object.
+std::pair<int, int> nonemptySlices(const State& state) {
+    const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
+    const double slack = slicing::kOnPlane * slicing::infoOf(state.object).circumradius;
+    const double spacing = state.slices.spacing;
+    return {static_cast<int>(std::ceil((least - slack) / spacing)),
+            static_cast<int>(std::floor((most + slack) / spacing))};
+}
+
+void scaleSpacing(State& state, double factor) {
+    const double radius = slicing::infoOf(state.object).circumradius;
+    state.slices.spacing = std::clamp(state.slices.spacing * factor, kMinSpacing * radius, kMaxSpacing * radius);
+}
+
+Done showNeighbor(ActionContext& c, int by) {
+    auto object = neighborOf(c.state.object, by, c.loaded, c.loader);
+    if (!object) return object.error();
+    show(c.state, std::move(*object));
+    return std::monostate{};
+}
+
+const Error kNoRotationYet{ErrorCode::nothing_to_undo,
+                           "nothing to repeat: no rotation has been made yet; 2 … 7, r, t and y make one"};
+
+// Wraps an action that cannot fail as one that returns success.
+template <auto act>
+Done always(ActionContext& c) {
+    act(c);
+    return std::monostate{};
+}
+
+constexpr auto kActions = std::to_array<Action>({
+    {"rotate", always<[](ActionContext& c) {
+         geometry::Turn turn{c.plane, c.state.alpha, {}};
+         if (c.doubled) turn.beta = c.state.beta;
+         rotate(c.state, c.inverse ? turn.inverse() : turn);
+     }>},
+    {"repeat",
+     [](ActionContext& c) -> Done {
+         if (!c.state.last) return kNoRotationYet;
+         rotate(c.state, *c.state.last);
+         return std::monostate{};
+     }},
+    {"turn",
+     [](ActionContext& c) -> Done {
+         if (!c.state.last) return kNoRotationYet;
+         c.state.turning = !c.state.turning;
+         return std::monostate{};
+     }},
+    {"alpha_up", always<[](ActionContext& c) { stepAngle(c.state.alpha, c.state.step); }>},
+    {"alpha_down", always<[](ActionContext& c) { stepAngle(c.state.alpha, -c.state.step); }>},
+    {"beta_up", always<[](ActionContext& c) { stepAngle(c.state.beta, c.state.step); }>},
+    {"beta_down", always<[](ActionContext& c) { stepAngle(c.state.beta, -c.state.step); }>},
+    {"focus_right", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus + 1); }>},
+    {"focus_left", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus - 1); }>},
+    {"focus_zero", always<[](ActionContext& c) { moveFocus(c.state, 0); }>},
+    {"focus_first", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).first); }>},
+    {"focus_last", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).second); }>},
+    {"spacing_smaller", always<[](ActionContext& c) { scaleSpacing(c.state, 1 / kSpacingFactor); }>},
+    {"spacing_larger", always<[](ActionContext& c) { scaleSpacing(c.state, kSpacingFactor); }>},
+    {"slices_fewer", always<[](ActionContext& c) { setCount(c.state, std::max(c.state.slices.count - 2, 1)); }>},
+    {"slices_more", always<[](ActionContext& c) {
+         if (c.state.slices.count + 2 <= c.limits.maxSlices) setCount(c.state, c.state.slices.count + 2);
+     }>},
+    {"polytope_next", [](ActionContext& c) { return showNeighbor(c, 1); }},
+    {"polytope_previous", [](ActionContext& c) { return showNeighbor(c, -1); }},
+    {"view", always<[](ActionContext& c) {
+         c.state.look.view = c.state.look.view == scene::View::oval ? scene::View::single : scene::View::oval;
+     }>},
+    {"undo", nullptr, undo},
+    {"redo", nullptr, redo},
+});
+
+// Returns the action that toggles scene::kParts[part].
+template <std::size_t part>
+constexpr Action toggleAction() {
+    return {scene::kParts[part].name, always<[](ActionContext& c) {
+                bool& flag = c.state.look.parts.*scene::kParts[part].flag;
+                flag = !flag;
+            }>};
+}
+
+template <std::size_t... parts>
+std::vector<Action> allActions(std::index_sequence<parts...> /*unused*/) {
+    std::vector<Action> actions(kActions.begin(), kActions.end());
+    (actions.push_back(toggleAction<parts>()), ...);
+    return actions;
+}
+
+}  // namespace
+
+std::span<const Action> keyActions() {
+    static const std::vector<Action> actions = allActions(std::make_index_sequence<scene::kParts.size()>());
+    return actions;
+}
+
+}  // namespace oval4d::session

@@ -1,0 +1,69 @@
+#include "session/object_choice.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "polytopes/catalogue/catalogue.hpp"
+#include "text/suggest.hpp"
+
+namespace oval4d::session {
+
+namespace {
+
+// Returns "; did you mean …?" with the most similar names in the catalogue, or with the name of a loaded polytope if
+// that is at least as similar.
+std::string suggestion(std::string_view name, const Loaded& loaded) {
+    std::vector<std::string_view> near = polytopes::nearestNames(name);
+    std::size_t least = polytopes::likeness(name, near.front());
+    for (const auto& [own, ignored] : loaded) {
+        if (polytopes::likeness(name, own) > least) continue;
+        least = polytopes::likeness(name, own);
+        near = {own};
+    }
+    std::string text;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        text += i == 0 ? "; did you mean " : i + 1 < near.size() ? ", " : " or ";
+        text += text::inQuotes(near[i]);
+    }
+    return text + "?";
+}
+
+}  // namespace
+
+Result<slicing::Object> findObject(std::string_view name, const Loaded& loaded, const Limits& limits,
+                                   ObjectLoader& loader) {
+    if (const auto own = loaded.find(name); own != loaded.end()) return own->second;
+    auto named = polytopes::designNamed(name, limits.maxVertices);
+    if (const auto* design = std::get_if<polytopes::Design>(&named)) {
+        auto built = loader.built(*design);
+        if (built || built.error().code != ErrorCode::unknown_polytope) return built;
+        named = polytopes::NameError{polytopes::NameError::Reason::impossible, built.error().message};
+    }
+    const auto& error = std::get<polytopes::NameError>(named);
+    if (error.reason == polytopes::NameError::Reason::too_large) return Error{ErrorCode::too_large, error.message};
+    return Error{ErrorCode::unknown_polytope,
+                 "no polytope is called " + text::inQuotes(name) +
+                     (error.message.empty() ? suggestion(name, loaded) : ": " + error.message)};
+}
+
+Result<slicing::Object> neighborOf(const slicing::Object& object, int by, const Loaded& loaded, ObjectLoader& loader) {
+    std::vector<slicing::Object> own;
+    for (const auto& [name, each] : loaded) own.push_back(each);
+    const auto entries = polytopes::catalogue();
+    const int named = static_cast<int>(entries.size());
+    const int all = named + static_cast<int>(own.size());
+    const auto at = std::ranges::find(own, object);
+    const auto entry = std::ranges::find(entries, slicing::infoOf(object).name, &polytopes::CatalogueEntry::name);
+    int i = by > 0 ? -1 : named;
+    if (at != own.end()) {
+        i = named + static_cast<int>(at - own.begin());
+    } else if (entry != entries.end()) {
+        i = static_cast<int>(entry - entries.begin());
+    }
+    i = (i + by + all) % all;
+    return i < named ? loader.built(entries[i].design) : Result<slicing::Object>(own[i - named]);
+}
+
+}  // namespace oval4d::session

@@ -1,0 +1,21 @@
+#pragma once
+// Finds objects by name, and the next or previous object.
+
+#include <string_view>
+
+#include "session/object_loader.hpp"
+#include "session/session.hpp"
+
+namespace oval4d::session {
+
+/// Returns the loaded object with this name, or else the polytope whose design polytopes::designNamed returns. Errors:
+/// `unknown_polytope`, with the most similar names or with the reason; `too_large`; those of the loader.
+Result<slicing::Object> findObject(std::string_view name, const Loaded& loaded, const Limits& limits,
+                                   ObjectLoader& loader);
+
+/// Returns the object `by` places after `object` in the cyclic list of catalogue entries and loaded objects; `by` is 1
+/// or −1. For an object that is not in the list, returns the first catalogue entry if `by` is 1, and the last catalogue
+/// entry if `by` is −1.
+Result<slicing::Object> neighborOf(const slicing::Object& object, int by, const Loaded& loaded, ObjectLoader& loader);
+
+}  // namespace oval4d::session

@@ -1,0 +1,86 @@
+#include "session/object_loader.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+namespace oval4d::session {
+
+namespace {
+
+const Error kLater{ErrorCode::internal, "the object is not available yet"};
+
+}  // namespace
+
+ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache)
+    : ObjectLoader(limits, cache, Pace::at_once, readObject) {}
+
+ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Pace pace, FileReader reader)
+    : limits_(limits), cache_(cache), pace_(pace), reader_(std::move(reader)) {}
+
+Result<slicing::Object> ObjectLoader::build(const polytopes::Design& design) {
+    try {
+        return slicing::Object(cache_.get(design));
+    } catch (const std::invalid_argument& fault) {
+        return Error{ErrorCode::unknown_polytope, fault.what()};
+    }
+}
+
+Result<slicing::Object> ObjectLoader::built(const polytopes::Design& design) {
+    if (pace_ == Pace::at_once) return build(design);
+    if (built_ && builtName_ == design.name) return *built_;
+    if (auto ready = cache_.find(design)) return slicing::Object(std::move(ready));
+    order_ = design;
+    return kLater;
+}
+
+Result<Reading> ObjectLoader::reading(const Load& load) {
+    if (reading_) return *reading_;
+    if (auto error = checkLoad(load, limits_)) return *error;
+    if (pace_ == Pace::later) {
+        order_ = &load;
+        return kLater;
+    }
+    return *(reading_ = reader_(load.format, load.data, load.name, limits_));
+}
+
+void ObjectLoader::work() {
+    if (const auto* design = std::get_if<polytopes::Design>(&order_)) {
+        built_ = build(*design);
+        builtName_ = design->name;
+    } else if (const auto* load = std::get_if<const Load*>(&order_)) {
+        const Load& file = **load;
+        reading_ = reader_(file.format, file.data, file.name, limits_);
+    }
+    order_ = std::monostate{};
+}
+
+std::size_t ObjectLoader::bytesNeeded() const {
+    constexpr std::size_t kFixed = 64U << 10U;
+    constexpr std::size_t kPerTextByte = 16;  // the numbers, their repaired copy, the polytope and its incidences
+    constexpr std::size_t kPerElement = 256;  // points, incidences, and temporary data of the construction
+    if (const auto* load = std::get_if<const Load*>(&order_)) return kFixed + kPerTextByte * (*load)->data.size();
+    const auto* design = std::get_if<polytopes::Design>(&order_);
+    if (design == nullptr) return 0;
+    const polytopes::ElementCounts counts = polytopes::elementCounts(*design);
+    return kFixed + kPerElement * (counts.vertices + counts.edges + counts.faces + counts.cells);
+}
+
+std::chrono::duration<double> ObjectLoader::cost() const {
+    // Seconds per element that is built, per byte of a file of elements, and per byte of a list of points, for which
+    // the convex hull is computed.
+    constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6;
+    double seconds = 2e-4;
+    if (const auto* design = std::get_if<polytopes::Design>(&order_)) {
+        const auto [vertices, edges, faces, cells] = polytopes::elementCounts(*design);
+        seconds += kElement * static_cast<double>(vertices + edges + faces + cells);
+    } else if (const auto* load = std::get_if<const Load*>(&order_)) {
+        seconds += (buildsHull((*load)->format) ? kPointByte : kByte) * static_cast<double>((*load)->data.size());
+    }
+    return std::chrono::duration<double>(seconds);
+}
+
+std::vector<std::string> ObjectLoader::warnings() const {
+    return reading_ && *reading_ ? (*reading_)->warnings : std::vector<std::string>{};
+}
+
+}  // namespace oval4d::session

@@ -1,0 +1,66 @@
+#include "slicing/convex_cut.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace oval4d::slicing {
+
+namespace {
+
+// A sweep sorts the elements once and writes them for each hyperplane, so its time is proportional to the number of
+// elements times (the number of hyperplanes + a constant). Below kLarge, waking another core would take longer than the
+// time saved.
+bool isWorthTwoCores(const polytopes::Polytope& polytope, int planes) {
+    constexpr std::size_t kSorting = 40;  // the time of sorting, in multiples of the time for one hyperplane
+    constexpr std::size_t kLarge = 2'500'000;
+    const std::size_t elements =
+        polytope.vertices.size() + polytope.edges.size() + polytope.faces.size() + polytope.cells.size();
+    return elements * (kSorting + planes) > kLarge;
+}
+
+}  // namespace
+
+bool ConvexCut::cut(const polytopes::Polytope& polytope, Levels levels, std::span<SliceSet* const> touching,
+                    SliceSet& out) {
+    if (!levels.anyLie && isWorthTwoCores(polytope, out.planes.count)) return cutHalves(polytope, levels, out);
+    Sweep& sweep = lower_.sweep;
+    if (!sweep.begin(polytope, levels, out.planes.count)) return false;
+    SliceSize size = sweep.size();
+    for (const SliceSet* slice : touching) {
+        if (slice != nullptr) size = size + slice->size();
+    }
+    out.resize(size);
+    SliceSize end;
+    if (!sweep.cut(polytope, touching, 0, end, out)) return false;
+    out.end(end);
+    return true;
+}
+
+// Requires that no vertex lies in a hyperplane. Then the sizes of slices are known before they are cut, so the size of
+// the lower half gives the position of the upper half in `out`.
+bool ConvexCut::cutHalves(const polytopes::Polytope& polytope, Levels levels, SliceSet& out) {
+    const auto [least, most] = std::minmax_element(levels.below.begin(), levels.below.end());
+    const std::int32_t middle = (*least + *most) / 2;
+    const auto begin = [&](Half& half, std::int32_t first, std::int32_t end) {
+        half.below.resize(levels.below.size());
+        std::transform(levels.below.begin(), levels.below.end(), half.below.begin(),
+                       [&](std::int32_t below) { return std::clamp(below, first, end) - first; });
+        half.sound = half.sweep.begin(polytope, {half.below, half.below, false}, end - first);
+    };
+    const auto cut = [&](Half& half, std::int32_t first) {
+        half.sound = half.sweep.cut(polytope, {}, first, half.end, out);
+    };
+    const auto invoke = [&](const auto& lower, const auto& upper) {
+        parallel::invoke(forkJoin_, std::ref(lower), std::ref(upper));
+        return lower_.sound && upper_.sound;
+    };
+    if (!invoke([&] { begin(lower_, 0, middle); }, [&] { begin(upper_, middle, out.planes.count); })) return false;
+    lower_.end = {};
+    upper_.end = lower_.sweep.size();
+    out.resize(lower_.sweep.size() + upper_.sweep.size());
+    if (!invoke([&] { cut(lower_, 0); }, [&] { cut(upper_, middle); })) return false;
+    out.end(upper_.end);
+    return true;
+}
+
+}  // namespace oval4d::slicing

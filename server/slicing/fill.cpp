@@ -1,0 +1,272 @@
+#include "slicing/fill.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace oval4d::slicing {
+
+void Fill::clear() {
+    patches.clear();
+    corners.clear();
+    patchBegin.assign(1, 0);
+    pieceBegin.assign(1, 0);
+    cornerBegin.assign(1, 0);
+}
+
+double Filler::Side::at(double y) const {
+    if (y <= low.y) return low.x;
+    if (y >= high.y) return high.x;
+    return low.x + slope * (y - low.y);
+}
+
+void Filler::fill(const SliceSet& slices, double circumradius, Fill& out, std::size_t steps) {
+    stepsLeft_ = steps;
+    epsilon_ = 1e-10 * circumradius;
+    out.clear();
+    for (std::size_t slice = 0; slice + 1 < slices.faceBegin.size(); ++slice) {
+        const std::uint32_t last = slices.faceBegin[slice + 1];
+        for (std::uint32_t begin = slices.faceBegin[slice], end = begin; begin < last; begin = end) {
+            while (end < last && slices.faceSource[end] == slices.faceSource[begin]) ++end;
+            fillFace(slices, slice, begin, end, out);
+        }
+        out.patchBegin.push_back(static_cast<std::uint32_t>(out.patches.size()));
+    }
+}
+
+void Filler::fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, Fill& out) {
+    Fill::Patch patch{{}, 0, slices.faceSource[begin], begin, end, 0};
+    if (!findPlane(slices, slice, begin, end, patch)) return;
+    const auto onPlane = [this](const glm::dvec3& p) {
+        return glm::dvec2(glm::dot(p - plane_.origin, plane_.x), glm::dot(p - plane_.origin, plane_.y));
+    };
+    sides_.clear();
+    std::size_t first = 0;
+    for (std::uint32_t f = begin; f < end; ++f) {
+        const std::size_t size = slices.cornerBegin[f + 1] - slices.cornerBegin[f];
+        for (std::size_t i = 0; i < size; ++i) {
+            const glm::dvec2 a = onPlane(points_[first + i]);
+            const glm::dvec2 b = onPlane(points_[first + (i + 1) % size]);
+            // The inside is to the left of a side that goes up, so the winding number decreases across it to the right.
+            const double slope = (b.x - a.x) / (b.y - a.y);
+            if (a.y < b.y) sides_.push_back({a, b, slope, -1, 0, 0, 0});
+            if (a.y > b.y) sides_.push_back({b, a, slope, 1, 0, 0, 0});
+        }
+        first += size;
+    }
+    const bool known = spendSteps(sides_.size() * sides_.size());
+    if (known) findLevels();
+    if (known && spendSteps(sides_.size() * levels_.size())) {
+        patch.winding = sweep(out);
+    } else {
+        fillRoughly(slices, begin, end, out);
+    }
+    if (out.cornerBegin.size() - 1 == out.pieceBegin.back()) return;
+    out.patches.push_back(patch);
+    out.pieceBegin.push_back(static_cast<std::uint32_t>(out.cornerBegin.size() - 1));
+}
+
+// Subtracts `steps` from those left. Returns false, and subtracts nothing, if too few are left.
+bool Filler::spendSteps(std::size_t steps) {
+    if (steps > stepsLeft_) return false;
+    stepsLeft_ -= steps;
+    return true;
+}
+
+void Filler::fillRoughly(const SliceSet& slices, std::uint32_t begin, std::uint32_t end, Fill& out) const {
+    std::size_t first = 0;
+    for (std::uint32_t f = begin; f < end; ++f) {
+        const std::size_t size = slices.cornerBegin[f + 1] - slices.cornerBegin[f];
+        glm::dvec3 middle(0);
+        for (std::size_t i = 0; i < size; ++i) middle += points_[first + i] / static_cast<double>(size);
+        for (std::size_t i = 0; i < size; ++i) {
+            const glm::dvec3& next = points_[first + (i + 1) % size];
+            out.corners.insert(out.corners.end(), {middle, points_[first + i], next});
+            out.cornerBegin.push_back(static_cast<std::uint32_t>(out.corners.size()));
+        }
+        first += size;
+    }
+}
+
+// Finds the plane of the loops from three of their corners that are far apart. Returns false if all are collinear.
+bool Filler::findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
+                       Fill::Patch& out) {
+    points_.clear();
+    glm::dvec3 area(0);  // twice the signed area vector of the loops
+    const glm::dvec3* vertices = &slices.vertices[slices.vertexBegin[slice]];
+    for (std::uint32_t f = begin; f < end; ++f) {
+        const glm::dvec3& apex = vertices[slices.corners[slices.cornerBegin[f]]];
+        for (std::uint32_t i = slices.cornerBegin[f]; i < slices.cornerBegin[f + 1]; ++i) {
+            points_.push_back(vertices[slices.corners[i]]);
+            if (i > slices.cornerBegin[f])
+                area += glm::cross(points_[points_.size() - 2] - apex, points_.back() - apex);
+        }
+    }
+    const glm::dvec3 origin = points_.front();
+    glm::dvec3 far(0), normal(0);
+    for (const glm::dvec3& p : points_) {
+        if (glm::dot(p - origin, p - origin) > glm::dot(far, far)) far = p - origin;
+    }
+    for (const glm::dvec3& p : points_) {
+        const glm::dvec3 cross = glm::cross(far, p - origin);
+        if (glm::dot(cross, cross) > glm::dot(normal, normal)) normal = cross;
+    }
+    const double height = glm::length(normal);
+    if (!(height > epsilon_ * glm::length(far))) return false;
+    normal /= glm::dot(area, normal) < 0 ? -height : height;
+    plane_ = {origin, glm::normalize(far), glm::cross(normal, glm::normalize(far))};
+    out.normal = normal;
+    out.offset = glm::dot(normal, origin);
+    return true;
+}
+
+// Finds the levels: between two successive ones, no side begins, ends or crosses another.
+void Filler::findLevels() {
+    levels_.clear();
+    for (const Side& side : sides_) {
+        levels_.push_back(side.low.y);
+        levels_.push_back(side.high.y);
+    }
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            const Side &a = sides_[i], &b = sides_[k];
+            const double bottom = std::max(a.low.y, b.low.y);
+            const double top = std::min(a.high.y, b.high.y);
+            if (top - bottom <= epsilon_ || std::max(a.low.x, a.high.x) < std::min(b.low.x, b.high.x) ||
+                std::max(b.low.x, b.high.x) < std::min(a.low.x, a.high.x)) {
+                continue;
+            }
+            const double before = a.at(bottom) - b.at(bottom);
+            const double after = a.at(top) - b.at(top);
+            if ((before < 0) == (after < 0) || before == after) continue;
+            levels_.push_back(bottom + (top - bottom) * (before / (before - after)));
+        }
+    }
+    std::sort(levels_.begin(), levels_.end());
+    const auto same = [this](double a, double b) { return b - a <= epsilon_; };
+    levels_.erase(std::unique(levels_.begin(), levels_.end(), same), levels_.end());
+    for (Side& side : sides_) {
+        const auto level = [this](double y) {
+            return static_cast<std::uint32_t>(std::upper_bound(levels_.begin(), levels_.end(), y) - levels_.begin() -
+                                              1);
+        };
+        side.from = level(side.low.y);
+        side.to = level(side.high.y);
+    }
+}
+
+// Sweeps upward from level to level; in the strip between two levels the order of the sides from left to right is
+// fixed. Returns the greatest absolute winding number.
+int Filler::sweep(Fill& out) {
+    waiting_.resize(sides_.size());
+    for (std::uint32_t i = 0; i < sides_.size(); ++i) waiting_[i] = i;
+    std::sort(waiting_.begin(), waiting_.end(),
+              [this](std::uint32_t a, std::uint32_t b) { return sides_[a].from < sides_[b].from; });
+    active_.clear();
+    open_.clear();
+    std::size_t next = 0;
+    int most = 0;
+    for (std::uint32_t strip = 0; strip + 1 < levels_.size(); ++strip) {
+        const double bottom = levels_[strip];
+        const double top = levels_[strip + 1];
+        std::erase_if(active_, [&](std::uint32_t i) { return sides_[i].to <= strip; });
+        for (; next < waiting_.size() && sides_[waiting_[next]].from == strip; ++next) {
+            if (sides_[waiting_[next]].to > strip) active_.push_back(waiting_[next]);
+        }
+        sortActive((bottom + top) / 2);
+
+        for (Piece& piece : open_) piece.continued = false;
+        int winding = 0;
+        std::uint32_t left = 0;
+        bool positive = true;
+        for (const std::uint32_t i : active_) {
+            const int before = winding;
+            winding += sides_[i].winding;
+            most = std::max(most, std::abs(winding));
+            if (before == 0) {
+                left = i;
+                positive = winding > 0;
+            } else if (winding == 0 && sides_[i].middle - sides_[left].middle > epsilon_) {
+                addSpan(left, i, positive, bottom);
+            }
+        }
+        for (const Piece& piece : open_) {
+            if (!piece.continued) close(piece, bottom, out);
+        }
+        std::erase_if(open_, [](const Piece& piece) { return !piece.continued; });
+    }
+    for (const Piece& piece : open_) close(piece, levels_.back(), out);
+    return most;
+}
+
+// Sorts the active sides from left to right at height y. They are nearly sorted from the previous strip, so insertion
+// sort is fastest.
+void Filler::sortActive(double y) {
+    for (std::size_t i = 0; i < active_.size(); ++i) {
+        const std::uint32_t side = active_[i];
+        const double x = sides_[side].middle = sides_[side].at(y);
+        std::size_t at = i;
+        for (; at > 0 && sides_[active_[at - 1]].middle > x; --at) active_[at] = active_[at - 1];
+        active_[at] = side;
+    }
+}
+
+// Adds the inside between two sides in the current strip: to a piece that stays convex, or as a new piece.
+void Filler::addSpan(std::uint32_t left, std::uint32_t right, bool positive, double bottom) {
+    const Side &l = sides_[left], &r = sides_[right];
+    for (Piece& piece : open_) {
+        if (piece.continued || piece.positive != positive || !canContinue(piece, l, r, bottom)) continue;
+        if (piece.leftSide != left) piece.left.at(piece.leftCount++) = {l.at(bottom), bottom};
+        if (piece.rightSide != right) piece.right.at(piece.rightCount++) = {r.at(bottom), bottom};
+        piece.leftSide = left;
+        piece.rightSide = right;
+        piece.continued = true;
+        return;
+    }
+    Piece piece{};
+    piece.left[0] = {l.at(bottom), bottom};
+    piece.right[0] = {r.at(bottom), bottom};
+    piece.leftCount = piece.rightCount = 1;
+    piece.leftSide = left;
+    piece.rightSide = right;
+    piece.positive = positive;
+    piece.continued = true;
+    open_.push_back(piece);
+}
+
+// Whether the piece stays convex if its chains continue along these sides.
+bool Filler::canContinue(const Piece& piece, const Side& left, const Side& right, double bottom) const {
+    const Side &l = sides_[piece.leftSide], &r = sides_[piece.rightSide];
+    const auto follows = [&](const Side& before, const Side& after, double inward) {
+        if (&before == &after) return true;
+        if (std::abs(before.at(bottom) - after.at(bottom)) > epsilon_) return false;
+        return inward * (after.slope - before.slope) >= 0;
+    };
+    return piece.leftCount < Piece::kMost && piece.rightCount < Piece::kMost && follows(l, left, 1) &&
+           follows(r, right, -1);
+}
+
+// Completes a piece at height `top` and appends it to `out`, unless it is degenerate.
+void Filler::close(const Piece& piece, double top, Fill& out) const {
+    const std::size_t first = out.corners.size();
+    glm::dvec2 last(0);
+    const auto add = [&](const glm::dvec2& p) {
+        if (out.corners.size() > first && glm::distance(p, last) <= epsilon_) return;
+        last = p;
+        out.corners.push_back(plane_.origin + p.x * plane_.x + p.y * plane_.y);
+    };
+    add(piece.left[0]);
+    for (std::size_t i = 0; i < piece.rightCount; ++i) add(piece.right.at(i));
+    add({sides_[piece.rightSide].at(top), top});
+    add({sides_[piece.leftSide].at(top), top});
+    for (std::size_t i = piece.leftCount; i-- > 1;) add(piece.left.at(i));
+    if (out.corners.size() - first < 3) {
+        out.corners.resize(first);
+        return;
+    }
+    if (!piece.positive) std::reverse(out.corners.begin() + static_cast<std::ptrdiff_t>(first), out.corners.end());
+    out.cornerBegin.push_back(static_cast<std::uint32_t>(out.corners.size()));
+}
+
+}  // namespace oval4d::slicing

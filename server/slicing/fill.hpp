@@ -1,0 +1,96 @@
+#pragma once
+// Filled faces of slices, decomposed into convex pieces, for drawing and for the meshes of nonconvex slices.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "polytopes/polytope.hpp"
+#include "slicing/slice_set.hpp"
+
+namespace oval4d::slicing {
+
+/// Faces of slices filled by the nonzero winding rule: a point of a face's plane belongs to the face if the winding
+/// number around it of all loops of one cell in one hyperplane, taken together, is not 0.
+///
+/// A patch is such a face; slice i owns the patches [patchBegin[i], patchBegin[i + 1]). Patch p owns the pieces
+/// [pieceBegin[p], pieceBegin[p + 1]): convex polygons that do not overlap, unless the patch is filled roughly. Piece k
+/// is the loop corners[cornerBegin[k]] … corners[cornerBegin[k + 1] − 1], counterclockwise seen from outside, or from
+/// inside where the winding number is negative.
+struct Fill {
+    struct Patch {
+        glm::dvec3 normal;  ///< unit length, outward; the plane is dot(normal, x) = offset
+        double offset;
+        std::uint32_t source;               ///< as SliceSet::faceSource
+        std::uint32_t firstLoop, lastLoop;  ///< the faces firstLoop … lastLoop − 1 of the SliceSet
+        int winding;                        ///< the greatest absolute winding number; 0 if filled roughly
+    };
+    std::vector<std::uint32_t> patchBegin, pieceBegin, cornerBegin;
+    std::vector<Patch> patches;
+    std::vector<glm::dvec3> corners;
+
+    bool empty() const { return patches.empty(); }
+    void clear();
+};
+
+/// Fills the faces of slices. Reuses its memory between calls. A filler may be used by one thread at a time.
+class Filler {
+  public:
+    static constexpr std::size_t kNoLimit = ~std::size_t{0};
+
+    /// Fills all slices of `slices`, which were cut from a polytope of this circumradius. `out` is overwritten and its
+    /// memory reused. `steps` limits the time: a face with n sides that cross at k points takes at most n² + n · k
+    /// steps. A face for which too few steps are left is filled roughly: each loop by the triangles between its sides
+    /// and the mean of its corners. Together these cover the interior of a loop that is star-shaped about the mean, as
+    /// star polygons are.
+    void fill(const SliceSet& slices, double circumradius, Fill& out, std::size_t steps = kNoLimit);
+
+  private:
+    // A side of a loop, from its lower to its upper end, in the coordinates x, y of the plane.
+    struct Side {
+        glm::dvec2 low, high;
+        double slope;            // dx/dy
+        int winding;             // the change of the winding number across the side, from left to right
+        std::uint32_t from, to;  // the levels of its ends, indices into levels_
+        double middle;           // x at half the height of the current strip
+        double at(double y) const;
+    };
+    // A convex piece under construction, from the bottom up: its left and right chains of corners so far, and the sides
+    // that they currently follow.
+    struct Piece {
+        static constexpr std::size_t kMost = 16;
+        std::array<glm::dvec2, kMost> left, right;
+        std::size_t leftCount, rightCount;
+        std::uint32_t leftSide, rightSide;
+        bool positive, continued;
+    };
+    struct Plane {
+        glm::dvec3 origin, x, y;
+    };
+
+    void fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, Fill& out);
+    bool findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, Fill::Patch& out);
+    bool spendSteps(std::size_t steps);
+    void findLevels();
+    int sweep(Fill& out);
+    void fillRoughly(const SliceSet& slices, std::uint32_t begin, std::uint32_t end, Fill& out) const;
+    void sortActive(double y);
+    void addSpan(std::uint32_t left, std::uint32_t right, bool positive, double bottom);
+    bool canContinue(const Piece& piece, const Side& left, const Side& right, double bottom) const;
+    void close(const Piece& piece, double top, Fill& out) const;
+
+    std::size_t stepsLeft_ = 0;
+    double epsilon_ = 0;  // lengths up to this are treated as 0
+    Plane plane_{};
+    std::vector<glm::dvec3> points_;
+    std::vector<Side> sides_;
+    std::vector<double> levels_;          // y at which a side begins, ends or crosses another, ascending
+    std::vector<std::uint32_t> waiting_;  // sides, sorted by their first level
+    std::vector<std::uint32_t> active_;   // sides through the current strip, from left to right
+    std::vector<Piece> open_;
+};
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,115 @@
+#include "slicing/object.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "geometry/point_cloud.hpp"
+#include "polytopes/off.hpp"
+#include "polytopes/polytope.hpp"
+#include "slicing/cloud_slicer.hpp"
+#include "slicing/visitor.hpp"
+
+namespace oval4d::slicing {
+
+namespace {
+
+using polytopes::Polytope;
+
+const std::vector<glm::dvec4>& verticesOf(const Object& object) {
+    return std::visit(Visitor{[](const PolytopePtr& p) -> const std::vector<glm::dvec4>& { return p->vertices; },
+                              [](const CloudPtr& cloud) -> const std::vector<glm::dvec4>& { return cloud->points; }},
+                      object);
+}
+
+double ballRadius(const Polytope& p) {
+    double sum = 0;
+    for (const auto& [a, b] : p.edges) sum += glm::distance(p.vertices[a], p.vertices[b]);
+    const double meanEdge = sum / static_cast<double>(p.edges.size());
+    const double radius = 0.062 * std::min(1.0, std::pow(meanEdge / p.circumradius, 0.65));
+    // The bars of a star cross each other: at half the radius, the crossings stay visible.
+    return p.convex ? radius : 0.5 * radius;
+}
+
+void findCellCenters(const Polytope& p, std::vector<glm::dvec4>& out) {
+    out.resize(p.cells.size());
+    for (std::size_t c = 0; c < out.size(); ++c) {
+        glm::dvec4 sum(0);
+        double count = 0;
+        for (const auto face : p.cells[c]) {
+            for (const auto v : p.faces[face]) sum += p.vertices[v];
+            count += static_cast<double>(p.faces[face].size());
+        }
+        out[c] = sum / count;
+    }
+}
+
+}  // namespace
+
+const geometry::ObjectInfo& infoOf(const Object& object) {
+    return std::visit([](const auto& shared) -> const geometry::ObjectInfo& { return *shared; }, object);
+}
+
+std::array<std::size_t, 4> elementCounts(const Object& object) {
+    using Counts = std::array<std::size_t, 4>;
+    return std::visit(Visitor{[](const PolytopePtr& p) {
+                                  return Counts{p->vertices.size(), p->edges.size(), p->faces.size(), p->cells.size()};
+                              },
+                              [](const CloudPtr& cloud) { return Counts{cloud->points.size(), 0, 0, 0}; }},
+                      object);
+}
+
+std::size_t bytesOf(const Object& object) {
+    return std::visit(Visitor{[](const PolytopePtr& p) { return polytopes::bytesOf(*p); },
+                              [](const CloudPtr& cloud) {
+                                  return sizeof *cloud + cloud->points.size() * (sizeof(glm::dvec4) + sizeof(double));
+                              }},
+                      object);
+}
+
+const void* identityOf(const Object& object) {
+    return std::visit([](const auto& shared) -> const void* { return shared.get(); }, object);
+}
+
+std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotation& orientation) {
+    const glm::dmat4 matrix = orientation.matrix();
+    const glm::dvec4 row(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
+    const auto& vertices = verticesOf(object);
+    std::pair<double, double> range{glm::dot(row, vertices.front()), glm::dot(row, vertices.front())};
+    for (const glm::dvec4& v : vertices) {
+        const double w = glm::dot(row, v);
+        range = {std::min(range.first, w), std::max(range.second, w)};
+    }
+    return range;
+}
+
+double ballRadius(const Object& object) {
+    return std::visit([](const auto& shared) { return ballRadius(*shared); }, object);
+}
+
+void findCellCenters(const Object& object, std::vector<glm::dvec4>& out) {
+    std::visit(Visitor{[&](const PolytopePtr& p) { findCellCenters(*p, out); },
+                       [&](const CloudPtr& /*cloud*/) { out.clear(); }},
+               object);
+}
+
+std::span<const std::uint32_t> cellTypesOf(const Object& object) {
+    using Types = std::span<const std::uint32_t>;
+    return std::visit(Visitor{[](const PolytopePtr& p) { return Types(p->typeOfCell); },
+                              [](const CloudPtr& /*cloud*/) { return Types(); }},
+                      object);
+}
+
+std::string write4Off(const Object& object, std::span<const glm::dvec4> turned) {
+    return std::visit(Visitor{[&](const PolytopePtr& p) { return polytopes::write4Off(*p, turned); },
+                              [&](const CloudPtr& cloud) {
+                                  Polytope points;
+                                  points.name = cloud->name;
+                                  return polytopes::write4Off(points, turned);
+                              }},
+                      object);
+}
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,444 @@
+#include "slicing/polytope_slicer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "slicing/ranges.hpp"
+
+// The polytope is cut just above each hyperplane, where there are no vertices, and the section is then moved down onto
+// the hyperplane: a point on an edge that starts in the hyperplane collapses to that vertex, a line in a 2-face that
+// stands on an edge collapses to that edge, and elements that shrink to a point are dropped. So degenerate positions
+// need no special cases, and sections are closed loops even if 2-faces are stars.
+
+namespace oval4d::slicing {
+
+void PolytopeSlicer::slice(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
+                           const geometry::Hyperplanes& planes, SliceSet& out) {
+    out.planes = planes;
+    locateVertices(polytope, orientation, out);
+    if (!polytope.convex || !cutConvex(polytope, out)) cutAny(polytope, out);
+}
+
+void PolytopeSlicer::cutAny(const polytopes::Polytope& polytope, SliceSet& out) {
+    cutEdges(polytope, out);
+    cutFaces(polytope, out);
+    cutCells(polytope, out);
+}
+
+bool PolytopeSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet& out) {
+    touching_.clear();
+    if (anyLie_ && !cutTouching(polytope, out)) return false;
+    return convexCut_.cut(polytope, {below_, upTo_, anyLie_}, touching_, out);
+}
+
+// Cuts separately, by the general method, the slices in hyperplanes that the polytope touches from one side. Returns
+// false if hyperplanes are so close together that vertices lie in two of them.
+bool PolytopeSlicer::cutTouching(const polytopes::Polytope& polytope, SliceSet& out) {
+    const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
+    const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
+    allBelow_ = below_;
+    allUpTo_ = upTo_;
+    touching_.resize(out.planes.count);
+    std::size_t touched = 0;
+    for (std::size_t v = 0; v < allBelow_.size(); ++v) {
+        const std::int32_t k = allBelow_[v];
+        if (k == allUpTo_[v] || (k >= firstAbove && k < lastBelow) || touching_[k] != nullptr) continue;
+        if (touched++ == singles_.size()) break;
+        touching_[k] = &singles_.at(touched - 1);
+        cutOne(polytope, k, *touching_[k], out);
+    }
+    below_.swap(allBelow_);
+    upTo_.swap(allUpTo_);
+    return touched <= singles_.size();
+}
+
+void PolytopeSlicer::cutOne(const polytopes::Polytope& polytope, std::int32_t plane, SliceSet& single, SliceSet& all) {
+    for (std::size_t v = 0; v < below_.size(); ++v) {
+        below_[v] = std::clamp(allBelow_[v] - plane, 0, 1);
+        upTo_[v] = std::clamp(allUpTo_[v] - plane, 0, 1);
+    }
+    single.planes = {all.planes.first + plane, 1, all.planes.spacing};
+    single.turned.swap(all.turned);
+    cutAny(polytope, single);
+    single.turned.swap(all.turned);
+}
+
+void PolytopeSlicer::locateVertices(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
+                                    SliceSet& out) {
+    const auto count = static_cast<double>(out.planes.count);
+    const double inverse = 1 / out.planes.spacing;
+    const double tolerance = kOnPlane * polytope.circumradius * inverse;
+    const glm::dmat4 m = orientation.matrix();
+    const std::size_t n = polytope.vertices.size();
+    out.turned.resize(n);
+    below_.resize(n);
+    upTo_.resize(n);
+    anyLie_ = false;
+    for (std::size_t v = 0; v < n; ++v) {
+        out.turned[v] = m * polytope.vertices[v];
+        const double level = out.turned[v].w * inverse - out.planes.first;
+        const double above = std::clamp(level - tolerance, 0.0, count);
+        const auto whole = static_cast<std::int32_t>(above);
+        below_[v] = whole + (above > whole ? 1 : 0);  // rounded up
+        upTo_[v] = static_cast<std::int32_t>(std::clamp(level + tolerance + 1, 0.0, count));
+        anyLie_ |= below_[v] != upTo_[v];
+    }
+}
+
+// Slice vertices: the polytope's vertices in the hyperplane, and the crossed edges.
+void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out) {
+    const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
+    const auto vertices = static_cast<std::uint32_t>(polytope.vertices.size());
+    out.vertexBegin.assign(out.planes.count + 1, 0);
+    for (std::uint32_t v = 0; v < vertices; ++v) {
+        if (below_[v] != upTo_[v]) countSpan(out.vertexBegin, below_[v], upTo_[v]);
+    }
+    slotBegin_.resize(edges);
+    std::uint32_t slots = 0;
+    for (std::uint32_t e = 0; e < edges; ++e) {
+        const auto [a, b] = polytope.edges[e];
+        slotBegin_[e] = slots;
+        slots += std::abs(below_[a] - below_[b]);
+        const std::int32_t from = std::min(upTo_[a], upTo_[b]);
+        const std::int32_t to = std::max(below_[a], below_[b]);
+        if (from < to) countSpan(out.vertexBegin, from, to);
+    }
+    const std::uint32_t total = accumulate(out.vertexBegin);
+    out.vertices.resize(total);
+    out.vertexSource.resize(total);
+    vertexPoint_.resize(vertices);
+    slotPoint_.resize(slots);
+    cursor_.assign(out.vertexBegin.begin(), out.vertexBegin.end());
+
+    for (std::uint32_t v = 0; v < vertices; ++v) {
+        if (below_[v] == upTo_[v]) continue;
+        const std::uint32_t point = cursor_[below_[v]]++;
+        vertexPoint_[v] = point;
+        out.vertices[point] = out.turned[v];
+        out.vertexSource[point] = edges + v;
+    }
+    std::uint32_t* slot = slotPoint_.data();
+    for (std::uint32_t e = 0; e < edges; ++e) {
+        auto [lower, upper] = polytope.edges[e];
+        if (below_[lower] == below_[upper]) continue;
+        if (below_[lower] > below_[upper]) std::swap(lower, upper);
+        std::int32_t k = below_[lower];
+        if (k < upTo_[lower]) {
+            *slot++ = vertexPoint_[lower];
+            ++k;
+        }
+        const glm::dvec4& a = out.turned[lower];
+        const glm::dvec4 along = out.turned[upper] - a;
+        const glm::dvec3 perRise = glm::dvec3(along) * (1 / along.w);
+        for (; k < below_[upper]; ++k) {
+            const std::uint32_t point = cursor_[k]++;
+            *slot++ = point;
+            out.vertices[point] = glm::dvec3(a) + (out.planes.w(k) - a.w) * perRise;
+            out.vertexSource[point] = e;
+        }
+    }
+}
+
+// Slice edges: the polytope's edges in the hyperplane, and the crossed 2-faces.
+void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out) {
+    const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
+    twice_.resize(below_.size());
+    for (std::size_t v = 0; v < below_.size(); ++v) twice_[v] = below_[v] + upTo_[v];
+    up_.resize(out.planes.count);
+    down_.resize(out.planes.count);
+    faceSpan_.resize(faces);
+    lyingIn_.resize(faces);
+    lineBegin_.resize(faces + 1);
+    lines_.clear();
+    const std::uint32_t* vertex = polytope.faces.items.data();
+    for (std::uint32_t f = 0; f < faces; ++f) {
+        const std::uint32_t* end = polytope.faces.items.data() + polytope.faces.begin[f + 1];
+        std::int32_t least = twice_[*vertex];
+        std::int32_t most = least;
+        while (++vertex != end) {
+            least = std::min(least, twice_[*vertex]);
+            most = std::max(most, twice_[*vertex]);
+        }
+        const Span above{least / 2, most / 2};
+        const std::int32_t leastUpTo = (least + 1) / 2;
+        const std::int32_t mostUpTo = (most + 1) / 2;
+        faceSpan_[f] = {leastUpTo, above.to};
+        lyingIn_[f] = above.from == above.to && leastUpTo == mostUpTo && leastUpTo > above.to ? above.to : kNoPlane;
+        lineBegin_[f] = static_cast<std::uint32_t>(lines_.size());
+        if (above.from == above.to) continue;
+        if (polytope.convexFaces) {
+            cutConvexFace(polytope, f, above);
+        } else {
+            cutAnyFace(polytope, f, above, out);
+        }
+    }
+    lineBegin_[faces] = static_cast<std::uint32_t>(lines_.size());
+    numberEdges(polytope, out);
+}
+
+// The loop of a convex 2-face ascends and descends through a hyperplane once each.
+void PolytopeSlicer::cutConvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above) {
+    const auto loop = polytope.faces[face];
+    const auto loopEdges = polytope.faceEdges[face];
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const std::int32_t from = below_[loop[i]];
+        const std::int32_t to = below_[loop[i + 1 == loop.size() ? 0 : i + 1]];
+        std::uint32_t slot = slotBegin_[loopEdges[i]];
+        if (from < to) {
+            for (std::int32_t k = from; k < to; ++k) up_[k] = slot++;
+        } else {
+            for (std::int32_t k = to; k < from; ++k) down_[k] = slot++;
+        }
+    }
+    for (std::int32_t k = above.from; k < above.to; ++k) addLine(polytope, face, k, up_[k], down_[k]);
+}
+
+// A nonconvex loop crosses the hyperplane several times: along the line in which the hyperplane cuts the 2-face's
+// plane, the i-th ascent is paired with the i-th descent. Where segments overlap, the 2-face covers the line more than
+// once.
+void PolytopeSlicer::cutAnyFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above,
+                                const SliceSet& out) {
+    const auto loop = polytope.faces[face];
+    const auto loopEdges = polytope.faceEdges[face];
+    for (std::int32_t k = above.from; k < above.to; ++k) {
+        ups_.clear();
+        downs_.clear();
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const std::int32_t from = below_[loop[i]];
+            const std::int32_t to = below_[loop[i + 1 == loop.size() ? 0 : i + 1]];
+            if (std::min(from, to) > k || std::max(from, to) <= k) continue;
+            (from < to ? ups_ : downs_).push_back({slotBegin_[loopEdges[i]] + k - std::min(from, to), 0});
+        }
+        const glm::dvec3 origin = out.vertices[slotPoint_[ups_[0].slot]];
+        glm::dvec3 direction(0);
+        for (const auto* crossings : {&ups_, &downs_}) {
+            for (const Crossing& c : *crossings) {
+                const glm::dvec3 d = out.vertices[slotPoint_[c.slot]] - origin;
+                if (glm::dot(d, d) > glm::dot(direction, direction)) direction = d;
+            }
+        }
+        for (auto* crossings : {&ups_, &downs_}) {
+            for (Crossing& c : *crossings) c.along = glm::dot(out.vertices[slotPoint_[c.slot]] - origin, direction);
+            std::sort(crossings->begin(), crossings->end(),
+                      [](const Crossing& a, const Crossing& b) { return a.along < b.along; });
+        }
+        for (std::size_t i = 0; i < ups_.size(); ++i) addLine(polytope, face, k, ups_[i].slot, downs_[i].slot);
+    }
+}
+
+void PolytopeSlicer::addLine(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane,
+                             std::uint32_t up, std::uint32_t down) {
+    std::uint32_t edge = kFresh;
+    const std::uint32_t a = slotPoint_[up];
+    const std::uint32_t b = slotPoint_[down];
+    if (a == b) {
+        edge = kNone;
+    } else if (plane < faceSpan_[face].from) {
+        // The 2-face stands on this hyperplane with an edge: both points are vertices of the 2-face, and the edge
+        // between them lies in the hyperplane.
+        for (const std::uint32_t e : polytope.faceEdges[face]) {
+            const auto [v, u] = polytope.edges[e];
+            if (!liesInOne({v, u}) || below_[v] != plane) continue;
+            if (std::minmax(vertexPoint_[v], vertexPoint_[u]) == std::minmax(a, b)) edge = e;
+        }
+    }
+    lines_.push_back({plane, up, down, edge});
+}
+
+void PolytopeSlicer::numberEdges(const polytopes::Polytope& polytope, SliceSet& out) {
+    const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
+    const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
+    out.edgeBegin.assign(out.planes.count + 1, 0);
+    lyingEdges_.clear();
+    for (std::uint32_t e = 0; e < edges; ++e) {
+        if (!liesInOne(polytope.edges[e])) continue;
+        lyingEdges_.push_back(e);
+        const std::int32_t plane = below_[polytope.edges[e][0]];
+        countSpan(out.edgeBegin, plane, plane + 1);
+    }
+    for (const Line& line : lines_) {
+        if (line.edge == kFresh) countSpan(out.edgeBegin, line.plane, line.plane + 1);
+    }
+    const std::uint32_t total = accumulate(out.edgeBegin);
+    out.edges.resize(total);
+    out.edgeSource.resize(total);
+    edgeLine_.resize(edges);
+    cursor_.assign(out.edgeBegin.begin(), out.edgeBegin.end());
+    const auto add = [&](std::int32_t plane, std::uint32_t a, std::uint32_t b, std::uint32_t source) {
+        const std::uint32_t number = cursor_[plane]++;
+        out.edges[number] = {a - out.vertexBegin[plane], b - out.vertexBegin[plane]};
+        out.edgeSource[number] = source;
+        return number;
+    };
+    for (const std::uint32_t e : lyingEdges_) {
+        const auto [a, b] = polytope.edges[e];
+        edgeLine_[e] = add(below_[a], vertexPoint_[a], vertexPoint_[b], faces + e);
+    }
+    for (std::uint32_t f = 0; f < faces; ++f) {
+        for (std::uint32_t i = lineBegin_[f]; i < lineBegin_[f + 1]; ++i) {
+            Line& line = lines_[i];
+            if (line.edge == kNone) continue;
+            line.edge = line.edge == kFresh ? add(line.plane, slotPoint_[line.up], slotPoint_[line.down], f)
+                                            : edgeLine_[line.edge];
+        }
+    }
+}
+
+// Slice faces: the 2-faces in the hyperplane, and the crossed cells.
+void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out) {
+    const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
+    cellSpan_.resize(cells);
+    for (std::uint32_t c = 0; c < cells; ++c) {
+        const auto faces = polytope.cells[c];
+        Span span = faceSpan_[faces[0]];
+        for (const std::uint32_t f : faces) {
+            span = {std::min(span.from, faceSpan_[f].from), std::max(span.to, faceSpan_[f].to)};
+        }
+        cellSpan_[c] = span;
+    }
+    loops_.clear();
+    loopCorners_.clear();
+    next_.assign(slotPoint_.size(), kNone);
+    nextEdge_.resize(slotPoint_.size());
+    addLyingFaces(polytope, out);
+    for (std::uint32_t c = 0; c < cells; ++c) {
+        if (cellSpan_[c].from < cellSpan_[c].to) traceCell(polytope, c);
+    }
+    placeLoops(out);
+}
+
+// Links the lines cut from the cell's 2-faces end to start, each in the direction of the 2-face's orientation in this
+// cell, and traces the loops.
+void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_t cell) {
+    const Span span = cellSpan_[cell];
+    starts_.clear();
+    for (std::uint32_t at = polytope.cells.begin[cell]; at < polytope.cells.begin[cell + 1]; ++at) {
+        const std::uint32_t f = polytope.cells.items[at];
+        const bool outward = polytope.cellSigns[at] > 0;
+        for (std::uint32_t i = lineBegin_[f]; i < lineBegin_[f + 1]; ++i) {
+            const Line& line = lines_[i];
+            if (line.plane < span.from) continue;
+            const std::uint32_t from = outward ? line.up : line.down;
+            next_[from] = outward ? line.down : line.up;
+            nextEdge_[from] = line.edge;
+            starts_.emplace_back(line.plane, from);
+        }
+    }
+    for (const auto& [plane, start] : starts_) {
+        if (next_[start] == kNone) continue;
+        Loop loop{plane, cell, static_cast<std::uint32_t>(loopCorners_.size()), 0};
+        for (std::uint32_t slot = start; next_[slot] != kNone;) {
+            if (nextEdge_[slot] != kNone) loopCorners_.push_back({slotPoint_[slot], nextEdge_[slot]});
+            slot = std::exchange(next_[slot], kNone);
+        }
+        loop.size = static_cast<std::uint32_t>(loopCorners_.size()) - loop.begin;
+        if (loop.size >= 3) {
+            loops_.push_back(loop);
+        } else {
+            loopCorners_.resize(loop.begin);
+        }
+    }
+}
+
+// A 2-face in the hyperplane bounds the slice if a cell stands on it, or if it bounds a cell that lies in the
+// hyperplane on top of the polytope; its loop has the orientation of that cell. If the polytope only touches the
+// hyperplane in a 2-face, that 2-face is the whole slice.
+void PolytopeSlicer::addLyingFaces(const polytopes::Polytope& polytope, const SliceSet& out) {
+    touchingFaces_.clear();
+    bounded_.assign(out.planes.count, false);
+    for (std::uint32_t f = 0; f < polytope.faces.size(); ++f) {
+        const std::int32_t plane = lyingIn_[f];
+        if (plane == kNoPlane) continue;
+        std::array<bool, 2> placements{};
+        std::array<bool, 2> bounds{};
+        std::array<bool, 2> outward{};
+        for (std::size_t i = 0; i < 2; ++i) {
+            const std::uint32_t cell = polytope.faceCells[f].at(i);
+            const auto faces = polytope.cells[cell];
+            const auto place = std::find(faces.begin(), faces.end(), f) - faces.begin();
+            outward.at(i) = polytope.cellSigns[polytope.cells.begin[cell] + place] > 0;
+            const Span span = cellSpan_[cell];
+            placements.at(i) = span.from > plane && span.to > plane;
+            bounds.at(i) =
+                placements.at(i) || (span.from > plane && span.to <= plane && liesOnTop(polytope, cell, out));
+        }
+        if ((placements[0] && placements[1]) || (!bounds[0] && !bounds[1])) {
+            touchingFaces_.push_back(f);
+            continue;
+        }
+        for (std::size_t i = 0; i < 2; ++i) {
+            if (bounds.at(i)) addLyingFace(polytope, f, outward.at(i));
+        }
+    }
+    for (const std::uint32_t f : touchingFaces_) {
+        bool alone = true;
+        for (const std::uint32_t cell : polytope.faceCells[f]) {
+            alone = alone && (cellSpan_[cell].from > lyingIn_[f] || cellSpan_[cell].to <= lyingIn_[f]);
+        }
+        if (alone && !bounded_[lyingIn_[f]]) addLyingFace(polytope, f, true);
+    }
+}
+
+void PolytopeSlicer::addLyingFace(const polytopes::Polytope& polytope, std::uint32_t face, bool forward) {
+    const auto loop = polytope.faces[face];
+    const std::size_t n = loop.size();
+    bounded_[lyingIn_[face]] = true;
+    loops_.push_back({lyingIn_[face], static_cast<std::uint32_t>(polytope.cells.size()) + face,
+                      static_cast<std::uint32_t>(loopCorners_.size()), static_cast<std::uint32_t>(n)});
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t corner = forward ? i : (n - i) % n;
+        const std::size_t edge = forward ? i : n - 1 - i;
+        loopCorners_.push_back({vertexPoint_[loop[corner]], edgeLine_[polytope.faceEdges[face][edge]]});
+    }
+}
+
+// Whether a cell in a hyperplane lies on top of the polytope, with its outer side toward larger w. Then its 2-faces,
+// oriented as in this cell, enclose a positive volume.
+bool PolytopeSlicer::liesOnTop(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const {
+    double volume = 0;
+    for (std::uint32_t at = polytope.cells.begin[cell]; at < polytope.cells.begin[cell + 1]; ++at) {
+        const auto loop = polytope.faces[polytope.cells.items[at]];
+        const glm::dvec3 first(out.turned[loop[0]]);
+        for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+            const glm::dvec3 normal = glm::cross(glm::dvec3(out.turned[loop[i]]), glm::dvec3(out.turned[loop[i + 1]]));
+            volume += polytope.cellSigns[at] * glm::dot(first, normal);
+        }
+    }
+    return volume > 0;
+}
+
+// Sorts the loops by hyperplane into the slice set.
+void PolytopeSlicer::placeLoops(SliceSet& out) {
+    out.faceBegin.assign(out.planes.count + 1, 0);
+    cornerCursor_.assign(out.planes.count + 1, 0);
+    for (const Loop& loop : loops_) {
+        countSpan(out.faceBegin, loop.plane, loop.plane + 1);
+        cornerCursor_[loop.plane] += loop.size;
+        cornerCursor_[loop.plane + 1] -= loop.size;
+    }
+    const std::uint32_t total = accumulate(out.faceBegin);
+    const std::uint32_t corners = accumulate(cornerCursor_);
+    out.faceSource.resize(total);
+    out.cornerBegin.resize(total + 1);
+    out.cornerBegin[total] = corners;
+    out.corners.resize(corners);
+    out.cornerEdges.resize(corners);
+    cursor_.assign(out.faceBegin.begin(), out.faceBegin.end());
+    for (const Loop& loop : loops_) {
+        const std::uint32_t face = cursor_[loop.plane]++;
+        std::uint32_t& corner = cornerCursor_[loop.plane];
+        const std::uint32_t firstVertex = out.vertexBegin[loop.plane];
+        const std::uint32_t firstEdge = out.edgeBegin[loop.plane];
+        out.faceSource[face] = loop.source;
+        out.cornerBegin[face] = corner;
+        for (std::uint32_t i = loop.begin; i < loop.begin + loop.size; ++i, ++corner) {
+            out.corners[corner] = loopCorners_[i][0] - firstVertex;
+            out.cornerEdges[corner] = loopCorners_[i][1] - firstEdge;
+        }
+    }
+}
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,114 @@
+#pragma once
+// Slices a polytope by parallel hyperplanes w = const.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "geometry/rotation.hpp"
+#include "parallel/fork_join.hpp"
+#include "polytopes/polytope.hpp"
+#include "slicing/convex_cut.hpp"
+#include "slicing/slice_set.hpp"
+
+namespace oval4d::slicing {
+
+/// Slices polytopes. Reuses its scratch memory, so that repeated calls of similar size allocate nothing. One slicer
+/// serves one thread at a time.
+class PolytopeSlicer {
+  public:
+    /// With `forkJoin`, large polytopes are sliced on two cores.
+    explicit PolytopeSlicer(parallel::ForkJoin* forkJoin = nullptr) : convexCut_(forkJoin) {}
+
+    /// Slices `polytope` turned by `orientation`. Overwrites `out` and reuses its memory.
+    void slice(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
+               const geometry::Hyperplanes& planes, SliceSet& out);
+
+  private:
+    static constexpr std::int32_t kNoPlane = -1;
+    static constexpr std::uint32_t kNone = 0xffffffffU;
+    static constexpr std::uint32_t kFresh = 0xfffffffeU;
+
+    // The hyperplanes from … to − 1; none if to ≤ from.
+    struct Span {
+        std::int32_t from, to;
+    };
+    // A segment of a 2-face's section just above hyperplane `plane`, from the edge where the vertex loop rises through
+    // the hyperplane to the edge where it descends. `edge` is its slice edge, or kNone if the segment shrinks to a
+    // point in the hyperplane itself. Until slice edges are numbered, `edge` is instead kFresh, or the 4-D edge in the
+    // hyperplane onto which the segment collapses.
+    struct Line {
+        std::int32_t plane;
+        std::uint32_t up, down;  // slots
+        std::uint32_t edge;
+    };
+    // A closed loop of a cell's section, with its corners in loopCorners_.
+    struct Loop {
+        std::int32_t plane;
+        std::uint32_t source, begin, size;
+    };
+    struct Crossing {
+        std::uint32_t slot;
+        double along;
+    };
+
+    // Turns the vertices and counts the hyperplanes below each.
+    void locateVertices(const polytopes::Polytope& polytope, const geometry::Rotation& orientation, SliceSet& out);
+    void cutAny(const polytopes::Polytope& polytope, SliceSet& out);
+    bool cutConvex(const polytopes::Polytope& polytope, SliceSet& out);
+    bool cutTouching(const polytopes::Polytope& polytope, SliceSet& out);
+    void cutOne(const polytopes::Polytope& polytope, std::int32_t plane, SliceSet& single, SliceSet& all);
+    void cutEdges(const polytopes::Polytope& polytope, SliceSet& out);
+    void cutFaces(const polytopes::Polytope& polytope, SliceSet& out);
+    void cutConvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above);
+    void cutAnyFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above, const SliceSet& out);
+    void addLine(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane, std::uint32_t up,
+                 std::uint32_t down);
+    void numberEdges(const polytopes::Polytope& polytope, SliceSet& out);
+    bool liesInOne(const std::array<std::uint32_t, 2>& edge) const {
+        return below_[edge[0]] == below_[edge[1]] && below_[edge[0]] < upTo_[edge[0]] &&
+               below_[edge[1]] < upTo_[edge[1]];
+    }
+    void cutCells(const polytopes::Polytope& polytope, SliceSet& out);
+    void addLyingFaces(const polytopes::Polytope& polytope, const SliceSet& out);
+    void addLyingFace(const polytopes::Polytope& polytope, std::uint32_t face, bool forward);
+    bool liesOnTop(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
+    void traceCell(const polytopes::Polytope& polytope, std::uint32_t cell);
+    void placeLoops(SliceSet& out);
+
+    ConvexCut convexCut_;
+    std::array<SliceSet, 2> singles_;               // the slices in hyperplanes that the polytope touches from one side
+    std::vector<SliceSet*> touching_;               // by hyperplane: an element of singles_, or null
+    std::vector<std::int32_t> allBelow_, allUpTo_;  // below_ and upTo_ for all hyperplanes, while one is cut separately
+    // For each vertex, the number of hyperplanes strictly below it, and the number of those below or through it. The
+    // two differ if the vertex lies in a hyperplane, whose index is then below_.
+    std::vector<std::int32_t> below_, upTo_, twice_;  // twice_: their sum
+    bool anyLie_ = false;                             // whether any vertex lies in a hyperplane
+    std::vector<std::uint32_t> vertexPoint_;          // the slice vertex of a vertex that lies in a hyperplane
+    // A slot is the crossing of an edge with the level just above a hyperplane: for edge e and hyperplane k, its index
+    // is slotBegin_[e] + k − below_[lower end].
+    std::vector<std::uint32_t> slotBegin_, slotPoint_;
+    std::vector<std::uint32_t> lyingEdges_;  // edges that lie in a hyperplane
+    std::vector<std::uint32_t> edgeLine_;    // the slice edge of an edge that lies in a hyperplane
+    std::vector<Line> lines_;                // those of 2-face f begin at lineBegin_[f]
+    std::vector<std::uint32_t> lineBegin_;
+    std::vector<Span> faceSpan_, cellSpan_;       // the hyperplanes that strictly cross it
+    std::vector<std::int32_t> lyingIn_;           // the hyperplane that contains the whole 2-face, or kNoPlane
+    std::vector<std::uint32_t> next_, nextEdge_;  // by slot: links around a cell's section
+    // Hyperplane and slot of each link of the current cell.
+    std::vector<std::pair<std::int32_t, std::uint32_t>> starts_;
+    std::vector<std::uint32_t> touchingFaces_;  // 2-faces in which the polytope touches a hyperplane
+    std::vector<bool> bounded_;                 // by hyperplane: whether a 2-face in it bounds its slice
+    std::vector<Loop> loops_;
+    std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // slice vertex, slice edge to the next corner
+    std::vector<std::uint32_t> cursor_, cornerCursor_;
+    std::vector<std::uint32_t> up_, down_;  // by hyperplane: the slots of a convex 2-face
+    std::vector<Crossing> ups_, downs_;     // in one hyperplane: the crossings of a nonconvex 2-face
+};
+
+}  // namespace oval4d::slicing

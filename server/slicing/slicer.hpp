@@ -1,0 +1,31 @@
+#pragma once
+
+#include "geometry/hyperplanes.hpp"
+#include "geometry/rotation.hpp"
+#include "parallel/fork_join.hpp"
+#include "parallel/ownership.hpp"
+#include "slicing/cloud_slicer.hpp"
+#include "slicing/object.hpp"
+#include "slicing/polytope_slicer.hpp"
+#include "slicing/slice_set.hpp"
+
+namespace oval4d::slicing {
+
+/// Slices objects of any kind by parallel hyperplanes w = const; contains one slicer per kind. Reuses its scratch
+/// memory, so that repeated calls of similar size allocate nothing. One slicer serves one thread at a time.
+class Slicer {
+  public:
+    /// With `forkJoin`, large polytopes are sliced on two cores.
+    explicit Slicer(parallel::ForkJoin* forkJoin = nullptr) : polytopes_(forkJoin) {}
+
+    /// Slices `object` turned by `orientation`. Overwrites `out` and reuses its memory.
+    void slice(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
+               SliceSet& out);
+
+  private:
+    PolytopeSlicer polytopes_;
+    CloudSlicer clouds_;
+    parallel::OneAtATime inUse_;
+};
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,281 @@
+#include "slicing/sweep.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+
+namespace oval4d::slicing {
+
+namespace {
+
+using Chunk = std::array<std::byte, 16>;
+
+void copyChunk(const std::byte* from, std::byte* to) {
+    Chunk chunk;
+    std::memcpy(&chunk, from, sizeof chunk);
+    std::memcpy(to, &chunk, sizeof chunk);
+}
+
+// Repeats the `size` items from `begin` on, so that they occur `times` times in succession. The first few copies of a
+// small block are made inline, where a call of memcpy would cost more than the copying; further copies by doubling.
+template <typename Item>
+void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::size_t times) {
+    constexpr std::size_t kSmall = 256, kFew = 8;
+    auto* const first = reinterpret_cast<std::byte*>(items.data() + begin);
+    const std::size_t bytes = size * sizeof(Item);
+    std::size_t done = bytes;
+    if (bytes >= sizeof(Chunk) && bytes <= kSmall) {
+        const std::size_t last = bytes - sizeof(Chunk);  // overlaps the chunk before it
+        for (; done < bytes * std::min(times, kFew); done += bytes) {
+            for (std::size_t at = 0; at < last; at += sizeof(Chunk)) copyChunk(first + at, first + done + at);
+            copyChunk(first + last, first + done + last);
+        }
+    }
+    for (; done < bytes * times; done *= 2) std::memcpy(first + done, first, std::min(done, bytes * times - done));
+}
+
+// Copies a single slice into `out` at `at`; returns its size.
+SliceSize insert(const SliceSet& slice, SliceSize at, SliceSet& out) {
+    const SliceSize size = slice.size();
+    const auto copy = [](const auto& from, auto& to, std::size_t begin) {
+        std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(begin));
+    };
+    copy(slice.vertices, out.vertices, at.vertices);
+    copy(slice.vertexSource, out.vertexSource, at.vertices);
+    copy(slice.edges, out.edges, at.edges);
+    copy(slice.edgeSource, out.edgeSource, at.edges);
+    copy(slice.faceSource, out.faceSource, at.faces);
+    copy(slice.corners, out.corners, at.corners);
+    copy(slice.cornerEdges, out.cornerEdges, at.corners);
+    copy(slice.cornerBegin, out.cornerBegin, at.faces);
+    for (std::size_t f = 0; f < size.faces; ++f) out.cornerBegin[at.faces + f] += at.corners;
+    return size;
+}
+
+}  // namespace
+
+bool Sweep::begin(const polytopes::Polytope& polytope, Levels levels, int planes) {
+    levels_ = levels;
+    findSteps(polytope, planes);
+    return findElements(polytope, planes);
+}
+
+bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, SliceSize& at,
+                SliceSet& out) {
+    first_ = first;
+    SliceSize here = at;  // a local copy, which no other write can alias
+    for (std::size_t step = 0; step + 1 < steps_.size(); ++step) {
+        int k = steps_[step];
+        const int next = steps_[step + 1];
+        advance(polytope, out.turned, k);
+        const SliceSize size = sizeOfSlice();
+        if (event_[k] == Event::inside) {
+            out.begin(first + k, here);
+            if (!touching.empty() && touching[k] != nullptr) {
+                here = here + insert(*touching[k], here, out);
+            } else {
+                if (!write(k, k + 1, here, out)) return false;
+                here = here + collapse_.collapse(polytope, k, here, size, out);
+            }
+            ++k;
+        }
+        if (k < next && !write(k, next, here, out)) return false;
+        for (; k < next; ++k, here = here + size) out.begin(first + k, here);
+    }
+    at = here;
+    return true;
+}
+
+// Finds the hyperplanes at which the set of cut elements may change.
+void Sweep::findSteps(const polytopes::Polytope& polytope, int planes) {
+    event_.assign(planes + 1, Event::none);
+    for (const std::int32_t below : levels_.below) event_[below] = Event::between;
+    if (levels_.anyLie) {
+        for (std::size_t v = 0; v < levels_.below.size(); ++v) {
+            if (levels_.below[v] != levels_.upTo[v]) event_[levels_.below[v]] = Event::inside;
+        }
+        collapse_.begin(polytope, levels_);
+    }
+    steps_.assign(1, 0);
+    for (int k = 1; k < planes; ++k) {
+        if (event_[k] != Event::none) steps_.push_back(k);
+    }
+    steps_.push_back(planes);
+}
+
+// Finds the hyperplanes that cut each element, and the total size of the slices.
+bool Sweep::findElements(const polytopes::Polytope& polytope, int planes) {
+    const std::int32_t* below = levels_.below.data();
+    const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
+    const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
+    const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
+    SliceSize total;
+    std::uint32_t ends = 0;
+    edges_.clear(edges, planes);
+    for (std::uint32_t e = 0; e < edges; ++e) {
+        const std::int32_t a = below[polytope.edges[e][0]], b = below[polytope.edges[e][1]];
+        const std::int32_t from = std::min(a, b), to = a + b - from;  // the maximum, without a branch
+        total.vertices += to - from;
+        ends += (to - from) * (polytope.edgeFaces.begin[e + 1] - polytope.edgeFaces.begin[e]);
+        edges_.add(e, from, to);
+    }
+    edges_.sort(steps_);
+
+    faces_.clear(faces, planes);
+    faceSpan_.resize(faces);
+    const std::uint32_t* vertex = polytope.faces.items.data();
+    for (std::uint32_t f = 0; f < faces; ++f) {
+        const std::uint32_t* end = polytope.faces.items.data() + polytope.faces.begin[f + 1];
+        std::int32_t from = below[*vertex], to = from;
+        while (++vertex != end) {
+            from = std::min(from, below[*vertex]);
+            to = std::max(to, below[*vertex]);
+        }
+        faceSpan_[f] = {from, to};
+        total.edges += to - from;
+        faces_.add(f, from, to);
+    }
+    if (ends != 2 * total.edges) return false;
+    faces_.sort(steps_);
+    total.corners = 2 * total.edges;  // every slice edge bounds two faces
+
+    cells_.clear(cells, planes);
+    const std::uint32_t* bound = polytope.cells.items.data();
+    for (std::uint32_t c = 0; c < cells; ++c) {
+        const std::uint32_t* end = polytope.cells.items.data() + polytope.cells.begin[c + 1];
+        Span span = faceSpan_[*bound];
+        while (++bound != end) {
+            span.from = std::min(span.from, faceSpan_[*bound].from);
+            span.to = std::max(span.to, faceSpan_[*bound].to);
+        }
+        total.faces += span.to - span.from;
+        cells_.add(c, span.from, span.to);
+    }
+    cells_.sort(steps_);
+
+    line_.resize(edges);
+    vertex_.resize(edges);
+    sliceEdge_.resize(faces);
+    end_.resize(2 * std::size_t{faces});
+    next_.resize(2 * std::size_t{faces});
+    startEnd_.resize(cells);
+    size_ = total;
+    return true;
+}
+
+void Sweep::advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& turned, int plane) {
+    for (const ActiveList::Element& edge : edges_.advance(plane)) beginEdge(polytope, edge.number, turned);
+    faces_.advance(plane);
+    cells_.advance(plane);
+}
+
+// Makes an edge active: finds its line, and links the sections of the 2-faces and cells around it.
+inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t e,
+                             const std::vector<glm::dvec4>& turned) {
+    const std::int32_t* below = levels_.below.data();
+    const auto& edge = polytope.edges[e];
+    const std::uint32_t rises = below[edge[0]] < below[edge[1]] ? 1 : 0;
+    const glm::dvec4& at = turned[edge[1 - rises]];
+    const glm::dvec4 along = turned[edge[rises]] - at;
+    Line& line = line_[e];
+    line.at = at;
+    line.slope = glm::dvec3(along) * (1 / along.w);
+    const auto around = polytope.edgeFaces[e];
+    std::uint32_t last = around.back() ^ rises;
+    for (const std::uint32_t side : around) {
+        const std::uint32_t here = side ^ rises;
+        const std::uint32_t out = rises != 0 ? last : here, into = rises != 0 ? here : last;
+        end_[here] = e;
+        next_[out] = into ^ 1U;
+        startEnd_[polytope.faceCells[here >> 1U][here & 1U]] = here;
+        last = here;
+    }
+}
+
+// Writes the slices in hyperplanes plane … end − 1. No vertex lies between these, so the slices differ only in the
+// coordinates of their vertices.
+bool Sweep::write(int plane, int end, SliceSize at, SliceSet& out) {
+    writeVertices(plane, end, at, out);
+    writeEdges(at, out);
+    if (!writeFaces(at, out)) return false;
+    const auto times = static_cast<std::size_t>(end - plane);
+    if (times == 1) return true;
+    const SliceSize size = sizeOfSlice();
+    repeat(out.vertexSource, at.vertices, size.vertices, times);
+    repeat(out.edges, at.edges, size.edges, times);
+    repeat(out.edgeSource, at.edges, size.edges, times);
+    repeat(out.faceSource, at.faces, size.faces, times);
+    repeat(out.corners, at.corners, size.corners, times);
+    repeat(out.cornerEdges, at.corners, size.corners, times);
+    std::uint32_t* begin = out.cornerBegin.data() + at.faces;
+    for (std::size_t f = size.faces; f < size.faces * times; ++f) begin[f] = begin[f - size.faces] + size.corners;
+    return true;
+}
+
+void Sweep::writeVertices(int plane, int end, SliceSize at, SliceSet& out) {
+    const auto cut = edges_.active();
+    const Line* edgeLines = line_.data();
+    std::uint32_t* vertexSource = out.vertexSource.data() + at.vertices;
+    for (std::uint32_t i = 0; i < cut.size(); ++i) {
+        vertexSource[i] = cut[i].number;
+        vertex_[cut[i].number] = i;
+    }
+    glm::dvec3* vertex = out.vertices.data() + at.vertices;
+    for (int k = plane; k < end; ++k) {
+        const double w = out.planes.w(first_ + k);
+        for (const ActiveList::Element& edge : cut) {
+            const Line& line = edgeLines[edge.number];
+            *vertex++ = glm::dvec3(line.at) + (w - line.at.w) * line.slope;
+        }
+    }
+}
+
+void Sweep::writeEdges(SliceSize at, SliceSet& out) {
+    const auto cut = faces_.active();
+    const std::uint32_t* vertices = vertex_.data();
+    const std::uint32_t* ends = end_.data();
+    auto* edges = out.edges.data() + at.edges;
+    std::uint32_t* edgeSource = out.edgeSource.data() + at.edges;
+    std::uint32_t* sliceEdges = sliceEdge_.data();
+    for (std::uint32_t i = 0; i < cut.size(); ++i) {
+        const std::uint32_t f = cut[i].number;
+        edges[i] = {vertices[ends[2 * f]], vertices[ends[2 * f + 1]]};
+        edgeSource[i] = f;
+        sliceEdges[f] = i;
+    }
+}
+
+bool Sweep::writeFaces(SliceSize at, SliceSet& out) const {
+    const auto cut = cells_.active();
+    const std::uint32_t* sliceEdges = sliceEdge_.data();
+    const std::uint32_t* next = next_.data();
+    const auto* edges = out.edges.data() + at.edges;
+    const std::uint32_t* edgeSource = out.edgeSource.data() + at.edges;
+    std::uint32_t* faceSource = out.faceSource.data() + at.faces;
+    std::uint32_t* cornerBegin = out.cornerBegin.data() + at.faces;
+    std::uint32_t* corners = out.corners.data();
+    std::uint32_t* cornerEdges = out.cornerEdges.data();
+    std::uint32_t corner = at.corners;
+    const std::uint32_t last = corner + 2 * faces_.size();
+    for (std::size_t i = 0; i < cut.size(); ++i) {
+        faceSource[i] = cut[i].number;
+        cornerBegin[i] = corner;
+        const std::uint32_t start = startEnd_[cut[i].number];
+        const std::uint32_t first = sliceEdges[start >> 1U];
+        // If the 2-face is no longer cut, the cell is not convex.
+        if (first >= faces_.size() || edgeSource[first] != start >> 1U) return false;
+        std::uint32_t end = start;
+        do {
+            if (corner == last) return false;
+            const std::uint32_t edge = sliceEdges[end >> 1U];
+            corners[corner] = edges[edge][1 - (end & 1U)];
+            cornerEdges[corner] = edge;
+            ++corner;
+            end = next[end];
+        } while (end != start);
+    }
+    return corner == last;
+}
+
+}  // namespace oval4d::slicing

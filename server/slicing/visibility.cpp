@@ -1,0 +1,58 @@
+#include "slicing/visibility.hpp"
+
+#include <algorithm>
+
+#include "polytopes/polytope.hpp"
+#include "slicing/visitor.hpp"
+
+namespace oval4d::slicing {
+
+namespace {
+
+using polytopes::Polytope;
+
+void findVisibilities(const Polytope& p, std::span<const Visibility> ofType, Visibilities& out) {
+    const std::size_t cells = p.cells.size(), faces = p.faces.size(), edges = p.edges.size();
+    // Each element passes its visibility on to its facets. Indices are source numbers.
+    out.faces.assign(cells + faces, Visibility::hidden);
+    out.edges.assign(faces + edges, Visibility::hidden);
+    out.vertices.assign(edges + p.vertices.size(), Visibility::hidden);
+    const auto raise = [](Visibility& visibility, Visibility to) { visibility = std::max(visibility, to); };
+    for (std::size_t c = 0; c < cells; ++c) {
+        const Visibility own = out.faces[c] = ofType[p.typeOfCell[c]];
+        for (const std::uint32_t f : p.cells[c]) raise(out.faces[cells + f], own);
+    }
+    for (std::size_t f = 0; f < faces; ++f) {
+        const Visibility own = out.edges[f] = out.faces[cells + f];
+        for (const std::uint32_t e : p.faceEdges[f]) raise(out.edges[faces + e], own);
+    }
+    for (std::size_t e = 0; e < edges; ++e) {
+        const Visibility own = out.vertices[e] = out.edges[faces + e];
+        for (const std::uint32_t v : p.edges[e]) raise(out.vertices[edges + v], own);
+    }
+}
+
+std::uint32_t coloringCell(const Polytope& p, const Visibilities& visibilities, std::uint32_t source) {
+    const auto cells = static_cast<std::uint32_t>(p.cells.size());
+    if (source < cells) return source;
+    const auto& [first, second] = p.faceCells[source - cells];
+    return visibilities.face(first) == Visibility::hidden ? second : first;
+}
+
+}  // namespace
+
+void findVisibilities(const Object& object, std::span<const Visibility> ofType, Visibilities& out) {
+    out = {};
+    if (std::ranges::all_of(ofType, [](Visibility visibility) { return visibility == Visibility::full; })) return;
+    std::visit(
+        Visitor{[&](const PolytopePtr& p) { findVisibilities(*p, ofType, out); }, [](const CloudPtr& /*cloud*/) {}},
+        object);
+}
+
+std::uint32_t coloringCell(const Object& object, const Visibilities& visibilities, std::uint32_t source) {
+    return std::visit(Visitor{[&](const PolytopePtr& p) { return coloringCell(*p, visibilities, source); },
+                              [&](const CloudPtr& /*cloud*/) { return source; }},
+                      object);
+}
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,80 @@
+#include "store/cbor.hpp"
+
+#include "text/suggest.hpp"
+
+namespace oval4d::store {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kMaxDepth = 16;       // of nested arrays
+constexpr std::size_t kMaxNameBytes = 256;  // 64 characters of UTF-8
+
+/// Limits the nesting depth, because parsing uses stack for each level. Declared sizes need no limit: the parser
+/// reserves nothing for them, and each byte of input makes one value at most.
+class DepthLimiter : public json::json_sax_t {
+  public:
+    bool null() override { return true; }
+    bool boolean(bool /*value*/) override { return true; }
+    bool number_integer(number_integer_t /*value*/) override { return true; }
+    bool number_unsigned(number_unsigned_t /*value*/) override { return true; }
+    bool number_float(number_float_t /*value*/, const string_t& /*text*/) override { return true; }
+    bool string(string_t& /*value*/) override { return true; }
+    bool binary(binary_t& /*value*/) override { return true; }
+    bool key(string_t& /*value*/) override { return true; }
+    bool start_object(std::size_t /*size*/) override { return ++depth_ <= kMaxDepth; }
+    bool start_array(std::size_t /*size*/) override { return ++depth_ <= kMaxDepth; }
+    bool end_object() override { return --depth_, true; }
+    bool end_array() override { return --depth_, true; }
+    bool parse_error(std::size_t /*position*/, const std::string& /*token*/, const json::exception& fault) override {
+        refuse(fault.what());
+    }
+
+  private:
+    std::size_t depth_ = 0;
+};
+
+}  // namespace
+
+void refuse(const std::string& what) { throw Unreadable(what); }
+
+std::string bytesOf(const json& value) {
+    std::string bytes;
+    json::to_cbor(value, bytes);
+    return bytes;
+}
+
+json parsedRecord(std::string_view bytes) {
+    DepthLimiter limiter;
+    if (!json::sax_parse(bytes, &limiter, json::input_format_t::cbor)) refuse("it is nested too deeply");
+    json value = json::from_cbor(bytes);
+    if (!value.is_array() || value.empty()) refuse("it is not a session record");
+    if (value.at(0) != kRecordVersion) {
+        refuse("it has version " + value.at(0).dump() + ", and this program reads version " +
+               std::to_string(kRecordVersion));
+    }
+    return value;
+}
+
+double number(const json& value, double least, double most) {
+    const auto found = value.get<double>();
+    if (!(found >= least && found <= most)) refuse("a number is out of range");
+    return found;
+}
+
+double number(const json& value, double most) { return number(value, -most, most); }
+
+std::vector<std::uint32_t> integersIn(const json& value) {
+    std::vector<std::uint32_t> list;
+    for (const json& each : value) list.push_back(integer<std::uint32_t>(each));
+    return list;
+}
+
+std::string textIn(const json& value) {
+    auto text = value.get<std::string>();
+    if (text.size() > kMaxNameBytes || !text::isUtf8(text)) refuse("a name is too long or is not UTF-8");
+    return text;
+}
+
+}  // namespace oval4d::store

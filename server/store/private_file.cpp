@@ -1,0 +1,109 @@
+#include "store/private_file.hpp"
+
+#include <fcntl.h>
+#include <spdlog/spdlog.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <filesystem>
+#include <system_error>
+
+#include "store/store.hpp"
+
+namespace oval4d::store {
+
+namespace {
+
+constexpr mode_t kFileMode = S_IRUSR | S_IWUSR;
+constexpr mode_t kFolderMode = S_IRWXU;
+constexpr mode_t kPermissions = 07777;
+
+[[noreturn]] void fail(const std::string& path, const std::string& what) {
+    throw StoreError(path + ": " + what + ": " + std::generic_category().message(errno));
+}
+
+class Descriptor {
+  public:
+    explicit Descriptor(int number) : number_(number) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() {
+        if (number_ >= 0) ::close(number_);
+    }
+    int number() const { return number_; }
+    bool valid() const { return number_ >= 0; }
+    /// A path of the open file that stays valid if the file is renamed.
+    std::string name() const { return "/proc/self/fd/" + std::to_string(number_); }
+
+  private:
+    int number_;
+};
+
+const char* kindOf(mode_t mode) {
+    if (S_ISLNK(mode)) return "a symbolic link; give the path that it points to";
+    if (S_ISDIR(mode)) return "a folder, not a regular file";
+    if (S_ISFIFO(mode)) return "a pipe, not a regular file";
+    if (S_ISSOCK(mode)) return "a socket, not a regular file";
+    return "a device, not a regular file";
+}
+
+void makeFolders(const std::filesystem::path& folder) {
+    std::filesystem::path made;
+    for (const auto& part : folder) {
+        made /= part;
+        // Errors are ignored: they show when the file is opened.
+        if (mkdir(made.c_str(), kFolderMode) == 0) chmod(made.c_str(), kFolderMode);  // whatever the umask is
+    }
+}
+
+enum class Permissions : std::uint8_t { leave, tighten };
+
+/// Checks that a file is safe to use, and tightens its permissions if asked to. Returns false if it does not exist.
+bool checkFile(const std::string& path, Permissions permissions) {
+    // With O_PATH, closing this descriptor does not release the process's locks on the file.
+    const Descriptor file(open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
+    if (!file.valid()) {
+        if (errno == ENOENT) return false;
+        fail(path, "unable to open it");
+    }
+    struct stat status{};
+    if (fstat(file.number(), &status) != 0) fail(path, "unable to read its status");
+    if (!S_ISREG(status.st_mode)) throw StoreError(path + " is " + kindOf(status.st_mode));
+    if (status.st_uid != geteuid()) {
+        throw StoreError(path + " belongs to user " + std::to_string(status.st_uid) + ", and the server runs as user " +
+                         std::to_string(geteuid()) + ": change its owner, or give another path");
+    }
+    const mode_t mode = status.st_mode & kPermissions;
+    if (permissions == Permissions::leave || mode == kFileMode) return true;
+    if (chmod(file.name().c_str(), kFileMode) != 0) fail(path, "unable to set its mode to 0600");
+    spdlog::warn("store file mode changed, so that only the server can use it file={} mode={:04o} now=0600", path,
+                 mode);
+    return true;
+}
+
+}  // namespace
+
+void makePrivate(const std::string& path) {
+    if (checkFile(path, Permissions::tighten)) return;
+    makeFolders(std::filesystem::path(path).parent_path());
+    {
+        const Descriptor file(open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kFileMode));
+        if (file.valid() && fchmod(file.number(), kFileMode) != 0) fail(path, "unable to set its mode to 0600");
+        if (!file.valid() && errno != EEXIST) fail(path, "unable to open it");
+    }
+    checkFile(path, Permissions::tighten);  // another server may have created it first
+}
+
+void makePrivateIfExists(const std::string& path) { checkFile(path, Permissions::tighten); }
+
+void refuseUnsafe(const std::string& path) { checkFile(path, Permissions::leave); }
+
+std::string identityOf(const std::string& path) {
+    struct stat status{};
+    if (lstat(path.c_str(), &status) != 0) return {};
+    return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
+}
+
+}  // namespace oval4d::store

@@ -1,0 +1,129 @@
+#include "store/sqlite_salvage.hpp"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace oval4d::store {
+
+namespace {
+
+/// Finds the ids of all sessions. A scan stops at a damaged page, and a scan from beyond that page may find what the
+/// first one missed: so this scans from many starting points in both directions, and also an index, which is on other
+/// pages.
+class IdScan {
+  public:
+    explicit IdScan(Database& from) : from_(from) {
+        const bool all = walk("SELECT id FROM session ORDER BY id", {});
+        if (all) return;
+        walk("SELECT id FROM session ORDER BY id DESC", {});
+        // Ids are random names in base 32.
+        constexpr std::string_view kLetters = "234567abcdefghijklmnopqrstuvwxyz";
+        for (const char first : kLetters) {
+            for (const char second : kLetters) {
+                const std::string start{first, second};
+                const std::string end = start + "~";
+                walk("SELECT id FROM session WHERE id >= ? AND id < ? ORDER BY id", {start, end});
+                walk("SELECT id FROM session WHERE id >= ? AND id < ? ORDER BY id DESC", {start, end});
+            }
+        }
+        const bool indexed = walk("SELECT id FROM session INDEXED BY session_touched ORDER BY touched", {});
+        if (!indexed) walk("SELECT id FROM session INDEXED BY session_touched ORDER BY touched DESC", {});
+        walk("SELECT DISTINCT session FROM polytope", {});
+        complete = indexed;
+    }
+
+    std::set<std::string> found;
+    bool complete = true;
+
+  private:
+    /// Adds the ids that the query returns to `found`. Returns false if an error ended it early.
+    bool walk(const char* sql, const std::vector<std::string>& bounds) {
+        try {
+            Query query(from_, sql);
+            for (const std::string& bound : bounds) query.text(bound);
+            while (query.row()) found.insert(query.bytesAt(0));
+            return true;
+        } catch (const StoreError&) {
+            return false;
+        }
+    }
+    Database& from_;
+};
+
+struct Row {
+    std::string tokenHash, whole, head;
+    std::int64_t fence = 0, touched = 0, changed = 1;
+    std::vector<std::pair<std::string, std::string>> polytopes;
+};
+
+/// Reads a session; nothing if it is missing or damaged.
+std::optional<Row> rowOf(Database& from, bool hashed, const std::string& id) {
+    Query session(from, hashed ? "SELECT token_hash, whole, head, fence, touched, changed FROM session WHERE id = ?1 "
+                                 "AND digest = digest_of(id, token_hash, whole) AND head_digest = digest_of(id, head)"
+                               : "SELECT hash_of(token), whole, head, fence, touched, 1 FROM session WHERE id = ?1");
+    if (!session.text(id).row()) return std::nullopt;
+    Row row{session.bytesAt(0),
+            session.bytesAt(1),
+            session.bytesAt(2),
+            session.numberAt(3),
+            session.numberAt(4),
+            session.numberAt(5),
+            {}};
+    Query polytopes(
+        from, hashed ? "SELECT key, bytes, digest = digest_of(session, key, bytes) FROM polytope WHERE session = ?"
+                     : "SELECT key, bytes, 1 FROM polytope WHERE session = ?");
+    polytopes.text(id);
+    while (polytopes.row()) {
+        if (polytopes.numberAt(2) == 0) return std::nullopt;
+        row.polytopes.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
+    }
+    return row;
+}
+
+void insert(Database& to, const std::string& id, const Row& row) {
+    Query session(to,
+                  "INSERT INTO session VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, digest_of(?1, ?2, ?6), digest_of(?1, ?7))");
+    session.text(id).text(row.tokenHash).number(row.fence).number(row.touched).number(row.changed);
+    session.blob(row.whole).blob(row.head).row();
+    for (const auto& [key, bytes] : row.polytopes) {
+        Query polytope(to, "INSERT INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");
+        polytope.text(id).text(key).blob(bytes).row();
+    }
+}
+
+bool isHashed(Database& from) {
+    try {
+        const Query query(from, "SELECT token_hash FROM session");
+        return true;
+    } catch (const StoreError&) {
+        return false;
+    }
+}
+
+}  // namespace
+
+SalvageResult salvage(Database& from, Database& to) {
+    const IdScan ids(from);
+    const bool hashed = isHashed(from);
+    SalvageResult salvaged{0, {}, ids.complete};
+    for (const std::string& id : ids.found) {
+        std::optional<Row> row;
+        try {
+            row = rowOf(from, hashed, id);
+        } catch (const StoreError&) {
+            row.reset();  // on a damaged page
+        }
+        if (!row) {
+            salvaged.lost.insert(id);
+            continue;
+        }
+        Transaction one(to);
+        insert(to, id, *row);
+        one.commit();
+        ++salvaged.saved;
+    }
+    return salvaged;
+}
+
+}  // namespace oval4d::store

@@ -1,0 +1,596 @@
+#include "store/write_behind_store.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "store/codec.hpp"
+#include "store/object_codec.hpp"
+#include "store/secret.hpp"
+
+namespace oval4d::store {
+
+using session::Session;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr std::size_t kIdBytes = 10, kTokenBytes = 20, kKeyBytes = 10;
+constexpr std::size_t kBatch = 256;                         // most sessions in one write
+constexpr std::size_t kBatchBytes = std::size_t{8} << 20U;  // most bytes in one write, unless one session has more
+constexpr auto kPollInterval = 500ms;
+constexpr auto kMinRetryPause = 100ms, kMaxRetryPause = 5000ms;  // between attempts while the store fails
+constexpr auto kMaxRefreshInterval = 60s;
+
+const Error kNotFound{ErrorCode::not_found, "there is no such session; it may have expired"};
+const Error kBadToken{ErrorCode::bad_token, "this token does not open the session"};
+const Error kNoAnswer{ErrorCode::internal, "stored sessions cannot be loaded at present; try again"};
+
+/// The memory of a session in bytes, including objects that it shares with other sessions.
+std::size_t bytesOf(const Session& session) {
+    std::map<const void*, const slicing::Object*> objects;
+    std::size_t bytes = sizeof session;
+    const auto addObject = [&](const slicing::Object& object) {
+        objects.try_emplace(slicing::identityOf(object), &object);
+    };
+    const auto add = [&](const session::State& state) {
+        addObject(state.object);
+        bytes += sizeof state +
+                 (state.look.cellTypes.hidden.size() + state.look.cellTypes.faded.size()) * sizeof(std::uint32_t);
+    };
+    addObject(session.now.object);
+    for (const session::State& state : session.past) add(state);
+    for (const session::State& state : session.future) add(state);
+    for (const auto& [name, object] : session.loaded) addObject(object);
+    for (const auto& [identity, object] : objects) bytes += slicing::bytesOf(*object);
+    return bytes;
+}
+
+}  // namespace
+
+WriteBehindStore::WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener)
+    : store_(std::move(store)),
+      pace_(store_->pace()),
+      name_(store_->name()),
+      settings_(settings),
+      listener_(std::move(listener)),
+      random_(std::random_device{}()),
+      thread_([this] { run(); }) {}
+
+WriteBehindStore::~WriteBehindStore() { stop(0ms); }
+
+void WriteBehindStore::stop(Milliseconds limit) {
+    {
+        const std::lock_guard lock(mutex_);
+        stopping_ = true;
+        stopAt_ = Clock::now() + limit;
+    }
+    wake_.notify_one();
+    if (thread_.joinable()) thread_.join();
+    // The callbacks may own large objects: destroy them before this returns, and without holding the lock.
+    decltype(held_) held;
+    decltype(tasks_) tasks;
+    {
+        const std::lock_guard lock(mutex_);
+        held.swap(held_);
+        tasks.swap(tasks_);
+    }
+}
+
+SessionCredentials WriteBehindStore::create() {
+    SessionCredentials credentials{randomName(kIdBytes), randomName(kTokenBytes)};
+    const std::lock_guard lock(mutex_);
+    held_[credentials.id].credentials = credentials;
+    ++created_;
+    return credentials;
+}
+
+void WriteBehindStore::fetch(SessionCredentials credentials, std::function<void(Fetch)> done) {
+    {
+        const std::lock_guard lock(mutex_);
+        tasks_.emplace_back(
+            [this, credentials = std::move(credentials), done = std::move(done)] { answer(credentials, done); });
+    }
+    wake_.notify_one();
+}
+
+void WriteBehindStore::know(const std::string& id, Keys keys) {
+    const std::lock_guard lock(mutex_);
+    tasks_.emplace_back([this, id, keys = std::move(keys)] {
+        PolytopeKeys& stored = keys_[id];
+        stored.clear();
+        for (const auto& [serial, key] : keys) stored[serial] = {key, true};
+    });
+}
+
+void WriteBehindStore::save(const std::string& id, Session value, Part part, Written written) {
+    bool ours = false;
+    {
+        const std::lock_guard lock(mutex_);
+        if (const auto found = held_.find(id); found != held_.end()) {
+            ours = true;
+            Held& held = found->second;
+            (part == Part::head ? held.head : held.whole) = std::make_shared<const Session>(std::move(value));
+            enqueue(id, held);
+            if (trouble_.empty() && written) held.waiting.push_back(std::exchange(written, nullptr));
+        }
+    }
+    wake_.notify_one();
+    if (written) written(ours);
+}
+
+void WriteBehindStore::close(const std::string& id, Session value) {
+    const std::size_t bytes = bytesOf(value);
+    std::vector<Held> evicted;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = held_.find(id);
+        if (found == held_.end()) return;
+        Held& held = found->second;
+        held.whole = std::make_shared<const Session>(std::move(value));
+        held.closed = true;
+        held.closedAt = Clock::now();
+        held.bytes = bytes;
+        enqueue(id, held);
+        if (!trouble_.empty()) evicted = evictClosed();
+    }
+    if (!evicted.empty()) spdlog::warn("sessions evicted from memory while the store fails count={}", evicted.size());
+    for (const Held& held : evicted) {
+        for (const Written& written : held.waiting) written(false);
+    }
+    wake_.notify_one();
+}
+
+/// Evicts closed sessions until the rest fit within the quota: first those that were never changed, then those that
+/// were closed first. Skips sessions in flight, which are about to be written or requeued.
+std::vector<WriteBehindStore::Held> WriteBehindStore::evictClosed() {
+    std::size_t bytes = 0;
+    std::vector<decltype(held_)::iterator> closed;
+    for (auto entry = held_.begin(); entry != held_.end(); ++entry) {
+        const Held& held = entry->second;
+        if (!held.closed || held.inFlight) continue;
+        bytes += held.bytes;
+        closed.push_back(entry);
+    }
+    std::vector<Held> evicted;
+    if (bytes <= settings_.quota) return evicted;
+    std::ranges::sort(closed, {}, [](const auto& entry) {
+        return std::tuple(entry->second.whole->revision > 0, entry->second.closedAt);
+    });
+    for (const auto& entry : closed) {
+        if (bytes <= settings_.quota) break;
+        bytes -= entry->second.bytes;
+        tasks_.emplace_back([this, id = entry->first] { dropKeys(id); });
+        evicted.push_back(std::move(entry->second));
+        held_.erase(entry);
+    }
+    recount();
+    return evicted;
+}
+
+void WriteBehindStore::forget(const std::string& id) {
+    {
+        const std::lock_guard lock(mutex_);
+        tasks_.emplace_back([this, id] {
+            Held held;  // destroyed without holding the lock
+            {
+                const std::lock_guard inner(mutex_);
+                const auto found = held_.find(id);
+                if (found != held_.end() && !found->second.closed) return;
+                if (found != held_.end()) {
+                    held = std::move(found->second);
+                    held_.erase(found);
+                }
+                keys_.erase(id);
+                removals_.insert(id);
+            }
+            for (const Written& written : held.waiting) written(false);
+        });
+    }
+    wake_.notify_one();
+}
+
+/// Drops the polytope keys of a session that is no longer held.
+void WriteBehindStore::dropKeys(const std::string& id) {
+    const std::lock_guard lock(mutex_);
+    if (!held_.contains(id)) keys_.erase(id);
+}
+
+void WriteBehindStore::letGo(const std::string& id) {
+    const std::lock_guard lock(mutex_);
+    held_.erase(id);
+}
+
+std::size_t WriteBehindStore::count() const {
+    const std::lock_guard lock(mutex_);
+    // The size of a shared store says nothing about the load of this server.
+    return pace_ == Store::Pace::at_once ? held_.size() : kept_ + created_;
+}
+
+std::size_t WriteBehindStore::unsaved() const {
+    const std::lock_guard lock(mutex_);
+    return static_cast<std::size_t>(std::ranges::count_if(held_, [](const auto& entry) {
+        const Held& held = entry.second;
+        return held.head || held.whole || held.inFlight;
+    }));
+}
+
+std::string WriteBehindStore::trouble() const {
+    const std::lock_guard lock(mutex_);
+    return trouble_;
+}
+
+void WriteBehindStore::enqueue(const std::string& id, Held& held) {
+    if (std::exchange(held.queued, true)) return;
+    queue_.push_back(id);
+}
+
+bool WriteBehindStore::mayWrite() const { return (!queue_.empty() || !removals_.empty()) && Clock::now() >= retryAt_; }
+
+void WriteBehindStore::recount() {
+    created_ =
+        static_cast<std::size_t>(std::ranges::count_if(held_, [](const auto& entry) { return !entry.second.saved; }));
+}
+
+WriteBehindStore::Clock::time_point WriteBehindStore::nextWake() const {
+    const auto next = queue_.empty() && removals_.empty() ? pollAt_ : std::min(pollAt_, retryAt_);
+    return stopping_ ? std::min(next, stopAt_) : next;
+}
+
+void WriteBehindStore::run() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        if (!tasks_.empty()) {
+            const auto task = std::move(tasks_.front());
+            tasks_.pop_front();
+            lock.unlock();
+            task();
+        } else if (stopping_ && (queue_.empty() || Clock::now() >= stopAt_)) {
+            if (!queue_.empty()) spdlog::error("sessions not written count={} store={}", queue_.size(), name_);
+            return;
+        } else if (mayWrite()) {
+            lock.unlock();
+            write();
+        } else if (Clock::now() >= pollAt_) {
+            lock.unlock();
+            poll();
+        } else {
+            wake_.wait_until(lock, nextWake());
+            continue;
+        }
+        lock.lock();
+    }
+}
+
+/// Carries out an operation of the store, and reports its duration and outcome to the listener. `what` is the name of
+/// the operation in the metrics.
+template <typename Operation>
+auto WriteBehindStore::timed(const char* what, Operation operation) {
+    const auto start = Clock::now();
+    const auto report = [&](bool done) {
+        listener_.asked(what, std::chrono::duration<double>(Clock::now() - start).count(), done);
+    };
+    try {
+        auto result = operation();
+        report(true);
+        return result;
+    } catch (...) {
+        report(false);
+        throw;
+    }
+}
+
+void WriteBehindStore::storeFailed(const std::exception& fault) {
+    const std::string why = fault.what();
+    const bool readable = dynamic_cast<const NotWritable*>(&fault) != nullptr;
+    if (!readable) {
+        // The store may have lost its data: polytopes must be written again.
+        for (auto& [id, keys] : keys_) {
+            for (auto& [serial, polytope] : keys) polytope.stored = false;
+        }
+    }
+    // Exponential backoff with jitter.
+    const Milliseconds longest =
+        std::min<Milliseconds>(kMinRetryPause * (1 << std::min(failures_++, 10)), kMaxRetryPause);
+    const Milliseconds pause = longest / 2 + Milliseconds(random_() % static_cast<unsigned>(longest.count() / 2));
+    const std::lock_guard lock(mutex_);
+    retryAt_ = pollAt_ = Clock::now() + pause;
+    readAt_ = readable ? Clock::time_point() : retryAt_;
+    recount();
+    if (trouble_.empty()) spdlog::error("store fails, changes stay in memory until it works fault=\"{}\"", why);
+    trouble_ = why;
+}
+
+void WriteBehindStore::storeWorked() {
+    {
+        const std::lock_guard lock(mutex_);
+        failures_ = 0;
+        if (trouble_.empty()) return;
+        trouble_.clear();
+    }
+    spdlog::info("store works again store={}", name_);
+    listener_.back();
+}
+
+// --- Writing
+
+/// Takes a batch of sessions from the queue, and encodes it.
+void WriteBehindStore::takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate>& updates) {
+    const std::size_t maxBytes = std::min(kBatchBytes, settings_.quota / 8);
+    std::size_t bytes = 0;
+    while (jobs.size() < kBatch && bytes < maxBytes) {
+        {
+            const std::lock_guard lock(mutex_);
+            if (queue_.empty()) break;
+            const std::string id = std::move(queue_.front());
+            queue_.pop_front();
+            const auto found = held_.find(id);
+            if (found == held_.end()) continue;
+            Held& held = found->second;
+            held.queued = false;
+            held.inFlight = true;
+            jobs.push_back({id,
+                            std::exchange(held.head, nullptr),
+                            std::exchange(held.whole, nullptr),
+                            std::exchange(held.waiting, {}),
+                            {}});
+            updates.push_back({held.credentials, held.fence, {}, {}, {}, {}, held.closed, true});
+        }
+        encode(jobs.back(), updates.back());
+        bytes += store::bytesOf(updates.back());
+    }
+}
+
+void WriteBehindStore::write() {
+    writeRemovals();
+    std::vector<RecordUpdate> updates;
+    std::vector<Job> jobs;
+    std::vector<std::optional<SaveResult>> results;
+    try {
+        takeJobs(jobs, updates);
+        if (jobs.empty()) return;
+        results = timed("save", [&] { return saveOrEvict(updates); });
+    } catch (const std::exception& fault) {
+        storeFailed(fault);
+        for (Job& job : jobs) requeue(job);
+        return;
+    }
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        if (results[i]) {
+            applyResult(jobs[i], updates[i], *results[i]);
+        } else {
+            requeue(jobs[i]);
+        }
+    }
+    if (std::ranges::all_of(results, [](const auto& one) { return one.has_value(); })) storeWorked();
+}
+
+/// Saves the updates, and evicts closed sessions if the store is full. If an update does not fit even then, its result
+/// is empty and storeFailed() is called; the other updates are saved.
+std::vector<std::optional<SaveResult>> WriteBehindStore::saveOrEvict(std::span<const RecordUpdate> updates) {
+    std::vector<std::optional<SaveResult>> results;
+    try {
+        for (const SaveResult one : store_->save(updates)) results.emplace_back(one);
+        return results;
+    } catch (const NotWritable&) {
+        const std::size_t count = store_->evict(updates, [this](const std::string& id) {
+            const std::lock_guard lock(mutex_);
+            return held_.contains(id);
+        });
+        if (count > 0) spdlog::warn("sessions evicted, the store is full count={} store={}", count, name_);
+    }
+    for (const RecordUpdate& update : updates) {
+        try {
+            results.emplace_back(store_->save({&update, 1}).at(0));
+        } catch (const NotWritable& fault) {
+            if (std::ranges::all_of(results, [](const auto& one) { return one.has_value(); })) storeFailed(fault);
+            results.emplace_back();
+        }
+    }
+    return results;
+}
+
+void WriteBehindStore::writeRemovals() {
+    std::vector<std::string> ids;
+    {
+        const std::lock_guard lock(mutex_);
+        std::erase_if(removals_, [&](const std::string& id) { return held_.contains(id); });  // was opened again
+        ids.assign(removals_.begin(), removals_.end());
+    }
+    if (ids.empty()) return;
+    try {
+        timed("remove", [&] { return store_->remove(ids), true; });
+    } catch (const std::exception& fault) {
+        storeFailed(fault);
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    removals_.clear();
+    pollAt_ = Clock::time_point();  // update the number of stored sessions now
+}
+
+/// Encodes a job as an update. Each polytope is written once, and dropped when the session no longer has it.
+void WriteBehindStore::encode(Job& job, RecordUpdate& update) {
+    PolytopeKeys& keys = keys_[job.id];
+    std::set<std::uint64_t> used;
+    const KeyOf keyOf = [&](const slicing::Object& object) {
+        const std::uint64_t serial = slicing::infoOf(object).serial;
+        auto& [key, stored] = keys[serial];
+        if (key.empty()) key = randomName(kKeyBytes);
+        if (used.insert(serial).second && !stored) {
+            update.polytopes.emplace_back(key, encodeObject(object));
+            job.added.push_back(serial);
+        }
+        return key;
+    };
+    if (job.whole) update.whole = encodeWhole(*job.whole, settings_.maxUndo, keyOf);
+    if (job.head && (!job.whole || job.head->revision > job.whole->revision))
+        update.head = encodeHead(*job.head, keyOf);
+    update.changed = (job.head && job.head->revision > 0) || (job.whole && job.whole->revision > 0);
+    if (!job.whole) return;
+    for (const auto& [serial, polytope] : keys) {
+        if (!used.contains(serial)) update.dropped.push_back(polytope.key);
+    }
+}
+
+void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveResult result) {
+    if (result == SaveResult::saved) {
+        PolytopeKeys& keys = keys_[job.id];
+        for (const std::uint64_t serial : job.added) keys[serial].stored = true;
+        std::erase_if(keys, [&](const auto& entry) {
+            return std::ranges::find(update.dropped, entry.second.key) != update.dropped.end();
+        });
+        const std::lock_guard lock(mutex_);
+        const auto found = held_.find(job.id);
+        if (found != held_.end()) {
+            Held& held = found->second;
+            held.inFlight = false;
+            if (!std::exchange(held.saved, true)) pollAt_ = Clock::time_point();  // update the number of sessions now
+            if (held.closed && !held.queued) {
+                held_.erase(found);
+                keys_.erase(job.id);
+            }
+        }
+    } else if (result == SaveResult::missing) {
+        for (auto& [serial, polytope] : keys_[job.id]) polytope.stored = false;
+        requeue(job);
+        listener_.wanted(job.id);
+        return;
+    } else {
+        dropTaken(job.id);
+    }
+    for (const Written& written : job.waiting) written(result == SaveResult::saved);
+}
+
+/// Keeps the changes of a failed job as pending, unless newer ones are pending already. While the store fails, also
+/// queues them and reports them as written.
+void WriteBehindStore::requeue(Job& job) {
+    std::vector<Written> released;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = held_.find(job.id);
+        if (found == held_.end()) return;
+        Held& held = found->second;
+        held.inFlight = false;
+        if (!held.head) held.head = std::move(job.head);
+        if (!held.whole) held.whole = std::move(job.whole);
+        std::ranges::move(job.waiting, std::back_inserter(held.waiting));
+        if (!trouble_.empty()) {
+            enqueue(job.id, held);
+            released = std::exchange(held.waiting, {});
+        }
+    }
+    for (const Written& written : released) written(true);
+}
+
+/// Drops a session that another server has claimed.
+void WriteBehindStore::dropTaken(const std::string& id) {
+    std::vector<Written> released;
+    bool open = false;
+    {
+        const std::lock_guard lock(mutex_);
+        const auto found = held_.find(id);
+        if (found == held_.end()) return;
+        released = std::move(found->second.waiting);
+        open = !found->second.closed;
+        held_.erase(found);
+    }
+    keys_.erase(id);
+    for (const Written& written : released) written(false);
+    if (open) listener_.taken(id);
+}
+
+// --- Polling
+
+void WriteBehindStore::poll() {
+    {
+        const std::lock_guard lock(mutex_);
+        pollAt_ = Clock::now() + kPollInterval;
+    }
+    try {
+        if (Clock::now() >= refreshAt_) refreshExpiry();
+        for (const std::string& id : timed("pulse", [&] { return store_->poll(); })) dropTaken(id);
+    } catch (const std::exception& fault) {
+        storeFailed(fault);
+        return;
+    }
+    bool waiting = false;
+    {
+        const std::lock_guard lock(mutex_);
+        kept_ = store_->size();
+        recount();
+        waiting = !queue_.empty() || !removals_.empty();
+    }
+    if (!waiting) storeWorked();  // else the next write decides, because a full store can be polled too
+}
+
+/// Restarts the expiry period of open sessions, and deletes sessions whose expiry period has ended.
+void WriteBehindStore::refreshExpiry() {
+    const Milliseconds interval = std::min<Milliseconds>(settings_.expiry / 4, kMaxRefreshInterval);
+    refreshAt_ = Clock::now() + interval;
+    std::vector<std::string> open;
+    {
+        const std::lock_guard lock(mutex_);
+        pollAt_ = std::min(pollAt_, refreshAt_);
+        std::erase_if(held_, [&](const auto& entry) {
+            const bool old = entry.second.closed && Clock::now() - entry.second.closedAt > settings_.expiry;
+            if (old) keys_.erase(entry.first);
+            return old;
+        });
+        for (const auto& [id, held] : held_) {
+            if (held.saved && !held.closed) open.push_back(id);
+        }
+    }
+    for (std::size_t i = 0; i < open.size(); i += kBatch) {
+        const auto some = std::span(open).subspan(i, std::min(kBatch, open.size() - i));
+        timed("touch", [&] { return store_->touch(some), true; });
+    }
+    const std::size_t expired = timed("expire", [&] { return store_->expire(settings_.expiry); });
+    if (expired > 0) spdlog::info("sessions expired count={}", expired);
+}
+
+// --- Reading
+
+void WriteBehindStore::answer(const SessionCredentials& credentials, const std::function<void(Fetch)>& done) {
+    try {
+        done(claimOrFind(credentials));
+    } catch (const std::exception& fault) {
+        storeFailed(fault);
+        done(kNoAnswer);
+    }
+}
+
+WriteBehindStore::Fetch WriteBehindStore::claimOrFind(const SessionCredentials& credentials) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (const auto found = held_.find(credentials.id); found != held_.end()) {
+            Held& held = found->second;
+            if (!sameSecret(credentials.token, held.credentials.token)) return kBadToken;
+            if (!held.whole) return kNoAnswer;  // another client is opening it, or it is being written
+            held.closed = false;
+            return Fetched{*held.whole, {}};
+        }
+        if (removals_.contains(credentials.id)) return kNotFound;
+        if (Clock::now() < readAt_) return kNoAnswer;
+    }
+    const auto hash = timed("token", [&] { return store_->tokenHash(credentials.id); });
+    if (!hash) return kNotFound;
+    if (!sameSecret(hashOf(credentials.token), *hash)) {
+        // The stored hash itself may be damaged.
+        return timed("token", [&] { return store_->isDamaged(credentials.id); }) ? kNotFound : kBadToken;
+    }
+    auto record = timed("claim", [&] { return store_->claim(credentials.id); });
+    if (!record) return kNotFound;
+    const std::lock_guard lock(mutex_);
+    Held& held = held_[credentials.id];
+    held.credentials = credentials;
+    held.fence = record->fence;
+    held.saved = true;
+    return Fetched{{}, std::move(*record)};
+}
+
+}  // namespace oval4d::store

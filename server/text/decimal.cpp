@@ -1,0 +1,251 @@
+#include "text/decimal.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace oval4d::text {
+
+namespace {
+
+constexpr std::array<std::uint64_t, 10'000> smallIntegerTexts() {
+    std::array<std::uint64_t, 10'000> all{};
+    for (std::uint32_t number = 0; number < all.size(); ++number) {
+        std::uint64_t text = 0;
+        std::uint64_t length = 0;
+        std::uint32_t rest = number;
+        do {
+            text = text << 8U | ('0' + rest % 10);
+            ++length;
+            rest /= 10;
+        } while (rest != 0);
+        all.at(number) = text | length << 56U;
+    }
+    return all;
+}
+
+// The text after each number of a vector.
+struct Separator {
+    char text[4];
+    std::size_t length;
+};
+template <std::size_t Size>
+constexpr std::array<Separator, Size> separators() {
+    std::array<Separator, Size> all{};
+    for (auto& each : all) each = {",", 1};
+    all.back() = {"],[", 3};
+    return all;
+}
+
+char* separate(char* at, const Separator& separator) {
+    std::memcpy(at, separator.text, sizeof separator.text);
+    return at + separator.length;
+}
+
+constexpr float kExponentFrom = 1e5F;  // std::to_chars may write integers with an exponent from here on
+
+// Writes the numbers from `begin` to `end` − 1 of vectors of `Size` numbers, and the separator after each.
+template <std::size_t Size>
+char* putPlain(char* at, const double* numbers, std::size_t begin, std::size_t end) {
+    static constexpr auto kSeparators = separators<Size>();
+    for (std::size_t i = begin; i < end; ++i) {
+        const auto number = static_cast<float>(numbers[i]);
+        char* const room = at + 2 * kNumberRoom;
+        const bool large = std::abs(number) >= kExponentFrom && isExactInteger(number);
+        at = large ? std::to_chars(at, room, static_cast<std::int64_t>(number)).ptr
+                   : std::to_chars(at, room, number).ptr;
+        at = separate(at, kSeparators[i % Size]);
+    }
+    return at;
+}
+
+#if defined(__x86_64__)
+
+using Reals = double __attribute__((vector_size(32)));
+using Words = std::uint64_t __attribute__((vector_size(32)));
+using Halves = std::uint32_t __attribute__((vector_size(32)));
+using Floats = float __attribute__((vector_size(16)));
+using Bits = std::int32_t __attribute__((vector_size(16)));
+
+// Four numbers are a group, one AVX2 register of doubles. Each step processes all groups of a block before the next
+// step, which depends on it: this hides the latency of the instructions.
+constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // a multiple of 3 and 4: whole vectors of either size
+
+// Numbers as text: the head is the text up to the second decimal, followed by eight more digits with trailing zeros. If
+// a number of a group is too small or too large for this form, or a multiple of 1/100, putPlain writes the whole group.
+struct Block {
+    alignas(32) std::uint64_t head[kBlock], headLength[kBlock], digits[kBlock];
+    bool plain[kGroups];
+};
+
+// Floats from 2^e to 2^(e + 1) are rounded to integer multiples of 10^−p, where 10^−p is the largest power of ten below
+// their spacing 2^(e − 23). The nearest multiple therefore reads back as the same float. At most one multiple of
+// 10^(1 − p) reads back as the same float too; if there is one, it is shorter, and is used instead. This works from
+// e = −10, where powers of two (below which the spacing is half of that above) have at most p decimals and are written
+// exactly, to e = 5, where there are still at most two digits before the point. There p is from 10 to 6.
+constexpr std::int32_t kMinExponent = -10, kExponents = 16;
+constexpr std::int32_t kExponentMask = 0x7F80'0000, kHalfSpacing = 24 << 23;
+constexpr double kMargin = 0x1p-20;  // above all rounding errors, in units of 10^−p
+
+// Tables by 10 − p: 10^p, and 10^−p in units of 10^−10. Floats represent them exactly.
+constexpr std::array<float, 8> kUnits{1e10, 1e9, 1e8, 1e7, 1e6}, kUnit{1e0, 1e1, 1e2, 1e3, 1e4};
+
+// Adding this to a number from 0 to 2^51 rounds it to an integer, which is then in the low bits of the sum.
+constexpr double kRounder = 0x1.8p52;
+[[gnu::target("avx2")]] inline Words integerOf(Reals sum) {
+    return Words(sum) ^ std::bit_cast<std::uint64_t>(kRounder);
+}
+
+[[gnu::target("avx2")]] inline Reals widened(Floats numbers) { return Reals(_mm256_cvtps_pd(__m128(numbers))); }
+
+[[gnu::target("avx2")]] inline Reals pick(const std::array<float, 8>& table, Bits which) {
+    const __m256i places = _mm256_castsi128_si256(__m128i(which));
+    const __m256 picked = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table.data()), places);
+    return widened(Floats(_mm256_castps256_ps128(picked)));
+}
+
+// Operations on 16-bit numbers: the sum, and the upper half of the product.
+[[gnu::target("avx2")]] inline Words plus(Words a, Words b) { return Words(_mm256_add_epi16(__m256i(a), __m256i(b))); }
+[[gnu::target("avx2")]] inline Words highTimes(Words a, short b) {
+    return Words(_mm256_mulhi_epu16(__m256i(a), _mm256_set1_epi16(b)));
+}
+// The product of the lower byte of each 16-bit number and `b`, which is from −128 to 127.
+[[gnu::target("avx2")]] inline Words lowTimes(Words a, int b) {
+    return Words(_mm256_maddubs_epi16(__m256i(a), _mm256_set1_epi16(b & 0xFF)));
+}
+
+// Converts each 32-bit half of a word, a number below 10,000, to its four digits, one per byte, the first in the low
+// byte.
+[[gnu::target("avx2")]] inline Words fourDigits(Words numbers) {
+    const auto hundreds = Words(Halves(highTimes(numbers, 5243)) >> 3);
+    const Words pairs = hundreds | plus(numbers, lowTimes(hundreds, -100)) << 16;
+    const Words tens = highTimes(pairs, 6554);
+    return tens | plus(pairs, lowTimes(tens, -10)) << 8;
+}
+
+[[gnu::target("avx2")]] void convert(const double* numbers, Block& out) {
+    Bits bits[kGroups], drop[kGroups], outOfRange[kGroups];
+    Reals units[kGroups], exact[kGroups], rounder[kGroups], decimals[kGroups], upper[kGroups];
+    Words digits[kGroups], first[kGroups];
+    for (std::size_t g = 0; g < kGroups; ++g) {
+        Reals four;
+        std::memcpy(&four, numbers + 4 * g, sizeof four);
+        bits[g] = Bits(__builtin_convertvector(four, Floats));
+        const Bits place = ((bits[g] & kExponentMask) >> 23) - (127 + kMinExponent);
+        outOfRange[g] = place & ~(kExponents - 1);
+        drop[g] = (place * 1233 + 270) >> 12;  // 10 + log10(2^(e − 23)), rounded down
+    }
+    for (std::size_t g = 0; g < kGroups; ++g) {
+        units[g] = pick(kUnits, drop[g]);
+        exact[g] = widened(Floats(bits[g] & 0x7FFF'FFFF)) * units[g];
+    }
+    for (std::size_t g = 0; g < kGroups; ++g) rounder[g] = ((exact[g] * 0.1 + kRounder) - kRounder) * 10;
+    for (std::size_t g = 0; g < kGroups; ++g) {
+        const auto half = Floats((bits[g] & kExponentMask) - kHalfSpacing);
+        const Reals reach = widened(half) * units[g] - kMargin;
+        const Reals off = Reals(Words(rounder[g] - exact[g]) & ~std::uint64_t{0} >> 1);
+        const Reals nearest = (exact[g] + kRounder) - kRounder;
+        decimals[g] = (off < reach ? rounder[g] : nearest) * pick(kUnit, drop[g]);
+    }
+    for (std::size_t g = 0; g < kGroups; ++g) upper[g] = (decimals[g] - 49'999'999.5) * 1e-8 + kRounder;
+    for (std::size_t g = 0; g < kGroups; ++g) {
+        const Reals eight = decimals[g] - (upper[g] - kRounder) * 1e8;
+        const Reals thousands = (eight - 4'999.5) * 1e-4 + kRounder;
+        digits[g] = integerOf(thousands) | integerOf(eight - (thousands - kRounder) * 1e4 + kRounder) << 32;
+    }
+    for (std::size_t g = 0; g < kGroups; ++g) {
+        digits[g] = fourDigits(digits[g]);
+        first[g] = fourDigits(integerOf(upper[g]));  // tens, ones, tenths, hundredths
+    }
+    for (std::size_t g = 0; g < kGroups; ++g) {
+        const Words tens = first[g] & 0xFF;
+        const Words tensBits = tens != 0 ? Words{} + 8 : Words{};
+        const Words negative = Words(_mm256_cvtepi32_epi64(__m128i(bits[g] >> 31)));
+        const Words signBits = negative & 8;
+        Words head = (first[g] >> 8 & 0xFF) | (first[g] & 0xFFFF'0000) | 0x3030'2E30;
+        head = head << tensBits | (tens != 0 ? tens | '0' : tens);
+        head = head << signBits | (negative & '-');
+        const Words length = 4 + ((tensBits + signBits) >> 3);
+        std::memcpy(out.head + 4 * g, &head, sizeof head);
+        std::memcpy(out.headLength + 4 * g, &length, sizeof length);
+        std::memcpy(out.digits + 4 * g, &digits[g], sizeof digits[g]);
+        const Words zero = digits[g] == 0;
+        out.plain[g] = (outOfRange[g][0] | outOfRange[g][1] | outOfRange[g][2] | outOfRange[g][3]) != 0 ||
+                       (zero[0] | zero[1] | zero[2] | zero[3]) != 0;
+    }
+}
+
+template <std::size_t Size>
+[[gnu::target("avx2")]] char* putBlock(char* at, const double* numbers, std::size_t count) {
+    static constexpr auto kSeparators = separators<Size>();
+    Block block;
+    convert(numbers, block);
+#pragma GCC unroll 12
+    for (std::size_t i = 0; i < count; ++i) {
+        if (block.plain[i / 4]) {
+            at = putPlain<Size>(at, numbers, i, i + 1);
+            continue;
+        }
+        std::memcpy(at, &block.head[i], 8);
+        at += block.headLength[i];
+        const std::uint64_t digits = block.digits[i] | 0x3030'3030'3030'3030;
+        std::memcpy(at, &digits, 8);
+        const auto zeros = static_cast<unsigned>(std::countl_zero(block.digits[i])) / 8;
+        at = separate(at + 8 - zeros, kSeparators[i % Size]);
+    }
+    return at;
+}
+
+template <std::size_t Size>
+[[gnu::target("avx2")]] char* putBlocks(char* at, const double* numbers, std::size_t count) {
+    std::size_t i = 0;
+    for (; i + kBlock <= count; i += kBlock) at = putBlock<Size>(at, numbers + i, kBlock);
+    if (i == count) return at;
+    std::array<double, kBlock> rest;
+    rest.fill(numbers[i]);
+    std::copy(numbers + i, numbers + count, rest.begin());
+    return putBlock<Size>(at, rest.data(), count - i);
+}
+
+template <std::size_t Size>
+char* put(char* at, const double* numbers, std::size_t count) {
+    static const bool blocks = __builtin_cpu_supports("avx2") != 0;
+    return blocks ? putBlocks<Size>(at, numbers, count) : putPlain<Size>(at, numbers, 0, count);
+}
+
+#else
+
+template <std::size_t Size>
+char* put(char* at, const double* numbers, std::size_t count) {
+    return putPlain<Size>(at, numbers, 0, count);
+}
+
+#endif
+
+template <typename V>
+char* putAll(char* at, std::span<const V> list) {
+    if (list.empty()) return at;
+    *at++ = '[';
+    at = put<sizeof(V) / sizeof(double)>(at, &list[0].x, list.size() * (sizeof(V) / sizeof(double)));
+    return at - 2;  // ",["
+}
+
+}  // namespace
+
+constinit const std::array<std::uint64_t, 10'000> kSmallIntegerTexts = smallIntegerTexts();
+
+char* putLargeInteger(char* at, std::uint32_t number) {
+    at = putInteger(at, number / 10'000);
+    const std::uint64_t rest = kSmallIntegerTexts[number % 10'000];
+    std::memcpy(at, "0000", 4);
+    std::memcpy(at + 4 - (rest >> 56U), &rest, sizeof rest);
+    return at + 4;
+}
+
+char* putVectors(char* at, std::span<const glm::dvec3> list) { return putAll(at, list); }
+char* putVectors(char* at, std::span<const glm::dvec4> list) { return putAll(at, list); }
+
+}  // namespace oval4d::text

@@ -1,0 +1,122 @@
+#include "text/suggest.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include "text/decimal.hpp"
+
+namespace oval4d::text {
+
+namespace {
+
+// The Levenshtein distance in O(|a| |b|); both texts are short.
+std::size_t distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+constexpr std::size_t kMaxQuotedBytes = 60;
+
+// The length of the UTF-8 character at this position, or 0 if there is none. The range of the second byte excludes
+// overlong forms, surrogates, and code points above U+10FFFF (RFC 3629, section 4).
+std::size_t characterAt(std::string_view text, std::size_t at) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
+    const unsigned char lead = byte(0);
+    const std::size_t size = lead < 0x80   ? 1
+                             : lead < 0xC2 ? 0
+                             : lead < 0xE0 ? 2
+                             : lead < 0xF0 ? 3
+                             : lead < 0xF5 ? 4
+                                           : 0;
+    if (size == 0 || at + size > text.size()) return 0;
+    const unsigned least = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;
+    const unsigned most = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
+    if (size > 1 && (byte(1) < least || byte(1) > most)) return 0;
+    for (std::size_t i = 2; i < size; ++i) {
+        if ((byte(i) & 0xC0U) != 0x80) return 0;
+    }
+    return size;
+}
+
+}  // namespace
+
+std::string_view nearest(std::string_view text, std::span<const std::string_view> candidates) {
+    text = text.substr(0, kMaxQuotedBytes);
+    std::string_view best;
+    std::size_t least = 2 * kMaxQuotedBytes;
+    for (const std::string_view candidate : candidates) {
+        // Among equals, prefer the same length: "25-cell" is more likely to mean 24-cell than 5-cell.
+        const std::size_t d = 2 * distance(text, candidate) + (candidate.size() == text.size() ? 0 : 1);
+        if (d < least && d <= candidate.size() + 1) {
+            least = d;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+std::string didYouMean(std::string_view text, std::span<const std::string_view> candidates) {
+    const std::string_view name = nearest(text, candidates);
+    return name.empty() ? std::string{} : " (did you mean '" + std::string(name) + "'?)";
+}
+
+std::string listed(std::span<const std::string_view> names) {
+    std::string list;
+    for (const std::string_view name : names) {
+        if (!list.empty()) list += ", ";
+        list += name;
+    }
+    return list;
+}
+
+std::string alternatives(std::span<const std::string_view> names) {
+    if (names.size() < 2) return listed(names);
+    return listed(names.first(names.size() - 1)) + " or " + std::string(names.back());
+}
+
+bool isUtf8(std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t size = characterAt(text, at);
+        if (size == 0) return false;
+        at += size;
+    }
+    return true;
+}
+
+std::string inQuotes(std::string_view text) { return "'" + printable(text, kMaxQuotedBytes) + "'"; }
+
+std::string printable(std::string_view text, std::size_t maxBytes) {
+    std::string shown;
+    std::size_t at = 0;
+    while (at < text.size() && at < maxBytes) {
+        const std::size_t size = characterAt(text, at);
+        const bool printable = size > 1 || (size == 1 && text[at] >= ' ' && text[at] != 0x7F);
+        shown += printable ? text.substr(at, size) : "?";
+        at += std::max<std::size_t>(size, 1);
+    }
+    if (at < text.size()) shown += "…";
+    return shown;
+}
+
+std::string shortest(double value) {
+    if (isExactInteger(value)) return std::to_string(static_cast<std::int64_t>(value));
+    std::array<char, 32> buffer;
+    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+    return {buffer.data(), result.ptr};
+}
+
+}  // namespace oval4d::text

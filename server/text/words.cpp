@@ -1,0 +1,59 @@
+#include "text/words.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace oval4d::text {
+
+namespace {
+
+bool isSeparator(char c) { return c == '-' || c == '_' || std::isspace(static_cast<unsigned char>(c)) != 0; }
+
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+}  // namespace
+
+std::vector<std::string_view> listOf(std::string_view text) {
+    std::vector<std::string_view> parts;
+    while (!text.empty()) {
+        const std::size_t comma = std::min(text.find(','), text.size());
+        parts.push_back(text.substr(0, comma));
+        text.remove_prefix(std::min(comma + 1, text.size()));
+    }
+    return parts;
+}
+
+std::vector<std::string> wordsOf(std::string_view text) {
+    std::vector<std::string> words;
+    bool apart = true;
+    for (const char c : text) {
+        if (!isSeparator(c)) {
+            if (apart) words.emplace_back();
+            words.back() += lower(c);
+        }
+        apart = isSeparator(c);
+    }
+    return words;
+}
+
+std::string joined(const std::vector<std::string>& words, std::size_t first, std::size_t end) {
+    std::string text;
+    for (std::size_t i = first; i < end; ++i) text += (text.empty() ? "" : " ") + words[i];
+    return text;
+}
+
+std::string folded(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        if (!isSeparator(c)) result += lower(c);
+    }
+    return result;
+}
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kBlanks = " \t";
+    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+    return text.substr(0, text.find_last_not_of(kBlanks) + 1);
+}
+
+}  // namespace oval4d::text

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "wire/json_writer.hpp"
+
+#include "text/decimal.hpp"
+
+namespace oval4d::wire {
+
+namespace {
+
+constexpr std::size_t kMaxNumberLength = 32;  // the maximum length of a number
+
+// Returns the bytes to reserve for this number of coordinates or indices, with brackets.
+std::size_t reserveFor(std::size_t numbers) { return (numbers + 2) * text::kNumberRoom; }
+
+// Writes each number with a comma after it.
+char* putIntegers(char* at, std::span<const std::uint32_t> list) {
+    for (const std::uint32_t number : list) {
+        at = text::putInteger(at, number);
+        *at++ = ',';
+    }
+    return at;
+}
+
+// Writes the separator of two arrays, and one byte beyond it.
+char* putSeparator(char* at) {
+    std::memcpy(at, "],[", 4);
+    return at + 3;
+}
+
+}  // namespace
+
+void JsonWriter::open(char bracket) {
+    separate();
+    buffer_.put(bracket);
+    comma_ = false;
+}
+
+void JsonWriter::close(char bracket) {
+    buffer_.put(bracket);
+    comma_ = true;
+}
+
+void JsonWriter::value(double number) {
+    separate();
+    buffer_.reserve(kMaxNumberLength);
+    char* const end = buffer_.at() + kMaxNumberLength;
+    // For an integer such as 1000000, to_chars of a double would write 1e+06.
+    buffer_.moveTo(text::isExactInteger(number)
+                       ? std::to_chars(buffer_.at(), end, static_cast<std::int64_t>(number)).ptr
+                       : std::to_chars(buffer_.at(), end, number).ptr);
+}
+
+void JsonWriter::value(std::uint64_t number) {
+    separate();
+    buffer_.reserve(kMaxNumberLength);
+    buffer_.moveTo(std::to_chars(buffer_.at(), buffer_.at() + kMaxNumberLength, number).ptr);
+}
+
+void JsonWriter::value(std::int64_t number) {
+    separate();
+    buffer_.reserve(kMaxNumberLength);
+    buffer_.moveTo(std::to_chars(buffer_.at(), buffer_.at() + kMaxNumberLength, number).ptr);
+}
+
+void JsonWriter::value(bool flag) {
+    separate();
+    buffer_.put(flag ? "true" : "false");
+}
+
+void JsonWriter::null() {
+    separate();
+    buffer_.put("null");
+}
+
+void JsonWriter::raw(std::string_view text) {
+    separate();
+    buffer_.put(text);
+}
+
+void JsonWriter::value(std::string_view text) {
+    constexpr std::string_view kHex = "0123456789abcdef";
+    separate();
+    buffer_.put('"');
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\') {
+            buffer_.put('\\');
+            buffer_.put(c);
+        } else if (byte < 0x20) {
+            buffer_.put("\\u00");
+            buffer_.put(kHex[byte >> 4U]);
+            buffer_.put(kHex[byte & 0xFU]);
+        } else {
+            buffer_.put(c);
+        }
+    }
+    buffer_.put('"');
+}
+
+void JsonWriter::vector(const glm::dvec3& v) {
+    separate();
+    buffer_.reserve(reserveFor(3));
+    buffer_.moveTo(text::putVectors(buffer_.at(), std::span(&v, 1)));
+}
+
+// Writes an array. `put(at)` writes its content, with `numbers` numbers, and returns the end.
+template <typename Put>
+void JsonWriter::array(std::size_t numbers, Put put) {
+    separate();
+    buffer_.reserve(reserveFor(numbers));
+    char* at = buffer_.at();
+    *at++ = '[';
+    at = put(at);
+    *at++ = ']';
+    buffer_.moveTo(at);
+}
+
+void JsonWriter::floats(std::span<const float> list) {
+    constexpr double kDecimals = 1e4;
+    beginArray();
+    for (const float number : list) value(std::round(number * kDecimals) / kDecimals);
+    endArray();
+}
+
+void JsonWriter::vectors(std::span<const glm::dvec3> list) {
+    array(3 * list.size(), [list](char* at) { return text::putVectors(at, list); });
+}
+
+void JsonWriter::vectors(std::span<const glm::dvec4> list) {
+    array(4 * list.size(), [list](char* at) { return text::putVectors(at, list); });
+}
+
+template <std::size_t Size>
+void JsonWriter::tuples(std::span<const std::array<std::uint32_t, Size>> list) {
+    array(Size * list.size(), [list](char* at) {
+        if (list.empty()) return at;
+        *at++ = '[';
+        for (const auto& tuple : list) at = putSeparator(putIntegers(at, tuple) - 1);
+        return at - 2;
+    });
+}
+
+void JsonWriter::pairs(std::span<const Pair> list) { tuples(list); }
+void JsonWriter::triples(std::span<const Triple> list) { tuples(list); }
+
+void JsonWriter::numbers(std::span<const std::uint32_t> list) {
+    array(list.size(), [list](char* at) { return list.empty() ? at : putIntegers(at, list) - 1; });
+}
+
+void JsonWriter::lists(ListsView view) {
+    array(view.begin.size() + view.items.size(), [&view](char* at) {
+        if (view.begin.size() < 2) return at;
+        *at++ = '[';
+        for (std::size_t i = 0; i + 1 < view.begin.size(); ++i) {
+            const auto list = view.items.subspan(view.begin[i] - view.begin[0], view.begin[i + 1] - view.begin[i]);
+            at = putSeparator(putIntegers(at, list) - (list.empty() ? 0 : 1));
+        }
+        return at - 2;
+    });
+}
+
+void JsonWriter::image(std::span<const std::uint8_t> pixels, std::size_t columns) {
+    array(2 * pixels.size(), [=](char* at) {
+        if (pixels.empty()) return at;
+        *at++ = '[';
+        for (std::size_t row = 0; row < pixels.size(); row += columns) {
+            for (const std::uint8_t pixel : pixels.subspan(row, columns)) {
+                at = text::putInteger(at, pixel);
+                *at++ = ',';
+            }
+            at = putSeparator(at - 1);
+        }
+        return at - 2;
+    });
+}
+
+}  // namespace oval4d::wire

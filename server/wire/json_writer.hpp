@@ -1,0 +1,89 @@
+#pragma once
+// Writes messages as JSON. JsonWriter and CborWriter have the same functions, so that one template can write a message
+// in both encodings.
+
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "wire/buffer.hpp"
+#include "wire/columns.hpp"
+
+namespace oval4d::wire {
+
+/// Overwrites a string with JSON. The string is complete when the writer is destroyed.
+class JsonWriter {
+  public:
+    explicit JsonWriter(std::string& out) : buffer_(out) {}
+
+    void beginObject() { open('{'); }
+    void endObject() { close('}'); }
+    void beginArray() { open('['); }
+    void endArray() { close(']'); }
+    /// Writes a member's name, which is not escaped. Inline, because most names are known at compile time.
+    void key(std::string_view name) {
+        buffer_.reserve(name.size() + 4);
+        char* at = buffer_.at();
+        if (comma_) *at++ = ',';
+        *at++ = '"';
+        std::memcpy(at, name.data(), name.size());
+        at += name.size();
+        *at++ = '"';
+        *at++ = ':';
+        buffer_.moveTo(at);
+        comma_ = false;
+    }
+
+    void value(double number);  ///< integers within ±2^53 have no decimal point and no exponent
+    void value(std::uint64_t number);
+    void value(std::int64_t number);
+    void value(std::uint32_t number) { value(std::uint64_t{number}); }
+    void value(int number) { value(std::int64_t{number}); }
+    void value(bool flag);
+    void id(double number) { value(number); }
+    void value(std::string_view text);
+    void value(const char* text) { value(std::string_view(text)); }
+    void null();
+    /// Appends JSON text unchanged: a value, or members of an object.
+    void raw(std::string_view text);
+
+    // Arrays of numbers. Coordinates have the precision of a float.
+    void vector(const glm::dvec3& v);
+    void vectors(std::span<const glm::dvec3> list);
+    void vectors(std::span<const glm::dvec4> list);
+    void pairs(std::span<const Pair> list);
+    void triples(std::span<const Triple> list);
+    void numbers(std::span<const std::uint32_t> list);
+    void floats(std::span<const float> list);  ///< rounded to four decimals
+    void lists(ListsView view);
+    /// An image with this number of columns, as an array of rows.
+    void image(std::span<const std::uint8_t> pixels, std::size_t columns);
+
+    template <typename T>
+    void member(std::string_view name, const T& content) {
+        key(name);
+        value(content);
+    }
+
+  private:
+    void open(char bracket);
+    void close(char bracket);
+    template <typename Put>
+    void array(std::size_t numbers, Put put);
+    template <std::size_t Size>
+    void tuples(std::span<const std::array<std::uint32_t, Size>> list);
+    void separate() {
+        if (comma_) buffer_.put(',');
+        comma_ = true;
+    }
+
+    Buffer buffer_;
+    bool comma_ = false;
+};
+
+}  // namespace oval4d::wire

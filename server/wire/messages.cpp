@@ -1,0 +1,237 @@
+#include "wire/messages.hpp"
+
+#include <array>
+
+#include <nlohmann/json.hpp>
+
+#include "contract/embedded.hpp"
+#include "polytopes/catalogue/catalogue.hpp"
+#include "scene/color.hpp"
+#include "slicing/object.hpp"
+#include "wire/json_writer.hpp"
+
+namespace oval4d::wire {
+
+namespace {
+
+// Begins a message: its type, and its id if there is one.
+void begin(JsonWriter& w, std::string_view type, std::optional<double> id) {
+    w.beginObject();
+    w.member("type", type);
+    if (id) {
+        w.key("id");
+        w.id(*id);
+    }
+}
+
+// The numbers of vertices, edges, 2-faces and cells.
+using Counts = std::array<std::uint64_t, 4>;
+
+Counts countsOf(const slicing::Object& object) {
+    const auto [vertices, edges, faces, cells] = slicing::elementCounts(object);
+    return {vertices, edges, faces, cells};
+}
+
+void writeCounts(JsonWriter& w, const Counts& counts) {
+    w.member("vertices", counts[0]);
+    w.member("edges", counts[1]);
+    w.member("faces", counts[2]);
+    w.member("cells", counts[3]);
+}
+
+void writeObject(JsonWriter& w, const slicing::Object& object) {
+    const geometry::ObjectInfo& info = slicing::infoOf(object);
+    w.key("polytope");
+    w.beginObject();
+    w.member("name", std::string_view(info.name));
+    writeCounts(w, countsOf(object));
+    w.key("kinds");
+    w.beginArray();
+    for (std::size_t i = 0; i < info.cellTypes.size(); ++i) {
+        w.beginObject();
+        w.member("name", std::string_view(info.cellTypes[i].name));
+        w.member("cells", std::uint64_t{info.cellTypes[i].cells});
+        w.member("color", scene::cellTypeColor(i, info.cellTypes.size()));
+        w.endObject();
+    }
+    w.endArray();
+    w.endObject();
+}
+
+void writeMatrix(JsonWriter& w, const glm::dmat4& matrix) {
+    w.key("orientation");
+    w.beginArray();
+    for (int row = 0; row < 4; ++row) {
+        w.beginArray();
+        for (int column = 0; column < 4; ++column) w.value(matrix[column][row]);
+        w.endArray();
+    }
+    w.endArray();
+}
+
+void writeLast(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
+    w.key("last");
+    if (!turn) return w.null();
+    w.beginObject();
+    w.key("planes");
+    w.beginArray();
+    w.value(geometry::name(turn->plane));
+    if (turn->beta) w.value(geometry::name(geometry::perpendicular(turn->plane)));
+    w.endArray();
+    w.key("angles");
+    w.beginArray();
+    w.value(turn->alpha);
+    if (turn->beta) w.value(*turn->beta);
+    w.endArray();
+    w.endObject();
+}
+
+}  // namespace
+
+void stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id, std::string& out) {
+    JsonWriter w(out);
+    begin(w, "state", id);
+    w.member("revision", revision);
+    writeObject(w, state.object);
+    writeMatrix(w, state.orientation.matrix());
+    w.member("alpha", state.alpha);
+    w.member("beta", state.beta);
+    w.member("step", state.step);
+    w.key("slices");
+    w.beginObject();
+    w.member("count", state.slices.count);
+    w.member("spacing", state.slices.spacing);
+    w.member("focus", state.slices.focus);
+    w.endObject();
+    w.member("view", text::nameOf(scene::kViews, state.look.view));
+    w.member("turning", state.turning);
+    w.key("shown");
+    w.beginObject();
+    for (const scene::PartRow& part : scene::kParts) w.member(part.name, state.look.parts.*part.flag);
+    w.endObject();
+    w.key("camera");
+    w.beginObject();
+    w.member("azimuth", state.look.orbit.azimuth);
+    w.member("elevation", state.look.orbit.elevation);
+    w.member("zoom", state.look.orbit.zoom);
+    w.endObject();
+    w.member("color", text::nameOf(scene::kColorings, state.look.coloring));
+    w.key("hidden");
+    w.numbers(state.look.cellTypes.hidden);
+    w.key("faded");
+    w.numbers(state.look.cellTypes.faded);
+    writeLast(w, state.last);
+    w.endObject();
+}
+
+std::string stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id) {
+    constexpr std::size_t kTypicalBytes = 1024;
+    std::string out;
+    out.reserve(kTypicalBytes);
+    stateMessage(state, revision, id, out);
+    return out;
+}
+
+std::string errorMessage(const Error& error, std::optional<double> id) {
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "error", id);
+        w.member("code", wireName(error.code));
+        w.member("message", std::string_view(error.message));
+        w.endObject();
+    }
+    return out;
+}
+
+std::string doneMessage(std::optional<double> id, std::uint64_t revision, const std::vector<std::string>& warnings) {
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "done", id);
+        w.member("revision", revision);
+        if (!warnings.empty()) {
+            w.key("warnings");
+            w.beginArray();
+            for (const std::string& warning : warnings) w.value(std::string_view(warning));
+            w.endArray();
+        }
+        w.endObject();
+    }
+    return out;
+}
+
+std::string welcomeMessage(std::string_view session, std::string_view token, std::string_view limits,
+                           std::optional<double> id) {
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "welcome", id);
+        w.member("session", session);
+        w.member("token", token);
+        w.member("protocol", 1);
+        w.member("server", "oval4d " OVAL4D_VERSION);
+        w.key("limits");
+        w.raw(limits);
+        w.endObject();
+    }
+    return out;
+}
+
+std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded) {
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "catalogue", id);
+        w.key("polytopes");
+        w.beginArray();
+        for (const polytopes::CatalogueEntry& entry : polytopes::catalogue()) {
+            w.beginObject();
+            w.member("name", std::string_view(entry.name));
+            w.member("family", std::string_view(entry.family));
+            w.key("aliases");
+            w.beginArray();
+            for (const std::string& alias : entry.aliases) w.value(std::string_view(alias));
+            w.endArray();
+            w.member("diagram", std::string_view(entry.diagram));
+            w.member("schlaefli", std::string_view(entry.schlaefli));
+            writeCounts(w, {entry.vertices, entry.edges, entry.faces, entry.cells});
+            w.member("symmetry_order", entry.symmetryOrder);
+            w.endObject();
+        }
+        for (const slicing::Object& object : loaded) {
+            w.beginObject();
+            w.member("name", std::string_view(slicing::infoOf(object).name));
+            w.member("family", std::string_view("loaded"));
+            w.key("aliases");
+            w.beginArray();
+            w.endArray();
+            w.member("diagram", std::string_view());
+            w.member("schlaefli", std::string_view());
+            writeCounts(w, countsOf(object));
+            w.endObject();
+        }
+        w.endArray();
+        w.endObject();
+    }
+    return out;
+}
+
+std::string keymapMessage(std::optional<double> id) {
+    static const nlohmann::ordered_json table = nlohmann::ordered_json::parse(contract::embedded("keymap.json"));
+    static const std::string groups = table.at("groups").dump();
+    static const std::string keys = table.at("keys").dump();
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "keymap", id);
+        w.key("groups");
+        w.raw(groups);
+        w.key("keys");
+        w.raw(keys);
+        w.endObject();
+    }
+    return out;
+}
+
+}  // namespace oval4d::wire

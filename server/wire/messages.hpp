@@ -1,0 +1,35 @@
+#pragma once
+// The messages of the server to clients as JSON text, except `slices`.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "errors/error.hpp"
+#include "session/session.hpp"
+
+namespace oval4d::wire {
+
+/// Returns the `state` message of a state. Frames embed the same text.
+std::string stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id = {});
+/// Writes the `state` message to `out`, which is overwritten and its memory reused.
+void stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id, std::string& out);
+
+/// Returns the `error` message.
+std::string errorMessage(const Error& error, std::optional<double> id);
+/// Returns the `done` message; `warnings` are those of reading a file.
+std::string doneMessage(std::optional<double> id, std::uint64_t revision,
+                        const std::vector<std::string>& warnings = {});
+/// Returns the `catalogue` message: the entries of the catalogue, followed by the session's loaded objects.
+std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded = {});
+/// Returns the `keymap` message, the key table of protocol/keymap.json.
+std::string keymapMessage(std::optional<double> id);
+
+/// Returns the `welcome` message; `limits` is the text of a JSON object.
+std::string welcomeMessage(std::string_view session, std::string_view token, std::string_view limits,
+                           std::optional<double> id);
+
+}  // namespace oval4d::wire

@@ -1,0 +1,264 @@
+#include "wire/parse.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "text/suggest.hpp"
+#include "wire/json_text.hpp"
+#include "wire/schema.hpp"
+
+namespace oval4d::wire {
+
+namespace {
+
+using nlohmann::json;
+
+// Thrown for an error that a schema cannot describe.
+struct InvalidRequest {
+    std::string message;
+};
+
+template <typename T>
+void take(const json& object, std::string_view name, std::optional<T>& into) {
+    if (const auto member = object.find(name); member != object.end()) into = member->get<T>();
+}
+
+geometry::Turn turnOf(const json& object, const std::string& where) {
+    const json& planes = object.at("planes");
+    const json& angles = object.at("angles");
+    if (planes.size() != angles.size()) {
+        throw InvalidRequest{where + "/angles must hold one angle for each plane: " + std::to_string(planes.size()) +
+                             ", not " + std::to_string(angles.size())};
+    }
+    geometry::Turn turn{*geometry::planeNamed(planes[0].get_ref<const std::string&>()), angles[0].get<double>(), {}};
+    if (angles.size() == 2) turn.beta = angles[1].get<double>();
+    return turn;
+}
+
+std::optional<scene::Viewport> viewportOf(const json& message) {
+    if (!message.contains("width") && !message.contains("height")) return {};
+    scene::Viewport viewport;
+    viewport.width = message.value("width", viewport.width);
+    viewport.height = message.value("height", viewport.height);
+    return viewport;
+}
+
+// Throws std::logic_error for a name that the schema allows but the table lacks, which is a bug.
+template <typename Choices>
+auto choiceOf(const json& name, const Choices& choices) {
+    const auto value = text::valueNamed(choices, name.get_ref<const std::string&>());
+    if (!value) throw std::logic_error("a schema allows a name that this program does not know: " + name.dump());
+    return *value;
+}
+
+template <typename Choices, typename Value>
+void choose(const json& message, const char* member, const Choices& choices, Value& into) {
+    if (const auto name = message.find(member); name != message.end()) into = choiceOf(*name, choices);
+}
+
+Hello helloOf(const json& message) {
+    Hello hello;
+    choose(message, "stream", kStreams, hello.stream);
+    choose(message, "encoding", kEncodings, hello.encoding);
+    hello.viewport = viewportOf(message).value_or(scene::Viewport{});
+    take(message, "token", hello.token);
+    return hello;
+}
+
+session::Set setOf(const json& message) {
+    session::Set set;
+    if (const auto polytope = message.find("polytope"); polytope != message.end()) {
+        set.object = polytope->is_object() ? polytope->at("name").get<std::string>() : polytope->get<std::string>();
+    }
+    if (const auto rows = message.find("orientation"); rows != message.end()) {
+        set.orientation.emplace();
+        for (int row = 0; row < 4; ++row) {
+            for (int column = 0; column < 4; ++column)
+                (*set.orientation)[column][row] = (*rows)[row][column].get<double>();
+        }
+    }
+    take(message, "alpha", set.alpha);
+    take(message, "beta", set.beta);
+    take(message, "step", set.step);
+    take(message, "turning", set.turning);
+    if (const auto slices = message.find("slices"); slices != message.end()) {
+        take(*slices, "count", set.count);
+        take(*slices, "spacing", set.spacing);
+        take(*slices, "focus", set.focus);
+    }
+    choose(message, "view", scene::kViews, set.view);
+    if (const auto parts = message.find("shown"); parts != message.end()) {
+        for (std::size_t i = 0; i < scene::kParts.size(); ++i) take(*parts, scene::kParts[i].name, set.parts[i]);
+    }
+    if (const auto camera = message.find("camera"); camera != message.end()) {
+        take(*camera, "azimuth", set.azimuth);
+        take(*camera, "elevation", set.elevation);
+        take(*camera, "zoom", set.zoom);
+    }
+    choose(message, "color", scene::kColorings, set.coloring);
+    take(message, "hidden", set.hidden);
+    take(message, "faded", set.faded);
+    if (const auto last = message.find("last"); last != message.end() && !last->is_null())
+        set.last = turnOf(*last, "set: /last");
+    return set;
+}
+
+exports::ExportRequest exportRequestOf(const json& message) {
+    if (!message.contains("format")) throw InvalidRequest{"get: a file must have a /format, such as \"stl\""};
+    exports::ExportRequest request;
+    const std::string& format = message.at("format").get_ref<const std::string&>();
+    request.format = exports::formatNamed(format);
+    if (request.format == nullptr) {
+        throw InvalidRequest{"get: /format must be " + text::listed(exports::formatNames()) + ", not " +
+                             text::inQuotes(format)};
+    }
+    choose(message, "of", exports::kExtents, request.extent);
+    choose(message, "body", exports::kBodies, request.body);
+    choose(message, "label", exports::kLabels, request.label);
+    request.size = message.value("size", request.size);
+    return request;
+}
+
+Get getOf(const json& message) {
+    if (message.contains("width") != message.contains("height"))
+        throw InvalidRequest{"get: give /width and /height together, or neither"};
+    Get get;
+    choose(message, "what", kWhats, get.what);
+    get.viewport = viewportOf(message);
+    if (get.what == What::file) get.file = exportRequestOf(message);
+    return get;
+}
+
+decltype(Request::body) bodyOf(const std::string& type, const json& message) {
+    if (type == "key")
+        return session::Command{
+            session::Key{message.at("key"), message.value("shift", false), message.value("ctrl", false)}};
+    if (type == "shown") return ShownRevision{message.at("revision")};
+    if (type == "rotate") return session::Command{session::Rotate{turnOf(message, "rotate: ")}};
+    if (type == "set") return session::Command{setOf(message)};
+    if (type == "undo") return session::Command{session::Undo{}};
+    if (type == "redo") return session::Command{session::Redo{}};
+    if (type == "reset") return session::Command{session::Reset{}};
+    if (type == "command") return session::Command{session::CommandLine{message.at("line")}};
+    if (type == "load")
+        return session::Command{session::Load{message.at("name"), message.at("format"), message.at("data")}};
+    if (type == "get") return getOf(message);
+    return helloOf(message);
+}
+
+// Records the type and the id of a message without building a value.
+class Peek : public nlohmann::json_sax<json> {
+  public:
+    explicit Peek(RequestPeek& seen) : seen_(seen) {}
+
+    bool null() override { return true; }
+    bool boolean(bool /*value*/) override { return true; }
+    bool number_integer(number_integer_t value) override { return number(static_cast<double>(value)); }
+    bool number_unsigned(number_unsigned_t value) override { return number(static_cast<double>(value)); }
+    bool number_float(number_float_t value, const string_t& /*text*/) override { return number(value); }
+    bool string(string_t& value) override {
+        if (depth_ == 1 && key_ == "type") seen_.type = value;
+        return true;
+    }
+    bool binary(binary_t& /*value*/) override { return true; }
+    bool start_object(std::size_t /*size*/) override { return enter(); }
+    bool start_array(std::size_t /*size*/) override { return enter(); }
+    bool end_object() override { return leave(); }
+    bool end_array() override { return leave(); }
+    bool key(string_t& name) override {
+        if (depth_ == 1) key_ = name;
+        return true;
+    }
+    bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
+                     const nlohmann::detail::exception& /*error*/) override {
+        return false;
+    }
+
+  private:
+    bool number(double value) {
+        if (depth_ == 1 && key_ == "id") seen_.id = value;
+        return true;
+    }
+    bool enter() {
+        ++depth_;
+        return true;
+    }
+    bool leave() {
+        --depth_;
+        return true;
+    }
+
+    RequestPeek& seen_;
+    std::string key_;
+    std::size_t depth_ = 0;
+};
+
+std::variant<Request, BadRequest> requestOf(JsonText&& read) {
+    const json& message = read.value;
+    const bool object = message.is_object() && (read.fault.empty() || read.repaired);
+    std::optional<double> id;
+    if (object) {
+        if (const auto member = message.find("id"); member != message.end() && member->is_number())
+            id = member->get<double>();
+    }
+    const auto refuse = [&](ErrorCode code, std::string text) {
+        return BadRequest{id, {code, std::move(text)}, read.notJson};
+    };
+
+    if (!read.fault.empty() && !read.repaired) return refuse(ErrorCode::bad_json, std::move(read.fault));
+    if (!object) return refuse(ErrorCode::bad_message, "a message must be a JSON object such as {\"type\":\"undo\"}");
+    const auto type = message.find("type");
+    if (type == message.end() || !type->is_string()) {
+        return refuse(ErrorCode::bad_message,
+                      "a message must have a member \"type\", one of " + text::listed(requestTypes()));
+    }
+    const std::string& name = type->get_ref<const std::string&>();
+    bool known = false;
+    for (const std::string_view request : requestTypes()) known = known || request == name;
+    if (!known) {
+        return refuse(ErrorCode::unknown_type, "no message has the type " + text::inQuotes(name) +
+                                                   text::didYouMean(name, requestTypes()) + "; allowed are " +
+                                                   text::listed(requestTypes()));
+    }
+    if (std::optional<Error> error = misfit(name, message)) {
+        if (read.repaired) error->message += " (" + read.fault + ")";
+        return refuse(error->code, std::move(error->message));
+    }
+    if (read.repaired) return refuse(ErrorCode::bad_json, std::move(read.fault));
+    try {
+        return Request{id, bodyOf(name, message)};
+    } catch (const InvalidRequest& invalid) {
+        return refuse(ErrorCode::bad_message, invalid.message);
+    }
+}
+
+}  // namespace
+
+std::variant<Request, BadRequest> parseRequest(std::string_view text, int maxDepth) {
+    return requestOf(readJson(text, maxDepth));
+}
+
+RequestPeek peekRequest(std::string_view beginning) {
+    RequestPeek seen;
+    Peek peek(seen);
+    json::sax_parse(beginning.begin(), beginning.end(), &peek);
+    return seen;
+}
+
+Result<session::Set> setFromState(std::string_view text) {
+    constexpr int kDepth = 8;
+    JsonText read = readJson(text, kDepth);
+    if (read.value.is_object()) {
+        const auto type = read.value.find("type");
+        if (type == read.value.end() || *type != "state") {
+            return Error{ErrorCode::bad_message, "a state must be a JSON object with \"type\":\"state\""};
+        }
+        *type = "set";
+    }
+    auto request = requestOf(std::move(read));
+    if (auto* bad = std::get_if<BadRequest>(&request)) return std::move(bad->error);
+    return std::get<session::Set>(std::get<session::Command>(std::get<Request>(request).body));
+}
+
+}  // namespace oval4d::wire

@@ -1,0 +1,61 @@
+#pragma once
+// Parsed messages to the server. Only the parser deals with JSON and with type names.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "export/export_request.hpp"
+#include "scene/scene.hpp"
+#include "session/command.hpp"
+#include "text/choice.hpp"
+
+namespace oval4d::wire {
+
+/// The form in which the server sends the picture after each change of a session: not at all, as `slices` messages, or
+/// as frames.
+enum class Stream : std::uint8_t { none, geometry, frames };
+inline constexpr auto kStreams = std::to_array<text::Choice<Stream>>(
+    {{"none", Stream::none}, {"geometry", Stream::geometry}, {"frames", Stream::frames}});
+
+/// The encoding of `slices` messages.
+enum class Encoding : std::uint8_t { json, cbor };
+inline constexpr auto kEncodings =
+    std::to_array<text::Choice<Encoding>>({{"json", Encoding::json}, {"cbor", Encoding::cbor}});
+
+/// Begins a connection, or changes its settings.
+struct Hello {
+    Stream stream = Stream::none;
+    Encoding encoding = Encoding::json;
+    scene::Viewport viewport;
+    std::optional<std::string> token;  ///< of the session that the connection joins
+};
+/// The data that a `get` message requests.
+enum class What : std::uint8_t { state, slices, frame, file, catalogue, keymap };
+inline constexpr auto kWhats = std::to_array<text::Choice<What>>({{"state", What::state},
+                                                                  {"slices", What::slices},
+                                                                  {"frame", What::frame},
+                                                                  {"file", What::file},
+                                                                  {"catalogue", What::catalogue},
+                                                                  {"keymap", What::keymap}});
+
+/// Requests data once.
+struct Get {
+    What what = What::state;
+    std::optional<scene::Viewport> viewport;  ///< for slices and frames; the connection's viewport if absent
+    exports::ExportRequest file;              ///< the export options, for What::file
+};
+/// Reports the revision that the client displays.
+struct ShownRevision {
+    std::uint64_t revision = 0;
+};
+
+/// One message to the server.
+struct Request {
+    std::optional<double> id;  ///< repeated in the answer
+    std::variant<Hello, Get, ShownRevision, session::Command> body;
+};
+
+}  // namespace oval4d::wire

@@ -1,0 +1,167 @@
+#include "wire/schema.hpp"
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validation_results.hpp>
+#include <valijson/validator.hpp>
+
+#include "contract/embedded.hpp"
+#include "text/suggest.hpp"
+
+namespace oval4d::wire {
+
+namespace {
+
+using nlohmann::json;
+using valijson::adapters::NlohmannJsonAdapter;
+
+constexpr auto kRequests = std::to_array<std::string_view>(
+    {"hello", "key", "rotate", "set", "load", "undo", "redo", "reset", "command", "get", "shown"});
+constexpr auto kAnswers =
+    std::to_array<std::string_view>({"welcome", "state", "slices", "done", "error", "catalogue", "keymap"});
+
+struct MessageSchema {
+    json text;
+    valijson::Schema compiled;
+};
+
+json readSchema(const std::string& file);
+
+// Replaces references to other schemas by the content of these.
+void resolveReferences(json& schema) {
+    if (schema.is_object() && schema.contains("$ref")) {
+        json merged = readSchema(schema.at("$ref"));
+        schema.erase("$ref");
+        merged.update(schema);  // keywords beside $ref
+        schema = std::move(merged);
+    }
+    if (!schema.is_structured()) return;
+    for (json& part : schema) resolveReferences(part);
+}
+
+json readSchema(const std::string& file) {
+    json schema = json::parse(contract::embedded("schema/" + file));
+    resolveReferences(schema);
+    return schema;
+}
+
+std::map<std::string_view, std::unique_ptr<const MessageSchema>> readSchemas() {
+    std::map<std::string_view, std::unique_ptr<const MessageSchema>> schemas;
+    const auto read = [&](std::string_view type) {
+        auto schema = std::make_unique<MessageSchema>();
+        schema->text = readSchema(std::string(type) + ".schema.json");
+        valijson::SchemaParser parser;
+        parser.populateSchema(NlohmannJsonAdapter(schema->text), schema->compiled);
+        schemas.emplace(type, std::move(schema));
+    };
+    for (const std::string_view type : kRequests) read(type);
+    for (const std::string_view type : kAnswers) read(type);
+    return schemas;
+}
+
+const MessageSchema& schemaOf(std::string_view type) {
+    static const auto schemas = readSchemas();
+    return *schemas.at(type);
+}
+
+// Returns the name in one step of valijson's path to an error, which has the form "<root>", "[angles]", "[0]".
+std::string stepName(const std::string& step) { return step.substr(1, step.size() - 2); }
+
+// Returns the error with the longest path, which is the most specific one; nullptr if there is none.
+const valijson::ValidationResults::Error* innermost(const valijson::ValidationResults& results) {
+    const valijson::ValidationResults::Error* deepest = nullptr;
+    for (const auto& error : results) {
+        if (!deepest || error.context.size() > deepest->context.size()) deepest = &error;
+    }
+    return deepest;
+}
+
+// Returns what a value must be, with its article: "a finite number of radians".
+std::string expected(const json& schema) { return schema.value("title", "different"); }
+
+// Describes a missing or unknown member of an object; empty if there is neither.
+std::string membersFault(const json& schema, const json& value, const std::string& path) {
+    if (!value.is_object() || !schema.contains("properties")) return {};
+    const json& properties = schema.at("properties");
+    if (schema.contains("required")) {
+        for (const std::string name : schema.at("required")) {
+            if (!value.contains(name))
+                return path + "/" + name + " is missing; it must be " + expected(properties.at(name));
+        }
+    }
+    if (schema.value("additionalProperties", json(true)) != json(false)) return {};
+    for (const auto& [name, member] : value.items()) {
+        if (properties.contains(name)) continue;
+        std::vector<std::string_view> known;
+        for (const auto& [property, ignored] : properties.items()) known.emplace_back(property);
+        return (path.empty() ? "there" : path + ": there") + " is no member " + text::inQuotes(name) +
+               text::didYouMean(name, known) + "; allowed are " + text::listed(known);
+    }
+    return {};
+}
+
+// Whether the value is a number of the right type outside the bounds of its schema.
+bool outOfBounds(const json& schema, const json& value) {
+    if (!value.is_number()) return false;
+    const json type = schema.value("type", json());
+    if (type == "integer" && !value.is_number_integer()) return false;
+    const double number = value.get<double>();
+    return (schema.contains("minimum") && number < schema.at("minimum").get<double>()) ||
+           (schema.contains("maximum") && number > schema.at("maximum").get<double>()) ||
+           (schema.contains("exclusiveMinimum") && number <= schema.at("exclusiveMinimum").get<double>());
+}
+
+// Returns ", not …" with the value; empty for an array or object, which may be long.
+std::string notThis(const json& value) {
+    if (value.is_structured()) return {};
+    return ", not " + (value.is_string() ? text::inQuotes(value.get<std::string>()) : value.dump());
+}
+
+}  // namespace
+
+std::span<const std::string_view> requestTypes() { return kRequests; }
+
+std::optional<Error> misfit(std::string_view type, const json& message) {
+    const MessageSchema& schema = schemaOf(type);
+    valijson::Validator validator;
+    // Most messages are valid: the first pass collects no errors, which is fast.
+    if (validator.validate(schema.compiled, NlohmannJsonAdapter(message), nullptr)) return {};
+
+    valijson::ValidationResults results;
+    validator.validate(schema.compiled, NlohmannJsonAdapter(message), &results);
+    const json* node = &schema.text;
+    const json* value = &message;
+    std::string path;
+    if (const auto* fault = innermost(results)) {
+        for (std::size_t i = 1; i < fault->context.size(); ++i) {
+            const std::string step = stepName(fault->context[i]);
+            const json* next = nullptr;
+            if (value->is_object() && value->contains(step)) {
+                if (node->contains("properties") && node->at("properties").contains(step))
+                    next = &node->at("properties").at(step);
+                value = &value->at(step);
+            } else if (value->is_array()) {
+                if (node->contains("items")) next = &node->at("items");
+                value = &value->at(std::stoul(step));
+            }
+            if (!next) break;
+            node = next;
+            path += "/" + step;
+        }
+    }
+    const std::string prefix = std::string(type) + ": ";
+    if (std::string text = membersFault(*node, *value, path); !text.empty())
+        return Error{ErrorCode::bad_message, prefix + text};
+    return Error{outOfBounds(*node, *value) ? ErrorCode::out_of_range : ErrorCode::bad_message,
+                 prefix + (path.empty() ? "the message" : path) + " must be " + expected(*node) + notThis(*value)};
+}
+
+}  // namespace oval4d::wire

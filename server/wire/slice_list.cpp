@@ -1,0 +1,274 @@
+#include "wire/slice_list.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "wire/cbor_writer.hpp"
+#include "wire/json_writer.hpp"
+
+namespace oval4d::wire {
+
+namespace {
+
+using scene::Scene;
+using scene::SlicePlacement;
+using slicing::SliceSet;
+using Numbers = std::span<const std::uint32_t>;
+
+template <typename T>
+std::span<const T> part(const std::vector<T>& all, std::uint32_t begin, std::uint32_t end) {
+    return std::span<const T>(all).subspan(begin, end - begin);
+}
+
+// The sources of the elements of one or several slices: what each element was cut from (see SliceSet).
+struct Sources {
+    Numbers vertices, edges, faces;
+};
+
+Sources sourcesOf(const SliceSet& slices, std::size_t from, std::size_t to) {
+    return {part(slices.vertexSource, slices.vertexBegin[from], slices.vertexBegin[to]),
+            part(slices.edgeSource, slices.edgeBegin[from], slices.edgeBegin[to]),
+            part(slices.faceSource, slices.faceBegin[from], slices.faceBegin[to])};
+}
+
+template <typename W>
+void writeSources(W& w, const Sources& of) {
+    w.key("of");
+    w.beginObject();
+    w.key("vertices");
+    w.numbers(of.vertices);
+    w.key("edges");
+    w.numbers(of.edges);
+    w.key("faces");
+    w.numbers(of.faces);
+    w.endObject();
+}
+
+// Writes the cell that determines each face's color, unless this is the source of every face.
+template <typename W>
+void writeTints(W& w, const Scene& scene, std::size_t from, std::size_t to) {
+    if (scene.faceCells.empty()) return;
+    const SliceSet& slices = *scene.slices;
+    const Numbers sources = part(slices.faceSource, slices.faceBegin[from], slices.faceBegin[to]);
+    const Numbers cells = part(scene.faceCells, slices.faceBegin[from], slices.faceBegin[to]);
+    if (std::ranges::equal(sources, cells)) return;
+    w.key("tints");
+    w.numbers(cells);
+}
+
+// Writes the visibility of each element, unless everything is fully visible.
+template <typename W>
+void writeVisibilities(W& w, const slicing::Visibilities& visibilities, const Sources& of) {
+    if (visibilities.all()) return;
+    const auto write = [&](std::string_view name, Numbers elements, const std::vector<slicing::Visibility>& by) {
+        std::vector<std::uint32_t> list;
+        for (const std::uint32_t element : elements) list.push_back(static_cast<std::uint32_t>(by[element]));
+        w.key(name);
+        w.numbers(list);
+    };
+    w.key("seen");
+    w.beginObject();
+    write("vertices", of.vertices, visibilities.vertices);
+    write("edges", of.edges, visibilities.edges);
+    write("faces", of.faces, visibilities.faces);
+    w.endObject();
+}
+
+// Writes the sizes and opacities of the balls of slices `from` … `to` − 1, if balls differ from each other.
+template <typename W>
+void writeBalls(W& w, const SliceSet& slices, std::size_t from, std::size_t to) {
+    if (slices.ballScale.empty()) return;
+    const std::uint32_t begin = slices.vertexBegin[from], end = slices.vertexBegin[to];
+    w.key("balls");
+    w.beginObject();
+    w.key("scale");
+    w.floats(part(slices.ballScale, begin, end));
+    w.key("opacity");
+    w.floats(part(slices.ballOpacity, begin, end));
+    w.endObject();
+}
+
+// The triangles to draw in place of the faces of slices that need not be convex. The indices in a triangle count from
+// its slice's first point.
+struct Fill {
+    std::vector<glm::dvec3> points;
+    std::vector<Triple> triangles;
+    std::vector<std::uint32_t> tints, seen;
+};
+
+// Adds the triangles of one slice, except hidden ones.
+void addFill(const Scene& scene, std::size_t slice, Fill& fill) {
+    const slicing::Fill& from = scene.fill;
+    const std::size_t begin = fill.points.size();
+    for (std::uint32_t p = from.patchBegin[slice]; p < from.patchBegin[slice + 1]; ++p) {
+        const slicing::Visibility visibility = scene.visibilities.face(from.patches[p].source);
+        if (visibility == slicing::Visibility::hidden) continue;
+        const std::uint32_t tint = scene.patchCells[p];
+        for (std::uint32_t k = from.pieceBegin[p]; k < from.pieceBegin[p + 1]; ++k) {
+            const auto first = static_cast<std::uint32_t>(fill.points.size() - begin);
+            const auto corners = part(from.corners, from.cornerBegin[k], from.cornerBegin[k + 1]);
+            fill.points.insert(fill.points.end(), corners.begin(), corners.end());
+            for (std::uint32_t c = 2; c < corners.size(); ++c) {
+                fill.triangles.push_back({first, first + c - 1, first + c});
+                fill.tints.push_back(tint);
+                fill.seen.push_back(static_cast<std::uint32_t>(visibility));
+            }
+        }
+    }
+}
+
+template <typename W>
+void writeFill(W& w, const Fill& fill, const slicing::Visibilities& visibilities) {
+    w.key("points");
+    w.vectors(std::span<const glm::dvec3>(fill.points));
+    w.key("triangles");
+    w.triples(fill.triangles);
+    w.key("tints");
+    w.numbers(fill.tints);
+    if (!visibilities.all()) {
+        w.key("seen");
+        w.numbers(fill.seen);
+    }
+}
+
+void writePlacement(JsonWriter&& w, const SlicePlacement& placement) {
+    w.member("index", placement.index);
+    w.member("w", placement.w);
+    w.key("position");
+    w.vector(placement.position);
+    w.member("label", std::string_view(placement.label));
+    w.key("label_at");
+    w.vector(placement.labelAt);
+    w.member("label_size", placement.labelSize);
+    w.member("focus", placement.focus);
+    w.member("drawn", placement.drawn);
+}
+
+void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, std::size_t i) {
+    const SliceSet& slices = *scene.slices;
+    const std::uint32_t f0 = slices.faceBegin[i], f1 = slices.faceBegin[i + 1];
+    const Sources of = sourcesOf(slices, i, i + 1);
+    w.beginObject();
+    w.raw(placement);
+    w.key("vertices");
+    w.vectors(part(slices.vertices, slices.vertexBegin[i], slices.vertexBegin[i + 1]));
+    w.key("edges");
+    w.pairs(part(slices.edges, slices.edgeBegin[i], slices.edgeBegin[i + 1]));
+    w.key("faces");
+    w.lists(
+        {part(slices.cornerBegin, f0, f1 + 1), part(slices.corners, slices.cornerBegin[f0], slices.cornerBegin[f1])});
+    writeSources(w, of);
+    writeTints(w, scene, i, i + 1);
+    writeBalls(w, slices, i, i + 1);
+    writeVisibilities(w, scene.visibilities, of);
+    if (!scene.fill.empty() && scene.fill.patchBegin[i] != scene.fill.patchBegin[i + 1]) {
+        Fill fill;
+        addFill(scene, i, fill);
+        w.key("fill");
+        w.beginObject();
+        writeFill(w, fill, scene.visibilities);
+        w.endObject();
+    }
+    w.endObject();
+}
+
+// Writes one property of all placements: as a typed array for vectors and doubles, else as an array.
+template <typename Property>
+void writeColumn(CborWriter& w, std::string_view name, const std::vector<SlicePlacement>& placements,
+                 Property property) {
+    using Value = std::decay_t<decltype(property(placements[0]))>;
+    constexpr bool kVectors = std::is_same_v<Value, glm::dvec3>;
+    w.key(name);
+    if constexpr (kVectors || std::is_same_v<Value, double>) {
+        std::vector<Value> list;
+        for (const SlicePlacement& placement : placements) list.push_back(property(placement));
+        if constexpr (kVectors) {
+            w.vectors(std::span<const Value>(list));
+        } else {
+            w.doubles(list);
+        }
+    } else {
+        w.beginArray();
+        for (const SlicePlacement& placement : placements) w.value(property(placement));
+        w.endArray();
+    }
+}
+
+void writePlacements(CborWriter&& w, const std::vector<SlicePlacement>& placements) {
+    writeColumn(w, "index", placements, [](const SlicePlacement& placement) { return placement.index; });
+    writeColumn(w, "w", placements, [](const SlicePlacement& placement) { return placement.w; });
+    writeColumn(w, "position", placements, [](const SlicePlacement& placement) { return placement.position; });
+    writeColumn(w, "label", placements,
+                [](const SlicePlacement& placement) { return std::string_view(placement.label); });
+    writeColumn(w, "label_at", placements, [](const SlicePlacement& placement) { return placement.labelAt; });
+    writeColumn(w, "label_size", placements, [](const SlicePlacement& placement) { return placement.labelSize; });
+    writeColumn(w, "focus", placements, [](const SlicePlacement& placement) { return placement.focus; });
+    writeColumn(w, "drawn", placements, [](const SlicePlacement& placement) { return placement.drawn; });
+}
+
+}  // namespace
+
+void SliceListWriter::write(JsonWriter& w, const Scene& scene) {
+    w.beginArray();
+    placements_.resize(scene.placements.size());
+    for (std::size_t i = 0; i < scene.placements.size(); ++i) {
+        const SlicePlacement& placement = scene.placements[i];
+        const auto text =
+            placements_[i].of(placement, [&](std::string& out) { writePlacement(JsonWriter(out), placement); });
+        writeSlice(w, text, scene, i);
+    }
+    w.endArray();
+}
+
+void SliceListWriter::writeSizes(CborWriter& w, std::string_view name, Numbers begin) {
+    sizes_.resize(begin.size() - 1);
+    for (std::size_t i = 0; i < sizes_.size(); ++i) sizes_[i] = begin[i + 1] - begin[i];
+    w.key(name);
+    w.numbers(sizes_);
+}
+
+void SliceListWriter::write(CborWriter& w, const Scene& scene) {
+    const SliceSet& slices = *scene.slices;
+    const std::size_t count = scene.placements.size();
+    const Sources of = sourcesOf(slices, 0, count);
+    w.beginObject();
+    w.raw(columns_.of(scene.placements, [&](std::string& out) { writePlacements(CborWriter(out), scene.placements); }));
+    w.key("counts");
+    w.beginObject();
+    writeSizes(w, "vertices", slices.vertexBegin);
+    writeSizes(w, "edges", slices.edgeBegin);
+    writeSizes(w, "faces", slices.faceBegin);
+    w.endObject();
+    w.key("vertices");
+    w.vectors(std::span<const glm::dvec3>(slices.vertices));
+    w.key("edges");
+    w.pairs(slices.edges);
+    writeSizes(w, "sides", slices.cornerBegin);
+    w.key("corners");
+    w.numbers(slices.corners);
+    writeSources(w, of);
+    writeTints(w, scene, 0, count);
+    writeBalls(w, slices, 0, count);
+    writeVisibilities(w, scene.visibilities, of);
+    if (!scene.fill.empty()) {
+        Fill fill;
+        std::vector<std::uint32_t> points{0}, triangles{0};
+        for (std::size_t i = 0; i < count; ++i) {
+            addFill(scene, i, fill);
+            points.push_back(static_cast<std::uint32_t>(fill.points.size()));
+            triangles.push_back(static_cast<std::uint32_t>(fill.triangles.size()));
+        }
+        w.key("fill");
+        w.beginObject();
+        w.key("counts");
+        w.beginObject();
+        writeSizes(w, "points", points);
+        writeSizes(w, "triangles", triangles);
+        w.endObject();
+        writeFill(w, fill, scene.visibilities);
+        w.endObject();
+    }
+    w.endObject();
+}
+
+}  // namespace oval4d::wire

@@ -1,0 +1,33 @@
+#pragma once
+// Writes the slices of a `slices` message. JSON has one object per slice. CBOR has one array per property, with the
+// values of all slices, because otherwise a small message would consist mostly of property names.
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "wire/cached_text.hpp"
+
+namespace oval4d::wire {
+
+class CborWriter;
+class JsonWriter;
+
+/// Writes lists of slices. Caches the texts of placements, which often stay the same from one list to the next.
+class SliceListWriter {
+  public:
+    void write(JsonWriter& w, const scene::Scene& scene);
+    void write(CborWriter& w, const scene::Scene& scene);
+
+  private:
+    // Writes the lengths of consecutive ranges, given where each begins and, last, where the last range ends.
+    void writeSizes(CborWriter& w, std::string_view name, std::span<const std::uint32_t> begin);
+
+    std::vector<CachedText<scene::SlicePlacement>> placements_;  // for JSON, one per slice
+    CachedText<std::vector<scene::SlicePlacement>> columns_;     // for CBOR, all slices
+    std::vector<std::uint32_t> sizes_;
+};
+
+}  // namespace oval4d::wire

@@ -1,0 +1,13 @@
+"""The fixtures of tests/service, and its helpers to import."""
+
+import importlib.util
+import sys
+from pathlib import Path
+
+SERVICE = Path(__file__).resolve().parents[1] / "service"
+sys.path.insert(0, str(SERVICE))
+
+_spec = importlib.util.spec_from_file_location("service_conftest", SERVICE / "conftest.py")
+_service = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(_service)
+shared_server, pytest_pyfunc_call = _service.shared_server, _service.pytest_pyfunc_call

@@ -1,0 +1,114 @@
+"""What the system lets a process do: its status, and its filter of system calls, read out and carried out."""
+
+import ctypes
+import os
+import re
+import struct
+from pathlib import Path
+
+PTRACE_DETACH, PTRACE_SEIZE, PTRACE_INTERRUPT, PTRACE_SECCOMP_GET_FILTER = 17, 0x4206, 0x4207, 0x420C
+WALL = 0x40000000
+KILL, ERRNO, ALLOW = 0x80000000, 0x00050000, 0x7FFF0000
+
+libc = ctypes.CDLL(None, use_errno=True)
+libc.ptrace.restype = ctypes.c_long
+libc.ptrace.argtypes = [ctypes.c_long, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p]
+seccomp = ctypes.CDLL("libseccomp.so.2")
+seccomp.seccomp_init.restype = ctypes.c_void_p
+seccomp.seccomp_arch_native.restype = ctypes.c_uint32
+
+
+class Argument(ctypes.Structure):
+    _fields_ = [("number", ctypes.c_uint), ("compare", ctypes.c_int), ("a", ctypes.c_uint64), ("b", ctypes.c_uint64)]
+
+
+def number_of(name):
+    return seccomp.seccomp_syscall_resolve_name(name.encode())
+
+
+def children(server):
+    """The server's own processes, while they live, each with the word that it was started with."""
+    found = {}
+    for file in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = file.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()
+            words = file.with_name("cmdline").read_bytes().split(b"\0")
+            if int(fields[1]) == server.process.pid and fields[0] != "Z" and words[0] == b"oval4d":
+                found[int(file.parent.name)] = words[1].decode()
+        except (OSError, IndexError):
+            continue  # it has ended meanwhile, or is yet to begin
+    return found
+
+
+def status(pid, name, thread=None):
+    """A number of /proc/PID/status."""
+    place = f"/proc/{pid}/task/{thread}/status" if thread else f"/proc/{pid}/status"
+    found = re.search(rf"^{name}:\s+(\d+)", Path(place).read_text(encoding="ascii"), re.M)
+    return int(found.group(1))
+
+
+def limit(pid, name):
+    """The soft limit, or None."""
+    line = next(line for line in Path(f"/proc/{pid}/limits").read_text().splitlines() if line.startswith(name))
+    value = line[len(name):].split()[0]
+    return None if value == "unlimited" else int(value)
+
+
+class Filter:
+    """The filter that a process has set last."""
+
+    def __init__(self, pid):
+        self.pid = pid
+        self.check(libc.ptrace(PTRACE_SEIZE, pid, None, None))
+        try:
+            self.check(libc.ptrace(PTRACE_INTERRUPT, pid, None, None))
+            os.waitpid(pid, WALL)
+            size = self.check(libc.ptrace(PTRACE_SECCOMP_GET_FILTER, pid, 0, None))
+            code = ctypes.create_string_buffer(8 * size)
+            self.check(libc.ptrace(PTRACE_SECCOMP_GET_FILTER, pid, 0, ctypes.cast(code, ctypes.c_void_p)))
+        finally:
+            libc.ptrace(PTRACE_DETACH, pid, None, None)
+        self.code = list(struct.iter_unpack("=HBBI", code.raw))
+
+    @staticmethod
+    def check(result):
+        if result < 0:
+            raise OSError(ctypes.get_errno(), os.strerror(ctypes.get_errno()))
+        return result
+
+    def __call__(self, name, *arguments, arch=None):
+        """What becomes of such a call: (KILL | ERRNO | ALLOW, the error's number)."""
+        arguments = [x & 0xFFFFFFFFFFFFFFFF for x in arguments] + [0] * (6 - len(arguments))
+        data = struct.pack("=iIQ6Q", number_of(name), arch or seccomp.seccomp_arch_native(), 0, *arguments)
+        at, a, memory = 0, 0, {}
+        while True:
+            code, if_true, if_false, k = self.code[at]
+            at += 1
+            if code == 0x20:  # ld [k]
+                a = struct.unpack_from("=I", data, k)[0]
+            elif code == 0x60:  # ld M[k]
+                a = memory[k]
+            elif code == 0x02:  # st M[k]
+                memory[k] = a
+            elif code == 0x54:  # and
+                a &= k
+            elif code == 0x05:  # ja
+                at += k
+            elif code in (0x15, 0x25, 0x35, 0x45):
+                holds = {0x15: a == k, 0x25: a > k, 0x35: a >= k, 0x45: a & k != 0}[code]
+                at += if_true if holds else if_false
+            elif code == 0x06:  # ret
+                return k & 0xFFFF0000, k & 0xFFFF
+            else:
+                raise AssertionError(f"an instruction that this does not know: {code:#x}")
+
+
+def forbid_filters():
+    """For a process that is about to start a program: as a container does whose own filter lets none be set."""
+    libc.prctl(38, 1, 0, 0, 0)  # no new privileges, or only root may
+    context = ctypes.c_void_p(seccomp.seccomp_init(ALLOW))
+    refuse = ctypes.c_uint32(ERRNO | 1)
+    one = (Argument * 1)(Argument(0, 4, 22, 0))  # SCMP_CMP_EQ, PR_SET_SECCOMP
+    assert seccomp.seccomp_rule_add_array(context, refuse, number_of("seccomp"), 0, None) == 0
+    assert seccomp.seccomp_rule_add_array(context, refuse, number_of("prctl"), 1, one) == 0
+    assert seccomp.seccomp_load(context) == 0

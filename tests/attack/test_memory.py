@@ -1,0 +1,331 @@
+"""What clients can make the server hold: files that nobody reads, loads that undo keeps, messages that never end. Ceilings are
+ratios to what was sent or asked for in the same run."""
+
+import contextlib
+import math
+import signal
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from harness import DEADLINE, SLOW, Server, sanitized, until
+from raw import TEXT, Socket, WebSocket, ask, frame, request
+
+pytestmark = pytest.mark.skipif(sanitized(), reason="sanitizers keep what is freed")
+
+ATTACKER, OTHER = "127.0.0.2", "127.0.0.3"
+FILE = "/api/v1/file.stl?polytope=24-cell&of=oval&body=frame&slices=11"
+NOISE = 24 << 20  # what allocators and caches hold, more or less, whatever is asked
+REFUSED = (413, 429, 503)
+
+
+def settled(server, seconds=4):
+    """The least that the server holds for some time: what was in use for a moment is gone by then."""
+    least, end = server.own_memory(), time.monotonic() + seconds * min(SLOW, 3)
+    while time.monotonic() < end:
+        least = min(least, server.own_memory())
+        time.sleep(0.1)
+    return least
+
+
+def duoprism(p, q, seed=0):
+    """A p,q-duoprism as 4OFF: vertices (i, j), the products of two polygons' elements."""
+    def vertex(i, j):
+        return i % p * q + j % q
+
+    lines = [f"# {seed}", "4OFF", f"{p * q} {p * q + p + q} {2 * p * q} {p + q}"]
+    for i in range(p):
+        a = 2 * math.pi * i / p
+        for j in range(q):
+            b = 2 * math.pi * j / q
+            lines.append(f"{math.cos(a):.17g} {math.sin(a):.17g} {math.cos(b):.17g} {math.sin(b):.17g}")
+    lines += [f"4 {vertex(i, j)} {vertex(i + 1, j)} {vertex(i + 1, j + 1)} {vertex(i, j + 1)}" for i in range(p) for j in range(q)]
+    lines += [f"{q} " + " ".join(str(vertex(i, j)) for j in range(q)) for i in range(p)]
+    lines += [f"{p} " + " ".join(str(vertex(i, j)) for i in range(p)) for j in range(q)]
+    squares = p * q
+    lines += [f"{q + 2} {squares + i} {squares + (i + 1) % p} " + " ".join(str(vertex(i, j)) for j in range(q)) for i in range(p)]
+    lines += [f"{p + 2} {squares + p + j} {squares + p + (j + 1) % q} " + " ".join(str(vertex(i, j)) for i in range(p)) for j in range(q)]
+    return "\n".join(lines) + "\n"
+
+
+# --- Files
+
+@contextlib.contextmanager
+def readers(server, count, target=FILE, source=ATTACKER):
+    """So many that ask for the file; their kernels keep little."""
+    asked = [Socket(server, source, receive_buffer=4096) for _ in range(count)]
+    try:
+        for raw in asked:
+            raw.send(request(target))
+        yield asked
+    finally:
+        for raw in asked:
+            raw.socket.close()
+
+
+def test_sixteen_slow_readers_of_a_large_file():
+    with Server() as server:
+        size = len(ask(server, FILE).body)
+        assert size > 8 << 20
+        before = settled(server, 1)
+        with readers(server, 16) as asked:
+            most, waiting, limit = 0, set(asked), time.monotonic() + 3 * DEADLINE
+            while waiting:
+                assert time.monotonic() < limit, f"{len(waiting)} were not answered"
+                for raw in asked:
+                    raw.socket.settimeout(0.01)
+                    with contextlib.suppress(TimeoutError):
+                        if len(raw.buffer) < size // 2:
+                            raw.more()
+                            waiting.discard(raw)
+                most = max(most, server.own_memory() - before)
+            end = time.monotonic() + 1
+            while time.monotonic() < end:
+                most = max(most, server.own_memory() - before)
+            statuses = {bytes(raw.buffer[9:12]) for raw in asked}
+            assert statuses <= {b"200"} | {str(status).encode() for status in REFUSED} and b"200" in statuses
+            assert most < 5 * size, f"{most / size:.1f} times the file's size is held for 16 readers"
+            assert len(ask(server, FILE, source=OTHER).body) == size, "who reads it gets it"
+        server.wait_for(lambda: server.metric("oval4d_connections") <= 1)
+        assert settled(server) - before < size + NOISE
+
+
+def test_the_budget_of_one_client_and_of_all():
+    """Who asks for many files gets no more of the memory than its part."""
+    with Server("--max-client-bytes", "48M", "--max-bytes", "128M") as server:
+        size = len(ask(server, FILE).body)
+        assert 12 << 20 < size < 40 << 20
+        before = settled(server, 1)
+        with readers(server, 24):
+            for _ in range(3):
+                answer = ask(server, FILE, source=OTHER)
+                assert answer.status == 200 and len(answer.body) == size
+            assert server.own_memory() - before < (128 << 20) + NOISE
+
+
+def test_a_file_over_the_budget_is_refused_before_it_is_made():
+    with Server("--max-client-bytes", "1M", "--max-bytes", "2M") as server:
+        start = server.metric("oval4d_file_seconds_count")
+        answer = ask(server, FILE, source=ATTACKER)
+        assert answer.status in REFUSED and b"error" in answer.body
+        assert server.metric("oval4d_file_seconds_count") == start
+        assert ask(server, "/api/v1/file.csv", source=ATTACKER).status == 200
+        with WebSocket(server, source=ATTACKER) as peer:
+            peer.ask(type="hello")
+            peer.ask(type="command", line="polytope 24-cell")
+            answer = peer.ask(type="get", what="file", format="stl", of="oval", body="frame")
+            assert answer["type"] == "error" and answer["code"] in ("too_many", "too_large")
+            assert peer.ask(type="key", key="y")["type"] == "done"
+
+
+@pytest.mark.parametrize("how", ["http", "websocket"])
+def test_who_reads_too_slowly_is_dropped(how):
+    with Server("--least-read-rate", "4M", "--write-timeout", 1 * SLOW) as server:
+        if how == "http":
+            raw = Socket(server, ATTACKER, receive_buffer=4096)
+            raw.send(request(FILE))
+        else:
+            raw = WebSocket(server, source=ATTACKER, receive_buffer=4096)
+            raw.ask(type="hello")
+            raw.ask(type="command", line="polytope 24-cell")
+            raw.say(type="get", what="file", format="stl", of="oval", body="frame")
+        limit, got = time.monotonic() + DEADLINE, 0
+        with contextlib.suppress(ConnectionError):
+            while data := raw.socket.recv(2048):
+                got += len(data)
+                assert time.monotonic() < limit, f"{got} octets were taken in all this time"
+                time.sleep(0.05)
+        raw.socket.close()
+        assert len(ask(server, FILE, source=OTHER).body) > got, "it was given whole"
+
+
+# --- Loads
+
+def test_a_polytope_that_is_loaded_again_and_again():
+    with Server("--max-undo-bytes", "4M") as server, WebSocket(server) as peer:
+        assert peer.ask(type="hello")["type"] == "welcome"
+        text = duoprism(100, 100)
+        assert len(text) > 1_000_000
+        for seed in range(4):
+            assert peer.ask(type="load", name="mine", format="off", data=duoprism(100, 100, seed))["type"] == "done"
+        before = settled(server)
+        for seed in range(4, 28):
+            assert peer.ask(type="load", name="mine", format="off", data=text.replace("# 0", f"# {seed}"))["type"] == "done"
+        after = settled(server)
+        assert after - before < (4 << 20) + 8 * len(text), f"{(after - before) / 24 / len(text):.2f} of each file is kept"
+        state = peer.ask(type="get", what="state")
+        assert state["polytope"]["name"] == "mine" and state["polytope"]["vertices"] == 10_000
+        assert peer.ask(type="key", key="y")["type"] == "done"
+        assert peer.ask(type="undo")["type"] == "done", "small steps are still kept"
+
+
+def test_the_steps_of_undo_are_counted():
+    """Many small steps: the oldest go where the client's bytes are used up, and nothing else is lost."""
+    with Server("--max-client-bytes", "128k") as server, WebSocket(server) as peer:
+        peer.ask(type="hello")
+        for number in range(1000):
+            assert peer.ask(type="rotate", planes=["xw"], angles=[0.001 * (1 + number)])["type"] == "done"
+        assert server.metric("oval4d_client_bytes") <= 128 << 10
+        steps = 0
+        while (answer := peer.ask(type="undo"))["type"] == "done":
+            steps += 1
+        assert answer["code"] == "nothing_to_undo" and 50 < steps < 999
+        assert peer.ask(type="key", key="y")["type"] == "done"
+
+
+def test_the_steps_that_undo_keeps_are_the_newest():
+    """A small budget takes the oldest polytopes away, and undo stops there; it never goes wrong."""
+    with Server("--max-undo-bytes", "512k") as server, WebSocket(server) as peer:
+        peer.ask(type="hello")
+        for number in range(12):
+            text = duoprism(10 + number, 20)
+            assert peer.ask(type="load", name="mine", format="off", data=text)["type"] == "done"
+        seen = []
+        while (answer := peer.ask(type="undo"))["type"] == "done":
+            seen.append(peer.ask(type="get", what="state")["polytope"]["vertices"])
+        assert answer["code"] == "nothing_to_undo"
+        assert seen == [20 * (20 - number) for number in range(len(seen))] and 1 <= len(seen) < 11
+
+
+# --- Messages
+
+def test_messages_that_are_sent_by_half_before_a_hello():
+    with Server("--max-client-connections", 1000) as server:
+        count, before = 64, settled(server, 1)
+        peers = [WebSocket(server, source=ATTACKER) for _ in range(count)]
+        try:
+            for peer in peers:
+                peer.socket.settimeout(0.05)
+                with contextlib.suppress(TimeoutError, ConnectionError):
+                    peer.send(frame(TEXT, b'{"type":"load","data":"' + b"x" * (1 << 20), announced=7 << 20))
+            assert server.own_memory() - before < count * (256 << 10) + NOISE
+            assert ask(server, "/", source=OTHER).status == 200
+        finally:
+            for peer in peers:
+                peer.socket.close()
+
+
+def test_messages_that_are_sent_by_half():
+    """Each could be a load of 8 MiB; all together are more than there is."""
+    with Server("--max-client-connections", 1000, "--max-client-sessions", 1000, "--max-new-sessions", 1000,
+                "--max-client-bytes", "32M", "--max-bytes", "64M", "--max-byte-rate", "1G") as server:
+        count = 48
+        peers = [WebSocket(server, source=ATTACKER) for _ in range(count)]
+        try:
+            for peer in peers:
+                assert peer.ask(type="hello")["type"] == "welcome"
+            before = settled(server, 1)
+            part = frame(TEXT, b'{"type":"load","data":"' + b"x" * (6 << 20), announced=8 << 20)
+            for peer in peers:
+                peer.socket.settimeout(0.5)
+                with contextlib.suppress(TimeoutError, ConnectionError):
+                    peer.send(part)
+            assert server.own_memory() - before < (64 << 20) + NOISE
+            with WebSocket(server, source=OTHER) as other:
+                other.ask(type="hello")
+                assert other.ask(type="load", name="x", format="off", data=duoprism(30, 30))["type"] == "done"
+        finally:
+            for peer in peers:
+                peer.socket.close()
+        server.wait_for(lambda: server.metric("oval4d_websockets") == 0)
+        assert settled(server) - before < NOISE
+
+
+def test_answers_that_nobody_reads():
+    unsent = 64 << 10
+    with Server("--max-unsent", unsent, "--write-timeout", 1000, "--least-read-rate", 1, "--max-new-sessions", 1000) as server:
+        count = 30
+        peers = [WebSocket(server, source=ATTACKER, receive_buffer=4096) for _ in range(count)]
+        try:
+            for peer in peers:
+                peer.ask(type="hello")
+                peer.ask(type="command", line="polytope 24-cell")
+            answer = len(str(peers[0].ask(type="get", what="slices")))
+            before = settled(server, 1)
+            flood = frame(TEXT, b'{"type":"get","what":"slices"}') * 500
+            for peer in peers:
+                peer.socket.settimeout(0.05)
+                with contextlib.suppress(TimeoutError, ConnectionError):
+                    for _ in range(20):
+                        peer.send(flood)
+            # Pictures under way may be a few more than the answers that wait.
+            assert server.own_memory() - before < count * (unsent + 4 * answer + (256 << 10)) + NOISE
+            with WebSocket(server, source=OTHER) as other:
+                other.ask(type="hello")
+                assert other.ask(type="get", what="slices")["type"] == "slices"
+        finally:
+            for peer in peers:
+                peer.socket.close()
+
+
+@contextlib.contextmanager
+def attacker(server, script):
+    """Runs raw.py's user in a process of its own, so that its work is not this one's; it begins when it says so."""
+    here = Path(__file__).resolve().parent
+    head = ("import sys; sys.path[:0] = sys.argv[3:5]\n"
+            "from raw import *\n"
+            "class Server: host, port = sys.argv[1], int(sys.argv[2])\n")
+    words = [sys.executable, "-c", head + script, server.host, str(server.port), str(here), str(here.parent / "service")]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout.readline() == "begun\n"
+            yield process
+        finally:
+            process.kill()
+
+
+LARGE_COMMANDS = f"""
+data = frame(TEXT, b'{{"type":"command","line":"' + b"x" * 8_000_000 + b'"}}')
+print("begun", flush=True)
+while True:
+    try:
+        with WebSocket(Server, source="{ATTACKER}") as peer:
+            peer.ask(type="hello")
+            while True:
+                peer.socket.settimeout(5)
+                peer.send(data)
+                peer.next_message()
+    except (Ended, OSError):
+        time.sleep(0.02)
+"""
+
+
+def test_large_commands_do_not_keep_others_waiting():
+    with Server("--io-threads", 1, "--max-new-sessions", 100_000, "--max-client-sessions", 2000) as server:
+        with WebSocket(server, source=OTHER) as peer, attacker(server, LARGE_COMMANDS) as process:
+            peer.ask(type="hello")
+            alone, beside = [], []
+            for _ in range(8):  # by turns, for the machine may have other work
+                for number, samples in ((signal.SIGSTOP, alone), (signal.SIGCONT, beside)):
+                    process.send_signal(number)
+                    time.sleep(0.2)
+                    for _ in range(40):
+                        start = time.monotonic()
+                        peer.ask(type="key", key="y")
+                        samples.append(time.monotonic() - start)
+            process.send_signal(signal.SIGCONT)
+            ratio = statistics.median(beside) / statistics.median(alone)
+            assert ratio < 5, f"others wait {ratio:.0f} times as long"
+            worst = sorted(beside)[int(0.99 * len(beside))] / sorted(alone)[int(0.99 * len(alone))]
+            assert worst < 20, f"one in a hundred waits {worst:.0f} times as long"
+
+
+# --- Processes that draw
+
+def test_processes_that_draw_are_killed_again_and_again():
+    picture = "/api/v1/frame.png?polytope=24-cell&width=320&height=240"
+    with Server() as server:
+        first = ask(server, picture).body
+        for _ in range(3):  # as many as there will be
+            server.signal_drawing(signal.SIGKILL)
+            assert ask(server, picture).body == first
+        before, files, count = settled(server, 1), len(server.files()), len(server.drawing())
+        for _ in range(20):
+            server.signal_drawing(signal.SIGKILL)
+            assert ask(server, picture).body == first
+        until(lambda: len(server.drawing()) <= count, "as few processes as before")
+        until(lambda: len(server.files()) <= files + 2, "as few descriptors as before")
+        assert settled(server, 1) - before < NOISE

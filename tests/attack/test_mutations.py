@@ -1,0 +1,174 @@
+"""Every request there is, damaged at random in every way, thousands of times: others notice nothing. The seed is fixed, so a
+failure comes again; OVAL4D_MUTATIONS and OVAL4D_SEED make it longer or another one."""
+
+import copy
+import json
+import os
+import random
+
+from harness import Server
+from raw import CLOSE, TEXT, Ended, WebSocket, frame
+
+COUNT = int(os.environ.get("OVAL4D_MUTATIONS", "20000"))
+SEED = int(os.environ.get("OVAL4D_SEED", "4"))
+SIMPLEX = ("4OFF\n5 10 10 5\n1 1 1 -0.447214\n1 -1 -1 -0.447214\n-1 1 -1 -0.447214\n-1 -1 1 -0.447214\n0 0 0 1.788854\n3 0 1 2\n"
+           "3 0 1 3\n3 0 1 4\n3 0 2 3\n3 0 2 4\n3 0 3 4\n3 1 2 3\n3 1 2 4\n3 1 3 4\n3 2 3 4\n4 0 1 3 6\n4 0 2 4 7\n4 1 2 5 8\n"
+           "4 3 4 5 9\n4 6 7 8 9\n")
+IDENTITY = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+REQUESTS = [
+    {"type": "hello", "stream": "geometry", "encoding": "cbor"}, {"type": "hello", "stream": "frames", "width": 64, "height": 64},
+    {"type": "hello"}, {"type": "key", "key": "y"}, {"type": "key", "key": "2", "shift": True}, {"type": "key", "key": "r", "ctrl": True},
+    {"type": "rotate", "planes": ["xw", "yz"], "angles": [0.4, 1.4]}, {"type": "rotate", "planes": ["xy"], "angles": [-0.5]},
+    {"type": "set", "polytope": "24-cell"}, {"type": "set", "slices": {"count": 21, "spacing": 0.12, "focus": 0}, "alpha": 0.4},
+    {"type": "set", "camera": {"azimuth": 0.4, "elevation": 0.1, "zoom": 1.5}, "shown": {"faces": False, "bars": True}},
+    {"type": "set", "color": "kind", "hidden": [0], "faded": []}, {"type": "set", "orientation": IDENTITY, "view": "single"},
+    {"type": "set", "turning": False, "last": {"planes": ["xw", "yz"], "angles": [0.4, 1.4]}, "step": 0.1, "beta": 1},
+    {"type": "load", "name": "mine", "format": "off", "data": SIMPLEX},
+    {"type": "load", "name": "yours", "format": "points", "data": "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n-1 -1 -1 -1\n"},
+    {"type": "undo"}, {"type": "redo"}, {"type": "reset"}, {"type": "command", "line": "rotate xw,yz pi/8 pi/sqrt(3)-pi/8"},
+    {"type": "command", "line": ":set slices=11 faces=off"}, {"type": "command", "line": "hide cube"}, {"type": "command", "line": "fade 0 2"},
+    {"type": "get", "what": "state"}, {"type": "get", "what": "slices"}, {"type": "get", "what": "frame", "width": 64, "height": 48},
+    {"type": "get", "what": "file", "format": "off", "of": "focus", "body": "solid", "size": 60, "label": "none"},
+    {"type": "get", "what": "file", "format": "csv"}, {"type": "get", "what": "keymap"}, {"type": "shown", "revision": 7},
+]
+ODD = [None, True, False, 0, -1, 1, 0.5, 1e308, -1e308, 1e-320, 2**31, 2**32, 2**53, 2**63, 2**64, -2**63, 10**40, "", "\0", "x" * 5000,
+       "\ud7ff\ue000\U0010ffff", "../../etc/passwd", "%n%s%x", "'; DROP TABLE sessions;--", "NaN", "1e999", [], {}, [[]], [None] * 100,
+       {"type": "hello"}, "{5,5/2,5}", "x3o3o *b3o", "5/0,5-duoprism", "99999-gonal prism prism", "(" * 500, "1+" * 400 + "1", "-" * 900]
+
+
+def places(value, path=()):
+    """All places within a message."""
+    yield path
+    items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, inner in items:
+        yield from places(inner, (*path, key))
+
+
+def put(message, path, value):
+    for key in path[:-1]:
+        message = message[key]
+    message[path[-1]] = value
+
+
+def at(message, path):
+    for key in path:
+        message = message[key]
+    return message
+
+
+DEEP = "nested deeply"  # stands for brackets until the message is text
+
+
+def mutated(numbers, broken):
+    """The octets of one bad message, or of one that is by chance still good; if `broken`, perhaps no JSON at all."""
+    message = copy.deepcopy(numbers.choice(REQUESTS))
+    message["id"] = numbers.randrange(1000)
+    for _ in range(numbers.choice([1, 1, 1, 2, 3])):
+        where = numbers.choice([path for path in places(message) if path])
+        value, kind = at(message, where), numbers.randrange(10)
+        if kind <= 3:
+            value = copy.deepcopy(numbers.choice(ODD))
+        elif kind == 4:
+            value = DEEP
+        elif kind == 5:
+            value = at(message, numbers.choice(list(places(message))))  # what stands elsewhere in it
+            value = copy.deepcopy(value)
+        elif kind == 6 and isinstance(value, str) and value:
+            cut = numbers.randrange(len(value))
+            value = value[:cut] + numbers.choice(["", "9" * 400, "\n", "#", "-", "1e9", "é", "\0", value]) + value[cut + 1:]
+        elif kind == 7 and isinstance(value, (int, float)):
+            value = min(value * numbers.choice([-1, 0, 1e9, 1e300, 0.1]), 1e308)
+        elif kind == 8:
+            put(message, (*where[:-1], numbers.choice(["typ", "key", "x" * 300, ""])), value) if isinstance(where[-1], str) else None
+        put(message, where, value)
+    text = json.dumps(message, ensure_ascii=numbers.random() < 0.5)
+    depth = numbers.choice([5, 30, 31, 32, 33, 100, 30_000])
+    text = text.replace(f'"{DEEP}"', "[" * depth + "]" * depth)
+    kind = numbers.randrange(4) if broken else numbers.choice([0, 4, 4, 4, 4, 4, 4, 4])
+    if kind == 0:  # a member twice
+        text = text[:-1] + "," + text[1:]
+    data = bytearray(text.encode("utf-8", "surrogatepass"))
+    if kind == 1:
+        for _ in range(numbers.choice([1, 1, 3])):
+            data[numbers.randrange(len(data))] ^= 1 << numbers.randrange(8)
+    if kind == 2:
+        del data[numbers.randrange(len(data)):]
+    if kind == 3:
+        start = numbers.randrange(len(data))
+        data[start:start] = data[start:start + numbers.randrange(60)] * numbers.randrange(1, 20)
+    return bytes(data)
+
+
+class Sender:
+    """Sends bad messages in a session of its own, and comes back whenever it is thrown out."""
+
+    def __init__(self, server):
+        self.server, self.session, self.peer = server, None, None
+        self.codes, self.closes = {}, {}
+
+    def connect(self):
+        if self.session is None:
+            self.peer = WebSocket(self.server)
+            self.session = self.peer.ask(type="hello")
+        else:
+            self.peer = WebSocket(self.server, f"/ws/{self.session['session']}")
+            welcome = self.peer.ask(type="hello", token=self.session["token"])
+            assert welcome["type"] == "welcome", welcome
+
+    def note(self, message):
+        if message["type"] == "error":
+            self.codes[message["code"]] = self.codes.get(message["code"], 0) + 1
+
+    def send(self, messages):
+        """Sends them, and then something good: until that is answered, or the connection is ended."""
+        if self.peer is None:
+            self.connect()
+        good = b'{"type":"get","what":"keymap","id":123456789}'
+        self.peer.try_send(b"".join(frame(TEXT, data) for data in [*messages, good]))
+        try:
+            while True:
+                opcode, payload = self.peer.next_message()
+                if opcode == CLOSE:
+                    code = int.from_bytes(payload[:2], "big")
+                    self.closes[code] = self.closes.get(code, 0) + 1
+                    break
+                if opcode == TEXT:
+                    message = json.loads(payload)
+                    self.note(message)
+                    if message.get("id") == 123456789 and message["type"] == "keymap":
+                        return
+        except Ended:
+            self.closes[None] = self.closes.get(None, 0) + 1
+        self.peer.socket.close()
+        self.peer = None
+
+
+def test_damaged_requests_harm_nobody():
+    numbers = random.Random(SEED)
+    with Server("--max-requests", 1_000_000, "--max-width", 1280, "--max-height", 720, "--max-file-time", 1, "--max-vertices", 2000,
+                "--max-slices", 31) as server:
+        with WebSocket(server) as bystander:
+            welcome = bystander.ask(type="hello")
+            assert bystander.ask(type="command", line="polytope 16-cell")["type"] == "done"
+            assert bystander.ask(type="key", key="y")["type"] == "done"
+            before = bystander.ask(type="get", what="state")
+            senders = [Sender(server) for _ in range(4)]
+            for batch in range(COUNT // 10):
+                senders[batch % 4].send([mutated(numbers, number == 9) for number in range(10)])
+                if batch % 200 == 0:
+                    assert bystander.ask(type="get", what="state")["orientation"] == before["orientation"]
+            after = bystander.ask(type="get", what="state")
+            assert {**after, "id": 0} == {**before, "id": 0}
+        codes = {code: sum(sender.codes.get(code, 0) for sender in senders) for sender in senders for code in sender.codes}
+        closes = {code: sum(sender.closes.get(code, 0) for sender in senders) for sender in senders for code in sender.closes}
+        print(f"errors {codes}, closes {closes}")
+        assert "internal" not in codes, codes
+        assert closes.keys() <= {1000, 1003, 1007, 1008, 1009, 4401}, closes
+        # As many kinds of refusal as there are, or the damage was not of every kind.
+        assert codes.keys() >= {"bad_json", "bad_message", "unknown_type", "unknown_key", "unknown_polytope", "unknown_command",
+                                "bad_expression", "out_of_range", "not_a_rotation", "bad_polytope", "unsupported_format"}, codes
+        with WebSocket(server, f"/ws/{welcome['session']}") as again:
+            assert again.ask(type="hello", token=welcome["token"])["type"] == "welcome"
+            assert again.ask(type="undo")["type"] == "done"
+        assert server.metric('oval4d_errors_total{code="internal"}') == 0
+        assert "fault=" not in server.log() and server.process.poll() is None

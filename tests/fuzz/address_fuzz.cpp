@@ -1,0 +1,113 @@
+// What a request over HTTP says of itself, one a line: its target, Host, Origin, Authorization and Cookie.
+
+#include "net/http/access.hpp"
+#include "net/http/target.hpp"
+#include "pipeline/file_pipeline.hpp"
+#include "session/query.hpp"
+#include "support.hpp"
+
+using namespace oval4d;
+using fuzz::require;
+
+namespace {
+
+constexpr std::string_view kToken = "s3cr3t";
+
+std::string encoded(std::string_view text) {
+    constexpr std::string_view kHex = "0123456789abcdef";
+    std::string out;
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        out += {'%', kHex[byte >> 4U], kHex[byte & 0xFU]};
+    }
+    return out;
+}
+
+void requireReadsBack(const net::Target& target) {
+    std::string text = "/" + encoded(std::string_view(target.path).substr(1)) + "?";
+    for (const auto& [name, value] : target.query) text += encoded(name) + "=" + encoded(value) + "&";
+    const auto again = net::parseTarget(text);
+    require(again && again->path == target.path, "a path survives being encoded");
+    require(again->query == target.query, "a query survives being encoded");
+}
+
+/// The texts must say the same but for the case of letters.
+bool contains(std::string_view text, std::string_view part) {
+    const auto same = [](char a, char b) { return (a | 0x20) == (b | 0x20); };
+    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
+}
+
+void judge(const net::Credentials& who) {
+    using Verdict = net::Access::Verdict;
+    const net::Access loopback({}, {}, "", true);
+    if (loopback.judge(who) == Verdict::allowed) {
+        require(contains(who.host, "localhost") || contains(who.host, "127.0.0.1") || contains(who.host, "[::1]"),
+                "on loopback only its names are known:", who.host);
+        require(who.origin.empty() || contains(who.origin, "://" + std::string(who.host)),
+                "only the server's own pages may speak to it:", who.origin);
+    }
+    const net::Access open({"*"}, {"https://friend.example"}, std::string(kToken), false);
+    if (open.judge(who) == Verdict::allowed) {
+        require(who.token == kToken || who.authorization.ends_with(kToken) || contains(who.cookie, "oval4d_token="),
+                "without the token nobody is let in");
+    }
+    const std::string cookie = open.cookieFor(who);
+    require(cookie.empty() || who.token == kToken, "the cookie is for who has the token");
+    if (cookie.empty()) return;
+    net::Credentials back = who;
+    back.token = {};
+    const std::string pair = cookie.substr(0, cookie.find(';'));
+    back.cookie = pair;
+    require(open.judge(back) == open.judge(who), "the cookie is as good as the token");
+}
+
+void describe(session::Query query) {
+    const auto large = [](const auto& entry) { return entry.first == "polytope" && !fuzz::isSmall(entry.second); };
+    if (std::any_of(query.begin(), query.end(), large)) return;
+    std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
+    for (const exports::Format& format : exports::formats()) {
+        session::Query settings = query;
+        const auto request = pipeline::takeExportRequest(settings, format);
+        if (!request) {
+            fuzz::requireSentence(request.error());
+            return;
+        }
+        require(request->format == &format && request->size >= exports::kMinSize && request->size <= exports::kMaxSize,
+                "a file is of the size that is allowed");
+        for (const auto& [name, value] : settings)
+            require(name != "of" && name != "body" && name != "label" && name != "size", "what was taken is gone");
+        if (&format != &exports::formats().back()) continue;
+        session::ObjectLoader loader(fuzz::kLimits, fuzz::cache());
+        const auto state = session::stateFromQuery(settings, fuzz::kLimits, loader);
+        if (!state) {
+            fuzz::requireSentence(state.error());
+            return;
+        }
+        fuzz::requireSound(*state, fuzz::kLimits);
+        fuzz::requireSurvives(*state, {});
+        const std::string name = pipeline::fileName(*state, *request);
+        const std::string_view plain = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-_.";
+        require(name.find_first_not_of(plain) == std::string::npos, "a file's name needs no quoting:", name);
+    }
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    std::string_view rest = fuzz::textOf(data, size);
+    const auto target = net::parseTarget(fuzz::takeUntil(rest, '\n'));
+    net::Credentials who;
+    for (std::string_view* header : {&who.host, &who.origin, &who.authorization, &who.cookie})
+        *header = fuzz::takeUntil(rest, '\n');
+    if (target) {
+        require(target->path.starts_with('/'), "a path begins with a slash");
+        requireReadsBack(*target);
+        for (const auto& [name, value] : target->query) {
+            if (name == "token") who.token = value;
+        }
+        describe(target->query);
+    }
+    judge(who);
+    return 0;
+}

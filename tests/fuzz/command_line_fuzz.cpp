@@ -1,0 +1,48 @@
+// Lines of the command line, one after the other on one session; each is also read as an expression and as a rotation.
+
+#include "session/expression.hpp"
+#include "support.hpp"
+
+using namespace oval4d;
+using fuzz::require;
+
+namespace {
+
+void evaluateIt(std::string_view text) {
+    const auto value = session::evaluate(text);
+    if (!value) {
+        fuzz::requireSentence(value.error());
+        return;
+    }
+    require(std::isfinite(*value), "an expression is a finite number");
+    // Written as the command line shows it, it is the same number.
+    std::array<char, 32> digits;
+    const std::size_t length = std::snprintf(digits.data(), digits.size(), "%.17g", *value);
+    const auto again = session::evaluate({digits.data(), length});
+    const bool tiny = *value != 0 && std::abs(*value) < 1e-300;  // what is denormal may be refused
+    require(tiny || (again && *again == *value), "a number's own text is that number:", digits.data());
+    if (text.size() > 900) return;
+    const auto bracketed = session::evaluate("(" + std::string(text) + ")");
+    require(!bracketed || *bracketed == *value, "brackets change nothing");
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    std::string_view rest = fuzz::textOf(data, size);
+    session::Session session;
+    for (int lines = 0; !rest.empty() && lines < 16; ++lines) {
+        const std::string_view line = fuzz::takeUntil(rest, '\n');
+        evaluateIt(line);
+        if (const auto turn = session::parseTurn(line)) {
+            const glm::dmat4 matrix = geometry::Rotation(*turn).matrix();
+            require(std::abs(glm::determinant(matrix) - 1) < 1e-9, "a rotation has determinant 1");
+        } else {
+            fuzz::requireSentence(turn.error());
+        }
+        fuzz::carryOut(session, session::CommandLine{std::string(line)});
+    }
+    fuzz::requireSurvives(session.now, session.loaded);
+    return 0;
+}

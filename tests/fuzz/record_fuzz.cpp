@@ -1,0 +1,82 @@
+// A session as a store has it: the whole record, the head, and one object, each after its length in two bytes, the
+// low one first. Whatever the bytes are: Unreadable, or a sound session that can be sliced, sent and kept again.
+
+#include "store/codec.hpp"
+#include "store/object_codec.hpp"
+#include "support.hpp"
+
+using namespace oval4d;
+using fuzz::require;
+
+namespace {
+
+std::string_view takePart(std::string_view& rest) {
+    if (rest.size() < 2) return {};
+    const std::size_t length = static_cast<unsigned char>(rest[0]) + 256U * static_cast<unsigned char>(rest[1]);
+    rest.remove_prefix(2);
+    const std::string_view part = rest.substr(0, length);
+    rest.remove_prefix(part.size());
+    return part;
+}
+
+/// Whether a record names a polytope that would take long to build.
+bool namesLarge(std::string_view record) {
+    try {
+        const auto value = nlohmann::json::from_cbor(record);
+        return std::ranges::any_of(value.at(2), [](const auto& entry) {
+            return entry.size() == 1 && !fuzz::isSmall(entry.at(0).template get_ref<const std::string&>());
+        });
+    } catch (const nlohmann::json::exception&) {
+        return false;
+    }
+}
+
+void requireUsable(const session::Session& session) {
+    session::Limits wide;
+    wide.maxSlices = 100'001;
+    wide.maxUndo = wide.maxLoaded = 1'000'000;
+    fuzz::requireSound(session, wide);
+    fuzz::requireSlices(session.now);
+    fuzz::requireJson(wire::stateMessage(session.now, session.revision));
+    for (const auto& [name, object] : session.loaded)
+        fuzz::requireJson(wire::catalogueMessage({}, std::vector{object}));
+    for (const char* key : {"y", "l", "G", "}", "u"}) {
+        session::Session next = session;
+        session::ObjectLoader loader(wide, fuzz::cache());
+        (void)session::apply(next, session::Key{key}, wide, loader);
+        fuzz::requireSound(next.now, wide);
+    }
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    std::string_view rest = fuzz::textOf(data, size);
+    const std::string_view whole = takePart(rest);
+    const std::string_view head = takePart(rest);
+    std::optional<slicing::Object> own;
+    try {
+        own = store::decodeObject(rest);
+        const std::string bytes = store::encodeObject(*own);
+        require(store::encodeObject(store::decodeObject(bytes)) == bytes, "an object survives being kept");
+        fuzz::requireJson(wire::catalogueMessage({}, std::vector{*own}));
+    } catch (const store::Unreadable& fault) {
+        require(*fault.what() != 0, "what is unreadable says why");
+    }
+    if (namesLarge(whole) || namesLarge(head)) return 0;
+    try {
+        const store::ObjectOf objectOf = [&](const std::string&) { return own; };
+        const store::KeyOf keyOf = [](const slicing::Object&) { return "key"; };
+        const session::Session session = store::decode(whole, head, objectOf, fuzz::cache());
+        requireUsable(session);
+        const std::string bytes = store::encodeWhole(session, 1'000'000, keyOf);
+        require(store::decode(bytes, "", objectOf, fuzz::cache()) == session, "a session survives being kept");
+        const std::string present = store::encodeHead(session, keyOf);
+        require(store::decode(bytes, present, objectOf, fuzz::cache()) == session,
+                "a head that is no newer changes nothing");
+    } catch (const store::Unreadable& fault) {
+        require(*fault.what() != 0, "what is unreadable says why");
+    }
+    return 0;
+}

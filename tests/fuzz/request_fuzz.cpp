@@ -1,0 +1,53 @@
+// Messages to the server, one a line: each is refused with a reason, or carried out on a session. An error leaves the
+// session as it was; after a success it is sound, and its state survives being written and read back.
+
+#include "support.hpp"
+
+using namespace oval4d;
+using fuzz::require;
+
+namespace {
+
+/// The id that the answer must carry, by an independent reading of the text.
+std::optional<double> idIn(std::string_view text) {
+    const auto message = nlohmann::json::parse(text, nullptr, false);
+    if (!message.is_object() || !message.contains("id") || !message["id"].is_number()) return {};
+    return message["id"].get<double>();
+}
+
+void requireEcho(std::string_view text, std::optional<double> id, const Error* error) {
+    const auto asked = idIn(text);
+    if (asked) require(id == asked, "an id is echoed");
+    if (!id) return;
+    require(std::isfinite(*id), "an id is finite");
+    const auto answer = fuzz::requireJson(error ? wire::errorMessage(*error, id) : wire::doneMessage(id, 1));
+    require(answer.at("id").get<double>() == *id, "an id travels whole");
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    std::string_view rest = fuzz::textOf(data, size);
+    session::Session session;
+    for (int messages = 0; !rest.empty() && messages < 12; ++messages) {
+        const std::string_view text = fuzz::takeUntil(rest, '\n');
+        const auto parsed = wire::parseRequest(text);
+        if (const auto* bad = std::get_if<wire::BadRequest>(&parsed)) {
+            fuzz::requireSentence(bad->error);
+            if (!bad->notJson) requireEcho(text, bad->id, &bad->error);
+            require(!bad->notJson || bad->error.code == ErrorCode::bad_json, "what is no JSON is bad_json");
+            continue;
+        }
+        const auto& request = std::get<wire::Request>(parsed);
+        require(nlohmann::json::accept(text), "what is carried out was JSON");
+        requireEcho(text, request.id, nullptr);
+        if (const auto* command = std::get_if<session::Command>(&request.body)) {
+            fuzz::carryOut(session, *command);
+            if (session.now.turning) session::advance(session, 0.01);
+        }
+    }
+    fuzz::requireSound(session, fuzz::kLimits);
+    fuzz::requireSurvives(session.now, session.loaded);
+    return 0;
+}

@@ -1,0 +1,207 @@
+// A viewport and command lines bring about a state, of which the `slices` message is written in JSON and in CBOR: both
+// must say the same. The CBOR is read back by a library, and its columns are made into rows here.
+
+#include <cstring>
+#include <initializer_list>
+#include <utility>
+
+#include "scene/composer.hpp"
+#include "support.hpp"
+#include "wire/slices.hpp"
+
+using namespace oval4d;
+using fuzz::require;
+using nlohmann::json;
+
+namespace {
+
+/// A typed array of RFC 8746 as an array of its numbers.
+template <typename T>
+json numbersOf(const json::binary_t& bytes) {
+    require(bytes.size() % sizeof(T) == 0, "a typed array holds whole numbers");
+    std::vector<T> numbers(bytes.size() / sizeof(T));
+    if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
+    return numbers;
+}
+
+/// `value` with every typed array in it as an array.
+json plain(const json& value) {
+    if (value.is_binary()) {
+        const json::binary_t& bytes = value.get_binary();
+        switch (bytes.subtype()) {
+            case 64:
+                return numbersOf<std::uint8_t>(bytes);
+            case 69:
+                return numbersOf<std::uint16_t>(bytes);
+            case 70:
+                return numbersOf<std::uint32_t>(bytes);
+            case 85:
+                return numbersOf<float>(bytes);
+            case 86:
+                return numbersOf<double>(bytes);
+            default:
+                require(false, "a typed array has a tag of RFC 8746");
+        }
+    }
+    json out = value;
+    if (value.is_structured()) {
+        for (json& each : out) each = plain(each);
+    }
+    return out;
+}
+
+/// Takes from the front of a list, again and again; at the end nothing may be left.
+class Column {
+  public:
+    explicit Column(const json& list) : list_(list) {}
+    ~Column() { require(at_ == list_.size(), "columns are as long as the rows that they are made of"); }
+    Column(const Column&) = delete;
+    Column& operator=(const Column&) = delete;
+
+    json next() {
+        require(at_ < list_.size(), "a column is long enough");
+        return list_[at_++];
+    }
+    json next(std::size_t count) {
+        json part = json::array();
+        while (part.size() < count) part.push_back(next());
+        return part;
+    }
+    json rows(std::size_t count, std::size_t width) {
+        json list = json::array();
+        while (list.size() < count) list.push_back(next(width));
+        return list;
+    }
+
+  private:
+    const json& list_;
+    std::size_t at_ = 0;
+};
+
+/// One property for each of a slice's vertices, edges and faces.
+class Columns {
+  public:
+    explicit Columns(const json& of) : vertices_(of.at("vertices")), edges_(of.at("edges")), faces_(of.at("faces")) {}
+    json next(std::size_t vertices, std::size_t edges, std::size_t faces) {
+        json row;
+        row["vertices"] = vertices_.next(vertices);
+        row["edges"] = edges_.next(edges);
+        row["faces"] = faces_.next(faces);
+        return row;
+    }
+
+  private:
+    Column vertices_, edges_, faces_;
+};
+
+json rowsOf(const json& columns) {
+    const json none = json::array();
+    const json nowhere{{"vertices", none}, {"edges", none}, {"faces", none}};
+    const bool tinted = columns.contains("tints"), faint = columns.contains("seen"), filled = columns.contains("fill");
+    const json noFill{
+        {"counts", {{"points", none}, {"triangles", none}}}, {"points", none}, {"triangles", none}, {"tints", none}};
+    const json& fill = filled ? columns.at("fill") : noFill;
+    const bool faintFill = fill.contains("seen");
+    Column w(columns.at("w")), labelSize(columns.at("label_size")), position(columns.at("position"));
+    Column labelAt(columns.at("label_at")), vertices(columns.at("vertices")), edges(columns.at("edges"));
+    Column sides(columns.at("sides")), corners(columns.at("corners")), tints(tinted ? columns.at("tints") : none);
+    Column index(columns.at("index")), label(columns.at("label")), focus(columns.at("focus")),
+        drawn(columns.at("drawn"));
+    const json& counts = columns.at("counts");
+    Column vertexCounts(counts.at("vertices")), edgeCounts(counts.at("edges")), faceCounts(counts.at("faces"));
+    Columns of(columns.at("of")), seen(faint ? columns.at("seen") : nowhere);
+    Column points(fill.at("points")), triangles(fill.at("triangles")), fillTints(fill.at("tints"));
+    Column fillSeen(faintFill ? fill.at("seen") : none);
+    Column pointCounts(fill.at("counts").at("points")), triangleCounts(fill.at("counts").at("triangles"));
+    json rows = json::array();
+    for (std::size_t i = 0; i < columns.at("index").size(); ++i) {
+        const std::size_t v = vertexCounts.next(), e = edgeCounts.next(), f = faceCounts.next();
+        json row{{"index", index.next()}, {"label", label.next()},          {"focus", focus.next()},
+                 {"drawn", drawn.next()}, {"label_size", labelSize.next()}, {"w", w.next()}};
+        row["position"] = position.next(3);
+        row["label_at"] = labelAt.next(3);
+        row["vertices"] = vertices.rows(v, 3);
+        row["edges"] = edges.rows(e, 2);
+        row["faces"] = json::array();
+        while (row["faces"].size() < f) row["faces"].push_back(corners.next(sides.next()));
+        row["of"] = of.next(v, e, f);
+        if (faint) row["seen"] = seen.next(v, e, f);
+        if (json own = tints.next(tinted ? f : 0); tinted && own != row["of"]["faces"]) row["tints"] = std::move(own);
+        if (filled) {
+            const std::size_t p = pointCounts.next(), t = triangleCounts.next();
+            json own;
+            own["points"] = points.rows(p, 3);
+            own["triangles"] = triangles.rows(t, 3);
+            own["tints"] = fillTints.next(t);
+            if (faintFill) own["seen"] = fillSeen.next(t);
+            if (t > 0) row["fill"] = std::move(own);
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+/// Coordinates are written as precisely as a float has them.
+void roundToFloats(json& value) {
+    if (value.is_number()) value = static_cast<double>(value.get<float>());
+    if (value.is_array()) {
+        for (json& each : value) roundToFloats(each);
+    }
+}
+
+/// A list as rows of so many numbers, until it ends.
+json rows(const json& list, std::size_t width) { return Column(list).rows(list.size() / width, width); }
+
+json fromCbor(const std::string& text) {
+    json message = json::from_cbor(text, true, false, json::cbor_tag_handler_t::store);
+    require(!message.is_discarded(), "a message is CBOR");
+    message = plain(message);
+    if (message.contains("coordinates")) message["coordinates"] = rows(message["coordinates"], 4);
+    if (message.contains("density")) message["density"] = rows(message["density"], scene::Density::kColumns);
+    message["slices"] = rowsOf(message["slices"]);
+    return message;
+}
+
+json fromJson(const std::string& text) {
+    json message = fuzz::requireJson(text);
+    if (message.contains("coordinates")) roundToFloats(message["coordinates"]);
+    for (json& slice : message["slices"]) {
+        for (const char* name : {"position", "label_at", "vertices"}) roundToFloats(slice[name]);
+        if (!slice.contains("fill")) continue;
+        roundToFloats(slice["fill"]["points"]);
+        if (slice["fill"]["triangles"].empty()) slice.erase("fill");
+    }
+    return message;
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    std::string_view rest = fuzz::textOf(data, size);
+    scene::Viewport viewport;
+    if (std::sscanf(std::string(fuzz::takeUntil(rest, '\n')).c_str(), "%4d %4d", &viewport.width, &viewport.height) !=
+        2)
+        viewport = {};
+    viewport = {std::clamp(viewport.width, 16, 8192), std::clamp(viewport.height, 16, 8192)};
+    session::Session session;
+    for (int lines = 0; !rest.empty() && lines < 8; ++lines)
+        fuzz::carryOut(session, session::CommandLine{std::string(fuzz::takeUntil(rest, '\n'))});
+
+    static slicing::Slicer slicer;
+    static slicing::SliceSet slices;
+    static scene::Composer composer;
+    static scene::Scene scene;
+    static wire::SlicesWriter writer;
+    static std::string text, cbor;
+    const session::State& state = session.now;
+    slicer.slice(state.object, state.orientation, state.hyperplanes(), slices);
+    composer.limitFill(100'000);
+    composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport, scene);
+    using wire::Encoding;
+    writer.write(scene, session.revision, 3, Encoding::json, text);
+    writer.write(scene, session.revision, 3, Encoding::cbor, cbor);
+    const json one = fromJson(text), other = fromCbor(cbor);
+    require(one == other, "both encodings say the same:", one == other ? "" : json::diff(one, other).dump());
+    return 0;
+}

@@ -1,0 +1,200 @@
+#pragma once
+// What the fuzzers share: what must hold of a session, and carrying out a command without building large polytopes.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "polytopes/catalogue/catalogue.hpp"
+#include "polytopes/catalogue/polytope_cache.hpp"
+#include "session/history.hpp"
+#include "session/load.hpp"
+#include "session/object_loader.hpp"
+#include "session/settings.hpp"
+#include "slicing/slicer.hpp"
+#include "wire/messages.hpp"
+#include "wire/parse.hpp"
+
+namespace oval4d::fuzz {
+
+/// Ends the process, which is how libFuzzer learns of a finding, unless `holds`.
+inline void require(bool holds, std::string_view what, std::string_view detail = {}) {
+    if (holds) return;
+    std::fprintf(stderr, "broken: %.*s %.*s\n", static_cast<int>(what.size()), what.data(),
+                 static_cast<int>(detail.size()), detail.data());
+    std::abort();
+}
+
+inline std::string_view textOf(const std::uint8_t* data, std::size_t size) {
+    return {reinterpret_cast<const char*>(data), size};
+}
+
+/// Takes the text up to the next `separator` from the front of `text`.
+inline std::string_view takeUntil(std::string_view& text, char separator) {
+    const std::size_t end = std::min(text.find(separator), text.size());
+    const std::string_view head = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return head;
+}
+
+/// Small, so that an input takes milliseconds.
+inline const session::Limits kLimits{
+    .maxSlices = 31, .maxUndo = 4, .maxLoaded = 2, .maxVertices = 120, .maxHullCells = 500};
+
+/// The one cache of the fuzzer.
+inline polytopes::PolytopeCache& cache() {
+    static polytopes::PolytopeCache kCache;
+    return kCache;
+}
+
+/// Whether the text names no polytope, or one that is built in no time.
+inline bool isSmall(std::string_view name) {
+    const auto named = polytopes::designNamed(name, kLimits.maxVertices);
+    const auto* design = std::get_if<polytopes::Design>(&named);
+    return design == nullptr || polytopes::elementCounts(*design).vertices <= kLimits.maxVertices;
+}
+
+/// The name of the polytope that a command asks for, if it asks for one.
+inline std::string polytopeIn(const session::Command& command, const session::State& state) {
+    if (const auto* line = std::get_if<session::CommandLine>(&command)) {
+        const auto parsed = session::parseCommandLine(line->line, state);
+        return parsed ? polytopeIn(*parsed, state) : "";
+    }
+    const auto* set = std::get_if<session::Set>(&command);
+    return set ? set->object.value_or("") : "";
+}
+
+/// What must hold of every state that a client can bring about.
+inline void requireSound(const session::State& state, const session::Limits& limits) {
+    const auto within = [](double value, double most) { return std::abs(value) <= most; };
+    require(slicing::identityOf(state.object) != nullptr, "a state has an object");
+    const geometry::ObjectInfo& info = slicing::infoOf(state.object);
+    const glm::dmat4 matrix = state.orientation.matrix();
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j)
+            require(within(glm::dot(matrix[i], matrix[j]) - (i == j ? 1 : 0), 1e-9), "the orientation is orthogonal");
+    }
+    require(glm::determinant(matrix) > 0, "the orientation does not reflect");
+    constexpr double kTwoPi = 6.283185307179587;
+    require(within(state.alpha, kTwoPi) && within(state.beta, kTwoPi), "alpha and beta are within their bounds");
+    require(state.step > 0 && within(state.step, kTwoPi), "the step is within its bounds");
+    const auto& [count, spacing, focus] = state.slices;
+    require(count >= 1 && count <= limits.maxSlices && count % 2 == 1, "the number of slices is odd and allowed");
+    require(within(focus, session::kMaxFocus), "the focus is within its bounds");
+    const double ratio = spacing / info.circumradius;
+    require(ratio >= session::kMinSpacing * (1 - 1e-9) && ratio <= session::kMaxSpacing * (1 + 1e-9),
+            "the spacing is within its bounds");
+    const auto& [azimuth, elevation, zoom] = state.look.orbit;
+    require(within(azimuth, session::kMaxOrbit) && within(elevation, session::kMaxOrbit), "the orbit is within bounds");
+    require(zoom >= session::kMinZoom && zoom <= session::kMaxZoom, "the zoom is within its bounds");
+    const auto& [hidden, faded] = state.look.cellTypes;
+    std::vector<std::uint32_t> both = hidden;
+    both.insert(both.end(), faded.begin(), faded.end());
+    for (const auto* types : {&hidden, &faded})
+        require(std::is_sorted(types->begin(), types->end()), "cell types are in order");
+    std::sort(both.begin(), both.end());
+    require(std::adjacent_find(both.begin(), both.end()) == both.end(), "a cell type is listed once");
+    require(both.empty() || both.back() < info.cellTypes.size(), "cell types are the object's");
+    require(!state.turning || state.last, "what turns has a rotation to turn with");
+    if (state.last) {
+        require(
+            within(state.last->alpha, session::kMaxAngle) && within(state.last->beta.value_or(0), session::kMaxAngle),
+            "the last rotation is within its bounds");
+    }
+}
+
+inline void requireSound(const session::Session& session, const session::Limits& limits) {
+    requireSound(session.now, limits);
+    for (const session::State& state : session.past) requireSound(state, limits);
+    for (const session::State& state : session.future) requireSound(state, limits);
+    require(session.past.size() <= limits.maxUndo, "no more than maxUndo steps are kept");
+    require(session.loaded.size() <= limits.maxLoaded, "no more than maxLoaded objects are kept");
+}
+
+/// A message must be JSON, and so UTF-8; returns it.
+inline nlohmann::json requireJson(const std::string& text) {
+    auto message = nlohmann::json::parse(text, nullptr, false);
+    require(!message.is_discarded() && message.is_object(), "a message is a JSON object:", text);
+    return message;
+}
+
+inline void requireSentence(const Error& error) {
+    require(!error.message.empty(), "an error says what is wrong");
+    require(error.message.size() < 4096, "an error is a sentence:", error.message);
+    require(requireJson(wire::errorMessage(error, {})).at("message") == error.message, "an error travels whole");
+}
+
+/// Carries a command out as the server does. A large polytope is not built: then nothing happens.
+inline void carryOut(session::Session& session, const session::Command& command) {
+    const session::Session before = session;
+    const bool small = isSmall(polytopeIn(command, session.now)) && !std::holds_alternative<session::Key>(command);
+    session::ObjectLoader loader(kLimits, cache(), session::ObjectLoader::Pace::later, session::readObject);
+    auto done = session::apply(session, command, kLimits, loader);
+    if (loader.ordered()) {
+        require(!done && session == before, "what is not ready yet changes nothing");
+        if (!small) return;
+        loader.work();
+        done = session::apply(session, command, kLimits, loader);
+        require(!loader.ordered(), "a command orders one thing");
+    }
+    if (!done) {
+        requireSentence(done.error());
+        require(session == before, "an error leaves the session as it was:", done.error().message);
+    } else {
+        requireSound(session, kLimits);
+        require(session.now == before.now || session.revision == before.revision + 1, "a change counts once");
+        require(session.revision == before.revision || session.now != before.now,
+                "what changes nothing is not counted");
+    }
+}
+
+/// Writes a state as a message, sets another session to it, and compares.
+inline void requireSurvives(const session::State& state, const session::Loaded& loaded) {
+    const std::string text = wire::stateMessage(state, 7, 3);
+    requireJson(text);
+    const auto set = wire::setFromState(text);
+    require(static_cast<bool>(set), "a state message is read back:", set ? "" : set.error().message + " " + text);
+    const std::string& name = slicing::infoOf(state.object).name;
+    require(set->object == name, "an object's name travels whole");
+    session::Session other;
+    other.loaded = loaded;
+    // One that was replaced or came from another session is not found by its name.
+    const auto own = loaded.find(name);
+    const bool named = own != loaded.end() ? own->second == state.object : isSmall(name);
+    if (!named) return;
+    session::ObjectLoader loader(kLimits, cache());
+    const auto done = session::apply(other, *set, kLimits, loader);
+    require(static_cast<bool>(done), "a state can be brought about again:", done ? "" : done.error().message);
+    for (int i = 0; i < 4; ++i) {
+        require(glm::length(other.now.orientation.matrix()[i] - state.orientation.matrix()[i]) < 1e-9,
+                "the orientation survives");
+    }
+    other.now.orientation = state.orientation;
+    if (!state.last) other.now.last.reset();
+    require(other.now == state, "a state survives:", text);
+}
+
+/// Slices it as a picture would be; all indices must be in range.
+inline void requireSlices(const session::State& state) {
+    static slicing::Slicer slicer;
+    static slicing::SliceSet slices;
+    geometry::Hyperplanes planes = state.hyperplanes();
+    planes.count = std::min(planes.count, 51);
+    slicer.slice(state.object, state.orientation, planes, slices);
+    for (int i = 0; i < planes.count; ++i) {
+        const auto vertices = slices.vertexBegin[i + 1] - slices.vertexBegin[i];
+        for (auto e = slices.edgeBegin[i]; e < slices.edgeBegin[i + 1]; ++e)
+            for (const std::uint32_t end : slices.edges[e]) require(end < vertices, "an edge ends at vertices");
+        for (auto c = slices.cornerBegin[slices.faceBegin[i]]; c < slices.cornerBegin[slices.faceBegin[i + 1]]; ++c)
+            require(slices.corners[c] < vertices, "a face has vertices for corners");
+    }
+}
+
+}  // namespace oval4d::fuzz

@@ -1,0 +1,89 @@
+// node spoil.mjs <folder> <seed>: reads messages, pictures and links that were spoilt at random with the TypeScript
+// client's readers, bundled as <folder>/readers.mjs. Prints how many were read and how many refused.
+import { readdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [folder, seed] = process.argv.slice(2);
+const kRounds = 400;
+const kMost = 256 * 1024 * 1024; // bytes in typed arrays, garbage of earlier rounds among them
+const kLongest = 2000; // milliseconds for one
+
+globalThis.location = { pathname: "/", search: "", hash: "", href: "http://localhost/" };
+const { Arena, commandLines, decodeCbor, decodeText, pngText } = await import(pathToFileURL(join(folder, "readers.mjs")));
+
+// Mulberry32: the same numbers for the same seed.
+let state = Number(seed);
+function random(below) {
+    state = (state + 0x6d2b79f5) | 0;
+    let t = Math.imul(state ^ (state >>> 15), 1 | state);
+    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+    return ((t ^ (t >>> 14)) >>> 0) % below;
+}
+
+/** A copy with some bytes changed, cut out, put twice, or made large. */
+function spoilt(bytes) {
+    let out = Uint8Array.from(bytes);
+    for (let changes = 1 + random(4); changes > 0; --changes) {
+        const at = random(out.length + 1);
+        const some = 1 + random(16);
+        switch (random(5)) {
+            case 0:
+                if (at < out.length) out[at] = random(256);
+                break;
+            case 1:
+                if (at < out.length) out[at] ^= 1 << random(8);
+                break;
+            case 2:
+                out = Uint8Array.from([...out.subarray(0, at), ...out.subarray(at + some)]);
+                break;
+            case 3:
+                out = Uint8Array.from([...out.subarray(0, at), ...out.subarray(at, at + some), ...out.subarray(at)]);
+                break;
+            default:
+                out.fill(255, at, at + random(9));
+        }
+        if (random(16) === 0) out = out.slice(0, at);
+    }
+    return out;
+}
+
+const arena = new Arena();
+const asText = (bytes) => Buffer.from(bytes).toString("latin1");
+const readers = {
+    cbor: (bytes) => decodeCbor(bytes, random(2) ? arena : undefined),
+    json: (bytes) => decodeText(new TextDecoder().decode(bytes)),
+    png: (bytes) => {
+        const text = pngText(bytes);
+        if (text !== undefined && typeof text !== "string") throw "no text";
+        return text ?? null;
+    },
+    link: (bytes) => {
+        const lines = commandLines(asText(bytes)); // throws nothing: the page would not begin
+        if (lines.some((line) => typeof line !== "string")) throw "no line";
+        return lines;
+    },
+};
+const counts = {};
+for (const name of readdirSync(folder)) {
+    const kind = name.split(".").pop();
+    const reader = readers[kind];
+    if (!reader) continue;
+    const whole = Uint8Array.from(readFileSync(join(folder, name)));
+    if (reader(whole) === null) throw new Error(`${name} is not read as it is`);
+    const count = (counts[kind] ??= { read: 0, refused: 0 });
+    for (let round = 0; round < kRounds; ++round) {
+        const bytes = spoilt(whole);
+        const start = performance.now();
+        try {
+            reader(bytes) === null ? ++count.refused : ++count.read;
+        } catch (fault) {
+            if (!(fault instanceof Error) || kind === "link") throw fault;
+            ++count.refused;
+        }
+        const took = performance.now() - start;
+        const { arrayBuffers } = process.memoryUsage();
+        if (took > kLongest || arrayBuffers > kMost) throw new Error(`${name}: ${took} ms, ${arrayBuffers} bytes`);
+    }
+}
+console.log(JSON.stringify(counts));

@@ -1,0 +1,129 @@
+"""The clients' readers, given what a server never sends: they refuse it as their documents say, at no great cost."""
+
+import json
+import random
+import resource
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from harness import DEADLINE, SLOW
+from wire import connect
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "protocol/python"))
+from oval4d_client import from_cbor, png_state  # noqa: E402
+
+# States whose messages have all members: tints, hidden and faded cells, crossing faces, a density strip.
+STATES = [[], ["polytope 8-cell"], ["polytope 5,7-duoprism", "rotate xw 0.5", "hide 0", "fade 1"],
+          ["polytope 5/2,5-duoprism", "rotate xw,yz 0.3 0.1", "fade 0"], ["polytope 120-cell", "set slices=1"]]
+
+
+async def answers_of(server, lines, encoding):
+    """What a session answers in this state: a slices message and a frame, as they come."""
+    async with connect(server) as socket:
+        await socket.send(json.dumps({"type": "hello", "encoding": encoding}))
+        for line in lines:
+            await socket.send(json.dumps({"type": "command", "line": line}))
+        await socket.send(json.dumps({"type": "get", "id": 1, "what": "slices", "width": 640, "height": 360}))
+        await socket.send(json.dumps({"type": "get", "id": 2, "what": "frame", "width": 64, "height": 48}))
+        slices = frame = None
+        while slices is None or frame is None:
+            message = await socket.recv()
+            if isinstance(message, bytes) and message.startswith(b"\x89PNG"):
+                frame = message
+            elif isinstance(message, bytes) or '"slices","id":1' in message[:40]:
+                slices = message
+        return slices if isinstance(slices, bytes) else slices.encode(), frame
+
+
+@pytest.fixture(scope="module")
+def messages(tmp_path_factory):
+    """A folder for what the server says in each state, by its kind; the tests fill it once."""
+    return tmp_path_factory.mktemp("messages")
+
+
+async def fill(server, folder):
+    if any(folder.glob("*.cbor")):
+        return
+    for number, lines in enumerate(STATES):
+        cbor, frame = await answers_of(server, lines, "cbor")
+        text, _ = await answers_of(server, lines, "json")
+        for kind, data in (("cbor", cbor), ("json", text), ("png", frame)):
+            (folder / f"{number}.{kind}").write_bytes(data)
+    (folder / "query.link").write_text("?polytope=24-cell&rotate=xw,yz:pi/8,0.2&slices=31&view=%C3%B6&token=x%20y")
+
+
+def spoilt(data, chance):
+    """A copy with some bytes changed, cut out, put twice, or made large."""
+    out = bytearray(data)
+    for _ in range(1 + chance.randrange(4)):
+        at, some = chance.randrange(len(out) + 1), 1 + chance.randrange(16)
+        kind = chance.randrange(5)
+        if kind == 0:
+            out[at:at + 1] = bytes([chance.randrange(256)])
+        elif kind == 1:
+            out[at:at + 1] = bytes(byte ^ 1 << chance.randrange(8) for byte in out[at:at + 1])
+        elif kind == 2:
+            del out[at:at + some]
+        elif kind == 3:
+            out[at:at] = out[at:at + some]
+        else:
+            out[at:at + some] = b"\xff" * len(out[at:at + some])
+        if chance.randrange(16) == 0:
+            del out[at:]
+    return bytes(out)
+
+
+async def test_python_reads_a_message_or_says_it_is_none(server, messages):
+    await fill(server, messages)
+    chance = random.Random(11)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    for read, kind in ((from_cbor, "cbor"), (png_state, "png")):
+        refused = 0
+        for file in sorted(messages.glob(f"*.{kind}")):
+            whole = file.read_bytes()
+            assert read(whole)["revision"] == len(STATES[int(file.stem)])
+            for _ in range(600):
+                data = spoilt(whole, chance)
+                start = time.monotonic()
+                try:
+                    assert isinstance(read(data), dict)
+                except ValueError:
+                    refused += 1
+                assert time.monotonic() - start < 2 * SLOW
+        assert refused > 100, f"of {kind}, hardly any was refused"
+    grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+    assert grown < 300_000, f"reading took {grown} KiB"
+
+
+@pytest.mark.parametrize("data", [b"", b"\x89PNG\r\n\x1a\n", b"\x81" * 100_000, b"\xa1" * 1000,
+                                  b"\x9b" + b"\x7f" * 8, b"\xbb" + b"\x7f" * 8, b"\x5b" + b"\x7f" * 8, b"\xd8\x55\x43abc",
+                                  b"\xc4\x82\x1b" + b"\x7f" * 8 + b"\x01", b"\xa1\x66slices\xa0",
+                                  b"\xa1\x66slices\xa1\x66counts\xf6"])
+def test_python_refuses_by_one_exception(data):
+    for read in (from_cbor, png_state):
+        with pytest.raises(ValueError):
+            read(data)
+    text = b"[" * 50_000
+    with pytest.raises(ValueError):  # deeper than a reader's stack
+        png_state(b"\x89PNG\r\n\x1a\n" + len(text + b"oval4d" + bytes(5)).to_bytes(4, "big") + b"iTXtoval4d" + bytes(5) + text + bytes(4))
+
+
+async def test_typescript_reads_a_message_or_throws_an_error(server, messages):
+    await fill(server, messages)
+    modules = ROOT / "web_client/node_modules"
+    entry = messages / "readers.ts"
+    entry.write_text("".join(f'export * from "{ROOT / file}";\n' for file in
+                             ("protocol/ts/arena.ts", "protocol/ts/decode.ts", "web_client/src/link.ts")))
+    subprocess.run([modules / ".bin/esbuild", entry, "--bundle", "--format=esm", "--log-level=error",
+                    f"--alias:@oval4d/protocol={ROOT}/protocol/ts/index.ts", f"--outfile={messages}/readers.mjs"],
+                   check=True, env={"NODE_PATH": str(modules), "PATH": "/usr/bin:/bin:/usr/local/bin"})
+    done = subprocess.run(["node", "--max-old-space-size=256", ROOT / "tests/service/spoil.mjs", messages, "7"],
+                          capture_output=True, text=True, timeout=6 * DEADLINE)
+    assert done.returncode == 0, done.stderr
+    counts = json.loads(done.stdout)
+    assert set(counts) == {"cbor", "json", "png", "link"}
+    assert counts["cbor"]["refused"] > 200 and counts["json"]["refused"] > 200 and counts["link"]["refused"] == 0

@@ -1,0 +1,127 @@
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "contract/embedded.hpp"
+#include "polytopes/import/import.hpp"
+#include "unit/export/support.hpp"
+
+namespace {
+
+using namespace oval4d;
+using namespace oval4d::support;
+using namespace oval4d::exports;
+using namespace oval4d::geometry;
+using namespace oval4d::polytopes;
+using namespace oval4d::slicing;
+
+TEST(Formats, areThoseOfTheTable) {
+    const auto rows = nlohmann::json::parse(contract::embedded("export_formats.json")).at("formats");
+    ASSERT_EQ(formats().size(), rows.size());
+    std::set<std::string_view> names;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Format& format = formats()[i];
+        SCOPED_TRACE(format.name);
+        EXPECT_EQ(format.name, rows[i].at("name").get<std::string>());
+        EXPECT_EQ(format.mediaType, rows[i].at("media_type").get<std::string>());
+        EXPECT_EQ(formatNamed(format.name), &format);
+        EXPECT_EQ(formatNames()[i], format.name);
+        EXPECT_TRUE(names.insert(format.name).second);
+        const std::string bodies = rows[i].value("bodies", "");
+        EXPECT_EQ(format.arrangement, bodies == "plate"  ? Format::Arrangement::plate
+                                      : bodies == "oval" ? Format::Arrangement::oval
+                                                         : Format::Arrangement::none);
+        EXPECT_EQ(format.writeBodies != nullptr, !bodies.empty());
+        EXPECT_EQ(format.writeSource != nullptr, bodies.empty());
+    }
+    EXPECT_EQ(formatNamed("STL"), nullptr);
+    EXPECT_EQ(formatNamed(""), nullptr);
+}
+
+TEST(Formats, areAllWritten) {
+    for (const Format& format : formats()) {
+        for (const Extent extent : {Extent::focus, Extent::oval}) {
+            const Hyperplanes planes = extent == Extent::focus ? Hyperplanes{0, 1, 0.5} : Hyperplanes{-2, 5, 0.5};
+            const std::string bytes = fileOf(named("24-cell"), {}, planes, {.format = &format, .extent = extent});
+            EXPECT_GT(bytes.size(), 100U) << format.name;
+            EXPECT_FALSE(bytes.starts_with("refused")) << bytes;
+        }
+    }
+}
+
+std::vector<double> numbersIn(const std::string& row) {
+    std::vector<double> numbers;
+    std::istringstream in(row);
+    for (std::string cell; std::getline(in, cell, ',');) numbers.push_back(cell.empty() ? NAN : std::stod(cell));
+    return numbers;
+}
+
+TEST(Csv, hasARowForEachSliceAndEachLevel) {
+    const Polytope& p = named("8-cell");
+    std::istringstream in(fileOf(p, {}, {-2, 5, 1}, {.format = formatNamed("csv"), .extent = Extent::oval}));
+    std::string line;
+    std::getline(in, line);
+    EXPECT_EQ(line, "n,w,vertices,edges,faces,volume,area,centroid_x,centroid_y,centroid_z");
+    for (int n = -2; n <= 2; ++n) {
+        std::getline(in, line);
+        if (std::abs(n) == 2) {
+            EXPECT_EQ(line, std::to_string(n) + "," + std::to_string(n) + ",0,0,0,0,0,,,");
+            continue;
+        }
+        const std::vector<double> expected{double(n), double(n), 8, 12, 6, 8, 24, 0, 0, 0};
+        const auto numbers = numbersIn(line);
+        ASSERT_EQ(numbers.size(), expected.size());
+        for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(numbers[i], expected[i], 1e-12);
+    }
+    std::getline(in, line);
+    EXPECT_EQ(line, "");
+    std::getline(in, line);
+    EXPECT_EQ(line, "critical_w,vertices");
+    for (const double level : {-1.0, 1.0}) {
+        std::getline(in, line);
+        const auto numbers = numbersIn(line);
+        ASSERT_EQ(numbers.size(), 2U);
+        EXPECT_NEAR(numbers[0], level, 1e-12);
+        EXPECT_EQ(numbers[1], 8);
+    }
+    EXPECT_FALSE(std::getline(in, line));
+}
+
+TEST(Off, isReadAgainAsTheSamePolytope) {
+    std::mt19937 random(7);
+    for (const char* name : {"5-cell", "24-cell", "600-cell"}) {
+        const Polytope& p = named(name);
+        const Rotation turned = randomRotation(random);
+        const std::string text = fileOf(p, turned, {0, 1, 1}, {.format = formatNamed("off")});
+        const auto read = importPolytope(FileFormat::off4, text, "again", {});
+        ASSERT_TRUE(std::holds_alternative<Imported>(read)) << std::get<ImportError>(read).reason;
+        EXPECT_TRUE(std::get<Imported>(read).warnings.empty());
+        const Polytope& again = std::get<Imported>(read).polytope;
+        EXPECT_EQ(again.faces, p.faces);
+        EXPECT_EQ(again.cells, p.cells);
+        EXPECT_EQ(again.edges.size(), p.edges.size());
+        for (std::size_t v = 0; v < p.vertices.size(); ++v) {
+            EXPECT_NEAR(glm::distance(again.vertices[v], turned(p.vertices[v])), 0, 1e-14);
+        }
+    }
+}
+
+TEST(Svg, drawsEachCoordinateOfEachVertex) {
+    const Polytope& p = named("24-cell");
+    const std::string text = fileOf(p, {}, {0, 1, 1}, {.format = formatNamed("svg")});
+    std::size_t lines = 0;
+    for (auto at = text.find("<line"); at != std::string::npos; at = text.find("<line", at + 1)) ++lines;
+    EXPECT_EQ(lines, 1 + 4 * p.vertices.size());
+}
+
+TEST(Svg, drawsTheDensityOfManyVertices) {
+    const std::string text = fileOf(named("120-cell"), {}, {0, 1, 1}, {.format = formatNamed("svg")});
+    EXPECT_NE(text.find("id=\"density\""), std::string::npos);
+    std::size_t lines = 0;
+    for (auto at = text.find("<line "); at != std::string::npos; at = text.find("<line ", at + 1)) ++lines;
+    EXPECT_EQ(lines, 4U) << "the axes";
+}
+
+}  // namespace

@@ -1,0 +1,148 @@
+#pragma once
+// What the tests of exported bodies share: a check of meshes of their own, and subjects to export.
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "export/export.hpp"
+#include "export/mesh/mesh.hpp"
+#include "scene/composer.hpp"
+#include "unit/slicing/support.hpp"
+
+namespace oval4d::support {
+
+using namespace exports;
+
+using Key = std::tuple<float, float, float>;
+
+/// As a program that knows nothing but the coordinates, in float32: every edge lies in two triangles, once each way,
+/// the triangles around every point are one ring, and the volume is positive.
+inline void expectPrintable(const Mesh& mesh) {
+    ASSERT_FALSE(mesh.triangles.empty());
+    ASSERT_EQ(mesh.cells.size(), mesh.triangles.size());
+    std::map<Key, std::uint32_t> points;
+    std::vector<std::uint32_t> same;
+    for (const auto& p : mesh.points) {
+        const Key key{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+        same.push_back(points.try_emplace(key, points.size()).first->second);
+    }
+    // Each edge is there once in each direction, and what is around a point is one ring.
+    const auto edge = [](std::uint32_t from, std::uint32_t to) { return (std::uint64_t{from} << 32U) | to; };
+    std::unordered_map<std::uint64_t, std::uint32_t> next;  // from a point's neighbor to the one beside it
+    next.reserve(3 * mesh.triangles.size());
+    std::vector<std::size_t> sides(points.size());
+    std::vector<std::uint32_t> neighbor(points.size());
+    for (const auto& t : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            const auto a = same[t[i]];
+            const auto b = same[t[(i + 1) % 3]];
+            ASSERT_NE(a, b);
+            ASSERT_TRUE(next.try_emplace(edge(a, b), same[t[(i + 2) % 3]]).second);
+            ++sides[a];
+            neighbor[a] = b;
+        }
+    }
+    for (const auto& t : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) ASSERT_TRUE(next.contains(edge(same[t[(i + 1) % 3]], same[t[i]])));
+    }
+    for (std::uint32_t a = 0; a < points.size(); ++a) {
+        if (sides[a] == 0) continue;
+        std::size_t steps = 1;
+        for (auto b = next.at(edge(a, neighbor[a])); b != neighbor[a]; b = next.at(edge(a, b))) {
+            ASSERT_LE(++steps, sides[a]);
+        }
+        ASSERT_EQ(steps, sides[a]);
+    }
+    double volume = 0;
+    for (const auto& t : mesh.triangles) {
+        volume += glm::dot(mesh.points[t[0]], glm::cross(mesh.points[t[1]], mesh.points[t[2]])) / 6;
+    }
+    ASSERT_GT(volume, 0);
+    ASSERT_NEAR(volume, volumeOf(mesh), 1e-9 * std::abs(volume));
+}
+
+inline const Budget& unhurried() {
+    static const Budget kBudget({100'000'000, std::numeric_limits<std::size_t>::max(), std::chrono::hours(1)}, {});
+    return kBudget;
+}
+
+inline const Polygon kSquare{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+inline const Polygon kDented{{-2, -2}, {2, -2}, {2, 0}, {0.5, 0}, {0.5, 1.5}, {-0.5, 1.5}, {-0.5, 0}, {-2, 0}};
+inline constexpr double kDentedArea = 4 * 2 + 1 * 1.5;
+
+inline Polygon pentagram() {
+    Polygon star;
+    for (int i = 0; i < 5; ++i)
+        star.emplace_back(std::cos(4 * i * std::numbers::pi / 5), std::sin(4 * i * std::numbers::pi / 5));
+    return star;
+}
+/// Of all that a pentagram of circumradius 1 winds around: ten triangles from its middle, between a point of the star
+/// at distance 1 and an inner corner at distance φ⁻², 36° apart.
+inline const double kPentagramArea =
+    10 * 0.5 * std::sin(std::numbers::pi / 5) / (std::numbers::phi * std::numbers::phi);
+
+/// Composes the scene of slices of a polytope. It refers to `slices`.
+inline scene::Scene composed(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
+                             const slicing::SliceSet& slices) {
+    scene::Scene scene;
+    scene::Composer composer;
+    composer.limitFill(0);
+    const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
+    composer.compose(objectOf(polytope), orientation, slices, focus, {}, {}, scene);
+    return scene;
+}
+
+/// Cuts a polytope and exports its slices.
+inline std::variant<std::string, Refusal> exported(const polytopes::Polytope& polytope,
+                                                   const geometry::Rotation& orientation,
+                                                   const geometry::Hyperplanes& planes, const ExportRequest& request,
+                                                   const Limits& limits = {}, std::stop_token stop = {}) {
+    slicing::SliceSet slices;
+    slicing::PolytopeSlicer().slice(polytope, orientation, planes, slices);
+    return exports::fileOf(composed(polytope, orientation, slices), objectOf(polytope), request, limits,
+                           std::move(stop));
+}
+
+/// Returns the bytes of the file, or "refused: " and the reason.
+inline std::string fileOf(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
+                          const geometry::Hyperplanes& planes, const ExportRequest& request,
+                          const Limits& limits = {}) {
+    auto made = exported(polytope, orientation, planes, request, limits);
+    if (auto* refusal = std::get_if<Refusal>(&made)) return "refused: " + refusal->message;
+    return std::get<std::string>(std::move(made));
+}
+
+/// Two polytopes as one, the second moved.
+inline polytopes::Polytope compound(const polytopes::Polytope& a, const polytopes::Polytope& b, const glm::dvec4& by) {
+    std::vector<glm::dvec4> vertices = a.vertices;
+    for (const auto& v : b.vertices) vertices.push_back(v + by);
+    geometry::JaggedArray faces = a.faces;
+    geometry::JaggedArray cells = a.cells;
+    const auto append = [](geometry::JaggedArray& into, const geometry::JaggedArray& from, std::size_t shift) {
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            std::vector<std::uint32_t> list(from[i].begin(), from[i].end());
+            for (auto& item : list) item += static_cast<std::uint32_t>(shift);
+            into.add(list);
+        }
+    };
+    append(faces, b.faces, a.vertices.size());
+    append(cells, b.cells, a.faces.size());
+    return polytopes::makePolytope("compound", std::move(vertices), std::move(faces), std::move(cells));
+}
+
+}  // namespace oval4d::support

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include "geometry/rotation.hpp"
+
+namespace {
+
+using namespace oval4d;
+using namespace oval4d::geometry;
+using std::numbers::pi;
+
+double difference(const glm::dmat4& a, const glm::dmat4& b) {
+    double worst = 0;
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 4; ++r) worst = std::max(worst, std::abs(a[c][r] - b[c][r]));
+    }
+    return worst;
+}
+
+// The matrix of R_ab(θ) by its definition: a' = a cos θ − b sin θ, b' = a sin θ + b cos θ.
+glm::dmat4 byDefinition(Plane plane, double angle) {
+    const auto axis = [](char letter) { return letter == 'w' ? 3 : letter - 'x'; };
+    const int a = axis(name(plane)[0]);
+    const int b = axis(name(plane)[1]);
+    glm::dmat4 m(1);
+    m[a][a] = m[b][b] = std::cos(angle);
+    m[b][a] = -std::sin(angle);
+    m[a][b] = std::sin(angle);
+    return m;
+}
+
+Turn randomTurn(std::mt19937& random, bool doubled) {
+    std::uniform_real_distribution<double> angle(-2 * pi, 2 * pi);
+    Turn turn{kPlanes.at(random() % 6), angle(random), std::nullopt};
+    if (doubled) turn.beta = angle(random);
+    return turn;
+}
+
+TEST(Rotation, turnsTheFirstAxisTowardTheSecond) {
+    for (const Plane plane : kPlanes) {
+        for (const double angle : {0.3, pi / 2, -1.7}) {
+            EXPECT_LT(difference(Rotation(Turn{plane, angle, {}}).matrix(), byDefinition(plane, angle)), 1e-15)
+                << name(plane);
+        }
+    }
+}
+
+TEST(Rotation, doubleRotationIsTheCommutingProductOfItsSimpleRotations) {
+    std::mt19937 random(1);
+    for (int i = 0; i < 200; ++i) {
+        const Turn turn = randomTurn(random, true);
+        const Rotation first(Turn{turn.plane, turn.alpha, {}});
+        const Rotation second(Turn{perpendicular(turn.plane), *turn.beta, {}});
+        EXPECT_LT(difference(Rotation(turn).matrix(), (first * second).matrix()), 1e-14);
+        EXPECT_LT(difference(Rotation(turn).matrix(), (second * first).matrix()), 1e-14);
+    }
+}
+
+TEST(Rotation, perpendicularPlanesShareNoAxis) {
+    for (const Plane plane : kPlanes) {
+        EXPECT_EQ(perpendicular(perpendicular(plane)), plane);
+        for (const char axis : name(plane)) EXPECT_EQ(name(perpendicular(plane)).find(axis), std::string_view::npos);
+        EXPECT_EQ(planeNamed(name(plane)), plane);
+    }
+    EXPECT_EQ(planeNamed("yx"), std::nullopt);
+}
+
+TEST(Rotation, composesExtrinsically) {
+    std::mt19937 random(2);
+    for (int i = 0; i < 200; ++i) {
+        const Rotation a(randomTurn(random, true));
+        const Rotation b(randomTurn(random, false));
+        EXPECT_LT(difference((b * a).matrix(), b.matrix() * a.matrix()), 1e-14);
+    }
+}
+
+TEST(Rotation, isUndoneByItsInverse) {
+    std::mt19937 random(3);
+    Rotation start;
+    for (int i = 0; i < 500; ++i) {
+        const Turn turn = randomTurn(random, i % 2 == 0);
+        start = Rotation(turn) * start;
+        const Rotation back = Rotation(turn.inverse()) * (Rotation(turn) * start);
+        EXPECT_LT(difference(back.matrix(), start.matrix()), 1e-12);
+        EXPECT_LT(difference((start.inverse() * start).matrix(), glm::dmat4(1)), 1e-14);
+    }
+}
+
+TEST(Rotation, doesNotDriftOverAMillionSteps) {
+    std::mt19937 random(4);
+    std::vector<Rotation> steps;
+    for (int i = 0; i < 64; ++i) steps.emplace_back(randomTurn(random, i % 3 == 0));
+    Rotation orientation;
+    std::vector<std::uint8_t> taken(1'000'000);
+    for (auto& step : taken) {
+        step = random() % steps.size();
+        orientation = steps[step] * orientation;
+    }
+    const glm::dmat4 m = orientation.matrix();
+    EXPECT_LT(difference(glm::transpose(m) * m, glm::dmat4(1)), 1e-12);
+    EXPECT_NEAR(glm::determinant(m), 1, 1e-12);
+}
+
+TEST(Rotation, isRecoveredFromItsMatrix) {
+    std::mt19937 random(5);
+    for (int i = 0; i < 500; ++i) {
+        const Rotation made = Rotation(randomTurn(random, true)) * Rotation(randomTurn(random, true));
+        const auto found = Rotation::fromMatrix(made.matrix());
+        ASSERT_TRUE(found);
+        EXPECT_LT(difference(found->matrix(), made.matrix()), 1e-14);
+    }
+    EXPECT_LT(difference(Rotation::fromMatrix(glm::dmat4(-1))->matrix(), glm::dmat4(-1)), 1e-15);
+}
+
+TEST(Rotation, isNotRecoveredFromOtherMatrices) {
+    glm::dmat4 reflection(1);
+    reflection[0][0] = -1;
+    glm::dmat4 skewed(1);
+    skewed[1][0] = 0.01;
+    glm::dmat4 broken(1);
+    broken[2][2] = std::nan("");
+    for (const auto& m : {reflection, skewed, broken, glm::dmat4(0), glm::dmat4(2)}) {
+        EXPECT_FALSE(Rotation::fromMatrix(m));
+    }
+}
+
+}  // namespace

@@ -1,0 +1,150 @@
+#include "net/clients.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <stdexcept>
+
+#include "net/live/session_ledger.hpp"
+
+namespace oval4d::net {
+namespace {
+
+using boost::asio::ip::make_address;
+using namespace std::chrono_literals;
+
+constexpr std::size_t kTotalBytes = 1000;
+
+TEST(Clients, AreIdentifiedByAddress) {
+    Clients clients({}, {}, kTotalBytes);
+    EXPECT_EQ(clients.at(make_address("192.0.2.1")), clients.at(make_address("::ffff:192.0.2.1")));
+    EXPECT_NE(clients.at(make_address("192.0.2.1")), clients.at(make_address("192.0.2.2")));
+    EXPECT_EQ(clients.at(make_address("2001:db8:1:2::1")), clients.at(make_address("2001:db8:1:2:ffff::9")));
+    EXPECT_NE(clients.at(make_address("2001:db8:1:2::1")), clients.at(make_address("2001:db8:1:3::1")));
+    EXPECT_EQ(clients.at(make_address("2001:db8:1:2::1"))->name(), "2001:db8:1:2::/64");
+    EXPECT_NE(clients.at(make_address("::1")), clients.at(make_address("::2")));
+}
+
+TEST(Clients, ForwardedForIsUsedOnlyFromTrustedProxies) {
+    const Clients clients({}, {"10.0.0.0/8", "2001:db8::1"}, kTotalBytes);
+    const auto proxy = make_address("10.1.2.3"), stranger = make_address("192.0.2.9");
+    const auto addressOf = [&](const char* forwarded, const auto& from) {
+        return clients.clientAddress(forwarded, from).to_string();
+    };
+    EXPECT_EQ(addressOf("198.51.100.7", proxy), "198.51.100.7");
+    EXPECT_EQ(addressOf("198.51.100.7", stranger), "192.0.2.9");
+    EXPECT_EQ(addressOf("1.1.1.1, 198.51.100.7,10.9.9.9", proxy), "198.51.100.7")
+        << "addresses that a client forged come first";
+    EXPECT_EQ(addressOf("10.9.9.9", proxy), "10.9.9.9");
+    EXPECT_EQ(addressOf("", proxy), "10.1.2.3");
+    EXPECT_EQ(addressOf("nonsense", proxy), "10.1.2.3");
+    EXPECT_EQ(addressOf("198.51.100.7, nonsense", proxy), "10.1.2.3");
+    EXPECT_EQ(addressOf("2001:db8::5", make_address("2001:db8::1")), "2001:db8::5");
+    EXPECT_TRUE(clients.isTrustedProxy(make_address("::ffff:10.0.0.1")));
+    EXPECT_FALSE(clients.isTrustedProxy(make_address("11.0.0.1")));
+}
+
+TEST(Network, RejectsMalformedText) {
+    for (const char* text : {"", "nobody", "10.0.0.0/33", "10.0.0.0/", "10.0.0.0/x", "::1/129", "10.0.0/8"}) {
+        EXPECT_THROW(Network{text}, std::invalid_argument) << text;
+    }
+    EXPECT_TRUE(Network("0.0.0.0/0").contains(make_address("203.0.113.1")));
+    EXPECT_FALSE(Network("0.0.0.0/0").contains(make_address("2001:db8::1")));
+    EXPECT_TRUE(Network("::/0").contains(make_address("203.0.113.1")));
+}
+
+TEST(Client, LimitsNewSessionsPerMinute) {
+    ByteBudget budget(kTotalBytes);
+    Client client("one", {.newSessions = 60}, budget, {});
+    const auto at = [](double seconds) {
+        return Client::Clock::time_point(std::chrono::duration_cast<Client::Clock::duration>(seconds * 1s));
+    };
+    int opened = 0;
+    for (int i = 0; i < 100; ++i) opened += client.tryOpenSession(at(0)) ? 1 : 0;
+    EXPECT_EQ(opened, 60);
+    EXPECT_FALSE(client.tryOpenSession(at(0.5)));
+    EXPECT_TRUE(client.tryOpenSession(at(1.5)));
+    EXPECT_FALSE(client.idle(at(1.5)));
+    EXPECT_TRUE(client.idle(at(100)));
+}
+
+TEST(Client, LimitsWrongTokensPerMinute) {
+    ByteBudget budget(kTotalBytes);
+    Client client("one", {.wrongTokens = 3}, budget, {});
+    const Client::Clock::time_point start{};
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_TRUE(client.mayTryToken(start));
+        client.countWrongToken(start);
+    }
+    for (int i = 0; i < 1000; ++i) client.countWrongToken(start);
+    EXPECT_FALSE(client.mayTryToken(start + 10s));
+    EXPECT_TRUE(client.mayTryToken(start + 21s)) << "further wrong tokens do not prolong the lockout";
+}
+
+TEST(Client, IsDelayedAboveItsMessageRate) {
+    ByteBudget budget(kTotalBytes);
+    Client client("one", {.requests = 100, .messageBytes = 1000}, budget, {});
+    const Client::Clock::time_point start{};
+    EXPECT_EQ(client.countMessage(1000, start).count(), 0);
+    EXPECT_DOUBLE_EQ(client.countMessage(500, start).count(), 0.5);
+    EXPECT_EQ(client.countMessage(0, start + 1s).count(), 0);
+    for (int i = 0; i < 97; ++i) client.countMessage(0, start + 1s);
+    EXPECT_LT(client.countMessage(0, start + 1s).count(), 0.011);
+    for (int i = 0; i < 100; ++i) client.countMessage(0, start + 1s);
+    EXPECT_NEAR(client.countMessage(0, start + 1s).count(), 1, 0.02);
+}
+
+TEST(ByteBudget, LimitsEachClientAndAllTogether) {
+    ByteBudget budget(100);
+    const auto one = std::make_shared<ByteBudget::Account>(budget, 60);
+    const auto other = std::make_shared<ByteBudget::Account>(budget, 60);
+    auto first = one->reserve(50);
+    ASSERT_TRUE(first);
+    EXPECT_FALSE(one->reserve(11)) << "above the limit of one client";
+    auto second = other->reserve(50);
+    ASSERT_TRUE(second);
+    EXPECT_FALSE(other->reserve(1)) << "above the limit of all clients";
+    first->resize(20);
+    EXPECT_EQ(one->held(), 20U);
+    EXPECT_TRUE(one->reserve(30)) << "resizing released bytes at once";
+    {
+        const auto moved = std::move(*second);
+        EXPECT_EQ(other->held(), 50U);
+    }
+    EXPECT_EQ(other->held(), 0U);
+    first.reset();
+    second.reset();
+    auto growing = one->forceReserve(10);
+    EXPECT_TRUE(growing.grow(60));
+    EXPECT_FALSE(growing.grow(61));
+    EXPECT_EQ(one->held(), 60U);
+    growing.resize(0);
+    const auto forced = one->forceReserve(1000);
+    EXPECT_EQ(budget.held(), 1000U);
+    EXPECT_FALSE(one->reserve(0));
+}
+
+TEST(SessionLedger, FindsTheOldestUnmodifiedSession) {
+    SessionLedger ledger(100s);
+    const SessionLedger::Clock::time_point start{};
+    const std::string one = "one", other = "other";
+    for (const char* id : {"a", "b", "c"}) ledger.open(id, one);
+    ledger.open("d", other);
+    EXPECT_EQ(ledger.count(one, start), 3U);
+    EXPECT_FALSE(ledger.oldestUnmodified(start)) << "all are open";
+    ledger.close("d", true, start);
+    ledger.close("b", false, start + 1s);
+    ledger.close("a", true, start + 2s);
+    EXPECT_EQ(ledger.oldestUnmodified(start + 2s), "d");
+    EXPECT_EQ(ledger.oldestUnmodified(start + 2s, &one), "a");
+    ledger.open("d", one);
+    EXPECT_EQ(ledger.oldestUnmodified(start + 2s), "a") << "d is open again";
+    EXPECT_EQ(ledger.count(other, start + 2s), 1U) << "and still belongs to the other client";
+    ledger.remove("a");
+    EXPECT_EQ(ledger.count(one, start + 2s), 2U);
+    EXPECT_EQ(ledger.count(one, start + 101s), 1U) << "b has expired";
+    EXPECT_EQ(ledger.count(one, start + 1000s), 1U) << "c is open";
+}
+
+}  // namespace
+}  // namespace oval4d::net

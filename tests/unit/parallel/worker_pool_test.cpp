@@ -1,0 +1,212 @@
+// Threads that carry out jobs.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "parallel/canceled.hpp"
+#include "parallel/worker_pool.hpp"
+
+namespace oval4d::parallel {
+namespace {
+
+using namespace std::chrono_literals;
+
+class WorkerPools : public testing::Test {
+  protected:
+    using Lane = WorkerPool::LanePtr;
+
+    static Lane lane() { return std::make_shared<WorkerPool::Lane>(std::make_shared<WorkerPool::Client>()); }
+
+    static void post(WorkerPool& pool, WorkerPool::Job job, const Lane& in, WorkerPool::Seconds cost = 1ms) {
+        EXPECT_TRUE(pool.post(std::move(job), in, cost));
+    }
+
+    static WorkerPool::Job busy(std::chrono::milliseconds time) {
+        return [time](std::size_t) { std::this_thread::sleep_for(time); };
+    }
+
+    /// A job that writes its name down.
+    WorkerPool::Job saying(std::string name) {
+        return [this, name](std::size_t) {
+            const std::lock_guard lock(mutex_);
+            said_.push_back(name);
+        };
+    }
+
+    /// Waits until all that was posted in these lanes before has been carried out.
+    static void drain(WorkerPool& pool, const std::vector<Lane>& lanes) {
+        for (const Lane& each : lanes) {
+            std::promise<void> done;
+            post(pool, [&done](std::size_t) { done.set_value(); }, each);
+            done.get_future().wait();
+        }
+    }
+
+    std::vector<std::string> said() {
+        const std::lock_guard lock(mutex_);
+        return said_;
+    }
+
+  private:
+    std::mutex mutex_;
+    std::vector<std::string> said_;
+};
+
+/// A worker that is kept busy until it is let go. The job holds what it needs: it may end after the gate.
+class Gate {
+  public:
+    WorkerPool::Job job() {
+        return [begun = begun_, opened = opened_](std::size_t) {
+            begun->set_value();
+            opened.wait();
+        };
+    }
+    void awaitBegun() { begun_->get_future().wait(); }
+    void open() { open_.set_value(); }
+
+  private:
+    const std::shared_ptr<std::promise<void>> begun_ = std::make_shared<std::promise<void>>();
+    std::promise<void> open_;
+    const std::shared_future<void> opened_ = open_.get_future().share();
+};
+
+TEST_F(WorkerPools, JobsAreCarriedOutInTurn) {
+    WorkerPool pool({.threads = 1});
+    const Lane greedy = lane(), modest = lane(), other = lane();
+    Gate gate;
+    post(pool, gate.job(), other);
+    gate.awaitBegun();
+    for (int i = 0; i < 3; ++i) post(pool, saying("greedy"), greedy, 5ms);
+    post(pool, saying("modest"), modest, 4ms);
+    gate.open();
+    drain(pool, {modest, greedy});
+    EXPECT_EQ(said(), (std::vector<std::string>{"modest", "greedy", "greedy", "greedy"}));
+}
+
+TEST_F(WorkerPools, EachWorkerHasANumberAndBeginsWithTheFirstJob) {
+    std::mutex mutex;
+    std::vector<std::size_t> begun;
+    WorkerPool pool({.threads = 2, .first = [&](std::size_t worker) {
+                         const std::lock_guard lock(mutex);
+                         begun.push_back(worker);
+                     }});
+    Gate one, two;
+    post(pool, one.job(), lane());
+    post(pool, two.job(), lane());
+    one.awaitBegun();
+    two.awaitBegun();  // both workers have a job
+    {
+        const std::lock_guard lock(mutex);
+        std::ranges::sort(begun);
+        EXPECT_EQ(begun, (std::vector<std::size_t>{0, 1}));
+    }
+    one.open();
+    two.open();
+}
+
+TEST_F(WorkerPools, CanceledJobsDoNoHarm) {
+    WorkerPool pool({.threads = 1});
+    const Lane each = lane();
+    post(pool, [](std::size_t) { throw Canceled(); }, each);
+    post(pool, saying("next"), each);
+    drain(pool, {each});
+    EXPECT_EQ(said(), std::vector<std::string>{"next"});
+}
+
+TEST_F(WorkerPools, LongJobsLeaveAWorkerToShortOnes) {
+    WorkerPool pool({.threads = 2});
+    const Lane one = lane(), two = lane(), quick = lane();
+    post(pool, saying("quick"), quick);
+    drain(pool, {quick});
+    Gate gate;
+    post(pool, gate.job(), one, 1s);
+    gate.awaitBegun();
+    post(pool, saying("long"), two, 1s);  // one worker is free, but kept
+    for (int i = 0; i < 5; ++i) {
+        post(pool, saying("quick"), quick);
+        drain(pool, {quick});
+    }
+    EXPECT_EQ(said(), std::vector<std::string>(6, "quick"));
+    gate.open();
+    while (said().size() < 7) std::this_thread::yield();
+    EXPECT_EQ(said().back(), "long");
+}
+
+TEST_F(WorkerPools, LongJobsUseAllWorkersWhenNobodyElseIsThere) {
+    WorkerPool pool({.threads = 2});
+    Gate first, second;
+    post(pool, first.job(), lane(), 200ms);
+    post(pool, second.job(), lane(), 200ms);
+    first.awaitBegun();
+    second.awaitBegun();  // both run at once, or this test does not end
+    first.open();
+    second.open();
+}
+
+/// A lane whose jobs take long is not taken at its word again.
+TEST_F(WorkerPools, LearnsHowLongJobsTake) {
+    WorkerPool pool({.threads = 2});
+    const Lane slow = lane(), other = lane(), quick = lane();
+    for (int i = 1; i <= 10; ++i) {
+        post(pool, busy(100ms), slow, 20ms);
+        while (pool.worked() < i * 100ms) std::this_thread::yield();
+    }
+    post(pool, saying("quick"), quick);
+    drain(pool, {quick});
+    Gate gate;
+    post(pool, gate.job(), other, 1s);
+    gate.awaitBegun();
+    post(pool, saying("slow"), slow, 20ms);
+    post(pool, saying("quick"), quick);
+    drain(pool, {quick});
+    EXPECT_EQ(said(), (std::vector<std::string>{"quick", "quick"}));
+    gate.open();
+    while (said().size() < 3) std::this_thread::yield();
+    EXPECT_EQ(said().back(), "slow");
+}
+
+TEST_F(WorkerPools, RefusesMoreThanMayWait) {
+    WorkerPool pool({.threads = 1, .limits = {3, 2}});
+    Gate gate;
+    post(pool, gate.job(), lane());
+    gate.awaitBegun();
+    const Lane greedy = lane(), others = lane();
+    post(pool, saying("greedy"), greedy);
+    post(pool, saying("greedy"), greedy);
+    EXPECT_FALSE(pool.post(saying("refused"), greedy, 1ms));
+    post(pool, saying("other"), others);
+    EXPECT_FALSE(pool.post(saying("refused"), others, 1ms));
+    gate.open();
+    while (pool.waiting() > 0) std::this_thread::yield();
+    post(pool, saying("other"), others);
+    drain(pool, {greedy, others});
+    EXPECT_EQ(said().size(), 4U);
+    EXPECT_EQ(std::ranges::count(said(), "refused"), 0);
+}
+
+TEST_F(WorkerPools, StopDropsWhatWaits) {
+    WorkerPool pool({.threads = 1});
+    Gate gate;
+    post(pool, gate.job(), nullptr);
+    gate.awaitBegun();
+    for (int i = 0; i < 5; ++i) post(pool, saying("dropped"), nullptr);
+    EXPECT_EQ(pool.waiting(), 5U);
+    std::thread stopping([&] { pool.stop(); });
+    while (!pool.stopToken().stop_requested()) std::this_thread::yield();
+    while (pool.waiting() > 0) std::this_thread::yield();
+    gate.open();
+    stopping.join();
+    post(pool, saying("too late"), nullptr);
+    EXPECT_TRUE(said().empty());
+}
+
+}  // namespace
+}  // namespace oval4d::parallel

@@ -1,0 +1,125 @@
+// Duals by polar reciprocity.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include "polytopes/catalogue/catalogue.hpp"
+#include "polytopes/construction/design.hpp"
+#include "polytopes/polytope.hpp"
+
+namespace oval4d::polytopes {
+namespace {
+
+constexpr std::size_t kMaxVertices = 100'000;
+
+Design designOfName(const std::string& name) {
+    const auto named = designNamed(name, kMaxVertices);
+    if (const auto* error = std::get_if<NameError>(&named)) throw std::runtime_error(name + ": " + error->message);
+    return std::get<Design>(named);
+}
+
+/// Whether each point has a partner in the other list, and the lists are equally long.
+void expectSamePoints(const std::vector<glm::dvec4>& one, const std::vector<glm::dvec4>& other, double tolerance) {
+    ASSERT_EQ(one.size(), other.size());
+    for (const glm::dvec4& p : one) {
+        const auto nearest = std::ranges::min(other, {}, [&](const glm::dvec4& q) { return glm::distance(p, q); });
+        EXPECT_LT(glm::distance(p, nearest), tolerance);
+    }
+}
+
+class DualOf : public testing::TestWithParam<const char*> {};
+
+TEST_P(DualOf, isItsPolarReciprocal) {
+    const Polytope base = build(designOfName(GetParam()));
+    const Design design = designOfName(std::string("dual of ") + GetParam());
+    const Polytope dual = build(design);
+    EXPECT_EQ(dual.name, design.name);
+    EXPECT_EQ(dual.vertices.size(), base.cells.size());
+    EXPECT_EQ(dual.edges.size(), base.faces.size());
+    EXPECT_EQ(dual.faces.size(), base.edges.size());
+    EXPECT_EQ(dual.cells.size(), base.vertices.size());
+    EXPECT_EQ(elementCounts(design).vertices, dual.vertices.size());
+    EXPECT_EQ(elementCounts(design).cells, dual.cells.size());
+    EXPECT_EQ(symmetryOrder(design), symmetryOrder(designOfName(GetParam())));
+    EXPECT_EQ(dual.convex, base.convex);
+    EXPECT_NEAR(dual.circumradius, base.circumradius, 1e-9 * base.circumradius);
+    // v · p is the same for all incident pairs of a vertex of the dual and a vertex of the base, and for convex
+    // polytopes smaller for all other pairs.
+    double squared = 0;
+    for (std::size_t c = 0; c < base.cells.size(); ++c) {
+        std::vector<bool> incident(base.vertices.size(), false);
+        for (const auto f : base.cells[c]) {
+            for (const auto v : base.faces[f]) incident[v] = true;
+        }
+        for (std::size_t v = 0; v < base.vertices.size(); ++v) {
+            const double product = glm::dot(dual.vertices[c], base.vertices[v]);
+            if (squared == 0 && incident[v]) squared = product;
+            if (incident[v]) {
+                EXPECT_NEAR(product, squared, 1e-9 * squared);
+            } else if (base.convex) {
+                EXPECT_LT(product, squared * (1 - 1e-6));
+            }
+        }
+    }
+}
+
+TEST_P(DualOf, hasTheBaseAsItsDual) {
+    const Design twice = designOfName(std::string("dual of dual of ") + GetParam());
+    EXPECT_EQ(twice.name, designOfName(GetParam()).name);
+}
+
+INSTANTIATE_TEST_SUITE_P(Uniform, DualOf,
+                         testing::Values("rectified 5-cell", "truncated tesseract", "bitruncated 16-cell",
+                                         "omnitruncated 5-cell", "rectified 24-cell", "snub 24-cell", "grand antiprism",
+                                         "5,7-duoprism", "3,3-duoprism", "truncated cubic prism",
+                                         "pentagonal antiprism prism", "rectified 600-cell"));
+
+TEST(Dual, ofTheDualIsThePolytopeItself) {
+    // A dual that is not recognized by its name: reciprocate the built dual once more.
+    const Polytope base = build(designOfName("truncated tesseract"));
+    const Polytope dual = build(designOfName("dual of truncated tesseract"));
+    std::vector<glm::dvec4> again;
+    const double squared = glm::dot(dual.vertices[0], base.vertices[base.faces[base.cells[0][0]][0]]);
+    for (std::size_t c = 0; c < dual.cells.size(); ++c) again.push_back(base.vertices[c]);
+    for (std::size_t c = 0; c < dual.cells.size(); ++c) {
+        for (const auto f : dual.cells[c]) {
+            for (const auto v : dual.faces[f]) {
+                EXPECT_NEAR(glm::dot(dual.vertices[v], again[c]), squared, 1e-9 * squared);
+            }
+        }
+    }
+    expectSamePoints(again, base.vertices, 1e-12);
+}
+
+TEST(Dual, ofARegularPolytopeIsRegular) {
+    for (const auto& [name, dual] : {std::pair{"5-cell", "5-cell"},
+                                     {"8-cell", "16-cell"},
+                                     {"16-cell", "8-cell"},
+                                     {"24-cell", "24-cell"},
+                                     {"120-cell", "600-cell"},
+                                     {"hexacosichoron", "120-cell"},
+                                     {"{5,5/2,5}", "great 120-cell"}}) {
+        EXPECT_EQ(designOfName(std::string("dual of ") + name).name, designOfName(dual).name) << name;
+    }
+    EXPECT_EQ(designOfName("Dual  Rectified 5-cell").name, "dual of rectified 5-cell");
+    EXPECT_EQ(findEntry("dual of 8-cell")->name, "16-cell");
+}
+
+TEST(Dual, ofSomethingUnknownIsUnknown) {
+    const auto unknown = designNamed("dual of teapot", kMaxVertices);
+    ASSERT_TRUE(std::holds_alternative<NameError>(unknown));
+    EXPECT_EQ(std::get<NameError>(unknown).message, "'teapot' is not the name of a polytope");
+    EXPECT_TRUE(std::holds_alternative<NameError>(designNamed("dual of", kMaxVertices)));
+    EXPECT_TRUE(std::holds_alternative<NameError>(designNamed("dual", kMaxVertices)));
+    const auto large = designNamed("dual of 400,400-duoprism", kMaxVertices);
+    ASSERT_TRUE(std::holds_alternative<NameError>(large));
+    EXPECT_EQ(std::get<NameError>(large).reason, NameError::Reason::too_large);
+}
+
+}  // namespace
+}  // namespace oval4d::polytopes

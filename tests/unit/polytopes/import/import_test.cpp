@@ -1,0 +1,401 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "polytopes/catalogue/catalogue.hpp"
+#include "polytopes/construction/coxeter.hpp"
+#include "polytopes/import/import.hpp"
+#include "unit/polytopes/import/import_support.hpp"
+
+namespace oval4d::polytopes {
+namespace {
+
+using support::asPoints;
+using support::countsOf;
+using support::importPoints;
+using support::kPentachoron;
+using support::named;
+using support::reasonOf;
+using support::Result;
+using support::sound;
+using support::turned;
+using support::warningsOf;
+
+// The text of a 4OFF file of a polytope.
+std::string asOff4(const Polytope& p, const std::string& end = "\n", int digits = 17) {
+    std::ostringstream out;
+    out.precision(digits);
+    out << "4OFF" << end << p.vertices.size() << ' ' << p.faces.size() << " 0 " << p.cells.size() << end;
+    for (const auto& v : p.vertices) out << v.x << ' ' << v.y << ' ' << v.z << ' ' << v.w << end;
+    for (const auto* lists : {&p.faces, &p.cells}) {
+        for (std::size_t i = 0; i < lists->size(); ++i) {
+            out << (*lists)[i].size();
+            for (const auto item : (*lists)[i]) out << ' ' << item;
+            out << end;
+        }
+    }
+    return out.str();
+}
+
+Result importOff4(std::string_view text, std::size_t maxVertices = 100'000) {
+    return importPolytope(FileFormat::off4, text, "p", {.maxVertices = maxVertices});
+}
+
+TEST(Import, KeepsCoordinatesUnchanged) {
+    const Polytope p = sound(importOff4(kPentachoron, 100)).polytope;
+    EXPECT_EQ(p.name, "p");
+    EXPECT_EQ(p.vertices.size(), 5U);
+    EXPECT_EQ(p.edges.size(), 10U);
+    EXPECT_EQ(p.faces.size(), 10U);
+    EXPECT_EQ(p.cells.size(), 5U);
+    EXPECT_EQ(p.vertices[0], glm::dvec4(1, 1, 1, -.4472136));
+    EXPECT_NEAR(p.circumradius, 4 / std::sqrt(5.0), 1e-6);
+}
+
+TEST(Import, ReadsRegularPolychoraBack) {
+    for (const auto& entry : catalogue().first(6)) {
+        const Polytope& original = named(entry.name);
+        for (const char* end : {"\n", "\r\n", " \t\r\n"}) {
+            const Polytope p = sound(importOff4(asOff4(original, end), 1000)).polytope;
+            EXPECT_EQ(p.vertices, original.vertices);
+            EXPECT_EQ(p.edges.size(), original.edges.size());
+            EXPECT_EQ(p.faces, original.faces);
+            EXPECT_EQ(p.cells, original.cells);
+        }
+        sound(importOff4(asOff4(original, "\n", 4), 1000));  // three decimals
+    }
+}
+
+struct UnsoundFile {
+    std::string find, replace, says;
+    std::size_t line;
+};
+class UnsoundFiles : public testing::TestWithParam<UnsoundFile> {};
+
+TEST_P(UnsoundFiles, AreRefusedWithTheLine) {
+    const UnsoundFile& c = GetParam();
+    std::string text = kPentachoron;
+    ASSERT_NE(text.find(c.find), std::string::npos);
+    text.replace(text.find(c.find), c.find.size(), c.replace);
+    const auto result = importOff4(text, 100);
+    const auto* error = std::get_if<ImportError>(&result);
+    ASSERT_TRUE(error);
+    EXPECT_NE(error->reason.find(c.says), std::string::npos) << error->reason;
+    EXPECT_EQ(error->line, c.line) << error->reason;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, UnsoundFiles,
+    testing::Values(UnsoundFile{"4OFF#", "OFF #", "must begin with 4OFF, not 'OFF'", 2},
+                    UnsoundFile{"5 10 7 5", "5 10 7", "the file has three counts, as in Geomview's", 3},
+                    UnsoundFile{"5 10 7 5", "5 10 -7 5", "'-7' is not a number of edges", 3},
+                    UnsoundFile{"5 10 7 5", "5 10 7 x", "'x' is not a number of cells", 3},
+                    UnsoundFile{"5 10 7 5", "5 4000000000 7 5", "the file is too short for its numbers", 3},
+                    UnsoundFile{"5 10 7 5", "500 10 7 5", "500 vertices are too many", 3},
+                    UnsoundFile{"5 10 7 5", "5 10 7 4", "follows the last cell", 24},
+                    UnsoundFile{"1e0", "one", "'one' is not a coordinate", 5},
+                    UnsoundFile{"1e0", "nan", "'nan' is not a coordinate", 5},
+                    UnsoundFile{"1e0", "inf", "'inf' is not a coordinate", 5},
+                    UnsoundFile{"1e0", "1e999", "'1e999' is not a coordinate", 5},
+                    UnsoundFile{"1e0", "1e15", "'1e15' is not a coordinate", 5},
+                    UnsoundFile{"3 0 1 2 ", "3 0 1 5 ", "2-face 0 refers to vertex 5, but the last is vertex 4", 10},
+                    UnsoundFile{"3 0 1 2 ", "3 0 1 1 ", "cell 0 has fewer than 4 2-faces", 20},
+                    UnsoundFile{"3 0 1 2 ", "2 0 1 2 ", "has 2 vertices; 3 to 10 are allowed", 10},
+                    UnsoundFile{"3 0 1 2 ", "3 0 -1 2 ", "'-1' is not the number of a vertex", 10},
+                    UnsoundFile{"4 0 1 3 6 ", "4 0 1 3 10 ", "cell 0 refers to 2-face 10, but the last is 2-face 9",
+                                20},
+                    UnsoundFile{"4 0 1 3 6 ", "3 0 1 3 6 ", "has 3 2-faces; 4 to 20 are allowed", 20},
+                    UnsoundFile{"4 6 7 8 9\n", "", "the file ends before cell 4", 24},
+                    UnsoundFile{"4 6 7 8 9\n", "4 6 7 8", "the file ends where the number of a 2-face is expected", 24},
+                    UnsoundFile{"4 6 7 8 9", "4 3 4 5 9", "2-face 3 lies in more than two cells", 13},
+                    UnsoundFile{"4 6 7 8 9", "4 6 7 8 8", "cell 4 lists one of its 2-faces twice", 24},
+                    UnsoundFile{"0 0 0 1.7888544", "0 0 0 -.4472136", "all vertices lie in one hyperplane", 0},
+                    UnsoundFile{"4 6 7 8 9", "4 6 7 8 5", "cell 4 does not lie in a hyperplane", 24}));
+
+TEST(Import, CellsMustLieInAHyperplaneAndFacesInAPlane) {
+    std::string text = asOff4(named("8-cell"));
+    const std::size_t at = text.find('\n', text.find("16 24")) + 1;
+    text.replace(at, text.find('\n', at) - at, "-1 -1 -1 -1.2");
+    const auto result = importOff4(text, 100);
+    const auto* error = std::get_if<ImportError>(&result);
+    ASSERT_TRUE(error);
+    EXPECT_NE(error->reason.find("is not flat"), std::string::npos) << error->reason;
+
+    // A cell with flat 2-faces that does not lie in a hyperplane: the triangles of two cells of the 5-cell as one cell.
+    std::string bent = kPentachoron;
+    bent.replace(bent.find("5 10 7 5"), 8, "5 10 7 4");
+    bent.replace(bent.find("4 0 1 3 6 255 0 0\n4 0 2 4 7"), 27, "6 1 3 6 2 4 7");
+    const auto other = importOff4(bent, 100);
+    error = std::get_if<ImportError>(&other);
+    ASSERT_TRUE(error);
+    EXPECT_NE(error->reason.find("cell 0 does not lie in a hyperplane"), std::string::npos) << error->reason;
+}
+
+TEST(Points, OfARegularPolytopeHaveItAsTheirHull) {
+    std::mt19937 random(11);
+    for (const char* name : {"5-cell", "8-cell", "16-cell", "24-cell", "120-cell", "600-cell"}) {
+        const auto& original = named(name);
+        for (const int digits : {17, 5}) {
+            auto points = turned(original, random);
+            std::shuffle(points.begin(), points.end(), random);
+            const Imported imported = sound(importPoints(asPoints(points, digits)));
+            EXPECT_EQ(countsOf(imported.polytope), countsOf(original)) << name << " with " << digits << " digits";
+            EXPECT_EQ(warningsOf(imported), "");
+            EXPECT_EQ(imported.polytope.cellTypes.size(), 1U) << name;
+        }
+    }
+}
+
+TEST(Points, InsideTheHullAreLeftOutWithAWarning) {
+    std::mt19937 random(12);
+    auto points = turned(named("24-cell"), random);
+    const std::size_t corners = points.size();
+    for (int i = 0; i < 30; ++i) points.push_back(0.3 * points[i % corners] + 0.3 * points[(i + 5) % corners]);
+    points.push_back(points[3]);
+    const Imported imported = sound(importPoints(asPoints(points)));
+    EXPECT_EQ(countsOf(imported.polytope), countsOf(named("24-cell")));
+    EXPECT_EQ(warningsOf(imported), "31 of 55 points are not hull vertices and were left out");
+}
+
+TEST(Points, AreReadFromTables) {
+    std::mt19937 random(13);
+    const auto points = turned(named("16-cell"), random);
+    for (const char* between : {",", ", ", ";", "\t"}) {
+        const std::string text = "# a comment\nx,y,z,w\n" + asPoints(points, 17, between);
+        EXPECT_EQ(sound(importPoints(text)).polytope.cellCount(), 16U);
+        EXPECT_EQ(formatOf(text), FileFormat::points);
+    }
+}
+
+// The cyclic polytope of n points on the moment curve has n(n − 3)/2 cells, all simplices, and every pair of its
+// vertices is an edge (Ziegler, Lectures on Polytopes, §0).
+TEST(Points, OnTheMomentCurveGiveTheCyclicPolytope) {
+    const auto curve = [](int n) {
+        std::vector<glm::dvec4> points;
+        for (int i = 0; i < n; ++i) {
+            // The trigonometric moment curve, whose convex hull is combinatorially the same.
+            const double t = 2 * std::numbers::pi * i / n;
+            points.emplace_back(std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t));
+        }
+        return asPoints(points);
+    };
+    const Polytope p = sound(importPoints(curve(40))).polytope;
+    EXPECT_EQ(p.cellCount(), 40U * 37 / 2);
+    EXPECT_EQ(p.edges.size(), 40U * 39 / 2);
+    const Result result = importPoints(curve(200), 10'000);
+    EXPECT_NE(reasonOf(result).find("more than 10000 cells"), std::string::npos) << reasonOf(result);
+    EXPECT_TRUE(std::get<ImportError>(result).tooLarge);
+}
+
+TEST(Points, ThatDoNotSpanFourDimensionsAreRefused) {
+    const auto refusal = [](std::string_view text) { return reasonOf(importPoints(text)); };
+    EXPECT_NE(refusal("").find("at least 5 points, not 0"), std::string::npos);
+    EXPECT_NE(refusal("1 2 3 4\n").find("at least 5 points, not 1"), std::string::npos);
+    EXPECT_NE(refusal("1 2 3 4\n1 2 3\n").find("a point has 3 coordinates"), std::string::npos);
+    EXPECT_NE(refusal("1 2 3 4\n1 2 3 4 5\n").find("'5' follows a point's four coordinates"), std::string::npos);
+    EXPECT_NE(refusal("1 2 3 4\n1 2 x 4\n").find("'x' is not a coordinate"), std::string::npos);
+    EXPECT_NE(refusal("0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n1 1 1 1\n2 1 1 1\n").find("lie in one hyperplane"),
+              std::string::npos);
+    EXPECT_EQ(std::get<ImportError>(importPoints("1 2 3 4\n\n1 2 3\n")).line, 3U);
+}
+
+// Repairs.
+
+/// Vertices, 2-faces and cells as lists, for writing unsound files.
+struct Lines {
+    std::vector<glm::dvec4> vertices;
+    std::vector<std::vector<std::uint32_t>> faces, cells;
+
+    explicit Lines(const Polytope& p) : vertices(p.vertices) {
+        for (std::size_t f = 0; f < p.faces.size(); ++f) faces.emplace_back(p.faces[f].begin(), p.faces[f].end());
+        for (std::size_t c = 0; c < p.cells.size(); ++c) cells.emplace_back(p.cells[c].begin(), p.cells[c].end());
+    }
+
+    /// Adds another polytope, translated by `by`.
+    void add(const Lines& other, const glm::dvec4& by = {}) {
+        const auto v0 = static_cast<std::uint32_t>(vertices.size());
+        const auto f0 = static_cast<std::uint32_t>(faces.size());
+        for (const auto& v : other.vertices) vertices.push_back(v + by);
+        for (auto face : other.faces) {
+            for (auto& v : face) v += v0;
+            faces.push_back(face);
+        }
+        for (auto cell : other.cells) {
+            for (auto& f : cell) f += f0;
+            cells.push_back(cell);
+        }
+    }
+
+    std::string text(int edges = 0) const {
+        std::ostringstream out;
+        out << "4OFF\n" << vertices.size() << ' ' << faces.size() << ' ' << edges << ' ' << cells.size() << '\n';
+        out << asPoints(vertices);
+        for (const auto* lists : {&faces, &cells}) {
+            for (const auto& list : *lists) {
+                out << list.size();
+                for (const auto item : list) out << ' ' << item;
+                out << '\n';
+            }
+        }
+        return out.str();
+    }
+};
+
+TEST(Repair, WarnsOfAWrongNumberOfEdges) {
+    const Imported imported = sound(importOff4(Lines(named("8-cell")).text(33)));
+    EXPECT_EQ(warningsOf(imported), "the file states 33 edges, but its 2-faces have 32");
+    EXPECT_EQ(warningsOf(sound(importOff4(Lines(named("8-cell")).text(32)))), "");
+}
+
+TEST(Repair, RemovesUnusedElements) {
+    Lines lines(named("5-cell"));
+    lines.vertices.insert(lines.vertices.begin(), {{9, 9, 9, 9}, {8, 9, 9, 9}});
+    for (auto& face : lines.faces) {
+        for (auto& v : face) v += 2;
+    }
+    lines.faces.push_back({0, 1, 2});
+    const Imported imported = sound(importOff4(lines.text()));
+    EXPECT_EQ(imported.polytope.vertices, named("5-cell").vertices);
+    EXPECT_EQ(imported.polytope.faces, named("5-cell").faces);
+    EXPECT_EQ(warningsOf(imported),
+              "1 2-face lies in no cell and was left out; 2 vertices lie on no 2-face and were left out");
+}
+
+// Some programs write separate vertices and 2-faces for every cell.
+TEST(Repair, MergesElementsGivenOncePerCell) {
+    for (const char* name : {"8-cell", "24-cell", "600-cell"}) {
+        const auto& original = named(name);
+        Lines lines(original);
+        lines.vertices.clear();
+        lines.faces.clear();
+        for (std::size_t c = 0; c < original.cellCount(); ++c) {
+            for (auto& f : lines.cells[c]) {
+                const auto loop = original.faces[f];
+                f = static_cast<std::uint32_t>(lines.faces.size());
+                auto& face = lines.faces.emplace_back();
+                for (const auto v : loop) {
+                    face.push_back(static_cast<std::uint32_t>(lines.vertices.size()));
+                    lines.vertices.push_back(original.vertices[v]);
+                }
+            }
+        }
+        const std::size_t doubled = lines.vertices.size() - original.vertices.size();
+        const Imported imported = sound(importOff4(lines.text()));
+        EXPECT_EQ(countsOf(imported.polytope), countsOf(original));
+        EXPECT_EQ(warningsOf(imported),
+                  std::to_string(doubled) + " vertices coincide with others and were merged with them; " +
+                      std::to_string(original.faces.size()) +
+                      " 2-faces are given once for each of the two cells, and the copies were merged");
+    }
+}
+
+TEST(Repair, RemovesRepeatedCornersFromFaces) {
+    Lines lines(named("8-cell"));
+    lines.faces[0].insert(lines.faces[0].begin() + 1, lines.faces[0][0]);
+    lines.faces[1].insert(lines.faces[1].end(), lines.faces[1].begin(), lines.faces[1].end());  // traversed twice
+    const Imported imported = sound(importOff4(lines.text()));
+    EXPECT_EQ(countsOf(imported.polytope), countsOf(named("8-cell")));
+}
+
+// The compound of three tesseracts inscribed in the 24-cell (compare Coxeter, Regular Polytopes, §8.2). Each of the 24
+// vertices belongs to two tesseracts and is given twice in the file.
+TEST(Repair, MergesTheVerticesOfACompound) {
+    const auto& cube = named("8-cell");
+    Lines lines(cube);
+    // An isoclinic rotation by 60 degrees maps the 24-cell to itself and each of its tesseracts to the next.
+    for (const double turns : {1.0, 2.0}) {
+        const double angle = turns * std::numbers::pi / 3;
+        const glm::dquat left(std::cos(angle), std::sin(angle) * glm::normalize(glm::dvec3(1, 1, 1)));
+        const geometry::Rotation rotation(left, glm::dquat(1, 0, 0, 0));
+        Lines other(cube);
+        for (auto& v : other.vertices) v = rotation(v);
+        lines.add(other);
+    }
+    const Imported imported = sound(importOff4(lines.text()));
+    EXPECT_EQ(countsOf(imported.polytope), (std::array<std::size_t, 4>{24, 96, 72, 24}));
+    EXPECT_EQ(warningsOf(imported), "24 vertices coincide with others and were merged with them");
+    // Each tesseract of edge 2 has hypervolume 16, and they overlap.
+    std::mt19937 random(14);
+    EXPECT_NEAR(support::hypervolumeBySlices(imported.polytope, support::randomRotation(random)), 48, 1e-6);
+}
+
+TEST(Repair, SplitsCellsOfSeveralPieces) {
+    const auto& cube = named("8-cell");
+    Lines lines(cube);
+    const glm::dvec4 center = support::centerOfCell(cube, 0);
+    const glm::dvec4 along = std::abs(center.x) > 0.5 ? glm::dvec4(0, 5, 0, 0) : glm::dvec4(5, 0, 0, 0);
+    lines.add(Lines(cube), along);
+    // Join cell 0 of both polytopes, which lie in one hyperplane.
+    lines.cells[0].insert(lines.cells[0].end(), lines.cells[8].begin(), lines.cells[8].end());
+    lines.cells.erase(lines.cells.begin() + 8);
+    const Imported imported = sound(importOff4(lines.text()));
+    EXPECT_EQ(countsOf(imported.polytope), (std::array<std::size_t, 4>{32, 64, 48, 16}));
+    EXPECT_EQ(warningsOf(imported), "1 cell consists of several pieces and was split into one cell for each piece");
+}
+
+TEST(Import, ReadsTheLargestUniformPolychoronBack) {
+    const Diagram diagram = Diagram::linear({5, 1}, {3, 1}, {3, 1}, {true, true, true, true});
+    const Polytope original = wythoff("omnitruncated 120-cell", diagram, mirrorsOf(diagram));
+    ASSERT_EQ(original.vertices.size(), 14'400U);
+    const Imported imported = sound(importOff4(Lines(original).text(28'800)));
+    EXPECT_EQ(countsOf(imported.polytope), countsOf(original));
+    EXPECT_EQ(imported.polytope.faces, original.faces);
+    EXPECT_EQ(warningsOf(imported), "");
+}
+
+TEST(Import, ReadsStarPolychoraBack) {
+    for (const auto& [p, q, r] :
+         {std::array<Branch, 3>{{{5, 2}, {5, 1}, {3, 1}}}, {{{5, 1}, {5, 2}, {5, 1}}}, {{{5, 2}, {3, 1}, {3, 1}}}}) {
+        const Diagram diagram = Diagram::linear(p, q, r, {true, false, false, false});
+        const Polytope original = wythoff("star", diagram, mirrorsOf(diagram));
+        const Imported imported = sound(importOff4(Lines(original).text()));
+        EXPECT_EQ(countsOf(imported.polytope), countsOf(original));
+        EXPECT_EQ(imported.polytope.convexFaces, original.convexFaces);
+        EXPECT_EQ(warningsOf(imported), "");
+    }
+}
+
+TEST(Import, SurvivesGarbage) {
+    std::mt19937 random(7);
+    const std::string good = asOff4(named("16-cell"));
+    const std::string alphabet = "0123456789 .-+e#\n\t4OFX\xff";
+    const auto pick = [&](std::size_t below) {
+        return std::uniform_int_distribution<std::size_t>(0, below - 1)(random);
+    };
+    for (int round = 0; round < 20'000; ++round) {
+        std::string text = good.substr(0, pick(8) == 0 ? pick(good.size()) : good.size());
+        for (std::size_t edits = pick(6); edits-- > 0 && !text.empty();) {
+            const std::size_t at = pick(text.size());
+            switch (pick(3)) {
+                case 0:
+                    text[at] = alphabet[pick(alphabet.size())];
+                    break;
+                case 1:
+                    text.insert(at, 1, alphabet[pick(alphabet.size())]);
+                    break;
+                default:
+                    text.erase(at, 1 + pick(20));
+                    break;
+            }
+        }
+        const auto result = importPolytope(formatOf(text), text, "p", {1000, 1000});
+        if (const auto* error = std::get_if<ImportError>(&result)) {
+            EXPECT_FALSE(error->reason.empty());
+        }
+    }
+    for (const char* text :
+         {"", "4OFF", "4OFF\n", "#", "4OFF 0 0 0 0", "4OFF 0 0 0 1", "4OFF\n1 0 0 0\n0 0 0 0\n",
+          "4OFF 4294967295 4294967295 4294967295 4294967295", "\xEF\xBB\xBF", "4OFF 5", "4OFF 5 5 5 5 5"}) {
+        const auto result = importOff4(text, ~std::size_t{0});
+        EXPECT_TRUE(std::holds_alternative<ImportError>(result)) << text;
+    }
+}
+
+}  // namespace
+}  // namespace oval4d::polytopes

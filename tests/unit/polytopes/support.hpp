@@ -1,0 +1,140 @@
+#pragma once
+// Helpers shared by tests: polytopes by name, polytopes made by hand, rotations.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <random>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "geometry/rotation.hpp"
+#include "polytopes/catalogue/catalogue.hpp"
+#include "polytopes/catalogue/polytope_cache.hpp"
+#include "polytopes/polytope.hpp"
+
+namespace oval4d::support {
+
+/// Returns the one cache of the test program.
+inline polytopes::PolytopeCache& cache() {
+    static polytopes::PolytopeCache kCache;
+    return kCache;
+}
+
+/// Returns the design of a name that the catalogue or the name grammar knows. Throws std::bad_variant_access for
+/// others.
+inline polytopes::Design designFor(std::string_view name) {
+    return std::get<polytopes::Design>(polytopes::designNamed(name, 1'000'000));
+}
+
+inline std::shared_ptr<const polytopes::Polytope> shared(std::string_view name) { return cache().get(designFor(name)); }
+
+/// Returns a polytope that is kept until the program ends.
+inline const polytopes::Polytope& named(std::string_view name) {
+    static std::map<std::string, std::shared_ptr<const polytopes::Polytope>, std::less<>> kept;
+    auto& polytope = kept[std::string(name)];
+    if (!polytope) polytope = shared(name);
+    return *polytope;
+}
+
+inline geometry::Rotation randomRotation(std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    const auto quaternion = [&] { return glm::dquat(normal(random), normal(random), normal(random), normal(random)); };
+    const glm::dquat left = quaternion();
+    return {left, quaternion()};
+}
+
+/// Returns a rotation that turns `direction` onto the +w axis.
+inline geometry::Rotation ontoW(const glm::dvec4& direction) {
+    return {glm::conjugate(glm::normalize(glm::dquat(direction.w, direction.x, direction.y, direction.z))),
+            glm::dquat(1, 0, 0, 0)};
+}
+
+using Polygon = std::vector<glm::dvec2>;
+
+/// Returns the Cartesian product of a polygon in xy and one in zw; its cells are prisms over the two polygons.
+inline polytopes::Polytope product(const Polygon& p, const Polygon& q) {
+    const auto n = static_cast<std::uint32_t>(p.size());
+    const auto m = static_cast<std::uint32_t>(q.size());
+    const auto vertex = [&](std::uint32_t i, std::uint32_t j) { return (i % n) * m + j % m; };
+    std::vector<glm::dvec4> vertices;
+    for (const auto& a : p) {
+        for (const auto& b : q) vertices.emplace_back(a, b);
+    }
+    geometry::JaggedArray faces;  // n·m squares, then m copies of p, then n copies of q
+    for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t j = 0; j < m; ++j) {
+            faces.add(std::array{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+        }
+    }
+    std::vector<std::uint32_t> loop;
+    for (std::uint32_t j = 0; j < m; ++j) {
+        loop.clear();
+        for (std::uint32_t i = 0; i < n; ++i) loop.push_back(vertex(i, j));
+        faces.add(loop);
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        loop.clear();
+        for (std::uint32_t j = 0; j < m; ++j) loop.push_back(vertex(i, j));
+        faces.add(loop);
+    }
+    geometry::JaggedArray cells;
+    for (std::uint32_t j = 0; j < m; ++j) {
+        loop = {n * m + j, n * m + (j + 1) % m};
+        for (std::uint32_t i = 0; i < n; ++i) loop.push_back(i * m + j);
+        cells.add(loop);
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        loop = {n * m + m + i, n * m + m + (i + 1) % n};
+        for (std::uint32_t j = 0; j < m; ++j) loop.push_back(i * m + j);
+        cells.add(loop);
+    }
+    return polytopes::makePolytope("product", std::move(vertices), std::move(faces), std::move(cells));
+}
+
+/// A 4OFF file of a 5-cell in handwritten style, with a wrong number of edges.
+inline constexpr const char* kPentachoron = R"(#before the header
+4OFF# the edges below are wrong on purpose
+5 10 7 5
++1 1 1 -.4472136 # glued comments, signs, few digits
+1e0 -1 -1 -.4472136 255 0 0
+-1 1 -1 -.4472136
+
+-1	-1 1 -.4472136   
+0 0 0 1.7888544
+3 0 1 2 0.5 0.5 0.5
+3 0 1 3 12 200 7 255
+3 0 1 4#
+3 0 2 3
+3 0 2 4
+3 0 3 4
+3 1 2 3
+3 1 2 4
+3 1 3 4
+3 2 3 4
+4 0 1 3 6 255 0 0
+4 0 2 4 7
+4 1 2 5 8
+4 3 4 5 9
+4 6 7 8 9
+# the end)";
+
+inline glm::dvec4 centerOfCell(const polytopes::Polytope& p, std::size_t cell) {
+    glm::dvec4 sum(0);
+    double count = 0;
+    for (const auto f : p.cells[cell]) {
+        for (const auto v : p.faces[f]) {
+            sum += p.vertices[v];
+            ++count;
+        }
+    }
+    return sum / count;
+}
+
+}  // namespace oval4d::support

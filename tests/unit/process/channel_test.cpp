@@ -1,0 +1,82 @@
+// Messages from one process to another.
+
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "process/channel.hpp"
+
+namespace oval4d::process {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::pair<int, int> socketPair() {
+    int sockets[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) throw std::runtime_error("no sockets");
+    return {sockets[0], sockets[1]};
+}
+
+Deadline soon() { return {Deadline::Clock::now() + 5ms, {}}; }
+
+TEST(Channel, KnowsWhenNobodyIsThere) {
+    const auto [here, there] = socketPair();
+    const Channel channel(here);
+    EXPECT_FALSE(channel.wait(soon()));
+    close(there);
+    EXPECT_TRUE(channel.wait(soon()));
+    MessageType type{};
+    std::string body;
+    EXPECT_EQ(channel.receive(type, body), Transfer::closed);
+    EXPECT_EQ(channel.send(MessageType::ready), Transfer::closed);
+}
+
+TEST(Channel, WaitsForNoneThatHangs) {
+    const auto [here, there] = socketPair();
+    const Channel channel(here), hanging(there);
+    MessageType type{};
+    std::string body;
+    EXPECT_EQ(channel.receive(type, body, nullptr, soon()), Transfer::timed_out);
+    // It reads nothing of what does not fit into the socket.
+    const std::string text(5'000'000, 'x');
+    EXPECT_EQ(channel.send(MessageType::object, text, Channel::kNoFile, soon()), Transfer::timed_out);
+    // It hangs amid a message: the other end has its head, and the first of its bytes.
+    EXPECT_EQ(hanging.receive(type, body, nullptr, soon()), Transfer::timed_out);
+    EXPECT_EQ(type, MessageType::object);
+}
+
+TEST(Channel, WaitsNoLongerWhenAskedToStop) {
+    const auto [here, there] = socketPair();
+    const Channel channel(here), hanging(there);
+    std::stop_source stop;
+    std::thread stopping([&] {
+        std::this_thread::sleep_for(20ms);
+        stop.request_stop();
+    });
+    MessageType type{};
+    std::string body;
+    EXPECT_EQ(channel.receive(type, body, nullptr, {Deadline::Clock::time_point::max(), stop.get_token()}),
+              Transfer::timed_out);
+    stopping.join();
+}
+
+TEST(Channel, MessagesThatAreTooLongAreRefused) {
+    const auto [here, there] = socketPair();
+    const Channel sender(here), receiver(there);
+    MessageType type{};
+    std::string body;
+    EXPECT_EQ(sender.send(MessageType::failed, "12345"), Transfer::complete);
+    EXPECT_EQ(receiver.receive(type, body, nullptr, {}, 5), Transfer::complete);
+    EXPECT_EQ(sender.send(MessageType::failed, "123456"), Transfer::complete);
+    EXPECT_THROW((void)receiver.receive(type, body, nullptr, {}, 5), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace oval4d::process

@@ -1,0 +1,43 @@
+// Orders from the server to a rasterizer process.
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "raster/rasterizer_messages.hpp"
+
+namespace oval4d::raster {
+namespace {
+
+TEST(RasterizerMessages, OrdersComeAsTheyWere) {
+    session::State state = session::initialState();
+    state.orientation = geometry::Rotation(geometry::Turn{geometry::Plane::xw, 0.3, 0.2});
+    state.slices = {31, 0.125, -2};
+    state.look.view = scene::View::single;
+    state.look.orbit = {0.5, 0.25, 2};
+    state.look.cellTypes = {{1, 3}, {2}};
+    std::string bytes;
+    encodeOrder(state, {640, 360}, {7, 8}, bytes);
+    Order order;
+    decodeOrder(bytes, order);
+    EXPECT_EQ(order.object, slicing::infoOf(state.object).serial);
+    EXPECT_EQ(order.state.orientation, state.orientation);
+    EXPECT_EQ(order.state.slices, state.slices);
+    EXPECT_EQ(order.state.look, state.look);
+    EXPECT_EQ(order.viewport, (scene::Viewport{640, 360}));
+    EXPECT_EQ(order.limits.fillSteps, 7U);
+    EXPECT_EQ(order.limits.objectBytes, 8U);
+}
+
+TEST(RasterizerMessages, BytesCutShortAreRefused) {
+    std::string bytes;
+    encodeOrder(session::initialState(), {640, 360}, {}, bytes);
+    Order order;
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+        EXPECT_THROW(decodeOrder(std::string_view(bytes).substr(0, size), order), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace oval4d::raster

@@ -1,0 +1,118 @@
+// Colors of cells, and the visibility of elements if cell types are hidden or faded.
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "scene/composer.hpp"
+#include "unit/slicing/support.hpp"
+
+namespace {
+
+using namespace oval4d;
+using scene::Color;
+using scene::Coloring;
+using slicing::Visibility;
+using support::named;
+using support::objectOf;
+
+std::vector<Color> painted(const polytopes::Polytope& polytope, Coloring coloring,
+                           const geometry::Rotation& orientation = {}) {
+    std::vector<Color> colors;
+    scene::CellColors().paint(objectOf(polytope), coloring, orientation, colors);
+    return colors;
+}
+
+int red(Color color) { return static_cast<int>(color >> 16 & 255); }
+int blue(Color color) { return static_cast<int>(color & 255); }
+
+TEST(CellColors, AreDistinctWhereCellsAreFewAndStable) {
+    for (const char* name : {"5-cell", "8-cell", "16-cell", "24-cell"}) {
+        const auto colors = painted(named(name), Coloring::cell);
+        EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), named(name).cells.size());
+        EXPECT_EQ(colors, painted(named(name), Coloring::cell));
+    }
+    EXPECT_EQ(painted(named("600-cell"), Coloring::cell).size(), 600U);
+}
+
+TEST(CellColors, ByCellTypeAreOneForEachType) {
+    const auto polytope = support::rectifiedFiveCell();
+    const auto colors = painted(polytope, Coloring::cell_type);
+    std::set<std::pair<std::uint32_t, Color>> pairs;
+    for (std::size_t c = 0; c < colors.size(); ++c) pairs.emplace(polytope.typeOfCell[c], colors[c]);
+    ASSERT_EQ(pairs.size(), 2U);
+    EXPECT_NE(pairs.begin()->second, pairs.rbegin()->second);
+    EXPECT_EQ(scene::cellTypeColor(0, 2), pairs.begin()->second);
+    EXPECT_EQ(scene::cellTypeColor(1, 2), pairs.rbegin()->second);
+}
+
+TEST(CellColors, PlainIsOne) {
+    const auto colors = painted(named("24-cell"), Coloring::plain);
+    EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), 1U);
+}
+
+TEST(CellColors, ByWRunFromBlueToAmberAsThePolytopeIsTurned) {
+    const auto& polytope = named("8-cell");  // one cell at w = −1, one at w = 1, six at 0
+    scene::CellColors cellColors;
+    std::vector<Color> colors;
+    for (const double turned : {0.0, std::numbers::pi}) {
+        const geometry::Rotation orientation(geometry::Turn{geometry::Plane::xw, turned, {}});
+        cellColors.paint(objectOf(polytope), Coloring::w, orientation, colors);
+        for (std::size_t c = 0; c < colors.size(); ++c) {
+            double w = 0;
+            for (const auto f : polytope.cells[c]) {
+                for (const auto v : polytope.faces[f]) w += orientation(polytope.vertices[v]).w / 24;
+            }
+            const int warmth = red(colors[c]) - blue(colors[c]);
+            if (w > 0.5) {
+                EXPECT_GT(warmth, 90);
+            } else if (w < -0.5) {
+                EXPECT_LT(warmth, -90);
+            } else {
+                EXPECT_LT(std::abs(warmth), 15);
+            }
+        }
+    }
+}
+
+TEST(CellColors, FollowThePolytopeAndTheColoring) {
+    scene::CellColors cellColors;
+    std::vector<Color> colors;
+    for (const char* name : {"16-cell", "5-cell", "16-cell"}) {
+        for (const Coloring coloring : {Coloring::cell, Coloring::w, Coloring::cell_type, Coloring::plain}) {
+            cellColors.paint(objectOf(named(name)), coloring, {}, colors);
+            EXPECT_EQ(colors, painted(named(name), coloring)) << name;
+        }
+    }
+}
+
+TEST(Visibilities, FollowTheLook) {
+    const auto polytope = support::rectifiedFiveCell();
+    scene::Composer composer;
+    scene::Scene s;
+    scene::Look look;
+    slicing::SliceSet slices;
+    const auto compose = [&](const polytopes::Polytope& p) {
+        slicing::PolytopeSlicer().slice(p, {}, {-1, 3, 1}, slices);
+        composer.compose(objectOf(p), {}, slices, 0, look, {}, s);
+    };
+    compose(polytope);
+    EXPECT_TRUE(s.visibilities.all());
+    look.cellTypes = {{1}, {}};
+    compose(polytope);
+    EXPECT_FALSE(s.visibilities.all());
+    look.cellTypes = {{1}, {0}};
+    compose(polytope);
+    for (std::uint32_t c = 0; c < polytope.cells.size(); ++c)
+        EXPECT_EQ(s.visibilities.face(c), polytope.typeOfCell[c] == 1 ? Visibility::hidden : Visibility::faded);
+    look.cellTypes = {};
+    compose(named("5-cell"));
+    EXPECT_TRUE(s.visibilities.all());
+    look.cellTypes = {{0}, {}};
+    compose(named("5-cell"));
+    EXPECT_EQ(s.visibilities.face(4), Visibility::hidden);
+}
+
+}  // namespace

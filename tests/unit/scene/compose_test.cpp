@@ -1,0 +1,176 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include "scene/composer.hpp"
+#include "unit/slicing/support.hpp"
+
+namespace {
+
+using namespace oval4d;
+using scene::Scene;
+using support::named;
+
+/// Composes a scene without its slices.
+Scene composed(std::string_view name, int count = 21, scene::Viewport viewport = {}, scene::Look look = {},
+               int focus = 0) {
+    const auto& p = named(name);
+    slicing::SliceSet slices;
+    slicing::PolytopeSlicer().slice(
+        p, {}, {focus - (count - 1) / 2, count, 2 * p.circumradius / (count == 1 ? 2 : count - 1)}, slices);
+    Scene s;
+    scene::Composer().compose(support::objectOf(p), {}, slices, focus, look, viewport, s);
+    s.slices = &slicing::kNoSlices;
+    return s;
+}
+
+/// Pixel coordinates from the upper left corner.
+glm::dvec2 project(const Scene& s, const glm::dvec3& world) {
+    const double aspect = double(s.viewport.width) / s.viewport.height;
+    const glm::dvec4 clip = s.camera.projection(aspect) * s.camera.view() * glm::dvec4(world, 1);
+    return {(clip.x / clip.w + 1) / 2 * s.viewport.width, (1 - clip.y / clip.w) / 2 * s.viewport.height};
+}
+
+TEST(Oval, standsOnAParabolaWithTheFocusInTheMiddle) {
+    const Scene s = composed("24-cell");
+    const auto& focus = s.placements[10];
+    EXPECT_TRUE(focus.focus);
+    EXPECT_EQ(focus.position, glm::dvec3(0));
+    const double a = s.placements[11].position.x;
+    const double b = -s.placements[11].position.z;
+    EXPECT_GT(a, 0);
+    EXPECT_GT(b, 0);
+    for (int i = 0; i < 21; ++i) {
+        const int n = i - 10;
+        EXPECT_EQ(s.placements[i].index, n);
+        EXPECT_NEAR(s.placements[i].position.x, a * n, 1e-9);
+        EXPECT_NEAR(s.placements[i].position.z, -b * n * n, 1e-9);
+        EXPECT_NEAR(s.placements[i].w, n * named("24-cell").circumradius / 10, 1e-12);
+    }
+}
+
+TEST(Oval, keepsEverySliceInSightAndClearOfTheCoordinates) {
+    for (const scene::Viewport viewport :
+         {scene::Viewport{1280, 720}, {1920, 1080}, {640, 640}, {375, 667}, {3000, 800}}) {
+        for (const char* name : {"5-cell", "120-cell"}) {
+            for (const int count : {1, 5, 21, 61}) {
+                const Scene s = composed(name, count, viewport);
+                const double strip = (s.coordinates.zero + s.coordinates.amplitude) * viewport.height;
+                for (const auto& placement : s.placements) {
+                    const glm::dvec2 at = project(s, placement.position);
+                    EXPECT_GT(at.x, 0);
+                    EXPECT_LT(at.x, viewport.width);
+                    EXPECT_GT(at.y, 0);
+                    EXPECT_LT(at.y, viewport.height - strip);
+                    EXPECT_LT(project(s, placement.labelAt).y, viewport.height - strip);
+                }
+                // the focus slice's own sphere, whole
+                const double radius = s.scale * s.circumradius;
+                EXPECT_GT(project(s, {0, radius, 0}).y, 0);
+                EXPECT_LT(project(s, {0, -radius, 0}).y, viewport.height - strip);
+            }
+        }
+    }
+}
+
+TEST(Oval, closes) {
+    const Scene s = composed("5-cell");
+    // The arms rise all the way, part from each other and come together again.
+    double widest = 0;
+    for (int i = 10; i < 20; ++i) {
+        EXPECT_LT(project(s, s.placements[i + 1].position).y, project(s, s.placements[i].position).y);
+        widest = std::max(widest, project(s, s.placements[i].position).x - 640);
+    }
+    EXPECT_LT(project(s, s.placements[20].position).x - 640, 0.8 * widest);
+    EXPECT_NEAR(project(s, s.placements[13].position).x - 640, 640 - project(s, s.placements[7].position).x, 1e-6);
+}
+
+TEST(Oval, followsTheFocus) {
+    const Scene s = composed("5-cell", 21, {}, {}, 4);
+    EXPECT_EQ(s.placements[10].index, 4);
+    EXPECT_TRUE(s.placements[10].focus);
+    EXPECT_EQ(s.placements[10].position, glm::dvec3(0));
+    EXPECT_EQ(s.placements[6].label, "0");
+    EXPECT_EQ(s.placements[10].label, "w = 0.51");
+}
+
+TEST(Labels, areEmptyWhenSwitchedOff) {
+    scene::Look look;
+    for (const auto& placement : composed("8-cell", 21, {}, look).placements) EXPECT_FALSE(placement.label.empty());
+    look.parts.labels = false;
+    for (const auto& placement : composed("8-cell", 21, {}, look).placements) EXPECT_TRUE(placement.label.empty());
+}
+
+TEST(Single, drawsTheFocusAloneAndLarge) {
+    scene::Look look;
+    look.view = scene::View::single;
+    const Scene s = composed("8-cell", 21, {}, look);
+    int drawn = 0;
+    for (const auto& placement : s.placements) drawn += placement.drawn ? 1 : 0;
+    EXPECT_EQ(drawn, 1);
+    EXPECT_TRUE(s.placements[10].drawn);
+    const double radius = s.scale * s.circumradius;
+    EXPECT_GT(project(s, {0, -radius, 0}).y - project(s, {0, radius, 0}).y, 0.7 * 720);
+    // seen in the negative z direction, as the paper has it
+    EXPECT_NEAR(s.camera.eye.x, 0, 1e-12);
+    EXPECT_NEAR(s.camera.eye.y, 0, 1e-12);
+    EXPECT_GT(s.camera.eye.z, 0);
+}
+
+TEST(Orbit, turnsTheCameraAboutTheFocus) {
+    scene::Look look;
+    look.orbit = {0.7, 0.2, 1.5};
+    const Scene turned = composed("5-cell", 21, {}, look);
+    const Scene straight = composed("5-cell");
+    EXPECT_NEAR(glm::length(turned.camera.eye), glm::length(straight.camera.eye), 1e-12);
+    EXPECT_LT(glm::distance(project(turned, {}), project(straight, {})), 1e-6);
+    EXPECT_GT(std::tan(straight.camera.fieldOfView / 2) / std::tan(turned.camera.fieldOfView / 2), 1.49);
+    look.orbit.elevation = 10;
+    EXPECT_TRUE(std::isfinite(composed("5-cell", 21, {}, look).camera.view()[0][0]));
+}
+
+TEST(Coordinates, holdEveryVertexInsideTheViewport) {
+    for (const auto& entry : polytopes::catalogue().first(6)) {
+        const Scene s = composed(entry.name);
+        const auto& c = s.coordinates;
+        EXPECT_GE(std::size_t(c.rows) * c.perRow, entry.vertices);
+        EXPECT_GE(c.left, 0);
+        EXPECT_EQ(c.density, entry.vertices > scene::kMostLines);
+        EXPECT_LE(c.left + c.columnStep * c.perRow, 1280.0 / 720 + 1e-9);
+        EXPECT_LE(c.left + 3 * c.lineStep + c.lineWidth, 1280.0 / 720);
+        EXPECT_LE(c.density ? 0 : 4 * c.lineStep, c.columnStep);
+        EXPECT_GT(c.lineWidth * 720, 0.7) << entry.name;  // about a pixel at least
+        EXPECT_GE(c.zero - c.amplitude - (c.rows - 1) * c.rowStep, 0);
+        EXPECT_LT(c.zero + c.amplitude, 0.3);
+    }
+    EXPECT_TRUE(composed("5-cell").coordinates.named);
+}
+
+TEST(Coordinates, stayWithinWindowsThatAreHardlyWiderThanTheirMargins) {
+    for (const scene::Viewport viewport : {scene::Viewport{16, 200}, {16, 8192}, {100, 1250}}) {
+        for (const char* name : {"5-cell", "24-cell", "120-cell"}) {
+            const auto layout = composed(name, 21, viewport).coordinates;
+            const double aspect = double(viewport.width) / viewport.height;
+            EXPECT_GE(layout.rows, 1);
+            EXPECT_LE(layout.rows, 6);
+            EXPECT_GE(layout.lineStep, 0) << name;
+            if (layout.density) continue;
+            EXPECT_GT(layout.columnStep, 0) << name;
+            EXPECT_LE(layout.columnStep * layout.perRow, aspect * (1 + 1e-9)) << name;
+        }
+    }
+}
+
+TEST(Labels, tellNeighborsApart) {
+    for (const int count : {3, 21, 201}) {
+        const Scene s = composed("600-cell", count);
+        std::set<std::string> labels;
+        for (const auto& placement : s.placements) labels.insert(placement.label);
+        EXPECT_EQ(labels.size(), s.placements.size());
+    }
+}
+
+}  // namespace

@@ -1,0 +1,153 @@
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "session/query.hpp"
+#include "unit/session/support.hpp"
+
+namespace oval4d::session {
+namespace {
+
+using std::numbers::pi;
+
+TEST(CommandLine, DoesWhatTheMethodPageShows) {
+    Session session;
+    line(session, ":polytope 24-cell");
+    EXPECT_EQ(infoOf(session.now).name, "24-cell");
+    line(session, "set slices=31");
+    EXPECT_EQ(session.now.slices.count, 31);
+    line(session, ":set alpha=pi/12 faces=off  view=single");
+    EXPECT_DOUBLE_EQ(session.now.alpha, pi / 12);
+    EXPECT_FALSE(session.now.look.parts.faces);
+    EXPECT_EQ(session.now.look.view, scene::View::single);
+    line(session, "rotate xw,yz pi/8 pi/sqrt(3)-pi/8");
+    EXPECT_EQ(session.now.last, (geometry::Turn{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}));
+    line(session, " : rotate zw 0.1");
+    EXPECT_EQ(session.now.last, (geometry::Turn{geometry::Plane::zw, 0.1, {}}));
+    line(session, "rotate xw,yz");
+    EXPECT_EQ(session.now.last, (geometry::Turn{geometry::Plane::xw, pi / 12, session.now.beta}))
+        << "by the keys' angles";
+    line(session, "view oval");
+    EXPECT_EQ(session.now.look.view, scene::View::oval);
+    line(session, "focus 3");
+    EXPECT_EQ(session.now.slices.focus, 3);
+    line(session, "undo");
+    EXPECT_EQ(session.now.slices.focus, 0);
+    line(session, "redo");
+    EXPECT_EQ(session.now.slices.focus, 3);
+    line(session, "reset");
+    EXPECT_EQ(session.now.orientation, geometry::Rotation{});
+    line(session, "key y");
+    EXPECT_EQ(session.now.last->plane, geometry::Plane::xy);
+    line(session, "key space");
+    EXPECT_TRUE(session.now.turning);
+    line(session, "key u");
+    line(session, "key Ctrl-r");
+    EXPECT_TRUE(session.now.turning);
+    line(session, "set polytope=hyper cube");
+    EXPECT_EQ(infoOf(session.now).name, "8-cell") << "blanks in names do not matter";
+}
+
+TEST(CommandLine, EverySettingCanBeSet) {
+    Session session;
+    press(session, "2");
+    line(session,
+         "set polytope=16-cell alpha=0.1 beta=-0.2 step=0.01 slices=11 spacing=0.2 focus=-2 view=single turning=on "
+         "faces=off "
+         "bars=off balls=off coordinates=off azimuth=0.3 elevation=-0.1 zoom=2 color=w hidden=0 faded=none");
+    const State& now = session.now;
+    EXPECT_EQ(infoOf(now).name, "16-cell");
+    EXPECT_EQ(now.alpha, 0.1);
+    EXPECT_EQ(now.beta, -0.2);
+    EXPECT_EQ(now.step, 0.01);
+    EXPECT_EQ(now.slices, (SliceSettings{11, 0.2, -2}));
+    EXPECT_TRUE(now.turning);
+    EXPECT_EQ(now.look,
+              (scene::Look{
+                  scene::View::single, {false, false, false, false}, {0.3, -0.1, 2}, scene::Coloring::w, {{0}, {}}}));
+}
+
+TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
+    Session session;
+    press(session, "r");
+    const auto refused = [&](const char* text, ErrorCode code, const char* says) {
+        SCOPED_TRACE(text);
+        expectRefused(session, CommandLine{text}, code, says);
+    };
+    refused("", ErrorCode::unknown_command, "polytope, set, rotate");
+    refused(":", ErrorCode::unknown_command, "polytope, set, rotate");
+    refused("rotat xw 1", ErrorCode::unknown_command, "did you mean 'rotate'?");
+    refused("quit", ErrorCode::unknown_command, "no command is called 'quit'");
+    refused("polytope", ErrorCode::unknown_polytope, "needs a name");
+    refused("polytope 25-cell", ErrorCode::unknown_polytope,
+            "no polytope is called '25-cell'; did you mean '24-cell'?");
+    refused("polytope tesserakt", ErrorCode::unknown_polytope, "did you mean 'tesseract'?");
+    refused("set", ErrorCode::unknown_command, "the names are polytope, alpha");
+    refused("set slcies=3", ErrorCode::unknown_command, "did you mean 'slices'?");
+    refused("set slices 31", ErrorCode::bad_expression, "has no '='");
+    refused("set slices=30", ErrorCode::out_of_range, "must be odd and from 1 to 201, not 30");
+    refused("set slices=203", ErrorCode::out_of_range, "from 1 to 201");
+    refused("set slices=-1", ErrorCode::out_of_range, "from 1 to 201");
+    refused("set slices=2.5", ErrorCode::out_of_range, "whole number");
+    refused("set slices=1e12", ErrorCode::out_of_range, "whole number");
+    refused("set spacing=0", ErrorCode::out_of_range, "the spacing must be from");
+    refused("set spacing=-1", ErrorCode::out_of_range, "the spacing must be from");
+    refused("set alpha=7", ErrorCode::out_of_range, "alpha must be from");
+    refused("set alpha=", ErrorCode::bad_expression, "a number is expected");
+    refused("set alpha=pi/", ErrorCode::bad_expression, "alpha: 'pi/', position 4");
+    refused("set step=0", ErrorCode::out_of_range, "the step must be from");
+    refused("set zoom=0", ErrorCode::out_of_range, "zoom must be from");
+    refused("set faces=maybe", ErrorCode::bad_expression, "faces must be on or off, not 'maybe'");
+    refused("set view=oblong", ErrorCode::bad_expression, "view must be oval or single");
+    refused("view", ErrorCode::bad_expression, "oval or single");
+    refused("set alpha=0.1 beta=99", ErrorCode::out_of_range, "beta must be from");
+    refused("focus 1e8", ErrorCode::out_of_range, "the focus must be from");
+    refused("rotate", ErrorCode::bad_expression, "needs planes and angles");
+    refused("rotate xw 1 2", ErrorCode::bad_expression, "one plane needs one angle");
+    refused("rotate xw,yw 1 2", ErrorCode::bad_expression, "xw goes with yz");
+    refused("rotate xw 1e7", ErrorCode::out_of_range, "an angle must be from");
+    refused("key", ErrorCode::unknown_key, "needs one key");
+    refused("key q", ErrorCode::unknown_key, "'q' has no meaning");
+    refused("reset all", ErrorCode::bad_expression, "takes no arguments");
+}
+
+TEST(Query, DescribesAState) {
+    const auto state = stateFromQuery({{"spacing", "0.05"},
+                                       {"rotate", "xw,yz:pi/8,0.2"},
+                                       {"slices", "11"},
+                                       {"polytope", "tesseract"},
+                                       {"rotate", "xy:1"},
+                                       {"view", "single"},
+                                       {"coordinates", "off"}},
+                                      {});
+    ASSERT_TRUE(state) << state.error().message;
+    Session session;
+    line(session, "polytope 8-cell");
+    line(session, "rotate xw,yz pi/8 0.2");
+    line(session, "rotate xy 1");
+    line(session, "set slices=11 spacing=0.05 view=single coordinates=off");
+    expectNear(*state, session.now, 1e-15);
+    EXPECT_EQ(state->slices.spacing, 0.05) << "whatever the order";
+    const auto nothing = stateFromQuery({}, {});
+    ASSERT_TRUE(nothing);
+    EXPECT_EQ(*nothing, initialState());
+}
+
+TEST(Query, MistakesAreExplained) {
+    const auto refused = [](const Query& query, ErrorCode code, const char* says) {
+        const auto state = stateFromQuery(query, {});
+        ASSERT_FALSE(state);
+        EXPECT_EQ(state.error().code, code);
+        EXPECT_NE(state.error().message.find(says), std::string::npos) << state.error().message;
+    };
+    refused({{"polytop", "5-cell"}}, ErrorCode::unknown_command, "did you mean 'polytope'?");
+    refused({{"polytop", "5-cell"}}, ErrorCode::unknown_command, ", rotate");
+    refused({{"rotate", "xw"}}, ErrorCode::bad_expression, "write xw:pi/8");
+    refused({{"rotate", "xw:1e9"}}, ErrorCode::out_of_range, "an angle must be from");
+    refused({{"polytope", "6-cell"}}, ErrorCode::unknown_polytope, "did you mean");
+    refused({{"slices", "4"}}, ErrorCode::out_of_range, "odd");
+}
+
+}  // namespace
+}  // namespace oval4d::session

@@ -1,0 +1,103 @@
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "session/expression.hpp"
+
+namespace oval4d::session {
+namespace {
+
+using std::numbers::pi;
+
+struct Arithmetic {
+    std::string text;
+    double value;
+};
+
+class Expressions : public testing::TestWithParam<Arithmetic> {};
+
+TEST_P(Expressions, HaveTheirValue) {
+    const auto result = evaluate(GetParam().text);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_DOUBLE_EQ(*result, GetParam().value);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, Expressions,
+    testing::Values(Arithmetic{"0.5", 0.5}, Arithmetic{".5", 0.5}, Arithmetic{"2e-3", 0.002}, Arithmetic{"1+2*3", 7},
+                    Arithmetic{"(1+2)*3", 9}, Arithmetic{"7-2-1", 4}, Arithmetic{"12/3/2", 2}, Arithmetic{"2^3^2", 512},
+                    Arithmetic{"-2^2", -4}, Arithmetic{"2^-1", 0.5}, Arithmetic{"--3", 3}, Arithmetic{"+3", 3},
+                    Arithmetic{" 1 + 1 ", 2}, Arithmetic{"pi/sqrt(3)-pi/8", pi / std::sqrt(3) - pi / 8},
+                    Arithmetic{"π/8", pi / 8}, Arithmetic{"φ", std::numbers::phi}, Arithmetic{"−1", -1},
+                    Arithmetic{"3−1", 2}, Arithmetic{"phi^2-phi", 1}, Arithmetic{"deg(180)", pi},
+                    Arithmetic{"sin(pi/6)", std::sin(pi / 6)}, Arithmetic{"cos(0)", 1},
+                    Arithmetic{"tan(0.5)", std::tan(0.5)}, Arithmetic{"asin(1)", pi / 2}, Arithmetic{"acos(1)", 0},
+                    Arithmetic{"atan(1)*4", pi}));
+
+struct Mistake {
+    std::string text, says;
+};
+
+class Mistakes : public testing::TestWithParam<Mistake> {};
+
+TEST_P(Mistakes, AreExplained) {
+    const auto result = evaluate(GetParam().text);
+    ASSERT_FALSE(result) << *result;
+    EXPECT_EQ(result.error().code, ErrorCode::bad_expression);
+    EXPECT_NE(result.error().message.find(GetParam().says), std::string::npos) << result.error().message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, Mistakes,
+    testing::Values(Mistake{"", "a number is expected"}, Mistake{"  ", "a number is expected"},
+                    Mistake{"pi/(8", "position 6: a ')' is missing"},
+                    Mistake{"2pi", "position 2: an operator is expected (a product is written 2*pi)"},
+                    Mistake{"1+", "position 3: a number, a name or '(' is expected"},
+                    Mistake{"1 $ 2", "position 3: an operator is expected"}, Mistake{"sqr(2)", "did you mean 'sqrt'?"},
+                    Mistake{"sqrt 2", "'(' is expected after sqrt"}, Mistake{"1/0", "not a finite number"},
+                    Mistake{"sqrt(-1)", "not a finite number"}, Mistake{"0/0", "not a finite number"},
+                    Mistake{"1e999", "too large"}, Mistake{"nan", "nothing is called 'nan'"},
+                    Mistake{"inf", "nothing is called 'inf'"}, Mistake{"10^10^10", "not a finite number"},
+                    Mistake{"0x10", "an operator is expected"}));
+
+TEST(Expression, DeepNestingIsRefusedNotFollowed) {
+    for (const char c : {'(', '-', '+'}) {
+        const auto result = evaluate(std::string(999, c));
+        ASSERT_FALSE(result);
+        EXPECT_NE(result.error().message.find("nests too deeply"), std::string::npos) << result.error().message;
+    }
+    EXPECT_FALSE(evaluate(std::string(100'000, '1')));
+    std::string powers = "1";
+    for (int i = 0; i < 200; ++i) powers += "^1";
+    EXPECT_FALSE(evaluate(powers));
+}
+
+TEST(Turn, IsReadFromPlanesAndAngles) {
+    const auto simple = parseTurn("xw:pi/8");
+    ASSERT_TRUE(simple);
+    EXPECT_EQ(*simple, (geometry::Turn{geometry::Plane::xw, pi / 8, {}}));
+    const auto doubled = parseTurn("xw,yz:pi/8,pi/sqrt(3)-pi/8");
+    ASSERT_TRUE(doubled);
+    EXPECT_EQ(*doubled, (geometry::Turn{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}));
+}
+
+TEST(Turn, MistakesAreExplained) {
+    const auto says = [](std::string_view text, std::string_view part) {
+        const auto result = parseTurn(text);
+        ASSERT_FALSE(result) << text;
+        EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
+    };
+    says("xw", "not a rotation");
+    says("xq:1", "no plane is called 'xq'");
+    says("xw,xy:1,2", "xw goes with yz");
+    says("xw:1,2", "one plane needs one angle");
+    says("xw,yz:1", "two planes need two angles");
+    says("xw:pi/", "a number, a name or '(' is expected");
+    says(":", "no plane is called ''");
+    says("", "not a rotation");
+}
+
+}  // namespace
+}  // namespace oval4d::session

@@ -1,0 +1,251 @@
+#include <numbers>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "contract/embedded.hpp"
+#include "polytopes/catalogue/catalogue.hpp"
+#include "session/key_actions.hpp"
+#include "session/keymap.hpp"
+#include "unit/session/support.hpp"
+
+namespace oval4d::session {
+namespace {
+
+using std::numbers::pi;
+
+const std::vector<nlohmann::json>& rows() {
+    static const auto table =
+        nlohmann::json::parse(contract::embedded("keymap.json")).at("keys").get<std::vector<nlohmann::json>>();
+    return table;
+}
+
+std::vector<Key> strokesOf(const nlohmann::json& row) {
+    std::vector<Key> strokes;
+    for (const char c : row.at("key").get<std::string>())
+        strokes.push_back({std::string(1, c), false, row.value("ctrl", false)});
+    return strokes;
+}
+
+// A session in the midst of things, so that every key has something to act on.
+Session busy() {
+    Session session;
+    line(session, "polytope 24-cell");
+    press(session, "r5kKll");
+    press(session, "2u");
+    return session;
+}
+
+TEST(Keys, EveryRowOfTheTableHasAMeaning) {
+    for (const auto& row : rows()) {
+        SCOPED_TRACE(row.dump());
+        Session session = busy();
+        const std::uint64_t before = session.revision;
+        bool refused = false;
+        for (const Key& key : strokesOf(row)) {
+            const auto done = apply(session, key, {});
+            refused = refused || !done;
+            if (!done) {
+                EXPECT_EQ(done.error().code, ErrorCode::unknown_key);
+                EXPECT_NE(done.error().message.find("handled by the client"), std::string::npos);
+            }
+        }
+        EXPECT_EQ(refused, row.value("client", false));
+        EXPECT_EQ(session.revision, before + (refused ? 0 : 1)) << "the key changed nothing";
+        if (row.contains("shift")) {
+            Key key = strokesOf(row).front();
+            key.shift = true;
+            EXPECT_TRUE(apply(session, key, {}));
+        }
+    }
+}
+
+TEST(Keys, EveryActionOfTheTableIsCarriedOutOrTheClients) {
+    std::set<std::string_view> names;
+    for (const Action& action : keyActions()) {
+        EXPECT_TRUE(names.insert(action.name).second) << action.name;
+        EXPECT_NE(action.onState == nullptr, action.onSession == nullptr) << action.name;
+    }
+    for (const auto& part : scene::kParts) EXPECT_TRUE(names.contains(part.name)) << part.name;
+    std::set<std::string_view> unused = names;
+    for (const auto& row : rows()) {
+        const std::string action = row.at("action");
+        EXPECT_EQ(names.contains(action), !row.value("client", false)) << action;
+        unused.erase(action);
+    }
+    EXPECT_TRUE(unused.empty()) << "no key has the action " << *unused.begin();
+}
+
+TEST(Keys, TheTableHasEveryKeyOfTheMethod) {
+    std::string all;
+    for (const auto& row : rows()) all += row.at("name").get<std::string>() + "\n";
+    EXPECT_EQ(all,
+              "2\n3\n4\n5\n6\n7\nr\nt\ny\nk\nj\nK\nJ\nh\nl\n0\ngg\nG\n[\n]\n{\n}\nSpace\n.\nu\nCtrl-"
+              "r\ns\ni\nn\nN\no\np\na\nf\nb\ne\nx\n:\n?\n");
+}
+
+TEST(Keys, AKeyAndItsInverseRestoreTheState) {
+    struct Undoes {
+        Key key, inverse;
+    };
+    std::vector<Undoes> couples;
+    for (const auto& row : rows()) {
+        if (!row.contains("shift")) continue;
+        const Key key = strokesOf(row).front();
+        couples.push_back({key, {key.key, true, false}});
+        couples.push_back({{key.key, true, false}, key});
+    }
+    ASSERT_EQ(couples.size(), 18U);
+    for (const auto& [a, b] : std::vector<std::pair<std::string, std::string>>{{"k", "j"},
+                                                                               {"K", "J"},
+                                                                               {"l", "h"},
+                                                                               {"[", "]"},
+                                                                               {"{", "}"},
+                                                                               {"n", "N"},
+                                                                               {"o", "o"},
+                                                                               {"p", "p"},
+                                                                               {"f", "f"},
+                                                                               {"b", "b"},
+                                                                               {"e", "e"}}) {
+        couples.push_back({{a, false, false}, {b, false, false}});
+        couples.push_back({{b, false, false}, {a, false, false}});
+    }
+    for (const auto& [key, inverse] : couples) {
+        SCOPED_TRACE(key.key + (key.shift ? " with shift" : ""));
+        Session session = busy();
+        line(session, "focus 0");  // another polytope begins at focus 0
+        const State before = session.now;
+        must(session, key);
+        EXPECT_FALSE(session.now == before);
+        must(session, inverse);
+        expectNear(session.now, before, 1e-12);
+    }
+}
+
+TEST(Keys, AMillionDoNotDrift) {
+    Session session;
+    const Limits limits{.maxUndo = 2};
+    for (int i = 0; i < 100'000; ++i) {
+        for (const char* key : {"r", "2", "t", "y", "5"}) must(session, Key{key, false, false}, limits);
+        for (const char* key : {"5", "y", "t", "2", "r"}) must(session, Key{key, true, false}, limits);
+    }
+    expectNear(session.now, Session{}.now, 1e-9);
+    const glm::dmat4 m = session.now.orientation.matrix();
+    const glm::dmat4 product = glm::transpose(m) * m;
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 4; ++r) EXPECT_NEAR(product[c][r], c == r ? 1 : 0, 1e-12);
+    }
+}
+
+TEST(Keys, TurnInTheirPlanes) {
+    using geometry::Plane;
+    using geometry::Turn;
+    const auto lastAfter = [](const Key& key) {
+        Session session;
+        line(session, "set alpha=0.25 beta=0.5");
+        must(session, key);
+        return session.now.last.value();
+    };
+    EXPECT_EQ(lastAfter({"2"}), (Turn{Plane::xy, 0.25, {}}));
+    EXPECT_EQ(lastAfter({"3"}), (Turn{Plane::xz, 0.25, {}}));
+    EXPECT_EQ(lastAfter({"4"}), (Turn{Plane::xw, 0.25, {}}));
+    EXPECT_EQ(lastAfter({"5"}), (Turn{Plane::yz, 0.25, {}}));
+    EXPECT_EQ(lastAfter({"6"}), (Turn{Plane::yw, 0.25, {}}));
+    EXPECT_EQ(lastAfter({"7"}), (Turn{Plane::zw, 0.25, {}}));
+    EXPECT_EQ(lastAfter({"r"}), (Turn{Plane::xw, 0.25, 0.5}));
+    EXPECT_EQ(lastAfter({"t"}), (Turn{Plane::xz, 0.25, 0.5}));
+    EXPECT_EQ(lastAfter({"y"}), (Turn{Plane::xy, 0.25, 0.5}));
+    EXPECT_EQ(lastAfter({"y", true, false}), (Turn{Plane::xy, -0.25, -0.5}));
+    EXPECT_EQ(lastAfter({"Y"}), (Turn{Plane::xy, -0.25, -0.5})) << "an upper-case letter is Shift and the letter";
+    EXPECT_EQ(lastAfter({"Y", true, false}), (Turn{Plane::xy, -0.25, -0.5}));
+}
+
+TEST(Keys, ShiftCountsForLettersAndDigitsOnly) {
+    Session session;
+    must(session, Key{"}", true, false});
+    EXPECT_EQ(session.now.slices.count, 23);
+    expectRefused(session, Key{"L", false, false}, ErrorCode::unknown_key, "'L' has no meaning");
+    expectRefused(session, Key{"l", true, false}, ErrorCode::unknown_key, "has no meaning");
+    expectRefused(session, Key{"0", true, false}, ErrorCode::unknown_key, "has no meaning");
+}
+
+TEST(Keys, SpaceHasManyNames) {
+    for (const char* name : {" ", "Space", "Spacebar"}) {
+        Session session;
+        press(session, "2");
+        must(session, Key{name, false, false});
+        EXPECT_TRUE(session.now.turning);
+    }
+}
+
+TEST(Keys, TwoGsGoToTheFirstSliceThatIsNotEmpty) {
+    Session session;
+    line(session, "polytope 8-cell");  // w from −1 to 1, spacing 0.2
+    must(session, Key{"g", false, false});
+    EXPECT_EQ(session.now.slices.focus, 0);
+    must(session, Key{"g", false, false});
+    EXPECT_EQ(session.now.slices.focus, -5);
+    press(session, "G");
+    EXPECT_EQ(session.now.slices.focus, 5) << "the hyperplane w = 1 holds a whole cell";
+    line(session, "set spacing=0.3");
+    press(session, "G");
+    EXPECT_EQ(session.now.slices.focus, 3);
+    press(session, "glgg");
+    EXPECT_EQ(session.now.slices.focus, -3) << "any other key ends a sequence and acts by itself";
+}
+
+TEST(Keys, AnglesStayWithinAFullTurn) {
+    Session session;
+    line(session, "set step=1");
+    press(session, "kkkkkkkkkJJJJJJJJJ");
+    EXPECT_EQ(session.now.alpha, 2 * pi);
+    EXPECT_EQ(session.now.beta, -2 * pi);
+    const auto revision = session.revision;
+    press(session, "k");
+    EXPECT_EQ(session.revision, revision) << "a key that changes nothing is not a change";
+}
+
+TEST(Keys, SlicesKeepTheirSpan) {
+    Session session;
+    const double span = session.now.slices.spacing * 20;
+    press(session, "}");
+    EXPECT_EQ(session.now.slices.count, 23);
+    EXPECT_NEAR(session.now.slices.spacing * 22, span, 1e-14);
+    for (int i = 0; i < 20; ++i) press(session, "{");
+    EXPECT_EQ(session.now.slices.count, 1);
+    for (int i = 0; i < 150; ++i) press(session, "}");
+    EXPECT_EQ(session.now.slices.count, Limits{}.maxSlices);
+    for (int i = 0; i < 1000; ++i) press(session, "[");
+    EXPECT_GT(session.now.slices.spacing, 0);
+}
+
+TEST(Keys, WalkTheCatalogueRoundAndRound) {
+    Session session;
+    press(session, "r");
+    const State before = session.now;
+    for (const auto& entry : polytopes::catalogue()) {
+        EXPECT_EQ(infoOf(session.now).name, entry.name);
+        EXPECT_NEAR(session.now.slices.spacing / infoOf(session.now).circumradius, 0.1, 1e-12);
+        press(session, "n");
+    }
+    expectNear(session.now, before, 1e-12);
+    press(session, "N");
+    EXPECT_EQ(infoOf(session.now).name, polytopes::catalogue().back().name);
+}
+
+TEST(Keys, UnknownOnesAreRefused) {
+    Session session;
+    expectRefused(session, Key{"q", false, false}, ErrorCode::unknown_key, "'q' has no meaning");
+    expectRefused(session, Key{"y", false, true}, ErrorCode::unknown_key, "'Ctrl-y' has no meaning");
+    expectRefused(session, Key{"ArrowUp", false, false}, ErrorCode::unknown_key, "'ArrowUp'");
+    expectRefused(session, Key{"gg", false, false}, ErrorCode::unknown_key, "'gg'");
+    expectRefused(session, Key{"?", false, false}, ErrorCode::unknown_key, "handled by the client");
+    press(session, "g");
+    expectRefused(session, Key{"q", false, false}, ErrorCode::unknown_key, "'q' has no meaning");
+}
+
+}  // namespace
+}  // namespace oval4d::session

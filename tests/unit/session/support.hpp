@@ -1,0 +1,69 @@
+#pragma once
+// What the session's tests share.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "session/object_loader.hpp"
+#include "session/query.hpp"
+#include "session/session.hpp"
+#include "unit/polytopes/support.hpp"
+
+namespace oval4d::session {
+
+inline const geometry::ObjectInfo& infoOf(const State& state) { return slicing::infoOf(state.object); }
+
+/// Carries out a command on the spot, with the cache of the test program.
+inline Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits = {}) {
+    ObjectLoader loader(limits, support::cache());
+    return apply(session, command, limits, loader);
+}
+
+inline Result<State> stateFromQuery(const Query& query, const Limits& limits = {}) {
+    ObjectLoader loader(limits, support::cache());
+    return stateFromQuery(query, limits, loader);
+}
+
+inline void expectNear(const State& a, const State& b, double tolerance) {
+    EXPECT_EQ(a.object, b.object);
+    const glm::dmat4 m = a.orientation.matrix();
+    const glm::dmat4 n = b.orientation.matrix();
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 4; ++r) EXPECT_NEAR(m[c][r], n[c][r], tolerance);
+    }
+    EXPECT_NEAR(a.alpha, b.alpha, tolerance);
+    EXPECT_NEAR(a.beta, b.beta, tolerance);
+    EXPECT_NEAR(a.slices.spacing, b.slices.spacing, tolerance);
+    EXPECT_EQ(a.slices.count, b.slices.count);
+    EXPECT_EQ(a.slices.focus, b.slices.focus);
+    EXPECT_EQ(a.look, b.look);
+    EXPECT_EQ(a.turning, b.turning);
+}
+
+/// Applies a command that must succeed.
+inline void must(Session& session, const Command& command, const Limits& limits = {}) {
+    const auto done = apply(session, command, limits);
+    ASSERT_TRUE(done) << done.error().message;
+}
+
+inline void press(Session& session, const std::string& keys) {
+    for (const char key : keys) must(session, Key{std::string(1, key), false, false});
+}
+
+inline void line(Session& session, const std::string& text) { must(session, CommandLine{text}); }
+
+/// The command must fail with this code, say this, and leave the session exactly as it was.
+inline void expectRefused(Session& session, const Command& command, ErrorCode code, const std::string& says,
+                          const Limits& limits = {}) {
+    const Session before = session;
+    const auto done = apply(session, command, limits);
+    ASSERT_FALSE(done) << "expected: " << says;
+    EXPECT_EQ(wireName(done.error().code), wireName(code)) << done.error().message;
+    EXPECT_NE(done.error().message.find(says), std::string::npos) << done.error().message;
+    EXPECT_TRUE(session == before) << done.error().message;
+}
+
+}  // namespace oval4d::session

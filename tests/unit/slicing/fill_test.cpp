@@ -1,0 +1,304 @@
+// Filling by the nonzero winding rule, and the convexity test.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "polytopes/catalogue/catalogue.hpp"
+#include "polytopes/construction/coxeter.hpp"
+#include "polytopes/convexity.hpp"
+#include "slicing/fill.hpp"
+#include "unit/slicing/support.hpp"
+
+namespace {
+
+using namespace oval4d;
+using namespace oval4d::support;
+using namespace oval4d::slicing;
+
+constexpr polytopes::Branch k3{3, 1}, k4{4, 1}, k5{5, 1}, kStar{5, 2};
+
+polytopes::Polytope regular(polytopes::Branch p, polytopes::Branch q, polytopes::Branch r) {
+    const polytopes::Diagram diagram = polytopes::Diagram::linear(p, q, r, {true, false, false, false});
+    return wythoff("regular", diagram, mirrorsOf(diagram));
+}
+
+std::vector<polytopes::Polytope> starPolychora() {
+    std::vector<polytopes::Polytope> all;
+    for (const auto& [p, q, r] : {std::array{kStar, k5, k3},
+                                  {k3, k5, kStar},
+                                  {k5, kStar, k5},
+                                  {k5, k3, kStar},
+                                  {kStar, k3, k5},
+                                  {kStar, k5, kStar},
+                                  {k5, kStar, k3},
+                                  {k3, kStar, k5},
+                                  {k3, k3, kStar},
+                                  {kStar, k3, k3}}) {
+        all.push_back(regular(p, q, r));
+    }
+    return all;
+}
+
+/// A slice with one face, of one cell, made of loops in the plane spanned by u and v.
+SliceSet flat(const std::vector<std::vector<glm::dvec2>>& loops, const glm::dvec3& u, const glm::dvec3& v) {
+    SliceSet s;
+    s.planes = {0, 1, 1};
+    s.vertexBegin = s.edgeBegin = {0, 0};
+    s.faceBegin = {0, static_cast<std::uint32_t>(loops.size())};
+    s.cornerBegin = {0};
+    for (const auto& loop : loops) {
+        for (const glm::dvec2& p : loop) {
+            s.corners.push_back(static_cast<std::uint32_t>(s.vertices.size()));
+            s.vertices.push_back(p.x * u + p.y * v + glm::dvec3(0.3, -0.2, 0.1));
+        }
+        s.cornerBegin.push_back(static_cast<std::uint32_t>(s.corners.size()));
+        s.faceSource.push_back(0);
+    }
+    s.vertexBegin[1] = static_cast<std::uint32_t>(s.vertices.size());
+    return s;
+}
+
+Fill filled(const SliceSet& slices, double circumradius) {
+    Fill fill;
+    Filler().fill(slices, circumradius, fill);
+    return fill;
+}
+
+double areaOf(const Fill& fill, std::size_t piece) {
+    glm::dvec3 sum(0);
+    const auto begin = fill.cornerBegin[piece];
+    for (auto i = begin + 2; i < fill.cornerBegin[piece + 1]; ++i)
+        sum += glm::cross(fill.corners[i - 1] - fill.corners[begin], fill.corners[i] - fill.corners[begin]);
+    return glm::length(sum) / 2;
+}
+
+double areaOf(const Fill& fill) {
+    double sum = 0;
+    for (std::size_t k = 0; k + 1 < fill.cornerBegin.size(); ++k) sum += areaOf(fill, k);
+    return sum;
+}
+
+int windingNumber(const std::vector<std::vector<glm::dvec2>>& loops, const glm::dvec2& p) {
+    double turn = 0;
+    for (const auto& loop : loops) {
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const glm::dvec2 a = loop[i] - p;
+            const glm::dvec2 b = loop[(i + 1) % loop.size()] - p;
+            turn += std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
+        }
+    }
+    return static_cast<int>(std::lround(turn / (2 * std::numbers::pi)));
+}
+
+std::vector<glm::dvec2> starPolygon(int points, int step) {
+    std::vector<glm::dvec2> loop;
+    for (int i = 0; i < points; ++i) {
+        const double angle = 2 * std::numbers::pi * i * step / points;
+        loop.emplace_back(std::cos(angle), std::sin(angle));
+    }
+    return loop;
+}
+
+TEST(Fill, OfAPentagramIncludesItsCore) {
+    const Fill fill = filled(flat({starPolygon(5, 2)}, {1, 0, 0}, {0, 0.6, 0.8}), 1);
+    // The outline has ten corners, at radii 1 and 1 / φ² alternately, which divide it into ten triangles with an angle
+    // of π / 5 at the center.
+    const double inner = 1 / (std::numbers::phi * std::numbers::phi);
+    EXPECT_NEAR(areaOf(fill), 5 * inner * std::sin(std::numbers::pi / 5), 1e-9);
+    ASSERT_EQ(fill.patches.size(), 1U);
+    EXPECT_EQ(fill.patches[0].winding, 2);
+}
+
+TEST(Fill, IsRoughIfThereAreTooFewSteps) {
+    const SliceSet slices = flat({starPolygon(7, 3)}, {1, 0, 0}, {0, 1, 0});
+    for (const std::size_t steps : {0, 48, 49, 100}) {
+        Fill fill;
+        Filler().fill(slices, 1, fill, steps);
+        ASSERT_EQ(fill.patches.size(), 1U);
+        EXPECT_EQ(fill.patches[0].winding, 0);
+        EXPECT_EQ(fill.cornerBegin.size() - 1, 7U);
+        // A star polygon is star-shaped about its center, so the triangles overlap only in the core.
+        EXPECT_NEAR(areaOf(fill), 3.5 * std::sin(6 * std::numbers::pi / 7), 1e-9);
+    }
+    Fill fill;
+    Filler().fill(slices, 1, fill, 10'000);
+    EXPECT_EQ(fill.patches[0].winding, 3);
+    EXPECT_LT(areaOf(fill), 3.5 * std::sin(6 * std::numbers::pi / 7));
+}
+
+TEST(Fill, LeavesAHoleBetweenOppositeLoops) {
+    std::vector<glm::dvec2> inner{{-1, -1}, {-1, 1}, {1, 1}, {1, -1}};
+    const std::vector<glm::dvec2> outer{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
+    EXPECT_NEAR(areaOf(filled(flat({outer, inner}, {1, 0, 0}, {0, 1, 0}), 3)), 12, 1e-8);
+    std::reverse(inner.begin(), inner.end());
+    EXPECT_NEAR(areaOf(filled(flat({outer, inner}, {1, 0, 0}, {0, 1, 0}), 3)), 16, 1e-8);
+}
+
+TEST(Fill, CoversExactlyThePointsWithNonzeroWindingNumber) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-1, 1);
+    for (int trial = 0; trial < 60; ++trial) {
+        // Random loops, in every other trial on a coarse grid, where sides overlap and corners lie on sides.
+        std::vector<std::vector<glm::dvec2>> loops(1 + random() % 3);
+        for (auto& loop : loops) {
+            for (std::size_t n = 3 + random() % 9; n-- > 0;) {
+                glm::dvec2 p(place(random), place(random));
+                if (trial % 2 == 0) p = glm::round(p * 3.0) / 3.0;
+                loop.push_back(p);
+            }
+        }
+        const glm::dvec3 u = glm::normalize(glm::dvec3(place(random), place(random), 1));
+        const glm::dvec3 v = glm::normalize(glm::cross(u, glm::dvec3(0.3, 1, place(random))));
+        const SliceSet slices = flat(loops, u, v);
+        const Fill fill = filled(slices, 1.5);
+        const auto onPlane = [&](const glm::dvec3& x) {
+            const glm::dvec3 from = x - glm::dvec3(0.3, -0.2, 0.1);
+            return glm::dvec2(glm::dot(from, u), glm::dot(from, v));
+        };
+        int inside = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const glm::dvec2 p(place(random), place(random));
+            int holders = 0;
+            bool near = false;  // near an edge, either result is correct
+            for (std::size_t k = 0; k + 1 < fill.cornerBegin.size(); ++k) {
+                double least = 1, most = -1;  // signed distances from the sides; pieces may have either orientation
+                for (auto c = fill.cornerBegin[k]; c < fill.cornerBegin[k + 1]; ++c) {
+                    const auto next = c + 1 < fill.cornerBegin[k + 1] ? c + 1 : fill.cornerBegin[k];
+                    const glm::dvec2 a = onPlane(fill.corners[c]), b = onPlane(fill.corners[next]) - a;
+                    const double distance = (b.x * (p.y - a.y) - b.y * (p.x - a.x)) / glm::length(b);
+                    least = std::min(least, distance);
+                    most = std::max(most, distance);
+                }
+                near = near || std::abs(least) < 1e-6 || std::abs(most) < 1e-6;
+                holders += least > 0 || most < 0 ? 1 : 0;
+            }
+            if (near) continue;
+            ASSERT_LE(holders, 1) << "pieces do not overlap; trial " << trial;
+            ASSERT_EQ(holders, windingNumber(loops, p) != 0 ? 1 : 0) << "trial " << trial;
+            inside += holders;
+        }
+        const double share = inside / 2000.0 * 4;
+        EXPECT_NEAR(areaOf(fill), share, 0.3) << "trial " << trial;
+    }
+}
+
+TEST(Fill, PiecesLieInTheirPlaneAndFaceOutward) {
+    std::mt19937 random(7);
+    for (const polytopes::Polytope& polytope : starPolychora()) {
+        SliceSet slices;
+        PolytopeSlicer().slice(polytope, randomRotation(random), {-4, 9, polytope.circumradius / 5}, slices);
+        const Fill fill = filled(slices, polytope.circumradius);
+        for (std::size_t p = 0; p < fill.patches.size(); ++p) {
+            const Fill::Patch& patch = fill.patches[p];
+            for (auto k = fill.pieceBegin[p]; k < fill.pieceBegin[p + 1]; ++k) {
+                const auto begin = fill.cornerBegin[k], end = fill.cornerBegin[k + 1];
+                glm::dvec3 area(0);
+                for (auto c = begin; c < end; ++c) {
+                    ASSERT_NEAR(glm::dot(patch.normal, fill.corners[c]), patch.offset, 1e-9 * polytope.circumradius);
+                    area += glm::cross(fill.corners[c] - fill.corners[begin],
+                                       fill.corners[c + 1 < end ? c + 1 : begin] - fill.corners[begin]);
+                }
+                ASSERT_GT(glm::dot(area, patch.normal), 0) << "winding numbers of star polychora have one sign";
+            }
+        }
+    }
+}
+
+// The winding numbers of the faces that a ray from the center of a star polychoron passes through add up to its density
+// (Coxeter, Regular Polytopes, table I (iii)).
+TEST(Fill, WindingNumbersAlongARayAddUpToTheDensity) {
+    const std::array densities{4, 4, 6, 20, 20, 66, 76, 76, 191, 191};
+    std::mt19937 random(9);
+    std::normal_distribution<double> normal;
+    std::size_t number = 0;
+    for (const polytopes::Polytope& polytope : starPolychora()) {
+        const SliceSet slices = cutAt(polytope, randomRotation(random), 0);
+        const Fill fill = filled(slices, polytope.circumradius);
+        for (int trial = 0; trial < 5; ++trial) {
+            const auto ray = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+            int winding = 0;
+            for (const Fill::Patch& patch : fill.patches) {
+                const double along = glm::dot(patch.normal, ray);
+                if (patch.offset / along < 0) continue;
+                const glm::dvec3 hit = ray * (patch.offset / along);
+                const glm::dvec3 u = glm::normalize(glm::cross(patch.normal, glm::dvec3(0.1, 0.7, -0.3)));
+                const glm::dvec3 v = glm::cross(patch.normal, u);
+                std::vector<std::vector<glm::dvec2>> loops;
+                for (auto f = patch.firstLoop; f < patch.lastLoop; ++f) {
+                    loops.emplace_back();
+                    for (auto i = slices.cornerBegin[f]; i < slices.cornerBegin[f + 1]; ++i) {
+                        const glm::dvec3 x = corner(slices, 0, i);
+                        loops.back().emplace_back(glm::dot(x, u), glm::dot(x, v));
+                    }
+                }
+                const int around = windingNumber(loops, {glm::dot(hit, u), glm::dot(hit, v)});
+                EXPECT_LE(std::abs(around), patch.winding);
+                winding += along > 0 ? around : -around;
+            }
+            EXPECT_EQ(winding, densities.at(number)) << "number " << number;
+        }
+        ++number;
+    }
+}
+
+TEST(Fill, OfConvexSlicesHasOnePiecePerFace) {
+    std::mt19937 random(8);
+    for (const polytopes::Polytope& polytope : {regular(k5, k3, k3), regular(k3, k4, k3)}) {
+        SliceSet slices;
+        PolytopeSlicer().slice(polytope, randomRotation(random), {-10, 21, polytope.circumradius / 10}, slices);
+        const Fill fill = filled(slices, polytope.circumradius);
+        EXPECT_EQ(fill.patches.size(), slices.faceSource.size());
+        EXPECT_EQ(fill.cornerBegin.size(), slices.faceSource.size() + 1) << "one piece each";
+    }
+}
+
+TEST(Convexity, HoldsForConvexUniformPolychoraAndNoStar) {
+    const std::array<bool, 4> all{true, true, true, true};
+    for (const auto& [p, q, r] : {std::array{k3, k3, k3}, {k4, k3, k3}, {k3, k4, k3}, {k5, k3, k3}}) {
+        for (const std::array<bool, 4>& ringed : {std::array<bool, 4>{true, false, false, false},
+                                                  {false, false, false, true},
+                                                  {false, true, false, false},
+                                                  {true, false, true, false},
+                                                  all}) {
+            const polytopes::Diagram diagram = polytopes::Diagram::linear(p, q, r, ringed);
+            EXPECT_TRUE(polytopes::wythoff("convex", diagram, polytopes::mirrorsOf(diagram)).convex);
+        }
+    }
+    for (const polytopes::Polytope& star : starPolychora()) EXPECT_FALSE(star.convex);
+}
+
+TEST(Convexity, DoesNotHoldForACompound) {
+    const polytopes::Polytope one = regular(k4, k3, k3);
+    std::vector<glm::dvec4> vertices = one.vertices;
+    geometry::JaggedArray faces = one.faces, cells = one.cells;
+    const auto shift = static_cast<std::uint32_t>(one.vertices.size());
+    const geometry::Rotation turn(geometry::Turn{geometry::Plane::xy, 0.4, {}});
+    for (const glm::dvec4& v : one.vertices) vertices.push_back(turn(v));
+    for (std::size_t f = 0; f < one.faces.size(); ++f) {
+        std::vector<std::uint32_t> loop;
+        for (const auto v : one.faces[f]) loop.push_back(v + shift);
+        faces.add(loop);
+    }
+    for (std::size_t c = 0; c < one.cells.size(); ++c) {
+        std::vector<std::uint32_t> list;
+        for (const auto f : one.cells[c]) list.push_back(f + static_cast<std::uint32_t>(one.faces.size()));
+        cells.add(list);
+    }
+    EXPECT_FALSE(polytopes::makePolytope("compound", vertices, faces, cells).convex);
+}
+
+TEST(Convexity, IsInvariantUnderTranslation) {
+    const polytopes::Polytope one = regular(k3, k4, k3);
+    std::vector<glm::dvec4> vertices = one.vertices;
+    for (glm::dvec4& v : vertices) v += glm::dvec4(7, 0, -3, 1);
+    EXPECT_TRUE(polytopes::makePolytope("elsewhere", vertices, one.faces, one.cells).convex);
+}
+
+}  // namespace

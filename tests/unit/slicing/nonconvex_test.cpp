@@ -1,0 +1,102 @@
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "polytopes/construction/coxeter.hpp"
+#include "unit/slicing/support.hpp"
+
+namespace {
+
+using namespace oval4d;
+using namespace oval4d::support;
+using namespace oval4d::slicing;
+
+/// The signed area of a polygon, weighted by the winding number.
+double areaOf(const Polygon& polygon) {
+    double sum = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 a = polygon[i];
+        const glm::dvec2 b = polygon[(i + 1) % polygon.size()];
+        sum += (a.x * b.y - a.y * b.x) / 2;
+    }
+    return sum;
+}
+
+/// Expects that the loops traverse every slice edge as often in one direction as in the other, and are closed.
+void expectClosed(const SliceSet& s) {
+    for (int slice = 0; slice < s.planes.count; ++slice) {
+        std::map<std::uint32_t, int> passes;
+        for (auto f = s.faceBegin[slice]; f < s.faceBegin[slice + 1]; ++f) {
+            const auto begin = s.cornerBegin[f];
+            const auto end = s.cornerBegin[f + 1];
+            for (auto i = begin; i < end; ++i) {
+                const auto next = s.corners[i + 1 == end ? begin : i + 1];
+                const auto& edge = s.edges[s.edgeBegin[slice] + s.cornerEdges[i]];
+                const bool along = edge[0] == s.corners[i] && edge[1] == next;
+                ASSERT_TRUE(along || (edge[1] == s.corners[i] && edge[0] == next));
+                passes[s.cornerEdges[i]] += along ? 1 : -1;
+            }
+        }
+        for (const auto& [edge, sum] : passes) ASSERT_EQ(sum, 0);
+    }
+}
+
+const Polygon kSquare{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+const Polygon kDented{{-2, -2}, {2, -2}, {2, 0}, {0.5, 0}, {0.5, 1.5}, {-0.5, 1.5}, {-0.5, 0}, {-2, 0}};
+
+Polygon pentagram() {
+    Polygon star;
+    for (int i = 0; i < 5; ++i)
+        star.emplace_back(std::cos(4 * i * std::numbers::pi / 5), std::sin(4 * i * std::numbers::pi / 5));
+    return star;
+}
+
+TEST(NonConvex, productsHaveTheProductOfTheAreasAsHypervolume) {
+    std::mt19937 random(21);
+    for (const auto& [p, q] : {std::pair{kDented, kSquare},
+                               {kSquare, kDented},
+                               {kDented, kDented},
+                               {pentagram(), kSquare},
+                               {pentagram(), kDented},
+                               {pentagram(), pentagram()}}) {
+        const polytopes::Polytope polytope = product(p, q);
+        EXPECT_FALSE(polytope.convexFaces);
+        for (int trial = 0; trial < 5; ++trial) {
+            EXPECT_NEAR(hypervolumeBySlices(polytope, randomRotation(random)), std::abs(areaOf(p) * areaOf(q)), 1e-6);
+        }
+    }
+}
+
+TEST(NonConvex, slicesAreClosed) {
+    std::mt19937 random(22);
+    SliceSet s;
+    PolytopeSlicer slicer;
+    const polytopes::Branch star{5, 2};
+    const polytopes::Diagram stellated = polytopes::Diagram::linear(star, {5, 1}, {3, 1}, {true, false, false, false});
+    for (const polytopes::Polytope& p :
+         {product(kDented, pentagram()), wythoff("{5/2,5,3}", stellated, mirrorsOf(stellated))}) {
+        for (int trial = 0; trial < 50; ++trial) {
+            // In every other trial, vertices lie in hyperplanes.
+            geometry::Rotation orientation = randomRotation(random);
+            if (trial % 2 == 0)
+                orientation = geometry::Rotation(
+                    geometry::Turn{geometry::kPlanes.at(random() % 6), std::numbers::pi / 2 * int(random() % 4), {}});
+            slicer.slice(p, orientation, {-10, 21, trial % 4 == 0 ? 0.25 : p.circumradius / 9.7}, s);
+            expectClosed(s);
+            ASSERT_FALSE(HasFatalFailure()) << p.name << " trial " << trial;
+        }
+    }
+}
+
+TEST(NonConvex, sectionNearThePointOfAPentagramIsABox) {
+    // The prism over a pentagram prism, cut across one point of the star.
+    const polytopes::Polytope p = product(kSquare, pentagram());
+    const SliceSet s = cutAt(p, geometry::Rotation(geometry::Turn{geometry::Plane::zw, std::numbers::pi / 2, {}}), 0.9);
+    EXPECT_EQ(s.vertexCount(0), 8U);  // a thin box at the tip
+    EXPECT_EQ(s.edgeCount(0), 12U);
+    EXPECT_EQ(s.faceCount(0), 6U);
+}
+
+}  // namespace

@@ -1,0 +1,176 @@
+// What the program asks of any object, and objects as bytes.
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include "slicing/object_bytes.hpp"
+#include "slicing/slicer.hpp"
+#include "unit/slicing/support.hpp"
+
+namespace oval4d::slicing {
+namespace {
+
+using polytopes::Polytope;
+using support::shared;
+
+const Polytope& polytopeIn(const Object& object) { return *std::get<PolytopePtr>(object); }
+
+void expectSameElements(const Polytope& one, const Polytope& other) {
+    EXPECT_EQ(one.vertices, other.vertices);
+    EXPECT_EQ(one.edges, other.edges);
+    EXPECT_EQ(one.faces, other.faces);
+    EXPECT_EQ(one.faceEdges, other.faceEdges);
+    EXPECT_EQ(one.edgeFaces, other.edgeFaces);
+    EXPECT_EQ(one.cells, other.cells);
+    EXPECT_EQ(one.cellSigns, other.cellSigns);
+    EXPECT_EQ(one.faceCells, other.faceCells);
+    EXPECT_EQ(one.typeOfCell, other.typeOfCell);
+    EXPECT_EQ(one.convex, other.convex);
+}
+
+TEST(Object, TellsWhatItsPolytopeIs) {
+    const auto polytope = shared("rectified 5-cell");
+    const Object object = polytope, copy = polytope;
+    EXPECT_EQ(copy, object);
+    EXPECT_EQ(identityOf(copy), polytope.get());
+    EXPECT_NE(Object(shared("5-cell")), object);
+    EXPECT_EQ(&infoOf(object), polytope.get());
+    EXPECT_EQ(elementCounts(object), (std::array<std::size_t, 4>{10, 30, 30, 10}));
+    EXPECT_EQ(bytesOf(object), polytopes::bytesOf(*polytope));
+    EXPECT_TRUE(std::ranges::equal(cellTypesOf(object), polytope->typeOfCell));
+    EXPECT_EQ(write4Off(object, polytope->vertices).substr(0, 4), "4OFF");
+    std::vector<glm::dvec4> centers;
+    findCellCenters(object, centers);
+    ASSERT_EQ(centers.size(), 10U);
+    for (std::size_t c = 0; c < 10; ++c)
+        EXPECT_LT(glm::distance(centers[c], support::centerOfCell(*polytope, c)), 1e-14);
+}
+
+TEST(Object, LiesInItsRangeOfW) {
+    std::mt19937 random(3);
+    for (const char* name : {"5-cell", "24-cell", "120-cell"}) {
+        const auto polytope = shared(name);
+        const geometry::Rotation turn = support::randomRotation(random);
+        const auto [least, most] = rangeOfW(polytope, turn);
+        double low = 1e300, high = -1e300;
+        for (const auto& v : polytope->vertices) {
+            low = std::min(low, turn(v).w);
+            high = std::max(high, turn(v).w);
+        }
+        EXPECT_NEAR(least, low, 1e-12);
+        EXPECT_NEAR(most, high, 1e-12);
+    }
+}
+
+TEST(Object, IsCutAsItsPolytopeIs) {
+    std::mt19937 random(4);
+    Slicer slicer;
+    SliceSet slices, expected;
+    for (const char* name : {"5-cell", "{5/2,3,5}", "24-cell"}) {
+        const auto polytope = shared(name);
+        const geometry::Rotation turn = support::randomRotation(random);
+        const geometry::Hyperplanes planes{-3, 7, polytope->circumradius / 4};
+        slicer.slice(polytope, turn, planes, slices);
+        PolytopeSlicer().slice(*polytope, turn, planes, expected);
+        EXPECT_EQ(slices.vertices, expected.vertices) << name;
+        EXPECT_EQ(slices.edges, expected.edges) << name;
+        EXPECT_EQ(slices.corners, expected.corners) << name;
+        EXPECT_EQ(slices.faceSource, expected.faceSource) << name;
+    }
+}
+
+TEST(ObjectBytes, ObjectsComeAsTheyWere) {
+    std::string bytes;
+    for (const char* name : {"5-cell", "24-cell", "120-cell", "{5/2,3,5}"}) {
+        const auto sent = shared(name);
+        encodeObject(sent, bytes);
+        const Object decoded = decodeObject(bytes);
+        const Polytope& got = polytopeIn(decoded);
+        EXPECT_EQ(std::tie(got.name, got.serial, got.cellTypes), std::tie(sent->name, sent->serial, sent->cellTypes));
+        EXPECT_EQ(std::tie(got.convexFaces, got.convex, got.circumradius, got.constructed),
+                  std::tie(sent->convexFaces, sent->convex, sent->circumradius, sent->constructed));
+        expectSameElements(got, *sent);
+    }
+}
+
+TEST(ObjectBytes, BytesCutShortAreRefused) {
+    std::string bytes;
+    encodeObject(shared("5-cell"), bytes);
+    for (std::size_t size = 0; size < bytes.size(); size += 7)
+        EXPECT_THROW((void)decodeObject(std::string_view(bytes).substr(0, size)), std::runtime_error);
+}
+
+std::string partsOf(const Object& object) {
+    std::string bytes;
+    serialization::ByteWriter writer(bytes);
+    writeParts(object, writer);
+    return bytes;
+}
+
+Object read(std::string_view bytes, std::size_t maxVertices = 100'000) {
+    serialization::ByteReader reader(bytes);
+    return readParts(reader, "mine", maxVertices);
+}
+
+TEST(ObjectBytes, PartsMakeTheSameObjectWithANameAndSerialOfItsOwn) {
+    for (const char* name : {"5-cell", "24-cell", "120-cell", "runcinated tesseract", "{5/2,3,5}"}) {
+        const auto sent = shared(name);
+        const Object got = read(partsOf(sent));
+        EXPECT_EQ(infoOf(got).name, "mine");
+        EXPECT_NE(infoOf(got).serial, sent->serial);
+        EXPECT_FALSE(infoOf(got).constructed);
+        expectSameElements(polytopeIn(got), *sent);
+    }
+}
+
+TEST(ObjectBytes, PartsWithTooManyVerticesAreRefused) {
+    const std::string bytes = partsOf(shared("24-cell"));
+    EXPECT_NO_THROW((void)read(bytes, 24));
+    EXPECT_THROW((void)read(bytes, 23), std::runtime_error);
+}
+
+TEST(ObjectBytes, DamagedPartsAreRefusedOrMakeAnObjectThatCanBeCut) {
+    std::mt19937 random(6);
+    Slicer slicer;
+    SliceSet slices;
+    int accepted = 0, refused = 0;
+    const auto attempt = [&](const std::string& bytes) {
+        try {
+            const Object object = read(bytes, 1000);
+            ++accepted;
+            slicer.slice(object, {}, {-2, 5, infoOf(object).circumradius / 3}, slices);
+        } catch (const std::runtime_error& error) {
+            ++refused;
+            EXPECT_FALSE(std::string(error.what()).empty());
+        }
+    };
+    for (const char* name : {"5-cell", "tesseract"}) {
+        const std::string whole = partsOf(shared(name));
+        for (std::size_t size = 0; size < whole.size(); ++size) attempt(whole.substr(0, size));
+        EXPECT_EQ(accepted, 0) << "parts that end early";
+        for (int round = 0; round < 3000; ++round) {
+            std::string bytes = whole;
+            for (unsigned changes = 1 + random() % 3; changes > 0; --changes) {
+                const std::size_t at = random() % (bytes.size() - 8);
+                const std::array<std::uint64_t, 5> odd{0, 1, 0xffffffffU, ~std::uint64_t{0}, random()};
+                std::memcpy(&bytes[at], &odd.at(random() % odd.size()), std::size_t{1} << random() % 4);
+            }
+            attempt(bytes);
+        }
+        EXPECT_GT(accepted, 10);
+        accepted = 0;
+    }
+    EXPECT_GT(refused, 1000);
+}
+
+}  // namespace
+}  // namespace oval4d::slicing

@@ -1,0 +1,77 @@
+#pragma once
+// Helpers shared by tests: single slices, volumes.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "polytopes/construction/coxeter.hpp"
+#include "slicing/object.hpp"
+#include "slicing/polytope_slicer.hpp"
+#include "unit/polytopes/support.hpp"
+
+namespace oval4d::support {
+
+/// Returns an object that refers to `polytope`, which must outlive it.
+inline slicing::Object objectOf(const polytopes::Polytope& polytope) {
+    return slicing::PolytopePtr(slicing::PolytopePtr(), &polytope);
+}
+
+/// Returns the rectified 5-cell. Cells of type 0 are octahedra, those of type 1 are tetrahedra.
+inline polytopes::Polytope rectifiedFiveCell() {
+    const polytopes::Branch three{3, 1};
+    const auto diagram = polytopes::Diagram::linear(three, three, three, {false, true, false, false});
+    auto polytope = polytopes::wythoff("rectified 5-cell", diagram, polytopes::mirrorsOf(diagram));
+    polytope.cellTypes = {{"octahedron"}, {"tetrahedron"}};
+    for (std::size_t c = 0; c < polytope.cells.size(); ++c)
+        polytope.typeOfCell[c] = polytope.cells[c].size() == 8 ? 0 : 1;
+    return polytope;
+}
+
+/// Returns the slice at any w.
+inline slicing::SliceSet cutAt(const polytopes::Polytope& p, const geometry::Rotation& orientation, double w) {
+    slicing::SliceSet out;
+    slicing::PolytopeSlicer slicer;
+    const bool zero = std::abs(w) < 1e-300;
+    slicer.slice(p, orientation, {zero ? 0 : w > 0 ? 1 : -1, 1, zero ? 1 : std::abs(w)}, out);
+    return out;
+}
+
+inline glm::dvec3 corner(const slicing::SliceSet& s, int slice, std::uint32_t at) {
+    return s.vertices[s.vertexBegin[slice] + s.corners[at]];
+}
+
+/// Returns the signed volume of a slice, weighted by the winding number.
+inline double volumeOf(const slicing::SliceSet& s, int slice) {
+    double sum = 0;
+    for (std::uint32_t f = s.faceBegin[slice]; f < s.faceBegin[slice + 1]; ++f) {
+        for (std::uint32_t i = s.cornerBegin[f] + 1; i + 1 < s.cornerBegin[f + 1]; ++i) {
+            sum +=
+                glm::dot(corner(s, slice, s.cornerBegin[f]), glm::cross(corner(s, slice, i), corner(s, slice, i + 1))) /
+                6;
+        }
+    }
+    return sum;
+}
+
+/// Returns the hypervolume as the integral of the slices' volumes over w. Between two levels of vertices the volume of
+/// the section is a cubic polynomial in w, which Simpson's rule integrates exactly. So the degenerate sections at the
+/// levels themselves must be correct, too.
+inline double hypervolumeBySlices(const polytopes::Polytope& p, const geometry::Rotation& orientation) {
+    std::vector<double> levels;
+    for (const auto& v : p.vertices) levels.push_back(orientation(v).w);
+    std::sort(levels.begin(), levels.end());
+    const auto volume = [&](double w) { return volumeOf(cutAt(p, orientation, w), 0); };
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
+        const double a = levels[i];
+        const double b = levels[i + 1];
+        if (b - a < 1e-7) continue;
+        sum += (b - a) / 6 * (volume(a) + 4 * volume((a + b) / 2) + volume(b));
+    }
+    return sum;
+}
+
+}  // namespace oval4d::support

@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <array>
+
+#include <gtest/gtest.h>
+
+#include "slicing/visibility.hpp"
+#include "unit/slicing/support.hpp"
+
+namespace oval4d::slicing {
+namespace {
+
+TEST(Visibilities, AreThoseOfTheMostVisibleCell) {
+    const auto polytope = support::rectifiedFiveCell();
+    const Object object = support::objectOf(polytope);
+    constexpr auto kHidden = Visibility::hidden, kFaded = Visibility::faded, kFull = Visibility::full;
+    using OfType = std::array<Visibility, 2>;
+    for (const OfType& ofType :
+         {OfType{kHidden, kFull}, {kFull, kHidden}, {kFaded, kFull}, {kFaded, kHidden}, {kHidden, kHidden}}) {
+        Visibilities found;
+        findVisibilities(object, ofType, found);
+        // The expected values come from a search through all cells for each element.
+        const auto greatest = [&](auto&& holds) {
+            Visibility most = Visibility::hidden;
+            for (std::size_t c = 0; c < polytope.cells.size(); ++c) {
+                bool in = false;
+                for (const auto f : polytope.cells[c]) in = in || holds(f);
+                if (in) most = std::max(most, ofType.at(polytope.typeOfCell[c]));
+            }
+            return most;
+        };
+        for (std::uint32_t f = 0; f < polytope.faces.size(); ++f) {
+            const Visibility expected = greatest([&](std::uint32_t other) { return other == f; });
+            EXPECT_EQ(found.edge(f), expected);
+            EXPECT_EQ(found.face(static_cast<std::uint32_t>(polytope.cells.size()) + f), expected);
+            if (expected == Visibility::hidden) continue;
+            EXPECT_NE(found.face(coloringCell(object, found, static_cast<std::uint32_t>(polytope.cells.size()) + f)),
+                      Visibility::hidden);
+        }
+        for (std::uint32_t e = 0; e < polytope.edges.size(); ++e) {
+            const auto onLoop = [&](std::uint32_t f) {
+                const auto edges = polytope.faceEdges[f];
+                return std::find(edges.begin(), edges.end(), e) != edges.end();
+            };
+            EXPECT_EQ(found.vertex(e), greatest(onLoop));
+            EXPECT_EQ(found.edge(static_cast<std::uint32_t>(polytope.faces.size()) + e), greatest(onLoop));
+        }
+        for (std::uint32_t v = 0; v < polytope.vertices.size(); ++v) {
+            const auto onLoop = [&](std::uint32_t f) {
+                const auto loop = polytope.faces[f];
+                return std::find(loop.begin(), loop.end(), v) != loop.end();
+            };
+            EXPECT_EQ(found.vertex(static_cast<std::uint32_t>(polytope.edges.size()) + v), greatest(onLoop));
+        }
+    }
+}
+
+TEST(Visibilities, AreEmptyIfEverythingIsFullyVisible) {
+    const auto polytope = support::rectifiedFiveCell();
+    Visibilities found;
+    found.faces.resize(3);
+    findVisibilities(support::objectOf(polytope), std::array{Visibility::full, Visibility::full}, found);
+    EXPECT_TRUE(found.all());
+    EXPECT_EQ(found.vertex(0), Visibility::full);
+    EXPECT_EQ(found.edge(1), Visibility::full);
+    EXPECT_EQ(found.face(2), Visibility::full);
+}
+
+}  // namespace
+}  // namespace oval4d::slicing

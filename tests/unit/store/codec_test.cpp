@@ -1,0 +1,200 @@
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "store/cbor.hpp"
+#include "unit/store/support.hpp"
+
+namespace oval4d::store {
+namespace {
+
+using session::Session;
+
+/// Stores objects in encoded form.
+class ObjectTable {
+  public:
+    KeyOf keyOf = [this](const slicing::Object& object) {
+        const auto [found, isNew] =
+            keys_.try_emplace(slicing::infoOf(object).serial, "key" + std::to_string(keys_.size()));
+        if (isNew) bytes_[found->second] = encodeObject(object);
+        return found->second;
+    };
+    ObjectOf objectOf = [this](const std::string& key) {
+        auto& object = built_[key];
+        if (!object && bytes_.contains(key)) object = decodeObject(bytes_[key]);
+        return object;
+    };
+    std::size_t size() const { return bytes_.size(); }
+
+  private:
+    std::map<std::uint64_t, std::string> keys_;
+    std::map<std::string, std::string> bytes_;
+    std::map<std::string, std::optional<slicing::Object>> built_;
+};
+
+TEST(Codec, DecodesWhatItEncodes) {
+    std::mt19937 random(4);
+    std::size_t own = 0;
+    for (int round = 0; round < 60; ++round) {
+        Session session;
+        wander(session, random, round);
+        ObjectTable table;
+        const Session back = decode(encodeWhole(session, 1000, table.keyOf), "", table.objectOf, support::cache());
+        EXPECT_TRUE(same(session, back)) << "round " << round;
+        own += table.size();
+    }
+    EXPECT_GT(own, 10U) << "the sessions have loaded objects";
+}
+
+TEST(Codec, AppliesTheHead) {
+    std::mt19937 random(5);
+    for (int round = 0; round < 40; ++round) {
+        Session session;
+        ObjectTable table;
+        wander(session, random, 20);
+        const std::string whole = encodeWhole(session, 1000, table.keyOf);
+        const Session before = session;
+        wander(session, random, round % 5);
+        const Session back = decode(whole, encodeHead(session, table.keyOf), table.objectOf, support::cache());
+        EXPECT_EQ(back.revision, session.revision);
+        if (session.revision == before.revision) {
+            EXPECT_TRUE(same(before, back));
+            continue;
+        }
+        Session bare, expected;
+        bare.now = back.now;
+        expected.now = session.now;
+        EXPECT_TRUE(same(expected, bare));
+        ASSERT_EQ(back.past.size(), before.past.size() + 1) << "one undo step leads back to the state of `whole`";
+        bare.now = back.past.back();
+        expected.now = before.now;
+        EXPECT_TRUE(same(expected, bare));
+    }
+}
+
+TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
+    Session session;
+    session.now.look.parts.bars = session.now.look.parts.labels = false;
+    ObjectTable table;
+    auto record = nlohmann::json::from_cbor(encodeWhole(session, 10, table.keyOf));
+    nlohmann::json& flags = record.at(3).at(5).at(1);  // of the current state
+    ASSERT_EQ(flags.size(), scene::kParts.size());
+    flags.erase(4);  // 0.1.0 knew faces, bars, balls and coordinates
+    const Session back = decode(bytesOf(record), "", table.objectOf, support::cache());
+    EXPECT_FALSE(back.now.look.parts.bars);
+    EXPECT_TRUE(back.now.look.parts.faces && back.now.look.parts.labels);
+}
+
+TEST(Codec, LimitsUndoSteps) {
+    std::mt19937 random(6);
+    Session session;
+    wander(session, random, 200);
+    ObjectTable table;
+    const Session back = decode(encodeWhole(session, 7, table.keyOf), "", table.objectOf, support::cache());
+    ASSERT_EQ(back.past.size(), 7U);
+    session.past.erase(session.past.begin(), session.past.end() - 7);
+    EXPECT_TRUE(same(session, back));
+}
+
+TEST(Codec, RefusesOtherVersionsAndOtherData) {
+    const ObjectOf none = [](const std::string&) { return std::nullopt; };
+    ObjectTable table;
+    std::string bytes = encodeWhole(Session{}, 10, table.keyOf);
+    ASSERT_EQ(bytes[1], 1) << "the version";
+    bytes[1] = 2;
+    try {
+        decode(bytes, "", none, support::cache());
+        FAIL() << "a later version was read";
+    } catch (const Unreadable& fault) {
+        EXPECT_NE(std::string(fault.what()).find("version 2"), std::string::npos) << fault.what();
+    }
+    for (const std::string other : {"", "x", "\x80", "\xa0", "\x81\x01", "{\"a\":1}"}) {
+        EXPECT_THROW(decode(other, "", none, support::cache()), Unreadable) << other;
+        EXPECT_THROW(decodeObject(other), Unreadable) << other;
+    }
+}
+
+/// The records are well-formed, but no session can have these values.
+TEST(Codec, RefusesInvalidValues) {
+    const ObjectOf none = [](const std::string&) { return std::nullopt; };
+    ObjectTable table;
+    Session session;
+    const auto refused = [&](auto change) {
+        Session other = session;
+        change(other.now);
+        EXPECT_THROW(decode(encodeWhole(other, 10, table.keyOf), "", table.objectOf, support::cache()), Unreadable);
+    };
+    ASSERT_NO_THROW(decode(encodeWhole(session, 10, table.keyOf), "", none, support::cache()));
+    using session::State;
+    refused([](State& state) { state.step = 0; });
+    refused([](State& state) { state.alpha = 7; });
+    refused([](State& state) { state.slices.count = 4; });
+    refused([](State& state) { state.slices.focus = std::numeric_limits<int>::min(); });
+    refused([](State& state) { state.slices.spacing = 1e9; });
+    refused([](State& state) { state.slices.spacing = 1e-9; });
+    refused([](State& state) { state.look.orbit.zoom = 0; });
+    refused([](State& state) { state.look.orbit.azimuth = 1e9; });
+    refused([](State& state) { state.turning = true; });
+    refused([](State& state) { state.last = geometry::Turn{geometry::Plane::xy, 1e7, {}}; });
+    refused([](State& state) { state.look.cellTypes = {{0}, {0}}; });
+    session.pendingKey = "\xff";
+    refused([](State&) {});
+    session.pendingKey.clear();
+    session.revision = 1ULL << 54U;
+    refused([](State&) {});
+}
+
+/// Declared sizes do not reserve memory, and deep nesting does not overflow the stack.
+TEST(Codec, RefusesExcessiveSizesAndNesting) {
+    const ObjectOf none = [](const std::string&) { return std::nullopt; };
+    const std::string huge("\xff\xff\xff\xff\xff\xff\xf0", 7);
+    std::vector<std::string> inputs{std::string(3'000'000, '\x81'), std::string(3'000'000, '\x9f')};
+    std::string maps;
+    for (int i = 0; i < 1'000'000; ++i) maps += "\xa1\x60";
+    inputs.push_back(maps);
+    for (const char kind : {'\x5b', '\x7b', '\x9b', '\xbb'})  // bytes, text, an array, a map
+        inputs.push_back(std::string("\x82\x01") + kind + '\0' + huge);
+    // Many polytopes with names of the catalogue, each with almost a million vertices.
+    std::string many("\x88\x01\x00\x98\x20", 5);
+    for (int i = 0; i < 32; ++i)
+        many += "\x81\x70" + std::to_string(1000 - i) + "," + std::to_string(900 + i) + "-duoprism";
+    inputs.push_back(many + std::string("\x80\x80\x80\x80\x60", 5));
+    for (const std::string& input : inputs) {
+        EXPECT_THROW(decode(input, "", none, support::cache()), Unreadable);
+        EXPECT_THROW(decodeObject(input), Unreadable);
+    }
+}
+
+/// Damaged bytes decode to a session that can be sliced, or throw Unreadable.
+TEST(Codec, SurvivesDamage) {
+    std::mt19937 random(7);
+    Session session;
+    wander(session, random, 30);
+    ASSERT_TRUE(session::apply(session, ownObject("own", 1)));
+    ObjectTable table;
+    const std::string whole = encodeWhole(session, 100, table.keyOf);
+    const std::string object = encodeObject(session.loaded.at("own"));
+    int unreadable = 0;
+    for (int round = 0; round < 3000; ++round) {
+        std::string damaged = round % 2 == 0 ? whole : object;
+        for (unsigned i = 0; i < 1 + random() % 3; ++i)
+            damaged[random() % damaged.size()] = static_cast<char>(random());
+        if (random() % 4 == 0) damaged.resize(random() % damaged.size());
+        try {
+            if (round % 2 == 1) {
+                decodeObject(damaged);
+            } else {
+                const Session read = decode(damaged, "", table.objectOf, support::cache());
+                EXPECT_GT(read.now.hyperplanes().count, 0);
+                for (const std::uint32_t kind : read.now.look.cellTypes.hidden)
+                    EXPECT_LT(kind, slicing::infoOf(read.now.object).cellTypes.size());
+            }
+        } catch (const Unreadable&) {
+            ++unreadable;
+        }
+    }
+    EXPECT_GT(unreadable, 1000);
+}
+
+}  // namespace
+}  // namespace oval4d::store

@@ -1,0 +1,506 @@
+// The tests that all stores must pass, and those of single stores.
+
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <random>
+#include <thread>
+
+#include "store/memory_store.hpp"
+#include "store/open_store.hpp"
+#include "store/redis_store.hpp"
+#include "store/secret.hpp"
+#include "store/sqlite_store.hpp"
+
+namespace oval4d::store {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A temporary folder.
+class Folder {
+  public:
+    Folder() {
+        std::string pattern = std::filesystem::temp_directory_path() / "oval4d-store-XXXXXX";
+        path = mkdtemp(pattern.data());
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    ~Folder() { std::filesystem::remove_all(path); }
+    std::filesystem::path path;
+};
+
+/// A port that is probably free.
+int freePort() {
+    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    auto* const generic = reinterpret_cast<sockaddr*>(&address);
+    (void)bind(socket, generic, size);
+    (void)getsockname(socket, generic, &size);
+    (void)close(socket);
+    return ntohs(address.sin_port);
+}
+
+/// A redis-server process for one test.
+class Redis {
+  public:
+    explicit Redis(int port) : port_(port) {
+        std::string text = std::to_string(port_), folder = folder_.path;
+        std::vector<std::string> words{
+            "redis-server", "--port", text,        "--bind",        "127.0.0.1",   "--save", "",
+            "--dir",        folder,   "--logfile", folder + "/log", "--maxmemory", "100mb"};
+        std::vector<char*> arguments;
+        for (std::string& word : words) arguments.push_back(word.data());
+        arguments.push_back(nullptr);
+        if (posix_spawnp(&process_, "redis-server", nullptr, nullptr, arguments.data(), environ) != 0) process_ = 0;
+    }
+    Redis(const Redis&) = delete;
+    Redis& operator=(const Redis&) = delete;
+    ~Redis() {
+        if (process_ == 0) return;
+        kill(process_, SIGKILL);
+        waitpid(process_, nullptr, 0);
+    }
+    StoreOptions options() const {
+        StoreOptions options;
+        options.place = "redis://127.0.0.1:" + std::to_string(port_);
+        options.expiry = 300ms;
+        return options;
+    }
+
+  private:
+    Folder folder_;
+    int port_;
+    pid_t process_ = 0;
+};
+
+std::unique_ptr<Store> connectWhenReady(const StoreOptions& options) {
+    for (int i = 0; i < 500; ++i) {
+        auto store = std::make_unique<RedisStore>(options);
+        try {
+            store->poll();
+            return store;
+        } catch (const StoreError&) {
+            std::this_thread::sleep_for(20ms);
+        }
+    }
+    return nullptr;
+}
+
+class AnyStore : public testing::TestWithParam<std::string> {
+  protected:
+    void SetUp() override {
+        if (GetParam() == "memory") store = std::make_unique<MemoryStore>();
+        if (GetParam() == "sqlite") store = std::make_unique<SqliteStore>(folder.path / "sessions.sqlite");
+        if (GetParam() == "redis") {
+            redis = std::make_unique<Redis>(freePort());
+            store = connectWhenReady(redis->options());
+        }
+        ASSERT_TRUE(store) << "is redis-server installed?";
+    }
+
+    RecordUpdate whole(Fence fence, const std::string& bytes, const std::string& id = "one") const {
+        return {{id, "secret of " + id}, fence, "", bytes, {}, {}, false};
+    }
+    RecordUpdate head(Fence fence, const std::string& bytes) const {
+        return {{"one", "secret of one"}, fence, bytes, "", {}, {}, false};
+    }
+    SaveResult save(const RecordUpdate& update) { return store->save({&update, 1}).at(0); }
+
+    Folder folder;
+    std::unique_ptr<Redis> redis;
+    std::unique_ptr<Store> store;
+};
+
+INSTANTIATE_TEST_SUITE_P(Stores, AnyStore, testing::Values("memory", "sqlite", "redis"),
+                         [](const auto& kind) { return kind.param; });
+
+// Records may contain any bytes.
+const std::string kBytes("a\0b\r\n\xff", 6);
+
+TEST_P(AnyStore, ReturnsSavedRecords) {
+    EXPECT_FALSE(store->tokenHash("one"));
+    EXPECT_FALSE(store->claim("one"));
+    EXPECT_EQ(save(whole(1, kBytes)), SaveResult::saved);
+    EXPECT_EQ(store->tokenHash("one"), hashOf("secret of one"));
+    auto record = store->claim("one");
+    ASSERT_TRUE(record);
+    EXPECT_EQ(record->whole, kBytes);
+    EXPECT_EQ(record->head, "");
+    EXPECT_EQ(record->fence, 2U);
+    EXPECT_EQ(save(head(2, "newer")), SaveResult::saved);
+    record = store->claim("one");
+    EXPECT_EQ(record->whole + "|" + record->head, kBytes + "|newer");
+    EXPECT_EQ(save(whole(3, "newest")), SaveResult::saved);
+    record = store->claim("one");
+    EXPECT_EQ(record->whole + "|" + record->head, "newest|") << "the head is replaced";
+    store->poll();
+    EXPECT_EQ(store->size(), 1U);
+}
+
+TEST_P(AnyStore, RefusesUpdatesWithAnOldFence) {
+    EXPECT_EQ(save(whole(1, "first")), SaveResult::saved);
+    EXPECT_EQ(store->claim("one")->fence, 2U);
+    EXPECT_EQ(save(whole(1, "late")), SaveResult::taken);
+    EXPECT_EQ(save(head(1, "late")), SaveResult::taken);
+    EXPECT_EQ(save(head(2, "in time")), SaveResult::saved);
+    const auto record = store->claim("one");
+    EXPECT_EQ(record->whole + record->head, "firstin time");
+}
+
+TEST_P(AnyStore, SaveReturnsAResultForEachUpdate) {
+    EXPECT_EQ(save(whole(1, "a")), SaveResult::saved);
+    store->claim("one");
+    RecordUpdate headless = head(1, "x");
+    headless.credentials.id = "three";
+    const std::vector<RecordUpdate> updates{whole(1, "late"), whole(1, "b", "two"), headless};
+    EXPECT_EQ(store->save(updates), (std::vector{SaveResult::taken, SaveResult::saved, SaveResult::missing}));
+    EXPECT_EQ(store->claim("two")->whole, "b");
+    EXPECT_FALSE(store->claim("three"));
+}
+
+TEST_P(AnyStore, StoresThePolytopesOfASession) {
+    RecordUpdate update = whole(1, "s");
+    update.polytopes = {{"p", kBytes}, {"q", "bytes of q"}};
+    EXPECT_EQ(save(update), SaveResult::saved);
+    EXPECT_EQ(save(whole(1, "other", "two")), SaveResult::saved);
+    auto polytopes = store->claim("one")->polytopes;
+    std::ranges::sort(polytopes);
+    EXPECT_EQ(polytopes, update.polytopes);
+    EXPECT_TRUE(store->claim("two")->polytopes.empty());
+    update = whole(2, "s");
+    update.polytopes = {{"r", "bytes of r"}};
+    update.dropped = {"p", "q"};
+    EXPECT_EQ(save(update), SaveResult::saved);
+    EXPECT_EQ(store->claim("one")->polytopes, update.polytopes);
+}
+
+TEST_P(AnyStore, ExpiresUntouchedSessions) {
+    save(whole(1, "old"));
+    save(whole(1, "open", "two"));
+    for (int i = 0; i < 6; ++i) {
+        std::this_thread::sleep_for(100ms);
+        const std::vector<std::string> open{"two"};
+        store->touch(open);
+        store->expire(300ms);
+    }
+    EXPECT_FALSE(store->tokenHash("one"));
+    EXPECT_TRUE(store->tokenHash("two"));
+    store->poll();
+    EXPECT_EQ(store->size(), 1U);
+}
+
+TEST_P(AnyStore, RemovesSessionsWithTheirPolytopes) {
+    RecordUpdate update = whole(1, "s");
+    update.polytopes = {{"p", "bytes of p"}};
+    update.last = true;
+    save(update);
+    save(whole(1, "other", "two"));
+    const std::vector<std::string> ids{"one", "nobody"};
+    store->remove(ids);
+    EXPECT_FALSE(store->claim("one"));
+    EXPECT_TRUE(store->claim("two"));
+    EXPECT_EQ(save(whole(1, "again")), SaveResult::saved);
+    EXPECT_TRUE(store->claim("one")->polytopes.empty());
+}
+
+/// Checks which sessions a store with a quota of 1 MiB evicts first.
+void expectEvictionOrder(Store& store, std::size_t bytes) {
+    const auto saved = [&](const std::string& id, bool changed, std::size_t size) {
+        const RecordUpdate update{{id, "secret"}, 1, "", std::string(size, 'x'), {}, {}, true, changed};
+        store.save({&update, 1});
+        std::this_thread::sleep_for(2ms);
+    };
+    saved("changed, old", true, 100'000);
+    saved("held", false, 100'000);
+    saved("as created", false, 100'000);
+    saved("changed, new", true, 100'000);
+    const RecordUpdate large{{"large", "secret"}, 1, "", std::string(bytes, 'x'), {}, {}, false, true};
+    const RecordUpdate largest{{"largest", "secret"}, 1, "", std::string(2'000'000, 'x'), {}, {}, false, true};
+    const auto isPinned = [](const std::string& id) { return id == "held" || id == "large"; };
+    for (int i = 0; i < 10; ++i) saved("filler " + std::to_string(i), i > 0, 20'000);
+    EXPECT_THROW(store.save({&large, 1}), NotWritable);
+    EXPECT_FALSE(store.tokenHash("large"));
+    EXPECT_GT(store.evict({&large, 1}, isPinned), 0U);
+    EXPECT_TRUE(store.tokenHash("held"));
+    EXPECT_FALSE(store.tokenHash("as created"));
+    EXPECT_TRUE(store.tokenHash("changed, new"));
+    EXPECT_TRUE(store.tokenHash("filler 9"));
+    EXPECT_EQ(store.save({&large, 1}).at(0), SaveResult::saved);
+    EXPECT_THROW(store.save({&largest, 1}), NotWritable);
+    store.evict({&largest, 1}, isPinned);
+    EXPECT_THROW(store.save({&largest, 1}), NotWritable);
+    EXPECT_TRUE(store.tokenHash("held") && store.tokenHash("large")) << "pinned sessions stay, whatever does not fit";
+    EXPECT_FALSE(store.tokenHash("changed, new"));
+}
+
+TEST(MemoryStore, EvictsInOrder) {
+    MemoryStore store(1U << 20U);
+    expectEvictionOrder(store, 500'000);
+}
+
+TEST(SqliteStore, EvictsInOrder) {
+    const Folder folder;
+    SqliteStore store(folder.path / "sessions", 1U << 20U);
+    expectEvictionOrder(store, 250'000);
+}
+
+std::uintmax_t bytesIn(const std::filesystem::path& folder) {
+    std::uintmax_t bytes = 0;
+    for (const auto& file : std::filesystem::directory_iterator(folder)) bytes += file.file_size();
+    return bytes;
+}
+
+TEST(SqliteStore, StaysWithinItsQuotaAndReleasesFreePages) {
+    const Folder folder;
+    constexpr std::size_t kQuota = 2U << 20U;
+    {
+        SqliteStore store(folder.path / "sessions", kQuota);
+        std::mt19937 random(1);
+        std::uintmax_t most = 0;
+        for (int i = 0; i < 3000; ++i) {
+            const RecordUpdate update{{"session " + std::to_string(random()), "secret"},
+                                      1,
+                                      "",
+                                      std::string(random() % (i % 10 == 0 ? 60'000 : 3'000) + 1, 'x'),
+                                      {},
+                                      {},
+                                      true,
+                                      true};
+            try {
+                store.save({&update, 1});
+            } catch (const NotWritable&) {
+                EXPECT_GT(store.evict({&update, 1}, [](const std::string&) { return false; }), 0U);
+                store.save({&update, 1});
+            }
+            most = std::max(most, bytesIn(folder.path));
+        }
+        EXPECT_LT(most, kQuota);
+        EXPECT_GT(most, kQuota / 2);
+        std::this_thread::sleep_for(2ms);
+        store.expire(0ms);
+        for (int i = 0; i < 10; ++i) store.poll();
+        EXPECT_EQ(store.size(), 0U);
+    }
+    EXPECT_LT(bytesIn(folder.path), kQuota / 4);
+}
+
+unsigned modeOf(const std::filesystem::path& path) {
+    return static_cast<unsigned>(std::filesystem::status(path).permissions()) & 07777U;
+}
+
+TEST(SqliteStore, FilesArePrivate) {
+    const Folder folder;
+    const std::filesystem::path path = folder.path / "a" / "b" / "sessions";
+    for (const mode_t mask : {0U, 0022U, 0777U}) {
+        const mode_t before = umask(mask);
+        {
+            const SqliteStore store(path);
+            for (const char* beside : {"", "-wal"}) EXPECT_EQ(modeOf(path.string() + beside), 0600U) << beside << mask;
+            EXPECT_EQ(modeOf(folder.path / "a"), 0700U);
+            EXPECT_EQ(modeOf(folder.path / "a" / "b"), 0700U);
+        }
+        umask(before);
+        std::filesystem::permissions(path, std::filesystem::perms(0644));
+        {
+            const SqliteStore store(path);
+        }
+        EXPECT_EQ(modeOf(path), 0600U);
+        std::filesystem::remove_all(folder.path / "a");
+    }
+}
+
+/// Claims a session, twice if the first attempt finds damage: the second one repairs it first.
+std::optional<Record> claimed(SqliteStore& store, const std::string& id) {
+    try {
+        return store.claim(id);
+    } catch (const CorruptDatabase&) {
+        return store.claim(id);
+    }
+}
+
+/// Flips bits of the file, or truncates it: every session that can be claimed is unchanged, and the damaged file is
+/// kept under another name.
+TEST(SqliteStore, SalvagesIntactSessionsOfADamagedFile) {
+    std::mt19937 random(3);
+    const auto bytesOfSession = [](int number) {
+        return "session " + std::to_string(number) +
+               std::string(static_cast<std::size_t>(100 + 37 * number % 9000), static_cast<char>('a' + number % 26));
+    };
+    constexpr int kSessions = 60;
+    const Folder whole;
+    {
+        SqliteStore store(whole.path / "sessions");
+        for (int i = 0; i < kSessions; ++i) {
+            const RecordUpdate update{
+                {"id" + std::to_string(i), "secret"}, 1, "", bytesOfSession(i), {}, {}, true, true};
+            store.save({&update, 1});
+        }
+    }
+    std::ifstream file(whole.path / "sessions", std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(file), {});
+    int keptAll = 0, salvages = 0;
+    for (int round = 0; round < 60; ++round) {
+        const Folder folder;
+        const std::string path = folder.path / "sessions";
+        std::string damaged = bytes;
+        for (unsigned i = 0; i < 1 + random() % 3; ++i)
+            damaged[100 + random() % (damaged.size() - 100)] ^= static_cast<char>(1U << random() % 8);
+        if (round % 5 == 0) damaged.resize(100 + random() % (damaged.size() - 100));
+        std::ofstream(path, std::ios::binary) << damaged;
+        SqliteStore store(path);
+        int kept = 0;
+        for (int i = 0; i < kSessions; ++i) {
+            const auto record = claimed(store, "id" + std::to_string(i));
+            if (!record || !record->damage.empty()) continue;
+            EXPECT_EQ(record->whole, bytesOfSession(i)) << "round " << round;
+            ++kept;
+        }
+        keptAll += kept == kSessions ? 1 : 0;
+        std::filesystem::path aside;
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path)) {
+            if (entry.path().string().find(".damaged-") != std::string::npos) aside = entry.path();
+        }
+        if (aside.empty()) {
+            EXPECT_GE(kept, kSessions - 3) << "only records were damaged, round " << round;
+        } else {
+            ++salvages;
+            std::ifstream set(aside, std::ios::binary);
+            EXPECT_TRUE(std::string(std::istreambuf_iterator<char>(set), {}) == damaged)
+                << "the damaged file is unchanged";
+            EXPECT_EQ(modeOf(aside), 0600U);
+        }
+        const RecordUpdate update{{"new", "secret"}, 1, "", "new", {}, {}, true, true};
+        EXPECT_EQ(store.save({&update, 1}).at(0), SaveResult::saved);
+    }
+    EXPECT_GT(salvages, 10);
+    EXPECT_GT(keptAll, 0);
+}
+
+TEST(SqliteStore, SessionsSurviveARestart) {
+    const Folder folder;
+    const std::string path = folder.path / "new folder" / "sessions.sqlite";
+    const RecordUpdate update{{"one", "secret"}, 1, "", "whole", {{"p", "bytes"}}, {}, true};
+    SqliteStore(path).save({&update, 1});
+    SqliteStore store(path);
+    EXPECT_EQ(store.size(), 1U);
+    EXPECT_EQ(store.tokenHash("one"), hashOf("secret"));
+    const auto record = store.claim("one");
+    EXPECT_EQ(record->whole, "whole");
+    EXPECT_EQ(record->polytopes, update.polytopes);
+}
+
+TEST(SqliteStore, ErrorsTellWhyAFileCannotBeUsed) {
+    const Folder folder;
+    const auto errorOf = [](const std::string& path) -> std::string {
+        try {
+            const SqliteStore store(path);
+            return "none";
+        } catch (const StoreError& fault) {
+            return fault.what();
+        }
+    };
+    const std::string path = folder.path / "sessions.sqlite";
+    const SqliteStore first(path);
+    EXPECT_NE(errorOf(path).find("in use by another server"), std::string::npos) << errorOf(path);
+    std::FILE* const file = std::fopen((folder.path / "text").c_str(), "w");
+    std::fputs(std::string(5000, 'x').c_str(), file);
+    std::fclose(file);
+    EXPECT_NE(errorOf(folder.path / "text").find("not a database"), std::string::npos) << errorOf(folder.path / "text");
+    std::filesystem::create_directory(folder.path / "folder");
+    EXPECT_NE(errorOf(folder.path / "folder").find("is a folder"), std::string::npos)
+        << errorOf(folder.path / "folder");
+    std::filesystem::create_symlink(folder.path / "elsewhere", folder.path / "link");
+    EXPECT_NE(errorOf(folder.path / "link").find("symbolic link"), std::string::npos) << errorOf(folder.path / "link");
+    EXPECT_FALSE(std::filesystem::exists(folder.path / "elsewhere"));
+    mkfifo((folder.path / "pipe").c_str(), 0600);
+    EXPECT_NE(errorOf(folder.path / "pipe").find("is a pipe"), std::string::npos) << errorOf(folder.path / "pipe");
+    const std::ofstream log(folder.path / "log");
+    std::filesystem::create_symlink(folder.path / "elsewhere", folder.path / "log-wal");
+    EXPECT_NE(errorOf(folder.path / "log").find("log-wal is a symbolic link"), std::string::npos);
+    EXPECT_NE(errorOf("/proc/nowhere/x").find("unable to open"), std::string::npos) << errorOf("/proc/nowhere/x");
+}
+
+TEST(RedisStore, PollReturnsSessionsClaimedByOthers) {
+    const Redis redis(freePort());
+    const auto one = connectWhenReady(redis.options()), two = connectWhenReady(redis.options());
+    ASSERT_TRUE(one && two);
+    const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {}, {}, false};
+    EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::saved);
+    EXPECT_TRUE(one->poll().empty());
+    EXPECT_EQ(two->claim("id")->fence, 2U);
+    EXPECT_EQ(one->poll(), std::vector<std::string>{"id"});
+    EXPECT_TRUE(one->poll().empty()) << "returned only once";
+    EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::taken);
+    const RecordUpdate last{{"id", "secret"}, 2, "", "whole", {}, {}, true};
+    EXPECT_EQ(two->save({&last, 1}).at(0), SaveResult::saved);
+    EXPECT_EQ(one->claim("id")->fence, 3U);
+    EXPECT_TRUE(two->poll().empty()) << "the server had closed the session itself";
+}
+
+TEST(RedisStore, RemovesOnlyItsOwnSessions) {
+    const Redis redis(freePort());
+    const auto one = connectWhenReady(redis.options()), two = connectWhenReady(redis.options());
+    ASSERT_TRUE(one && two);
+    const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {{"p", "q"}}, {}, false, true};
+    one->save({&update, 1});
+    const std::vector<std::string> ids{"id"};
+    two->remove(ids);
+    EXPECT_TRUE(one->tokenHash("id"));
+    one->remove(ids);
+    EXPECT_FALSE(one->tokenHash("id"));
+}
+
+TEST(RedisStore, RecoversWhenRedisHasLostAllData) {
+    const int port = freePort();
+    auto redis = std::make_unique<Redis>(port);
+    const auto one = connectWhenReady(redis->options()), two = connectWhenReady(redis->options());
+    ASSERT_TRUE(one && two);
+    const RecordUpdate first{{"id", "secret"}, 1, "", "whole", {}, {}, false};
+    EXPECT_EQ(one->save({&first, 1}).at(0), SaveResult::saved);
+    redis.reset();
+    EXPECT_THROW(one->save({&first, 1}), StoreError);
+    EXPECT_THROW(one->poll(), StoreError);
+    EXPECT_THROW(two->poll(), StoreError);
+    redis = std::make_unique<Redis>(port);
+    ASSERT_TRUE(connectWhenReady(redis->options()));
+    const RecordUpdate head{{"id", "secret"}, 1, "head", "", {}, {}, false};
+    EXPECT_EQ(one->save({&head, 1}).at(0), SaveResult::missing);
+    EXPECT_EQ(one->save({&first, 1}).at(0), SaveResult::saved);
+    // Another server with the same fence, from before the loss.
+    EXPECT_EQ(two->save({&first, 1}).at(0), SaveResult::taken);
+}
+
+TEST(OpenStore, ParsesPlaces) {
+    StoreOptions options;
+    const auto named = [&](const std::string& place) {
+        options.place = place;
+        return openStore(options)->name();
+    };
+    EXPECT_EQ(named("memory"), "memory");
+    EXPECT_EQ(named("redis://host"), "redis://host:6379/");
+    EXPECT_EQ(named("redis://user:pass@word@host:7000/3"), "redis://host:7000/3") << "without the password";
+    EXPECT_EQ(named("redis://[::1]:7000"), "redis://::1:7000/");
+    for (const char* wrong :
+         {"", "disk", "sqlite:", "redis://", "redis://host:x", "redis://host:0", "redis://host/x"}) {
+        EXPECT_THROW(named(wrong), std::invalid_argument) << wrong;
+    }
+}
+
+}  // namespace
+}  // namespace oval4d::store

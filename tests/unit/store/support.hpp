@@ -1,0 +1,78 @@
+#pragma once
+// Shared by the tests of the stores: random sessions, and their comparison after decoding.
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+#include <vector>
+
+#include "store/codec.hpp"
+#include "store/object_codec.hpp"
+#include "unit/session/support.hpp"
+
+namespace oval4d::store {
+
+/// Replaces `other` by `one` if their encodings are equal.
+inline void share(const slicing::Object& one, slicing::Object& other) {
+    if (encodeObject(one) == encodeObject(other)) other = one;
+}
+
+/// Whether the sessions are equal, even if they refer to equal objects that were built separately.
+inline bool same(const session::Session& one, session::Session other) {
+    if (one.past.size() != other.past.size() || one.future.size() != other.future.size()) return false;
+    share(one.now.object, other.now.object);
+    for (std::size_t i = 0; i < one.past.size(); ++i) share(one.past[i].object, other.past[i].object);
+    for (std::size_t i = 0; i < one.future.size(); ++i) share(one.future[i].object, other.future[i].object);
+    for (auto& [name, object] : other.loaded) {
+        const auto found = one.loaded.find(name);
+        if (found != one.loaded.end()) share(found->second, object);
+    }
+    return one == other;
+}
+
+/// The convex hull of random points, a different one for each seed, as a load command.
+inline session::Load ownObject(const std::string& name, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    std::string text;
+    for (int i = 0; i < 12; ++i) {
+        for (int j = 0; j < 4; ++j) text += std::to_string(coordinate(random)) + (j < 3 ? " " : "\n");
+    }
+    return {name, "points", text};
+}
+
+/// Applies random commands: keys, settings, loads, undo, redo and rotations.
+inline void wander(session::Session& session, std::mt19937& random, int steps) {
+    const std::string keys = "234567rtykjKJhl0G[]{}u.nNopfbe";
+    std::uniform_real_distribution<double> angle(-7, 7);
+    for (int i = 0; i < steps; ++i) {
+        session::Command command = session::Key{std::string(1, keys[random() % keys.size()]), random() % 4 == 0, false};
+        session::Set set;
+        switch (random() % 8) {
+            case 0:
+                command = session::Rotate{{static_cast<geometry::Plane>(random() % 6), angle(random), {}}};
+                break;
+            case 1:
+                set.azimuth = angle(random);
+                set.zoom = 1.5;
+                set.coloring = static_cast<scene::Coloring>(random() % 4);
+                set.hidden = {{0}};
+                command = set;
+                break;
+            case 2:
+                command = random() % 4 == 0 ? ownObject("mine " + std::to_string(random() % 3), random() % 5)
+                                            : session::Command(session::CommandLine{"polytope truncated 24-cell"});
+                break;
+            case 3:
+                command = session::Redo{};
+                break;
+            default:
+                break;
+        }
+        (void)session::apply(session, command);  // some commands fail, for example with nothing to undo
+        if (session.now.turning) session::advance(session, 0.01);
+    }
+}
+
+}  // namespace oval4d::store

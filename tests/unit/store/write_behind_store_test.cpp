@@ -1,0 +1,272 @@
+#include <future>
+#include <thread>
+
+#include "store/memory_store.hpp"
+#include "store/write_behind_store.hpp"
+#include "unit/store/support.hpp"
+
+namespace oval4d::store {
+namespace {
+
+using namespace std::chrono_literals;
+using session::Session;
+
+/// Shared by a test and its FaultyStore.
+struct StoreControl {
+    std::atomic<bool> fails = false;
+    std::atomic<int> saves = 0;
+    std::mutex mutex;
+    MemoryStore kept;  // guarded by mutex
+};
+
+/// A shared store that a test can make fail.
+class FaultyStore final : public Store {
+  public:
+    explicit FaultyStore(std::shared_ptr<StoreControl> control) : control_(std::move(control)) {}
+    Pace pace() const override { return Pace::at_once; }
+    std::string name() const override { return "faulty"; }
+    std::optional<std::string> tokenHash(const std::string& id) override { return checked().tokenHash(id); }
+    std::optional<Record> claim(const std::string& id) override { return checked().claim(id); }
+    std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override {
+        MemoryStore& kept = checked();
+        const std::lock_guard lock(control_->mutex);
+        control_->saves += static_cast<int>(updates.size());
+        return kept.save(updates);
+    }
+    std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) override {
+        MemoryStore& kept = checked();
+        const std::lock_guard lock(control_->mutex);
+        return kept.evict(updates, isPinned);
+    }
+    void remove(std::span<const std::string> ids) override {
+        MemoryStore& kept = checked();
+        const std::lock_guard lock(control_->mutex);
+        kept.remove(ids);
+    }
+    void touch(std::span<const std::string> ids) override { checked().touch(ids); }
+    std::size_t expire(Milliseconds age) override { return checked().expire(age); }
+    std::vector<std::string> poll() override { return checked().poll(); }
+    std::size_t size() const override { return control_->kept.size(); }
+
+  private:
+    MemoryStore& checked() {
+        if (control_->fails) throw StoreError("failure requested by the test");
+        return control_->kept;
+    }
+    const std::shared_ptr<StoreControl> control_;
+};
+
+class WriteBehindStoreTest : public testing::Test {
+  protected:
+    WriteBehindStore::Fetch fetch(const SessionCredentials& credentials) {
+        std::promise<WriteBehindStore::Fetch> promise;
+        writeBehind.fetch(credentials, [&](WriteBehindStore::Fetch fetch) { promise.set_value(std::move(fetch)); });
+        return promise.get_future().get();
+    }
+    bool save(const std::string& id, const Session& session,
+              WriteBehindStore::Part part = WriteBehindStore::Part::whole) {
+        std::promise<bool> promise;
+        writeBehind.save(id, session, part, [&](bool ours) { promise.set_value(ours); });
+        return promise.get_future().get();
+    }
+    static void eventually(const std::function<bool()>& happened) {
+        for (int i = 0; i < 3000 && !happened(); ++i) std::this_thread::sleep_for(10ms);
+        EXPECT_TRUE(happened());
+    }
+    Session at(std::uint64_t revision) const {
+        Session session;
+        session.revision = revision;
+        return session;
+    }
+    std::uint64_t kept(const std::string& id) {
+        const std::lock_guard lock(control->mutex);
+        const auto record = control->kept.claim(id);
+        return record
+                   ? decode(
+                         record->whole, record->head, [](const std::string&) { return std::nullopt; }, support::cache())
+                         .revision
+                   : 0;
+    }
+
+    std::shared_ptr<StoreControl> control = std::make_shared<StoreControl>();
+    std::atomic<int> taken = 0, wanted = 0, back = 0;
+    WriteBehindStore writeBehind{std::make_unique<FaultyStore>(control),
+                                 {10s, 100},
+                                 {[this](const std::string&) { ++taken; }, [this](const std::string&) { ++wanted; },
+                                  [this] { ++back; }, [](const char*, double, bool) {}}};
+};
+
+TEST_F(WriteBehindStoreTest, SavedSessionsAreInTheStore) {
+    const SessionCredentials credentials = writeBehind.create();
+    EXPECT_EQ(writeBehind.count(), 1U);
+    EXPECT_TRUE(save(credentials.id, at(5)));
+    EXPECT_EQ(writeBehind.unsaved(), 0U);
+    EXPECT_EQ(kept(credentials.id), 5U);
+}
+
+TEST_F(WriteBehindStoreTest, FetchRequiresTheToken) {
+    const SessionCredentials credentials = writeBehind.create();
+    writeBehind.close(credentials.id, at(3));
+    eventually([&] { return writeBehind.unsaved() == 0; });
+    EXPECT_EQ(fetch({credentials.id, "wrong"}).error().code, ErrorCode::bad_token);
+    EXPECT_EQ(fetch({"nobody", credentials.token}).error().code, ErrorCode::not_found);
+    const auto fetched = fetch(credentials);
+    ASSERT_TRUE(fetched);
+    EXPECT_FALSE(fetched->record.whole.empty());
+}
+
+TEST_F(WriteBehindStoreTest, AFailingStoreDoesNotDelayCallers) {
+    const SessionCredentials credentials = writeBehind.create();
+    control->fails = true;
+    EXPECT_TRUE(save(credentials.id, at(1)));
+    eventually([&] { return !writeBehind.trouble().empty(); });
+    EXPECT_TRUE(save(credentials.id, at(2)));
+    EXPECT_EQ(fetch({"other", "x"}).error().code, ErrorCode::internal) << "not not_found";
+    const SessionCredentials closed = writeBehind.create();
+    writeBehind.close(closed.id, at(9));
+    EXPECT_EQ(fetch({closed.id, "wrong"}).error().code, ErrorCode::bad_token);
+    const auto again = fetch(closed);
+    ASSERT_TRUE(again && again->session) << "it is still in memory";
+    EXPECT_EQ(again->session->revision, 9U);
+    EXPECT_EQ(writeBehind.unsaved(), 2U);
+    control->fails = false;
+    eventually([&] { return writeBehind.unsaved() == 0; });
+    eventually([&] { return back == 1; });
+    EXPECT_EQ(writeBehind.trouble(), "");
+    EXPECT_EQ(kept(credentials.id), 2U);
+    EXPECT_EQ(kept(closed.id), 9U);
+}
+
+TEST_F(WriteBehindStoreTest, DoesNotWriteSessionsClaimedByOthers) {
+    const SessionCredentials credentials = writeBehind.create();
+    EXPECT_TRUE(save(credentials.id, at(1)));
+    {
+        const std::lock_guard lock(control->mutex);
+        control->kept.claim(credentials.id);
+    }
+    EXPECT_FALSE(save(credentials.id, at(2)));
+    EXPECT_EQ(taken, 1);
+    EXPECT_FALSE(save(credentials.id, at(3))) << "nor later";
+    EXPECT_EQ(kept(credentials.id), 1U);
+}
+
+TEST_F(WriteBehindStoreTest, RequestsSessionsThatTheStoreLacks) {
+    const SessionCredentials credentials = writeBehind.create();
+    writeBehind.save(credentials.id, at(1), WriteBehindStore::Part::head);
+    eventually([&] { return wanted == 1; });
+    EXPECT_TRUE(save(credentials.id, at(2)));
+    EXPECT_EQ(kept(credentials.id), 2U);
+}
+
+TEST_F(WriteBehindStoreTest, WritesTheNewestOfManyChanges) {
+    const SessionCredentials credentials = writeBehind.create();
+    EXPECT_TRUE(save(credentials.id, at(1)));
+    for (std::uint64_t i = 2; i < 5000; ++i) writeBehind.save(credentials.id, at(i), WriteBehindStore::Part::head);
+    EXPECT_TRUE(save(credentials.id, at(5000), WriteBehindStore::Part::head));
+    EXPECT_EQ(kept(credentials.id), 5000U);
+    EXPECT_LT(control->saves, 5000);
+}
+
+TEST_F(WriteBehindStoreTest, ForgetsClosedSessionsOnly) {
+    const SessionCredentials open = writeBehind.create(), closed = writeBehind.create(), waiting = writeBehind.create();
+    EXPECT_TRUE(save(open.id, at(1)));
+    writeBehind.close(closed.id, at(2));
+    eventually([&] { return writeBehind.unsaved() == 0; });
+    writeBehind.forget(open.id);
+    writeBehind.forget(closed.id);
+    EXPECT_EQ(fetch(closed).error().code, ErrorCode::not_found);
+    EXPECT_TRUE(save(open.id, at(3))) << "it is still open";
+    EXPECT_EQ(kept(open.id), 3U);
+    EXPECT_EQ(kept(closed.id), 0U);
+    control->fails = true;
+    writeBehind.close(waiting.id, at(4));
+    eventually([&] { return !writeBehind.trouble().empty(); });
+    writeBehind.forget(waiting.id);
+    EXPECT_EQ(fetch(waiting).error().code, ErrorCode::not_found);
+    control->fails = false;
+    eventually([&] { return writeBehind.trouble().empty(); });
+    EXPECT_EQ(kept(waiting.id), 0U);
+    writeBehind.forget("nobody");
+    EXPECT_EQ(writeBehind.unsaved(), 0U);
+}
+
+/// Polytopes are normally written once; a store that failed may have lost them.
+TEST_F(WriteBehindStoreTest, WritesPolytopesAgainAfterAFailure) {
+    const SessionCredentials credentials = writeBehind.create();
+    Session session;
+    ASSERT_TRUE(session::apply(session, ownObject("own", 1)));
+    EXPECT_TRUE(save(credentials.id, session));
+    control->fails = true;
+    writeBehind.save(credentials.id, session, WriteBehindStore::Part::whole);
+    eventually([&] { return !writeBehind.trouble().empty(); });
+    {
+        const std::lock_guard lock(control->mutex);
+        const std::vector<std::string> ids{credentials.id};
+        control->kept.remove(ids);
+    }
+    control->fails = false;
+    eventually([&] { return writeBehind.unsaved() == 0 && writeBehind.trouble().empty(); });
+    const std::lock_guard lock(control->mutex);
+    const auto record = control->kept.claim(credentials.id);
+    ASSERT_TRUE(record);
+    EXPECT_EQ(record->polytopes.size(), 1U);
+}
+
+/// While the store fails, closed sessions in memory are limited by the quota: those that were never changed are evicted
+/// first, then the oldest.
+TEST(WriteBehindStore, EvictsClosedSessionsBeyondTheQuota) {
+    const auto control = std::make_shared<StoreControl>();
+    control->fails = true;
+    WriteBehindStore writeBehind(
+        std::make_unique<FaultyStore>(control), {10s, 100, 100'000},
+        {[](const std::string&) {}, [](const std::string&) {}, [] {}, [](const char*, double, bool) {}});
+    for (int i = 0; i < 3000 && writeBehind.trouble().empty(); ++i) std::this_thread::sleep_for(10ms);
+    Session changed;
+    changed.revision = 1;
+    const SessionCredentials open = writeBehind.create();
+    writeBehind.save(open.id, changed, WriteBehindStore::Part::whole);
+    std::vector<SessionCredentials> credentialsList;
+    for (int i = 0; i < 2000; ++i) {
+        credentialsList.push_back(writeBehind.create());
+        writeBehind.close(credentialsList.back().id, i == 1999 ? changed : Session{});
+    }
+    writeBehind.close(writeBehind.create().id, Session{});
+    EXPECT_LT(writeBehind.unsaved(), 300U);
+    EXPECT_GT(writeBehind.unsaved(), 10U);
+    EXPECT_EQ(writeBehind.count(), writeBehind.unsaved());
+    control->fails = false;
+    for (int i = 0; i < 3000 && writeBehind.unsaved() > 0; ++i) std::this_thread::sleep_for(10ms);
+    const std::lock_guard lock(control->mutex);
+    EXPECT_TRUE(control->kept.tokenHash(open.id)) << "it is open";
+    EXPECT_TRUE(control->kept.tokenHash(credentialsList[1999].id));
+    EXPECT_FALSE(control->kept.tokenHash(credentialsList[0].id));
+}
+
+TEST_F(WriteBehindStoreTest, WritesAPolytopeOnce) {
+    const SessionCredentials credentials = writeBehind.create();
+    Session session;
+    ASSERT_TRUE(session::apply(session, ownObject("own", 1)));
+    const auto polytopes = [&] {
+        const std::lock_guard lock(control->mutex);
+        return control->kept.claim(credentials.id)->polytopes;
+    };
+    writeBehind.save(credentials.id, Session{}, WriteBehindStore::Part::whole);
+    writeBehind.save(credentials.id, session, WriteBehindStore::Part::head);
+    EXPECT_TRUE(save(credentials.id, session));
+    const auto first = writeBehind.unsaved() == 0 ? polytopes() : decltype(polytopes()){};
+    ASSERT_EQ(first.size(), 1U);
+    EXPECT_EQ(first[0].second, encodeObject(session.loaded.at("own")));
+}
+
+TEST_F(WriteBehindStoreTest, StopWritesPendingChanges) {
+    std::vector<SessionCredentials> credentialsList;
+    for (std::uint64_t i = 1; i <= 600; ++i) {
+        credentialsList.push_back(writeBehind.create());
+        writeBehind.close(credentialsList.back().id, at(i));
+    }
+    writeBehind.stop(20s);
+    for (std::uint64_t i = 1; i <= 600; ++i) EXPECT_EQ(kept(credentialsList[i - 1].id), i);
+}
+
+}  // namespace
+}  // namespace oval4d::store

@@ -1,0 +1,44 @@
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "text/choice.hpp"
+#include "text/suggest.hpp"
+
+namespace oval4d::text {
+namespace {
+
+enum class Fruit { apple, pear, plum };
+constexpr auto kFruits =
+    std::to_array<Choice<Fruit>>({{"apple", Fruit::apple}, {"pear", Fruit::pear}, {"pome", Fruit::apple}});
+
+static_assert(valueNamed(kFruits, "pear") == Fruit::pear);
+static_assert(nameOf(kFruits, Fruit::pear) == "pear");
+
+TEST(Choice, FindsValuesByNameAndAlias) {
+    EXPECT_EQ(valueNamed(kFruits, "apple"), Fruit::apple);
+    EXPECT_EQ(valueNamed(kFruits, "pome"), Fruit::apple);
+    EXPECT_FALSE(valueNamed(kFruits, "Apple"));
+    EXPECT_FALSE(valueNamed(kFruits, "plum"));
+    EXPECT_FALSE(valueNamed(kFruits, ""));
+}
+
+TEST(Choice, NamesAValueByItsFirstRow) {
+    EXPECT_EQ(nameOf(kFruits, Fruit::apple), "apple");
+    EXPECT_EQ(nameOf(kFruits, Fruit::plum), "");
+}
+
+TEST(Choice, ListsAllNames) { EXPECT_EQ(namesOf(kFruits), (std::vector<std::string_view>{"apple", "pear", "pome"})); }
+
+TEST(Choice, IsOneOfTheAlternatives) {
+    using Names = std::vector<std::string_view>;
+    EXPECT_EQ(alternatives(Names{}), "");
+    EXPECT_EQ(alternatives(Names{"a"}), "a");
+    EXPECT_EQ(alternatives(Names{"a", "b"}), "a or b");
+    EXPECT_EQ(alternatives(namesOf(kFruits)), "apple, pear or pome");
+}
+
+}  // namespace
+}  // namespace oval4d::text

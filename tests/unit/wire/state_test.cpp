@@ -1,0 +1,198 @@
+#include <array>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "contract/embedded.hpp"
+#include "polytopes/catalogue/catalogue.hpp"
+#include "session/session.hpp"
+#include "unit/wire/support.hpp"
+#include "wire/messages.hpp"
+
+namespace oval4d::wire {
+namespace {
+
+using nlohmann::json;
+using session::Session;
+using session::State;
+
+Session randomSession(unsigned seed) {
+    std::mt19937 random(seed);
+    const std::string keys = "234567rtyRTYkjKJlh[]{}nNopfbe";
+    Session session;
+    for (int i = 0; i < 100; ++i) {
+        const session::Key key{
+            std::string(1, keys[std::uniform_int_distribution<std::size_t>(0, keys.size() - 1)(random)])};
+        EXPECT_TRUE(apply(session, key));
+    }
+    EXPECT_TRUE(apply(session, session::CommandLine{"set azimuth=0.1 elevation=-0.2 zoom=1.5 step=0.01"}));
+    const std::array looks{"color cell", "color kind", "color w", "set color=plain hidden=0", "fade 0"};
+    EXPECT_TRUE(apply(session, session::CommandLine{looks.at(seed % looks.size())}));
+    if (seed % 2 == 0) {
+        EXPECT_TRUE(apply(session, session::Key{" "}));
+    }
+    return session;
+}
+
+void expectSame(const State& a, const State& b) {
+    const glm::dmat4 m = a.orientation.matrix();
+    const glm::dmat4 n = b.orientation.matrix();
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 4; ++r) EXPECT_NEAR(m[c][r], n[c][r], 1e-14);
+    }
+    State likeA = b;
+    likeA.orientation = a.orientation;
+    EXPECT_EQ(likeA, a) << "all but the orientation's last bits";
+}
+
+TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
+    Session session;
+    ASSERT_TRUE(apply(session, session::CommandLine{"rotate xw,yz pi/8 0.2"}));
+    const json message = fitting(wire::stateMessage(session.now, 7, 3));
+    EXPECT_EQ(message.at("type"), "state");
+    EXPECT_EQ(message.at("id"), 3);
+    EXPECT_EQ(message.at("revision"), 7);
+    json polytope = json::parse(R"({"name":"5-cell","vertices":5,"edges":10,"faces":10,"cells":5,
+                              "kinds":[{"name":"tetrahedron","cells":5}]})");
+    polytope["kinds"][0]["color"] = scene::cellTypeColor(0, 1);
+    EXPECT_EQ(message.at("polytope"), polytope);
+    EXPECT_EQ(message.at("orientation").at(0).at(3), session.now.orientation.matrix()[3][0]) << "rows";
+    EXPECT_EQ(message.at("alpha"), std::numbers::pi / 36);
+    EXPECT_EQ(message.at("step"), std::numbers::pi / 180);
+    EXPECT_EQ(message.at("slices").at("count"), 21);
+    EXPECT_EQ(message.at("slices").at("focus"), 0);
+    EXPECT_EQ(message.at("view"), "oval");
+    EXPECT_EQ(message.at("turning"), false);
+    EXPECT_EQ(message.at("shown"),
+              json::parse(R"({"faces":true,"bars":true,"balls":true,"coordinates":true,"labels":true})"));
+    EXPECT_EQ(message.at("camera"), json::parse(R"({"azimuth":0,"elevation":0,"zoom":1})"));
+    EXPECT_EQ(message.at("color"), "cell");
+    EXPECT_EQ(message.at("hidden"), json::array());
+    EXPECT_EQ(message.at("faded"), json::array());
+    EXPECT_EQ(message.at("last").at("planes"), json::parse(R"(["xw","yz"])"));
+    EXPECT_EQ(message.at("last").at("angles").at(0), std::numbers::pi / 8);
+    EXPECT_TRUE(fitting(wire::stateMessage(session::initialState(), 0)).at("last").is_null());
+    EXPECT_FALSE(fitting(wire::stateMessage(session::initialState(), 0)).contains("id"));
+}
+
+TEST(StateMessage, SetInANewSessionGivesTheSameState) {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        const Session session = randomSession(seed);
+        const std::string text = wire::stateMessage(session.now, session.revision, 1);
+        fitting(text);
+        const auto set = setFromState(text);
+        ASSERT_TRUE(set) << set.error().message;
+        Session fresh;
+        const auto done = apply(fresh, *set);
+        ASSERT_TRUE(done) << done.error().message;
+        expectSame(fresh.now, session.now);
+
+        Session same = session;
+        ASSERT_TRUE(apply(same, *set));
+        EXPECT_TRUE(same == session) << "its own state changes nothing in a session";
+    }
+}
+
+TEST(StateMessage, BecomesASetByItsType) {
+    const Session session = randomSession(3);
+    json message = json::parse(wire::stateMessage(session.now, session.revision));
+    message["type"] = "set";
+    Session fresh;
+    ASSERT_TRUE(apply(fresh, parsedCommand<session::Set>(message.dump())));
+    expectSame(fresh.now, session.now);
+}
+
+TEST(StateMessage, WhatIsNoStateIsRefused) {
+    const auto refused = [](std::string_view text, ErrorCode code, std::string_view says) {
+        const auto set = setFromState(text);
+        ASSERT_FALSE(set) << text;
+        EXPECT_EQ(set.error().code, code);
+        EXPECT_NE(set.error().message.find(says), std::string::npos) << set.error().message;
+    };
+    refused("", ErrorCode::bad_json, "not JSON");
+    refused("[]", ErrorCode::bad_message, "a message must be a JSON object");
+    refused("{}", ErrorCode::bad_message, "\"type\":\"state\"");
+    refused(R"({"type":"undo"})", ErrorCode::bad_message, "\"type\":\"state\"");
+    refused(R"({"type":"state","alpha":"x"})", ErrorCode::bad_message, "/alpha must be an angle");
+    refused(R"({"type":"state","slices":{"count":[[[[[[[[[[]]]]]]]]]]}})", ErrorCode::bad_json, "nests too deeply");
+}
+
+TEST(OtherMessages, FitTheirSchemas) {
+    const json error = fitting(wire::errorMessage({ErrorCode::out_of_range, "a \"quoted\"\nword\x01 — ü"}, 12));
+    EXPECT_EQ(error.at("code"), "out_of_range");
+    EXPECT_EQ(error.at("message"), "a \"quoted\"\nword\x01 — ü");
+    EXPECT_EQ(error.at("id"), 12);
+    EXPECT_FALSE(fitting(wire::errorMessage({ErrorCode::internal, "x"}, {})).contains("id"));
+
+    const json done = fitting(wire::doneMessage(0.5, 8));
+    EXPECT_EQ(done.at("id"), 0.5);
+    EXPECT_EQ(done.at("revision"), 8);
+
+    const json welcome =
+        fitting(wire::welcomeMessage("k3v", "secret", R"({"message":8388608,"shown_timeout":1.5})", 1));
+    EXPECT_EQ(welcome.at("session"), "k3v");
+    EXPECT_EQ(welcome.at("token"), "secret");
+    EXPECT_EQ(welcome.at("protocol"), 1);
+    EXPECT_EQ(welcome.at("server").get<std::string>().substr(0, 7), "oval4d ");
+    EXPECT_EQ(welcome.at("limits").at("shown_timeout"), 1.5);
+
+    const json keymap = fitting(wire::keymapMessage(4));
+    EXPECT_EQ(keymap.at("id"), 4);
+    EXPECT_EQ(keymap.at("keys"), json::parse(contract::embedded("keymap.json")).at("keys"));
+    fitting(wire::keymapMessage({}));
+}
+
+TEST(OtherMessages, GiveIdsBackAsTheyWere) {
+    const std::string_view ids[] = {
+        "0",       "1", "1000000", "100000", "123456789012", "-7", "1.5", "9007199254740992", "-9007199254740992",
+        "-1000000"};
+    for (const std::string_view text : ids) {
+        const auto id = parsed(R"({"type":"undo","id":)" + std::string(text) + '}').id;
+        const std::string member = R"("id":)" + std::string(text) + ',';
+        EXPECT_NE(wire::doneMessage(id, 1).find(member), std::string::npos) << wire::doneMessage(id, 1);
+        EXPECT_NE(wire::errorMessage({ErrorCode::internal, "x"}, id).find(member), std::string::npos) << text;
+        EXPECT_NE(wire::stateMessage(Session{}.now, 1, id).find(member), std::string::npos) << text;
+        EXPECT_NE(wire::catalogueMessage(id).find(member), std::string::npos) << text;
+        EXPECT_NE(wire::keymapMessage(id).find(member), std::string::npos) << text;
+        EXPECT_NE(wire::welcomeMessage("s", "t", "{}", id).find(member), std::string::npos) << text;
+    }
+}
+
+TEST(StateMessage, WritesIntegersWithoutExponent) {
+    session::State state = Session{}.now;
+    state.alpha = -3'000'000;
+    state.slices.spacing = 100'000;
+    const std::string message = wire::stateMessage(state, 1, {});
+    EXPECT_NE(message.find(R"("alpha":-3000000,)"), std::string::npos) << message;
+    EXPECT_NE(message.find(R"("spacing":100000,)"), std::string::npos) << message;
+}
+
+TEST(OtherMessages, TheCatalogueIsTheGeometrys) {
+    const json catalogue = fitting(wire::catalogueMessage(2)).at("polytopes");
+    ASSERT_EQ(catalogue.size(), polytopes::catalogue().size());
+    for (std::size_t i = 0; i < catalogue.size(); ++i) {
+        const polytopes::Polytope& polytope = *support::shared(polytopes::catalogue()[i].name);
+        EXPECT_EQ(catalogue[i].at("name"), polytope.name);
+        EXPECT_EQ(catalogue[i].at("vertices"), polytope.vertices.size());
+        EXPECT_EQ(catalogue[i].at("edges"), polytope.edges.size());
+        EXPECT_EQ(catalogue[i].at("faces"), polytope.faces.size());
+        EXPECT_EQ(catalogue[i].at("cells"), polytope.cells.size());
+        EXPECT_EQ(catalogue[i].at("family"), polytopes::catalogue()[i].family);
+        EXPECT_EQ(catalogue[i].at("diagram"), polytopes::catalogue()[i].diagram);
+        for (const auto& alias : catalogue[i].at("aliases")) {
+            EXPECT_EQ(polytopes::findEntry(alias.get<std::string>()), &polytopes::catalogue()[i]);
+        }
+    }
+}
+
+TEST(OtherMessages, TheCatalogueEndsWithWhatWasLoaded) {
+    const std::vector<slicing::Object> loaded{Session{}.now.object};
+    const json catalogue = fitting(wire::catalogueMessage({}, loaded)).at("polytopes");
+    ASSERT_EQ(catalogue.size(), polytopes::catalogue().size() + 1);
+    EXPECT_EQ(catalogue.back(), json::parse(R"({"name":"5-cell","family":"loaded","aliases":[],"diagram":"",
+                              "schlaefli":"","vertices":5,"edges":10,"faces":10,"cells":5})"));
+}
+
+}  // namespace
+}  // namespace oval4d::wire

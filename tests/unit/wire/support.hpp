@@ -1,0 +1,54 @@
+#pragma once
+// What the protocol's tests share.
+
+#include <string>
+#include <variant>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "contract/embedded.hpp"
+#include "unit/session/support.hpp"
+#include "wire/parse.hpp"
+#include "wire/schema.hpp"
+
+namespace oval4d::wire {
+
+/// The message must parse; returns it.
+inline Request parsed(std::string_view text) {
+    auto result = parseRequest(text);
+    if (const auto* bad = std::get_if<BadRequest>(&result)) throw std::runtime_error(bad->error.message);
+    return std::get<Request>(std::move(result));
+}
+
+template <typename C>
+C parsedCommand(std::string_view text) {
+    return std::get<C>(std::get<session::Command>(parsed(text).body));
+}
+
+/// Returns the text of a schema with references to other schemas replaced by their content.
+inline nlohmann::json schemaText(const std::string& file) {
+    const auto resolve = [](const auto& self, nlohmann::json& schema) -> void {
+        if (schema.is_object() && schema.contains("$ref")) {
+            auto merged = schemaText(schema.at("$ref"));
+            schema.erase("$ref");
+            merged.update(schema);
+            schema = std::move(merged);
+        }
+        if (!schema.is_structured()) return;
+        for (nlohmann::json& part : schema) self(self, part);
+    };
+    auto schema = nlohmann::json::parse(contract::embedded("schema/" + file));
+    resolve(resolve, schema);
+    return schema;
+}
+
+/// The text must be JSON that fits the schema of its type; returns it.
+inline nlohmann::json fitting(std::string_view text) {
+    nlohmann::json message = nlohmann::json::parse(text);
+    const auto fault = misfit(message.at("type").get<std::string>(), message);
+    EXPECT_FALSE(fault) << fault->message;
+    return message;
+}
+
+}  // namespace oval4d::wire

@@ -1,0 +1,180 @@
+// The data files of protocol/, the specification and the code say the same.
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "unit/wire/support.hpp"
+
+namespace oval4d::wire {
+namespace {
+
+using nlohmann::json;
+
+std::string textOf(const std::string& path) {
+    std::ifstream file(std::string(OVAL4D_SOURCE_DIR) + "/" + path);
+    EXPECT_TRUE(file) << path;
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+json errors() { return json::parse(contract::embedded("errors.json")); }
+
+TEST(Tables, TheErrorsAreThoseOfTheCode) {
+    const json table = errors().at("errors");
+    ASSERT_EQ(table.size(), static_cast<std::size_t>(ErrorCode::internal) + 1);
+    const json schema = json::parse(contract::embedded("schema/error.schema.json"));
+    const auto inSchema = schema.at("properties").at("code").at("enum").get<std::set<std::string>>();
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        EXPECT_EQ(table[i].at("code"), wireName(static_cast<ErrorCode>(i)));
+        EXPECT_FALSE(table[i].at("meaning").get<std::string>().empty());
+        EXPECT_FALSE(table[i].at("hint").get<std::string>().empty());
+        EXPECT_EQ(inSchema.count(table[i].at("code")), 1U);
+    }
+    EXPECT_EQ(inSchema.size(), table.size());
+}
+
+TEST(Tables, TheSpecificationListsTheErrors) {
+    const std::string text = textOf("protocol/README.md");
+    std::string expected;
+    const json tables = errors();
+    for (const json& error : tables.at("errors")) {
+        expected += "| `" + error.at("code").get<std::string>() + "` | " + error.at("meaning").get<std::string>() +
+                    " | " + error.at("hint").get<std::string>() + " |\n";
+    }
+    EXPECT_NE(text.find(expected), std::string::npos) << "the table must be\n" << expected;
+    std::string closing;
+    for (const json& code : tables.at("close_codes")) {
+        closing += "| " + code.at("code").dump() + " | " + code.at("meaning").get<std::string>() + " |\n";
+    }
+    EXPECT_NE(text.find(closing), std::string::npos) << "the table must be\n" << closing;
+}
+
+TEST(Tables, TheSpecificationListsTheKeys) {
+    const std::string text = textOf("protocol/README.md");
+    const json keymap = json::parse(contract::embedded("keymap.json"));
+    for (const json& key : keymap.at("keys")) {
+        const std::string row =
+            "| `" + key.at("name").get<std::string>() + "` | " + key.at("text").get<std::string>() + " |";
+        EXPECT_NE(text.find(row), std::string::npos) << row;
+    }
+}
+
+TEST(Tables, EveryExampleOfTheSpecificationFitsItsSchema) {
+    const std::string text = textOf("protocol/README.md");
+    constexpr std::string_view kOpening = "```json\n";
+    std::set<std::string> seen;
+    for (std::size_t at = 0; (at = text.find(kOpening, at)) != std::string::npos;) {
+        at += kOpening.size();
+        const std::size_t end = text.find("```", at);
+        ASSERT_NE(end, std::string::npos);
+        std::istringstream examples(text.substr(at, end - at));
+        std::string line, example;
+        while (std::getline(examples, line)) {
+            example += line;
+            if (!json::accept(example)) continue;  // an example may take several lines
+            SCOPED_TRACE(example);
+            const std::string type = json::parse(example).at("type");
+            fitting(example);
+            if (std::find(requestTypes().begin(), requestTypes().end(), type) != requestTypes().end()) {
+                EXPECT_NO_THROW(parsed(example));
+            }
+            seen.insert(type);
+            example.clear();
+        }
+        EXPECT_TRUE(example.empty()) << "not JSON: " << example;
+        at = end + 3;
+    }
+    const std::set<std::string> all{"hello", "key",    "rotate",  "set",   "load",      "undo",
+                                    "redo",  "reset",  "command", "get",   "shown",     "welcome",
+                                    "state", "slices", "done",    "error", "catalogue", "keymap"};
+    EXPECT_EQ(seen, all) << "an example of each message";
+}
+
+// What valijson checks rightly; anything else in a schema would be passed over in silence.
+void expectKnownKeywords(const json& schema, const std::string& where) {
+    static const std::set<std::string> known{
+        "$schema",  "title",      "description",          "type",      "const",    "enum",
+        "required", "properties", "additionalProperties", "items",     "minItems", "maxItems",
+        "minimum",  "maximum",    "exclusiveMinimum",     "minLength", "maxLength"};
+    if (!schema.is_object()) return;
+    if (schema.contains("$ref")) {
+        const std::string file = schema.at("$ref");
+        const std::string_view text = contract::embedded("schema/" + file);
+        ASSERT_FALSE(text.empty()) << where << ": " << file;
+        expectKnownKeywords(json::parse(text), where + "/" + file);
+    }
+    for (const auto& [keyword, content] : schema.items()) {
+        if (keyword == "$ref") continue;
+        EXPECT_EQ(known.count(keyword), 1U) << where << ": " << keyword;
+        if (keyword == "properties") {
+            for (const auto& [name, member] : content.items()) expectKnownKeywords(member, where + "/" + name);
+        } else if (keyword == "items" || keyword == "additionalProperties") {
+            expectKnownKeywords(content, where + "/" + keyword);
+        }
+    }
+}
+
+TEST(Tables, TheSchemasUseWhatIsChecked) {
+    for (const char* type : {"hello", "key", "rotate", "set", "load", "undo", "redo", "reset", "command", "get",
+                             "shown", "welcome", "state", "slices", "done", "error", "catalogue", "keymap"}) {
+        const std::string_view text = contract::embedded("schema/" + std::string(type) + ".schema.json");
+        ASSERT_FALSE(text.empty()) << type;
+        const json schema = json::parse(text);
+        EXPECT_EQ(schema.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
+        EXPECT_EQ(schema.at("properties").at("type").at("const"), type);
+        expectKnownKeywords(schema, type);
+    }
+    EXPECT_TRUE(contract::embedded("schema/none.schema.json").empty());
+}
+
+using Names = std::set<std::string>;
+
+template <typename Choices>
+Names namesIn(const Choices& choices) {
+    const auto names = text::namesOf(choices);
+    return {names.begin(), names.end()};
+}
+
+/// The enum of a property, in dots: "scene.view".
+Names allowedIn(const std::string& type, const std::string& property) {
+    json schema = schemaText(type + ".schema.json");
+    std::istringstream path(property);
+    for (std::string name; std::getline(path, name, '.');) schema = schema.at("properties").at(name);
+    return schema.at("enum").get<Names>();
+}
+
+TEST(Tables, TheChoicesAreThoseOfTheSchemas) {
+    for (const char* type : {"set", "state"}) {
+        EXPECT_EQ(allowedIn(type, "view"), namesIn(scene::kViews)) << type;
+        EXPECT_EQ(allowedIn(type, "color"), namesIn(scene::kColorings)) << type;
+    }
+    EXPECT_EQ(allowedIn("slices", "scene.view"), namesIn(scene::kViews));
+    EXPECT_EQ(allowedIn("hello", "stream"), namesIn(kStreams));
+    EXPECT_EQ(allowedIn("hello", "encoding"), namesIn(kEncodings));
+    EXPECT_EQ(allowedIn("get", "what"), namesIn(kWhats));
+    EXPECT_EQ(allowedIn("get", "of"), namesIn(exports::kExtents));
+    EXPECT_EQ(allowedIn("get", "body"), namesIn(exports::kBodies));
+    EXPECT_EQ(allowedIn("get", "label"), namesIn(exports::kLabels));
+}
+
+TEST(Tables, ThePartsAreThoseOfTheSchemas) {
+    Names parts;
+    for (const scene::PartRow& part : scene::kParts) parts.emplace(part.name);
+    for (const json& schema : {schemaText("set.schema.json"), schemaText("state.schema.json"),
+                               schemaText("slices.schema.json").at("properties").at("scene")}) {
+        Names shown;
+        for (const auto& [name, property] : schema.at("properties").at("shown").at("properties").items()) {
+            shown.insert(name);
+            EXPECT_EQ(property.at("type"), "boolean") << name;
+        }
+        EXPECT_EQ(shown, parts);
+    }
+}
+
+}  // namespace
+}  // namespace oval4d::wire
