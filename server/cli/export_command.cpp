@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <limits>
 
-#include "cli/one_shot.hpp"
+#include "cli/state_arguments.hpp"
 #include "pipeline/file_pipeline.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d {
 

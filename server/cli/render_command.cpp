@@ -4,7 +4,7 @@
 #include <memory>
 #include <string_view>
 
-#include "cli/one_shot.hpp"
+#include "cli/state_arguments.hpp"
 #include "pipeline/frame_limits.hpp"
 #include "pipeline/pipeline.hpp"
 #include "wire/messages.hpp"

@@ -17,7 +17,7 @@ struct Limits {
     std::size_t bytes = 512U << 20U;
     std::chrono::duration<double> time{20};
     /// Returns whether this many bytes may be allocated in total; called as soon as the number is known. May be null.
-    std::function<bool(std::size_t)> mayHold = nullptr;
+    std::function<bool(std::size_t)> reserve = nullptr;
 };
 
 /// The reason why no file is made. `message` is for the user.
@@ -26,7 +26,7 @@ struct Refusal {
         no_body,    ///< the slice is empty or flat, or the label does not fit
         too_large,  ///< beyond Limits::triangles or bytes
         too_long,   ///< beyond Limits::time, or stopped
-        no_room,    ///< Limits::mayHold returned false
+        no_room,    ///< Limits::reserve returned false
     };
     Cause cause;
     std::string message;
@@ -78,7 +78,7 @@ class Budget {
     static constexpr std::size_t kBytesOfTriangle = 64;  // approximately, in the file or in memory
 
     void checkRoom(std::size_t bytes) const {
-        if (limits_.mayHold && !limits_.mayHold(bytes))
+        if (limits_.reserve && !limits_.reserve(bytes))
             throw Refused{{Refusal::Cause::no_room, "the memory limit leaves no room for the file"}};
     }
 

@@ -33,8 +33,8 @@ class Exporter {
           request_(request),
           budget_(budget),
           scale_(request.size / 2 / scene.circumradius),
-          grid_(request.size,
-                request.extent == Extent::oval ? maxExtentOf(slices_.planes.count, request.size) : 2 * request.size) {}
+          grid_(request.size, request.extent == SliceSelection::oval ? maxExtentOf(slices_.planes.count, request.size)
+                                                                     : 2 * request.size) {}
 
     std::string run() {
         const Format& format = *request_.format;
@@ -63,7 +63,7 @@ class Exporter {
         if (request_.label != Label::none) label(groups);
         if (request_.format->arrangement == Format::Arrangement::plate) {
             arrangeOnPlate(groups, request_.size, grid_);
-        } else if (request_.extent == Extent::oval) {
+        } else if (request_.extent == SliceSelection::oval) {
             arrangeInOval(groups, scene_, request_.size, grid_);
         }
         std::vector<Solid> solids;
@@ -81,7 +81,7 @@ class Exporter {
                 continue;
             }
             const Box box = boxOf(group.solids.front().mesh);
-            const glm::dvec3 front{(box.least.x + box.most.x) / 2, box.least.y - request_.size / 12, box.least.z};
+            const glm::dvec3 front{(box.min.x + box.max.x) / 2, box.min.y - request_.size / 12, box.min.z};
             group.solids.push_back({group.solids.front().name + " (label)", text.plate(request_.size, grid_),
                                     scene::style().bar, grid_.snap(front)});
             ++done;
@@ -110,7 +110,7 @@ class Exporter {
     [[noreturn]] void refuseEmpty() const {
         double least = 1e300;
         double most = -1e300;
-        for (const glm::dvec4& v : slices_.turned) {
+        for (const glm::dvec4& v : slices_.rotatedVertices) {
             least = std::min(least, v.w);
             most = std::max(most, v.w);
         }

@@ -13,8 +13,8 @@
 namespace oval4d::exports {
 
 /// Exports `scene`, whose slices were cut from `object` and are placed as in the oval view, and returns the bytes of
-/// the file. For Extent::focus, the scene must contain only the focus slice. Bodies are in millimeters (in GLB, in
-/// meters, as glTF requires), closed and 2-manifold: every edge belongs to exactly two triangles that traverse it in
+/// the file. For SliceSelection::focus, the scene must contain only the focus slice. Bodies are in millimeters (in GLB,
+/// in meters, as glTF requires), closed and 2-manifold: every edge belongs to exactly two triangles that traverse it in
 /// opposite directions, and normals point outward. Returns a refusal if a limit is exceeded, if there is nothing to
 /// export, or if a stop is requested.
 std::variant<std::string, Refusal> fileOf(const scene::Scene& scene, const slicing::Object& object,

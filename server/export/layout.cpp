@@ -17,8 +17,8 @@ Box boxOf(const Group& group) {
     Box box;
     for (const Solid& solid : group.solids) {
         const Box own = exports::boxOf(solid.mesh);
-        box.include(own.least + solid.at);
-        box.include(own.most + solid.at);
+        box.include(own.min + solid.at);
+        box.include(own.max + solid.at);
     }
     return box;
 }
@@ -38,7 +38,7 @@ void arrangeOnPlate(std::vector<Group>& groups, double size, const Grid& grid) {
         double depth = 0;
         for (std::size_t i = row; i < std::min(row + perRow, groups.size()); ++i) {
             const Box box = boxOf(groups[i]);
-            move(groups[i], glm::dvec3(x, y, 0) - box.least, grid);
+            move(groups[i], glm::dvec3(x, y, 0) - box.min, grid);
             x += box.size().x + gap;
             depth = std::max(depth, box.size().y);
         }
@@ -53,7 +53,7 @@ void arrangeInOval(std::vector<Group>& groups, const scene::Scene& scene, double
     for (const Group& group : groups) {
         places.push_back(scene.placements[group.slice].position * perWorld);
         const Box box = boxOf(group);
-        radii.push_back(std::max(glm::length(box.least), glm::length(box.most)));
+        radii.push_back(std::max(glm::length(box.min), glm::length(box.max)));
     }
     double grow = 1;
     for (std::size_t i = 0; i < groups.size(); ++i) {

@@ -4,7 +4,7 @@ namespace oval4d::net {
 
 namespace {
 
-using process::Sandbox;
+using process::SandboxMode;
 
 // File descriptors: the standard streams, the channel, one received through it, and those that libraries keep open.
 constexpr std::size_t kOwnFiles = 16;
@@ -30,7 +30,7 @@ bool filtered(const Options& options) {
 std::vector<std::string> childEnvironment(const Options& options, std::size_t workers, std::string& warning) {
     std::string why;
     const bool sandboxed = process::isSandboxed(options.sandbox, why);
-    if (!sandboxed && options.sandbox == Sandbox::automatic)
+    if (!sandboxed && options.sandbox == SandboxMode::automatic)
         warning = "the rasterizer and file reader processes are not in a sandbox reason=\"" + why + "\"";
     return {std::string("OVAL4D_SANDBOX=") + (sandboxed ? "required" : "off"),
             "OVAL4D_DRAW_MEMORY=" + std::to_string(drawMemory(options)),

@@ -11,8 +11,8 @@
 namespace oval4d::net {
 
 /// The environment variables by which the server passes its options to child processes
-/// (process::ChildTerms::environment). Checks whether the system can sandbox them. If it cannot, sets `warning` for the
-/// log, unless the options turn the sandbox off, and throws std::runtime_error if the options require a sandbox.
+/// (process::ChildOptions::environment). Checks whether the system can sandbox them. If it cannot, sets `warning` for
+/// the log, unless the options turn the sandbox off, and throws std::runtime_error if the options require a sandbox.
 std::vector<std::string> childEnvironment(const Options& options, std::size_t workers, std::string& warning);
 
 /// The confinement that a rasterizer process applies to itself, given the options read from that environment.

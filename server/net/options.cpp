@@ -129,21 +129,21 @@ void addClientLimits(CLI::App& app, Options& options) {
     addBytes(app, "--max-bytes", options.maxBytes,
              "Maximum bytes held for all clients: unread files and messages, and their own polytopes");
     addBytes(app, "--max-client-bytes", client.bytes, "Maximum bytes held for one address");
-    addBytes(app, "--least-read-rate", options.leastReadRate,
+    addBytes(app, "--min-read-rate", options.minReadRate,
              "Bytes per second that a client must read at least; a slower one is dropped");
     add(app, "--spool", options.spool,
         "Folder for files that clients have not yet read; empty for the system's temporary folder");
 }
 
 void addSandbox(CLI::App& app, Options& options) {
-    using process::Sandbox;
+    using process::SandboxMode;
     app.add_option(
            "--sandbox", options.sandbox,
            "Whether the processes that draw pictures and read files are sandboxed by a system call filter: auto, if "
            "the system supports it; off; or required, in which case the server does not start without it")
         ->envname("OVAL4D_SANDBOX")
-        ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, Sandbox>>{
-            {"auto", Sandbox::automatic}, {"off", Sandbox::off}, {"required", Sandbox::required}}))
+        ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, SandboxMode>>{
+            {"auto", SandboxMode::automatic}, {"off", SandboxMode::off}, {"required", SandboxMode::required}}))
         ->default_str("auto");
     const CLI::Range enough(std::size_t{64} << 20U, std::size_t{1} << 50U);
     addBytes(

@@ -46,21 +46,21 @@ struct Options {
     std::size_t maxSessions = 10'000;
     std::size_t maxConnections = 4096;
     ClientLimits client;
-    std::size_t maxBytes = 2U << 30U;        ///< held for all clients together (ByteBudget)
-    std::size_t leastReadRate = 32U << 10U;  ///< bytes per second that a client must read, at least
-    std::string spool;                       ///< folder for unread files; empty: the system's temporary folder
-    int maxRequests = 2000;                  ///< per second and connection
+    std::size_t maxBytes = 2U << 30U;      ///< held for all clients together (ByteBudget)
+    std::size_t minReadRate = 32U << 10U;  ///< bytes per second that a client must read, at least
+    std::string spool;                     ///< folder for unread files; empty: the system's temporary folder
+    int maxRequests = 2000;                ///< per second and connection
     parallel::FairQueue::Limits jobs;
     pipeline::FrameLimits frame;
     std::size_t maxFill = pipeline::Pipeline::kFillSteps;
     exports::Limits file;
     session::Limits session;
-    std::string store = "memory";                   ///< the location, as in store::StoreOptions::place
+    std::string store = "memory";                   ///< the location, as in store::StoreOptions::url
     std::size_t storeQuota = store::kDefaultQuota;  ///< largest total size of the sessions in a file or in memory
     std::size_t keptUndo = 100;                     ///< undo steps of a session that the store keeps
     std::size_t polytopeCache = 64U << 20U;         ///< largest total size of cached polytopes not in use
 
-    process::Sandbox sandbox = process::Sandbox::automatic;
+    process::SandboxMode sandbox = process::SandboxMode::automatic;
     std::size_t drawMemory = 0;             ///< memory limit of a rasterizer process; 0: derived from `frame`
     std::size_t loadMemory = 1024U << 20U;  ///< memory limit of a reader process
 

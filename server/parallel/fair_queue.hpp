@@ -103,7 +103,7 @@ class FairQueue {
     class Lane;
     enum Length : std::size_t { short_job, long_job };
     template <typename T>
-    using ByLength = std::array<T, 2>;
+    using PerClass = std::array<T, 2>;
     using ClientPtr = std::shared_ptr<Client>;
     using LanePtr = std::shared_ptr<Lane>;
 
@@ -189,7 +189,7 @@ class FairQueue {
     const std::size_t maxLongRunning_;  // while lanes with short jobs are active
     const Limits limits_;
     std::size_t waiting_ = 0, longRunning_ = 0;
-    ByLength<Class> classes_;
+    PerClass<Class> classes_;
     FairScheduler<Length> scheduler_;  // of the classes
     Correction correction_;
     Activity active_;  // lanes with short jobs and the time of their last job, in order of time
@@ -198,8 +198,8 @@ class FairQueue {
 /// A client of one queue, such as all connections from one address.
 class FairQueue::Client {
     friend FairQueue;
-    ByLength<FairScheduler<ClientPtr>::FlowState> states_;
-    ByLength<FairScheduler<LanePtr>> lanes_;
+    PerClass<FairScheduler<ClientPtr>::FlowState> states_;
+    PerClass<FairScheduler<LanePtr>> lanes_;
     std::size_t waiting_ = 0;
     Correction correction_;
 };
@@ -212,7 +212,7 @@ class FairQueue::Lane {
   private:
     friend FairQueue;
     const ClientPtr client_;
-    ByLength<FairScheduler<LanePtr>::FlowState> states_;
+    PerClass<FairScheduler<LanePtr>::FlowState> states_;
     std::deque<Waiting> jobs_;
     Correction correction_;
     std::optional<Activity::iterator> activity_;

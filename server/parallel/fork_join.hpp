@@ -17,12 +17,12 @@ class ForkJoin {
     using Job = std::function<void()>;
 
     /// Marks one processor as busy for the lifetime of this object.
-    class Work {
+    class BusyProcessor {
       public:
-        explicit Work(ForkJoin& forkJoin) : busy_(forkJoin.busyProcessors_) { ++busy_; }
-        ~Work() { --busy_; }
-        Work(const Work&) = delete;
-        Work& operator=(const Work&) = delete;
+        explicit BusyProcessor(ForkJoin& forkJoin) : busy_(forkJoin.busyProcessors_) { ++busy_; }
+        ~BusyProcessor() { --busy_; }
+        BusyProcessor(const BusyProcessor&) = delete;
+        BusyProcessor& operator=(const BusyProcessor&) = delete;
 
       private:
         std::atomic<unsigned>& busy_;

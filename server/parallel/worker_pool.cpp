@@ -24,8 +24,8 @@ void carryOut(const WorkerPool::Job& job, std::size_t worker) {
 
 }  // namespace
 
-WorkerPool::WorkerPool(Terms terms) : terms_(std::move(terms)), queue_(terms_.threads, terms_.limits) {
-    for (std::size_t i = 0; i < terms_.threads; ++i) threads_.emplace_back([this, i] { run(i); });
+WorkerPool::WorkerPool(Options options) : options_(std::move(options)), queue_(options_.threads, options_.limits) {
+    for (std::size_t i = 0; i < options_.threads; ++i) threads_.emplace_back([this, i] { run(i); });
 }
 
 WorkerPool::~WorkerPool() { stop(); }
@@ -77,7 +77,7 @@ WorkerPool::Seconds WorkerPool::worked() const {
 }
 
 void WorkerPool::run(std::size_t worker) {
-    carryOut(terms_.first, worker);
+    carryOut(options_.first, worker);
     std::unique_lock lock(mutex_);
     bool used = true;
     while (!stopping_) {
@@ -90,8 +90,8 @@ void WorkerPool::run(std::size_t worker) {
         lock.unlock();
         const auto start = Clock::now();
         {
-            std::optional<ForkJoin::Work> work;
-            if (terms_.forkJoin != nullptr) work.emplace(*terms_.forkJoin);
+            std::optional<ForkJoin::BusyProcessor> work;
+            if (options_.forkJoin != nullptr) work.emplace(*options_.forkJoin);
             carryOut(next->job, worker);
         }
         next->job = nullptr;  // what the job owns is destroyed outside the lock
@@ -113,7 +113,7 @@ void WorkerPool::wait(std::unique_lock<std::mutex>& lock, bool& used, std::size_
     if (wake_.wait_for(lock, kIdleDelay) == std::cv_status::no_timeout) return;
     used = cleanUp_ = false;
     lock.unlock();
-    terms_.whenIdle(worker);
+    options_.whenIdle(worker);
     lock.lock();
 }
 

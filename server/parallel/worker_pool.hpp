@@ -34,7 +34,7 @@ class WorkerPool {
     using LanePtr = FairQueue::LanePtr;
     using Limits = FairQueue::Limits;
 
-    struct Terms {
+    struct Options {
         std::size_t threads = 1;
         Limits limits = {};
         Job first = [](std::size_t) {};  ///< run once by each worker before any other job
@@ -44,7 +44,7 @@ class WorkerPool {
     };
     static constexpr std::chrono::seconds kIdleDelay{3};
 
-    explicit WorkerPool(Terms terms);
+    explicit WorkerPool(Options options);
     ~WorkerPool();
 
     /// Queues a job, whose estimated duration is `cost`. Jobs without a lane share one. A job must not throw, except
@@ -73,7 +73,7 @@ class WorkerPool {
     void run(std::size_t worker);
     void wait(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker);
 
-    const Terms terms_;
+    const Options options_;
     const LanePtr common_ = std::make_shared<Lane>(std::make_shared<Client>());  // for jobs without a lane
     std::stop_source stopSource_;
     mutable std::mutex mutex_;

@@ -6,7 +6,7 @@
 #include "scene/composer.hpp"
 #include "slicing/slicer.hpp"
 #include "text/choice.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::pipeline {
 
@@ -40,7 +40,7 @@ Result<std::monostate> takeSize(const std::string& text, double& size) {
 Result<std::string> fileOf(const session::State& state, const exports::ExportRequest& request,
                            const exports::Limits& limits, std::stop_token stop) {
     auto planes = state.hyperplanes();
-    if (request.extent == exports::Extent::focus) planes = {state.slices.focus, 1, planes.spacing};
+    if (request.extent == exports::SliceSelection::focus) planes = {state.slices.focus, 1, planes.spacing};
     slicing::SliceSet slices;
     slicing::Slicer().slice(state.object, state.orientation, planes, slices);
     scene::Look look;

@@ -4,15 +4,15 @@
 
 namespace oval4d::pipeline {
 
-PipelinePool::PipelinePool(Terms terms, parallel::ForkJoin& forkJoin, process::Heap& heap)
-    : pipelines_(terms.threads),
-      workers_({.threads = terms.threads,
-                .limits = terms.limits,
+PipelinePool::PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap)
+    : pipelines_(options.threads),
+      workers_({.threads = options.threads,
+                .limits = options.limits,
                 .first =
-                    [this, terms, &forkJoin](std::size_t worker) {
-                        pipelines_[worker] = std::make_unique<Pipeline>(terms.makeRasterizer(workers_.stopToken()),
-                                                                        &forkJoin, terms.fillSteps);
-                        terms.first(*pipelines_[worker]);
+                    [this, options, &forkJoin](std::size_t worker) {
+                        pipelines_[worker] = std::make_unique<Pipeline>(options.makeRasterizer(workers_.stopToken()),
+                                                                        &forkJoin, options.fillSteps);
+                        options.first(*pipelines_[worker]);
                     },
                 .whenIdle =
                     [this, &heap](std::size_t worker) {

@@ -17,7 +17,7 @@ class PipelinePool {
     using Argument = Pipeline&;  ///< of a job
     using Job = std::function<void(Pipeline&)>;
 
-    struct Terms {
+    struct Options {
         std::size_t threads = 1;
         parallel::WorkerPool::Limits limits = {};
         std::size_t fillSteps = Pipeline::kFillSteps;
@@ -25,7 +25,7 @@ class PipelinePool {
         Job first = [](Pipeline&) {};  ///< run once by each worker before any other job
     };
 
-    PipelinePool(Terms terms, parallel::ForkJoin& forkJoin, process::Heap& heap);
+    PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap);
 
     /// See WorkerPool::post.
     [[nodiscard]] bool post(Job job, parallel::WorkerPool::LanePtr lane, parallel::WorkerPool::Seconds cost);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "text/decimal.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::polytopes {
 

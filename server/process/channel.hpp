@@ -16,7 +16,7 @@ namespace oval4d::process {
 /// sends `object`. A child that reads files answers a `file` with `outcome`.
 enum class MessageType : std::uint32_t {
     ready,           ///< empty
-    order,           ///< raster::Order, with the file of SharedPixels to draw into
+    draw,            ///< raster::DrawRequest, with the file of SharedPixels to draw into
     object,          ///< written by slicing::encodeObject
     object_missing,  ///< empty
     drawn,           ///< raster::Times

@@ -16,7 +16,7 @@
 #include <thread>
 #include <utility>
 
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::process {
 
@@ -70,7 +70,7 @@ bool waitForExit(pid_t process, int& status) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(ChildTerms terms) : terms_(std::move(terms)) {}
+ChildProcess::ChildProcess(ChildOptions options) : options_(std::move(options)) {}
 
 ChildProcess::~ChildProcess() {
     if (channel_) end(false);
@@ -91,14 +91,14 @@ void ChildProcess::start() {
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addclosefrom_np(&files, kChildSocket + 1);
-    const Environment environment(terms_.environment);
-    std::string name = "oval4d", command = terms_.command;
+    const Environment environment(options_.environment);
+    std::string name = "oval4d", command = options_.command;
     char* const words[] = {name.data(), command.data(), nullptr};
     const int error = posix_spawn(&process_, "/proc/self/exe", &files, nullptr, words, environment.data());
     posix_spawn_file_actions_destroy(&files);
     if (error == 0) {
         // Set here and not by the process, because starting is most of the work of many of them.
-        if (terms_.niceness > 0) setpriority(PRIO_PROCESS, static_cast<id_t>(process_), terms_.niceness);
+        if (options_.niceness > 0) setpriority(PRIO_PROCESS, static_cast<id_t>(process_), options_.niceness);
         return;
     }
     channel_.reset();
@@ -123,7 +123,7 @@ std::string ChildProcess::end(bool atOnce) {
 }
 
 Deadline ChildProcess::deadline(const std::stop_token& stop) const {
-    return {Clock::now() + std::chrono::duration_cast<Clock::duration>(terms_.timeout), stop};
+    return {Clock::now() + std::chrono::duration_cast<Clock::duration>(options_.timeout), stop};
 }
 
 void ChildProcess::awaitReady(Transfer& transfer, const Deadline& deadline) {
@@ -155,9 +155,9 @@ void ChildProcess::converse(const Talk& talk, const std::stop_token& stop) {
         if (stop.stop_requested()) throw Canceled();
         loss = transfer == Transfer::closed
                    ? Loss{false, "died: " + how}
-                   : Loss{true, "hung: no answer in " + text::shortest(terms_.timeout.count()) + " s"};
-        terms_.onLoss(loss);
-        if (loss.hung && talked && !terms_.repeatAfterHang)
+                   : Loss{true, "hung: no answer in " + text::shortest(options_.timeout.count()) + " s"};
+        options_.onLoss(loss);
+        if (loss.hung && talked && !options_.repeatAfterHang)
             throw ProcessLost("a process was lost in this conversation, it " + loss.how, true);
     }
     throw ProcessLost("two processes were lost in a row, the second " + loss.how, false);

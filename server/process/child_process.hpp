@@ -28,7 +28,7 @@ struct Loss {
 };
 
 /// The options of a child process.
-struct ChildTerms {
+struct ChildOptions {
     std::string command;                      ///< the subcommand of this program
     std::vector<std::string> environment;     ///< "NAME=value", added unless the server's environment has that name
     std::chrono::duration<double> timeout;    ///< of a start and of each conversation; a slower process has hung
@@ -57,7 +57,7 @@ class ChildProcess {
     /// A conversation with the process. Returns the result of its last transfer.
     using Talk = std::function<Transfer(const Channel&, const Deadline&)>;
 
-    explicit ChildProcess(ChildTerms terms);
+    explicit ChildProcess(ChildOptions options);
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
@@ -78,7 +78,7 @@ class ChildProcess {
     Deadline deadline(const std::stop_token& stop) const;
     void awaitReady(Transfer& transfer, const Deadline& deadline);
 
-    const ChildTerms terms_;
+    const ChildOptions options_;
     std::unique_ptr<Channel> channel_;  // null: not running
     bool ready_ = false;
     pid_t process_ = 0;

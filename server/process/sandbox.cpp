@@ -226,10 +226,10 @@ void limitResources(const Confinement& limits) {
 
 bool forbidNewPrivileges() { return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0; }
 
-bool isSandboxed(Sandbox wanted, std::string& why) {
-    if (wanted == Sandbox::off) return false;
+bool isSandboxed(SandboxMode wanted, std::string& why) {
+    if (wanted == SandboxMode::off) return false;
     if (canFilter(why)) return true;
-    if (wanted == Sandbox::required) throw std::runtime_error("the sandbox is required, but not available: " + why);
+    if (wanted == SandboxMode::required) throw std::runtime_error("the sandbox is required, but not available: " + why);
     return false;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Sandbox of the child processes: resource limits and a seccomp filter of system calls.
+// SandboxMode of the child processes: resource limits and a seccomp filter of system calls.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace oval4d::process {
 /// (set-user-ID), ever. Must be called before threads are started. Returns false if the system does not support it.
 bool forbidNewPrivileges();
 
-enum class Sandbox : std::uint8_t {
+enum class SandboxMode : std::uint8_t {
     automatic,  ///< if the system supports it
     off,
     required,
@@ -20,7 +20,7 @@ enum class Sandbox : std::uint8_t {
 /// Whether child processes are to be confined by a filter of system calls. Tries to set such a filter; if that fails,
 /// sets `why` to the reason, and throws std::runtime_error if the sandbox is required. Builds with a sanitizer have no
 /// sandbox, because sanitizers need more system calls.
-bool isSandboxed(Sandbox wanted, std::string& why);
+bool isSandboxed(SandboxMode wanted, std::string& why);
 
 /// The task of a child process, which decides what its filter allows. Every child may allocate memory, read the clock,
 /// wait, write to its log, use its channel (kChildSocket), and exit. It may not open, create, find or change files, use

@@ -20,8 +20,8 @@ void visitLook(Archive& archive, Look& look) {
 
 }  // namespace
 
-void encodeOrder(const session::State& state, scene::Viewport viewport, const RasterizerLimits& limits,
-                 std::string& out) {
+void encodeRequest(const session::State& state, scene::Viewport viewport, const RasterizerLimits& limits,
+                   std::string& out) {
     out.clear();
     serialization::ByteWriter archive(out);
     archive(slicing::infoOf(state.object).serial), archive(state.orientation.left());
@@ -29,14 +29,14 @@ void encodeOrder(const session::State& state, scene::Viewport viewport, const Ra
     archive(viewport), archive(limits);
 }
 
-void decodeOrder(std::string_view bytes, Order& out) {
+void decodeRequest(std::string_view bytes, DrawRequest& out) {
     serialization::ByteReader archive(bytes);
     glm::dquat left, right;
     archive(out.object), archive(left), archive(right);
     archive(out.state.slices), visitLook(archive, out.state.look);
     archive(out.viewport), archive(out.limits);
     const auto orientation = geometry::Rotation::fromQuaternions(left, right);
-    if (!orientation) throw std::runtime_error("a drawing order contains an invalid rotation");
+    if (!orientation) throw std::runtime_error("a draw request contains an invalid rotation");
     out.state.orientation = *orientation;
 }
 

@@ -17,17 +17,17 @@ struct RasterizerLimits {
 };
 
 /// The request for one picture.
-struct Order {
+struct DrawRequest {
     std::uint64_t object = 0;  ///< serial number; the object itself is sent if the receiver lacks it
     session::State state;      ///< only the members that affect pictures, without the object
     scene::Viewport viewport;
     RasterizerLimits limits;
 };
 
-/// Encodes an order. Overwrites `out`.
-void encodeOrder(const session::State& state, scene::Viewport viewport, const RasterizerLimits& limits,
-                 std::string& out);
-/// Decodes an order. Throws std::runtime_error if it is invalid.
-void decodeOrder(std::string_view bytes, Order& out);
+/// Encodes a draw request. Overwrites `out`.
+void encodeRequest(const session::State& state, scene::Viewport viewport, const RasterizerLimits& limits,
+                   std::string& out);
+/// Decodes a draw request. Throws std::runtime_error if it is invalid.
+void decodeRequest(std::string_view bytes, DrawRequest& out);
 
 }  // namespace oval4d::raster

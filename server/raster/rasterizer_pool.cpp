@@ -19,15 +19,15 @@ constexpr std::size_t kMostThreads = 8;  // more threads would wait for the one 
 
 }  // namespace
 
-RasterizerPool::RasterizerPool(std::size_t cores, RasterizerTerms terms, std::function<bool()> crowded)
-    : terms_(std::move(terms)), crowded_(std::move(crowded)) {
+RasterizerPool::RasterizerPool(std::size_t cores, RasterizerOptions options, std::function<bool()> crowded)
+    : options_(std::move(options)), crowded_(std::move(crowded)) {
     if (cores < 2) return;
-    multithreaded_.emplace(static_cast<int>(std::min(cores, kMostThreads)), terms_);
+    multithreaded_.emplace(static_cast<int>(std::min(cores, kMostThreads)), options_);
     multithreaded_->start();
 }
 
 PooledRasterizer::PooledRasterizer(RasterizerPool& pool, std::stop_token stop)
-    : pool_(pool), stop_(std::move(stop)), own_(0, pool.terms_) {}
+    : pool_(pool), stop_(std::move(stop)), own_(0, pool.options_) {}
 
 void PooledRasterizer::warmUp() {
     own_.warmUp(stop_);
@@ -43,7 +43,7 @@ std::span<const std::uint8_t> PooledRasterizer::draw(const session::State& state
 }
 
 void PooledRasterizer::freeMemory() {
-    if (pixels_) pixels_->take(0);
+    if (pixels_) pixels_->resize(0);
 }
 
 std::span<const std::uint8_t> PooledRasterizer::drawBest(const session::State& state, scene::Viewport viewport,

@@ -20,11 +20,11 @@ namespace oval4d::raster {
 class RasterizerPool {
   public:
     /// `crowded` returns whether more pictures are queued; it is called on any thread. Throws std::runtime_error.
-    RasterizerPool(std::size_t cores, RasterizerTerms terms, std::function<bool()> crowded);
+    RasterizerPool(std::size_t cores, RasterizerOptions options, std::function<bool()> crowded);
 
   private:
     friend class PooledRasterizer;
-    const RasterizerTerms terms_;
+    const RasterizerOptions options_;
     const std::function<bool()> crowded_;
     std::atomic<int> drawing_ = 0;                                    // the number of rasterizers that are drawing
     std::atomic<std::chrono::steady_clock::duration> lastCrowded_{};  // since the clock's epoch

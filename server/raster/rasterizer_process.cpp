@@ -19,20 +19,20 @@ namespace {
 // The maximum length of an answer in bytes; the longest one is the reason why a picture failed.
 constexpr std::size_t kMaxAnswer = 64U << 10U;
 
-process::ChildTerms childTerms(int threads, const RasterizerTerms& terms) {
-    process::ChildTerms child;
+process::ChildOptions childOptions(int threads, const RasterizerOptions& options) {
+    process::ChildOptions child;
     child.command = kRasterizerCommand;
-    child.environment = terms.environment;
+    child.environment = options.environment;
     child.environment.push_back("LP_NUM_THREADS=" + std::to_string(threads));
-    child.timeout = terms.timeout;
-    child.onLoss = terms.onLoss;
+    child.timeout = options.timeout;
+    child.onLoss = options.onLoss;
     return child;
 }
 
 }  // namespace
 
-RasterizerProcess::RasterizerProcess(int threads, const RasterizerTerms& terms)
-    : limits_(terms.limits), process_(childTerms(threads, terms)) {}
+RasterizerProcess::RasterizerProcess(int threads, const RasterizerOptions& options)
+    : limits_(options.limits), process_(childOptions(threads, options)) {}
 
 /// Receives messages until `answer_` is `drawn` or `failed`. Sends the object if the process lacks it.
 Transfer RasterizerProcess::receiveAnswer(const session::State& state, const Channel& channel,
@@ -56,11 +56,11 @@ void RasterizerProcess::warmUp(const std::stop_token& stop) {
 
 std::span<const std::uint8_t> RasterizerProcess::draw(const session::State& state, scene::Viewport viewport,
                                                       SharedPixels& pixels, Times& times, const std::stop_token& stop) {
-    encodeOrder(state, viewport, limits_, order_);
-    const auto drawn = pixels.take(image::bytesOf(viewport));
+    encodeRequest(state, viewport, limits_, request_);
+    const auto drawn = pixels.resize(image::bytesOf(viewport));
     process_.converse(
         [&](const Channel& channel, const Deadline& deadline) {
-            const Transfer sent = channel.send(MessageType::order, order_, pixels.file(), deadline);
+            const Transfer sent = channel.send(MessageType::draw, request_, pixels.file(), deadline);
             return sent == Transfer::complete ? receiveAnswer(state, channel, deadline) : sent;
         },
         stop);

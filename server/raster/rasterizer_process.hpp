@@ -17,12 +17,12 @@
 namespace oval4d::raster {
 
 /// Options of rasterizer processes.
-struct RasterizerTerms {
+struct RasterizerOptions {
     RasterizerLimits limits;
     std::chrono::duration<double>
         timeout;  ///< for starting, and for drawing a picture; then the process is considered hung
     std::function<void(const process::Loss&)> onLoss;  ///< called on any thread
-    std::vector<std::string> environment;              ///< see process::ChildTerms
+    std::vector<std::string> environment;              ///< see process::ChildOptions
 };
 
 /// A process that draws pictures for the server. Each process has llvmpipe threads of its own, whereas GL contexts
@@ -31,7 +31,7 @@ struct RasterizerTerms {
 class RasterizerProcess {
   public:
     /// `threads`: the number of llvmpipe's threads; 0 means that the main thread does all the drawing.
-    RasterizerProcess(int threads, const RasterizerTerms& terms);
+    RasterizerProcess(int threads, const RasterizerOptions& options);
 
     /// Starts the process if it is not running, without waiting for it. Throws std::runtime_error.
     void start() { process_.start(); }
@@ -54,7 +54,7 @@ class RasterizerProcess {
     scene::Viewport lastViewport_{0, 0};
     std::size_t resized_ = 0;  // bytes of the pictures whose size differed from the previous one
     process::MessageType answer_{};
-    std::string order_, body_;
+    std::string request_, body_;
 };
 
 }  // namespace oval4d::raster

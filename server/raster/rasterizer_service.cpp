@@ -64,10 +64,10 @@ class Service {
         if (!ready) return;
         channel_.send(MessageType::ready);
         for (MessageType type{}; next(type);) {
-            if (type == MessageType::order) decodeOrder(body_, order_);
+            if (type == MessageType::draw) decodeRequest(body_, request_);
             if (type == MessageType::object) takeObject();
-            if (const slicing::Object* object = recent_.find(order_.object)) {
-                order_.state.object = *object;
+            if (const slicing::Object* object = recent_.find(request_.object)) {
+                request_.state.object = *object;
                 attempt([this] { draw(); });
             } else {
                 channel_.send(MessageType::object_missing);
@@ -84,10 +84,10 @@ class Service {
         }
         int file = Channel::kNoFile;
         if (channel_.receive(type, body_, &file) != Transfer::complete) return false;
-        if (type != MessageType::order) return true;
+        if (type != MessageType::draw) return true;
         // The kernel drops a file descriptor if the process has too many open.
         if (file == Channel::kNoFile)
-            throw std::runtime_error("a drawing order arrived without the memory to draw into");
+            throw std::runtime_error("a draw request arrived without the memory to draw into");
         auto pixels = std::make_unique<SharedPixels>(file);
         pixels_ = pixels->number();
         files_.try_emplace(pixels_, std::move(pixels));
@@ -97,14 +97,14 @@ class Service {
     void takeObject() {
         const std::string bytes = std::exchange(body_, {});
         recent_.add(slicing::decodeObject(bytes), bytes.size());
-        recent_.shrink(order_.limits.objectBytes);
+        recent_.shrink(request_.limits.objectBytes);
     }
 
     void draw() {
-        rasterizer_.limitFill(order_.limits.fillSteps);
+        rasterizer_.limitFill(request_.limits.fillSteps);
         Times times;
-        rasterizer_.draw(order_.state, order_.viewport, files_.at(pixels_)->see(image::bytesOf(order_.viewport)),
-                         times);
+        rasterizer_.draw(request_.state, request_.viewport,
+                         files_.at(pixels_)->remap(image::bytesOf(request_.viewport)), times);
         channel_.send(MessageType::drawn, {reinterpret_cast<const char*>(&times), sizeof times});
     }
 
@@ -123,7 +123,7 @@ class Service {
     LocalRasterizer rasterizer_;
     process::Heap& heap_;
     RecentObjects recent_;
-    Order order_;
+    DrawRequest request_;
     std::map<std::uint64_t, std::unique_ptr<SharedPixels>> files_;  // one for each worker of the server
     std::uint64_t pixels_ = 0;                                      // the file to draw into
     std::string body_;

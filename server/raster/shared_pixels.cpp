@@ -38,7 +38,7 @@ SharedPixels::~SharedPixels() {
     close(file_);
 }
 
-std::span<std::uint8_t> SharedPixels::take(std::size_t size) {
+std::span<std::uint8_t> SharedPixels::resize(std::size_t size) {
     if (size > mapped_.size() || size * kWaste < mapped_.size()) {
         map(0);
         check(ftruncate(file_, static_cast<off_t>(size)) == 0);
@@ -47,7 +47,7 @@ std::span<std::uint8_t> SharedPixels::take(std::size_t size) {
     return mapped_.first(size);
 }
 
-std::span<std::uint8_t> SharedPixels::see(std::size_t size) {
+std::span<std::uint8_t> SharedPixels::remap(std::size_t size) {
     const auto now = static_cast<std::size_t>(statusOf(file_).st_size);
     if (now != mapped_.size()) {
         map(0);

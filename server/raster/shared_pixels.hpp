@@ -20,11 +20,11 @@ class SharedPixels {
 
     /// Returns the first `size` bytes. Grows the file if it is smaller, and shrinks it if it is more than 4 times
     /// larger. Throws std::system_error.
-    std::span<std::uint8_t> take(std::size_t size);
+    std::span<std::uint8_t> resize(std::size_t size);
 
     /// Maps the file at the size that the other process has given it, and returns the first `size` bytes. Throws
     /// std::system_error, also if the file is smaller.
-    std::span<std::uint8_t> see(std::size_t size);
+    std::span<std::uint8_t> remap(std::size_t size);
 
     int file() const { return file_; }
     /// The inode number, which is the same in both processes.

@@ -7,7 +7,7 @@
 
 #include "reading/reading_messages.hpp"
 #include "reading/reading_service.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::reading {
 
@@ -24,8 +24,8 @@ constexpr int kNiceness = 5;
 
 }  // namespace
 
-FileReaders::FileReaders(ReaderTerms terms)
-    : terms_(std::move(terms)), replacing_([this](const std::stop_token& stop) { replaceUsed(stop); }) {}
+FileReaders::FileReaders(ReaderOptions options)
+    : options_(std::move(options)), replacing_([this](const std::stop_token& stop) { replaceUsed(stop); }) {}
 
 FileReaders::~FileReaders() {
     replacing_.request_stop();
@@ -42,8 +42,8 @@ FileReaders::Process FileReaders::acquire() {
             return process;
         }
     }
-    return std::make_unique<ChildProcess>(
-        process::ChildTerms{kReadingCommand, terms_.environment, terms_.timeout, false, terms_.onLoss, kNiceness});
+    return std::make_unique<ChildProcess>(process::ChildOptions{kReadingCommand, options_.environment, options_.timeout,
+                                                                false, options_.onLoss, kNiceness});
 }
 
 void FileReaders::release(Process used) {
@@ -56,7 +56,7 @@ void FileReaders::release(Process used) {
 /// Runs on its own thread, so that no client waits for it: ends processes that have read a file, starts new ones in
 /// their place, and ends those that were idle for too long.
 void FileReaders::replaceUsed(const std::stop_token& stop) {
-    const auto idle = std::chrono::duration_cast<Clock::duration>(terms_.idle);
+    const auto idle = std::chrono::duration_cast<Clock::duration>(options_.idle);
     std::unique_lock lock(mutex_);
     while (!stop.stop_requested()) {
         const auto isUsed = [this] { return !used_.empty(); };
@@ -69,7 +69,7 @@ void FileReaders::replaceUsed(const std::stop_token& stop) {
         std::vector<Process> surplus;
         if (used.empty() && Clock::now() >= lastUsed_ + idle) surplus = std::exchange(waiting_, {});
         // Clients may have started processes while these ended, so that there are now more than needed.
-        while (!used.empty() && waiting_.size() + used.size() > terms_.waiting) {
+        while (!used.empty() && waiting_.size() + used.size() > options_.waiting) {
             surplus.push_back(std::move(used.back()));
             used.pop_back();
         }
@@ -88,8 +88,8 @@ void FileReaders::replaceUsed(const std::stop_token& stop) {
     }
 }
 
-Result<session::Reading> FileReaders::read(std::string_view format, std::string_view text, const std::string& name,
-                                           const session::Limits& limits, const std::stop_token& stop) {
+Result<session::LoadedObject> FileReaders::read(std::string_view format, std::string_view text, const std::string& name,
+                                                const session::Limits& limits, const std::stop_token& stop) {
     std::string file, outcome;
     encodeFile(format, text, name, limits, file);
     const std::size_t maxBytes = maxOutcomeBytes(text.size(), limits);
@@ -113,7 +113,7 @@ Result<session::Reading> FileReaders::read(std::string_view format, std::string_
     } catch (const process::ProcessLost& lost) {
         if (!lost.hung()) throw;
         return Error{ErrorCode::too_large, "reading this file takes longer than " +
-                                               text::shortest(terms_.timeout.count()) + " s, the time allowed"};
+                                               text::shortest(options_.timeout.count()) + " s, the time allowed"};
     }
     file = {};
     return decodeOutcome(outcome, name, limits);

@@ -20,11 +20,11 @@
 
 namespace oval4d::reading {
 
-struct ReaderTerms {
+struct ReaderOptions {
     std::chrono::duration<double> timeout;             ///< for reading one file
     std::chrono::duration<double> idle;                ///< processes end after this time without a file
     std::function<void(const process::Loss&)> onLoss;  ///< called on any thread
-    std::vector<std::string> environment;              ///< see process::ChildTerms
+    std::vector<std::string> environment;              ///< see process::ChildOptions
     std::size_t waiting;                               ///< the most processes that wait for a file
 };
 
@@ -32,7 +32,7 @@ struct ReaderTerms {
 /// advance for the next file; it ends if none comes for a while. Thread-safe.
 class FileReaders {
   public:
-    explicit FileReaders(ReaderTerms terms);
+    explicit FileReaders(ReaderOptions options);
     ~FileReaders();
     FileReaders(const FileReaders&) = delete;
     FileReaders& operator=(const FileReaders&) = delete;
@@ -40,8 +40,8 @@ class FileReaders {
     /// Like session::readObject, but in another process. Also fails with `too_large` if reading takes longer than the
     /// timeout, or more memory than a process may use. Blocks the calling thread. Throws process::Canceled;
     /// std::runtime_error if two processes die, none can be started, or the answer is not a valid object.
-    Result<session::Reading> read(std::string_view format, std::string_view text, const std::string& name,
-                                  const session::Limits& limits, const std::stop_token& stop);
+    Result<session::LoadedObject> read(std::string_view format, std::string_view text, const std::string& name,
+                                       const session::Limits& limits, const std::stop_token& stop);
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -51,7 +51,7 @@ class FileReaders {
     void release(Process used);
     void replaceUsed(const std::stop_token& stop);
 
-    const ReaderTerms terms_;
+    const ReaderOptions options_;
     std::mutex mutex_;
     std::condition_variable_any wake_;
     // Guarded by mutex_.

@@ -8,7 +8,7 @@
 
 #include "serialization/byte_archive.hpp"
 #include "slicing/object_bytes.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::reading {
 
@@ -48,7 +48,7 @@ void decodeFile(std::string_view bytes, File& out) {
     archive(out.text);
 }
 
-void encodeOutcome(const Result<session::Reading>& outcome, std::string& out) {
+void encodeOutcome(const Result<session::LoadedObject>& outcome, std::string& out) {
     out.clear();
     ByteWriter archive(out);
     if (!outcome) {
@@ -62,7 +62,8 @@ void encodeOutcome(const Result<session::Reading>& outcome, std::string& out) {
     slicing::writeParts(outcome->object, archive);
 }
 
-Result<session::Reading> decodeOutcome(std::string_view bytes, const std::string& name, const session::Limits& limits) {
+Result<session::LoadedObject> decodeOutcome(std::string_view bytes, const std::string& name,
+                                            const session::Limits& limits) {
     ByteReader archive(bytes);
     Kind kind{};
     archive(kind);
@@ -76,7 +77,7 @@ Result<session::Reading> decodeOutcome(std::string_view bytes, const std::string
     std::vector<std::string> warnings;
     while (warnings.size() < count) warnings.push_back(textFrom(archive));
     try {
-        return session::Reading{slicing::readParts(archive, name, limits.maxVertices), std::move(warnings)};
+        return session::LoadedObject{slicing::readParts(archive, name, limits.maxVertices), std::move(warnings)};
     } catch (const std::runtime_error& fault) {
         reject(fault.what());
     }

@@ -24,11 +24,12 @@ void encodeFile(std::string_view format, std::string_view text, const std::strin
 void decodeFile(std::string_view bytes, File& out);
 
 /// Encodes the result of reading a file; of an object, what it is built from. Overwrites `out`.
-void encodeOutcome(const Result<session::Reading>& outcome, std::string& out);
+void encodeOutcome(const Result<session::LoadedObject>& outcome, std::string& out);
 
 /// Decodes untrusted bytes: the result is a valid object called `name`, with a bounded number of printable warnings, or
 /// an error about the file that can be sent to the client. Throws std::runtime_error for anything else.
-Result<session::Reading> decodeOutcome(std::string_view bytes, const std::string& name, const session::Limits& limits);
+Result<session::LoadedObject> decodeOutcome(std::string_view bytes, const std::string& name,
+                                            const session::Limits& limits);
 
 /// The maximum size in bytes of the outcome of reading a text of `textBytes` bytes.
 std::size_t maxOutcomeBytes(std::size_t textBytes, const session::Limits& limits);

@@ -1,6 +1,7 @@
 #include "render/renderer.hpp"
 
 #include <cstdlib>
+#include <mutex>
 #include <stdexcept>
 
 #include "parallel/ownership.hpp"
@@ -9,7 +10,7 @@
 #include "render/overlay/density_strip.hpp"
 #include "render/overlay/overlay.hpp"
 #include "render/slices/convex_slices.hpp"
-#include "render/slices/crossing_slices.hpp"
+#include "render/slices/nonconvex_slices.hpp"
 #include "render/slices/shape_batch.hpp"
 
 namespace oval4d::render {
@@ -24,6 +25,13 @@ namespace {
 // The number of indices drawn in one batch: while the driver's threads rasterize a batch, this thread prepares the
 // next.
 constexpr std::size_t kBatchIndices = 12'000;
+
+/// Locks Mesa, whose state all contexts of a process share: a context that draws reads the scenes of the other contexts
+/// (llvmpipe_is_resource_referenced), and Mesa 22.3 does not guard them while another thread frees them.
+std::unique_lock<std::mutex> lockDriver() {
+    static std::mutex driver;
+    return std::unique_lock(driver);
+}
 
 }  // namespace
 
@@ -42,8 +50,8 @@ struct Renderer::Impl {
     Overlay overlay;
     ShapeBatch shapes;
     ConvexSlicePainter convexPainter;
-    CrossingSlicePainter crossingPainter;
-    CrossingSlicePainter::Layers layers;
+    NonconvexSlicePainter crossingPainter;
+    NonconvexSlicePainter::Layers layers;
 };
 
 void Renderer::Impl::drawLayers() {
@@ -60,7 +68,11 @@ void Renderer::Impl::drawLayers() {
     glDisable(GL_DEPTH_TEST);
 }
 
-Renderer::Renderer(const std::string& font) : impl_(std::make_unique<Impl>(font)) {
+Renderer::Renderer(const std::string& font) {
+    {
+        const auto lock = lockDriver();
+        impl_ = std::make_unique<Impl>(font);
+    }
     // Mesa compiles a shader when the shader first draws, so draw an empty scene.
     image::Image image;
     scene::Scene scene;
@@ -69,7 +81,10 @@ Renderer::Renderer(const std::string& font) : impl_(std::make_unique<Impl>(font)
     draw(scene, image);
 }
 
-Renderer::~Renderer() = default;
+Renderer::~Renderer() {
+    const auto lock = lockDriver();
+    impl_.reset();
+}
 
 void Renderer::freeMemory() {
     impl_->shapes = {};
@@ -91,6 +106,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     ShapeBatch& shapes = impl_->shapes;
     Overlay& overlay = impl_->overlay;
     impl_->owner.assertOwner();
+    const auto lock = lockDriver();
     impl_->context.begin(scene.viewport.width, scene.viewport.height, pixels.data());
 
     const scene::Color background = scene::style().background;

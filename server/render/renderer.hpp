@@ -15,7 +15,8 @@ namespace oval4d::render {
 std::string fontFile();
 
 /// Owns a GL context, which is bound to the thread that constructs the renderer. The constructor compiles all shaders,
-/// and throws std::runtime_error if no context can be created.
+/// and throws std::runtime_error if no context can be created. Several renderers may live in one process, each on its
+/// own thread; they draw one at a time.
 class Renderer {
   public:
     /// `font` is a font file in any format that FreeType reads.

@@ -40,7 +40,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.faceOpacity = info.convex ? style().faceOpacity : 1;
     out.visibilities = visibilities_;
     colors_.paint(object, look.coloring, orientation, out.cellColors);
-    layOut(slices.planes, focus, slices.turned.size(), ballRadius_, look, viewport, out);
+    layOut(slices.planes, focus, slices.rotatedVertices.size(), ballRadius_, look, viewport, out);
     out.scale = out.sliceRadius / info.circumradius;
     out.ballRadius = ballRadius_ * out.sliceRadius;
     out.barRadius = 0.4 * out.ballRadius;
@@ -70,7 +70,7 @@ void Composer::setFilter(const Object& object, const CellTypeFilter& filter) {
 
 void Composer::measureDensity(const geometry::Rotation& orientation, Scene& out) {
     if (densityObject_ != object_ || densityTurn_ != orientation || out.density.empty()) {
-        density_.measure(out.slices->turned, glm::dmat4(1), out.circumradius);
+        density_.measure(out.slices->rotatedVertices, glm::dmat4(1), out.circumradius);
         densityObject_ = object_;
         densityTurn_ = orientation;
     }

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::session {
 

@@ -10,7 +10,7 @@
 #include "session/cell_types.hpp"
 #include "session/expression.hpp"
 #include "session/session.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::session {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "session/history.hpp"
-#include "session/object_choice.hpp"
+#include "session/object_lookup.hpp"
 #include "session/settings.hpp"
 #include "slicing/slicer.hpp"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "contract/embedded.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::session {
 

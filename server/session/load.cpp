@@ -9,9 +9,9 @@
 
 #include "geometry/point_cloud.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
-#include "polytopes/import/file_text.hpp"
+#include "polytopes/import/file_tokenizer.hpp"
 #include "polytopes/import/import.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::session {
 
@@ -21,25 +21,25 @@ constexpr std::size_t kMaxName = 64;  // characters
 
 bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 
-Result<Reading> readPolytope(polytopes::FileFormat format, std::string_view text, const std::string& name,
-                             const Limits& limits) {
+Result<LoadedObject> readPolytope(polytopes::FileFormat format, std::string_view text, const std::string& name,
+                                  const Limits& limits) {
     auto imported = polytopes::importPolytope(format, text, name, {limits.maxVertices, limits.maxHullCells});
     if (auto* error = std::get_if<polytopes::ImportError>(&imported)) {
         const std::string where = error->line > 0 ? "line " + std::to_string(error->line) + ": " : "";
         return Error{error->tooLarge ? ErrorCode::too_large : ErrorCode::bad_polytope, where + error->reason};
     }
     auto& [polytope, warnings] = std::get<polytopes::Imported>(imported);
-    return Reading{std::make_shared<const polytopes::Polytope>(std::move(polytope)), std::move(warnings)};
+    return LoadedObject{std::make_shared<const polytopes::Polytope>(std::move(polytope)), std::move(warnings)};
 }
 
 template <polytopes::FileFormat format>
-Result<Reading> readPolytope(std::string_view text, const std::string& name, const Limits& limits) {
+Result<LoadedObject> readPolytope(std::string_view text, const std::string& name, const Limits& limits) {
     return readPolytope(format, text, name, limits);
 }
 
 // A point x y z w [radius] per line.
-Result<Reading> readCloud(std::string_view text, const std::string& name, const Limits& limits) {
-    polytopes::FileText file(text, true);
+Result<LoadedObject> readCloud(std::string_view text, const std::string& name, const Limits& limits) {
+    polytopes::FileTokenizer file(text, true);
     std::vector<glm::dvec4> points;
     std::vector<double> radii;
     try {
@@ -61,7 +61,7 @@ Result<Reading> readCloud(std::string_view text, const std::string& name, const 
                              "there are more than " + std::to_string(limits.maxVertices) + " points, the most allowed"};
         }
         auto cloud = geometry::makePointCloud(name, std::move(points), std::move(radii));
-        return Reading{std::make_shared<const geometry::PointCloud>(std::move(cloud)), {}};
+        return LoadedObject{std::make_shared<const geometry::PointCloud>(std::move(cloud)), {}};
     } catch (const polytopes::ImportError& error) {
         return Error{ErrorCode::bad_polytope, "line " + std::to_string(error.line) + ": " + error.reason};
     } catch (const std::invalid_argument& invalid) {
@@ -72,7 +72,7 @@ Result<Reading> readCloud(std::string_view text, const std::string& name, const 
 /// One file format: its name in `load` messages and in errors, and its reader.
 struct FormatRow {
     std::string_view name, title;
-    Result<Reading> (*read)(std::string_view text, const std::string& name, const Limits& limits);
+    Result<LoadedObject> (*read)(std::string_view text, const std::string& name, const Limits& limits);
     bool buildsHull;
 };
 constexpr auto kFormats = std::to_array<FormatRow>({
@@ -98,10 +98,10 @@ Error unsupported(std::string_view format) {
 
 }  // namespace
 
-Result<Reading> readObject(std::string_view format, std::string_view text, const std::string& name,
-                           const Limits& limits) {
+Result<LoadedObject> readObject(std::string_view format, std::string_view text, const std::string& name,
+                                const Limits& limits) {
     const FormatRow* row = formatNamed(format);
-    return row == nullptr ? Result<Reading>(unsupported(format)) : row->read(text, name, limits);
+    return row == nullptr ? Result<LoadedObject>(unsupported(format)) : row->read(text, name, limits);
 }
 
 std::string_view formatOf(std::string_view text) {

@@ -1,5 +1,5 @@
 #pragma once
-// Reading objects from the text of files.
+// LoadedObject objects from the text of files.
 
 #include <string>
 #include <string_view>
@@ -12,15 +12,15 @@
 namespace oval4d::session {
 
 /// An object read from a file, and one warning for each fault of the file that was corrected.
-struct Reading {
+struct LoadedObject {
     slicing::Object object;
     std::vector<std::string> warnings;
 };
 
 /// Reads an object from a text in this format, within the calling process. Errors: `unsupported_format`, `bad_polytope`
 /// (with the line number where there is one), `too_large`.
-Result<Reading> readObject(std::string_view format, std::string_view text, const std::string& name,
-                           const Limits& limits);
+Result<LoadedObject> readObject(std::string_view format, std::string_view text, const std::string& name,
+                                const Limits& limits);
 
 /// Detects the format of a file from its text: "off" or "points".
 std::string_view formatOf(std::string_view text);

@@ -12,10 +12,10 @@ const Error kLater{ErrorCode::internal, "the object is not available yet"};
 }  // namespace
 
 ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache)
-    : ObjectLoader(limits, cache, Pace::at_once, readObject) {}
+    : ObjectLoader(limits, cache, Mode::immediate, readObject) {}
 
-ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Pace pace, FileReader reader)
-    : limits_(limits), cache_(cache), pace_(pace), reader_(std::move(reader)) {}
+ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Mode mode, FileReader reader)
+    : limits_(limits), cache_(cache), mode_(mode), reader_(std::move(reader)) {}
 
 Result<slicing::Object> ObjectLoader::build(const polytopes::Design& design) {
     try {
@@ -26,40 +26,40 @@ Result<slicing::Object> ObjectLoader::build(const polytopes::Design& design) {
 }
 
 Result<slicing::Object> ObjectLoader::built(const polytopes::Design& design) {
-    if (pace_ == Pace::at_once) return build(design);
+    if (mode_ == Mode::immediate) return build(design);
     if (built_ && builtName_ == design.name) return *built_;
     if (auto ready = cache_.find(design)) return slicing::Object(std::move(ready));
-    order_ = design;
+    pending_ = design;
     return kLater;
 }
 
-Result<Reading> ObjectLoader::reading(const Load& load) {
+Result<LoadedObject> ObjectLoader::reading(const Load& load) {
     if (reading_) return *reading_;
     if (auto error = checkLoad(load, limits_)) return *error;
-    if (pace_ == Pace::later) {
-        order_ = &load;
+    if (mode_ == Mode::deferred) {
+        pending_ = &load;
         return kLater;
     }
     return *(reading_ = reader_(load.format, load.data, load.name, limits_));
 }
 
-void ObjectLoader::work() {
-    if (const auto* design = std::get_if<polytopes::Design>(&order_)) {
+void ObjectLoader::loadPending() {
+    if (const auto* design = std::get_if<polytopes::Design>(&pending_)) {
         built_ = build(*design);
         builtName_ = design->name;
-    } else if (const auto* load = std::get_if<const Load*>(&order_)) {
+    } else if (const auto* load = std::get_if<const Load*>(&pending_)) {
         const Load& file = **load;
         reading_ = reader_(file.format, file.data, file.name, limits_);
     }
-    order_ = std::monostate{};
+    pending_ = std::monostate{};
 }
 
 std::size_t ObjectLoader::bytesNeeded() const {
     constexpr std::size_t kFixed = 64U << 10U;
     constexpr std::size_t kPerTextByte = 16;  // the numbers, their repaired copy, the polytope and its incidences
     constexpr std::size_t kPerElement = 256;  // points, incidences, and temporary data of the construction
-    if (const auto* load = std::get_if<const Load*>(&order_)) return kFixed + kPerTextByte * (*load)->data.size();
-    const auto* design = std::get_if<polytopes::Design>(&order_);
+    if (const auto* load = std::get_if<const Load*>(&pending_)) return kFixed + kPerTextByte * (*load)->data.size();
+    const auto* design = std::get_if<polytopes::Design>(&pending_);
     if (design == nullptr) return 0;
     const polytopes::ElementCounts counts = polytopes::elementCounts(*design);
     return kFixed + kPerElement * (counts.vertices + counts.edges + counts.faces + counts.cells);
@@ -70,10 +70,10 @@ std::chrono::duration<double> ObjectLoader::cost() const {
     // the convex hull is computed.
     constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6;
     double seconds = 2e-4;
-    if (const auto* design = std::get_if<polytopes::Design>(&order_)) {
+    if (const auto* design = std::get_if<polytopes::Design>(&pending_)) {
         const auto [vertices, edges, faces, cells] = polytopes::elementCounts(*design);
         seconds += kElement * static_cast<double>(vertices + edges + faces + cells);
-    } else if (const auto* load = std::get_if<const Load*>(&order_)) {
+    } else if (const auto* load = std::get_if<const Load*>(&pending_)) {
         seconds += (buildsHull((*load)->format) ? kPointByte : kByte) * static_cast<double>((*load)->data.size());
     }
     return std::chrono::duration<double>(seconds);

@@ -20,41 +20,41 @@
 namespace oval4d::session {
 
 /// Reads an object from a text in this format; parameters, result and errors are those of readObject.
-using FileReader = std::function<Result<Reading>(std::string_view format, std::string_view text,
-                                                 const std::string& name, const Limits& limits)>;
+using FileReader = std::function<Result<LoadedObject>(std::string_view format, std::string_view text,
+                                                      const std::string& name, const Limits& limits)>;
 
-/// Provides the objects that one command needs. With Pace::at_once, objects are built or read within the call. With
-/// Pace::later, a call for an object that is not available fails and stores an order. The caller then calls work(), on
-/// any thread, to carry out the order, and applies the command again, until ordered() is false.
+/// Provides the objects that one command needs. With Mode::immediate, objects are built or read within the call. With
+/// Mode::deferred, a call for an object that is not available fails, and the object becomes pending. The caller then
+/// calls loadPending(), on any thread, and applies the command again, until nothing is pending.
 class ObjectLoader {
   public:
-    enum class Pace : bool { at_once, later };
+    enum class Mode : bool { immediate, deferred };
 
-    /// A loader with Pace::at_once that reads files in the calling process.
+    /// A loader with Mode::immediate that reads files in the calling process.
     ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache);
-    ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Pace pace, FileReader reader);
+    ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Mode mode, FileReader reader);
 
     /// Returns the polytope of this design. Error: `unknown_polytope`, whose message is only the reason, if it cannot
     /// be built.
     Result<slicing::Object> built(const polytopes::Design& design);
 
-    /// Returns the object read from the data of `load`, which must outlive the order. Errors: those of checkLoad and
+    /// Returns the object read from the data of `load`, which must outlive the loader. Errors: those of checkLoad and
     /// readObject.
-    Result<Reading> reading(const Load& load);
+    Result<LoadedObject> reading(const Load& load);
 
-    /// Whether there is an order, that is, the command failed only because an object was not available yet.
-    bool ordered() const { return !std::holds_alternative<std::monostate>(order_); }
-    /// Whether the order is to read a file rather than to build a polytope.
-    bool orderedFile() const { return std::holds_alternative<const Load*>(order_); }
-    /// Carries out the order, if there is one.
-    void work();
-    /// The estimated duration of work(); for entries of the catalogue, accurate to within a factor of three.
+    /// Whether the command failed only because an object is not available yet.
+    bool isPending() const { return !std::holds_alternative<std::monostate>(pending_); }
+    /// Whether a file is to be read, rather than a polytope to be built.
+    bool isFilePending() const { return std::holds_alternative<const Load*>(pending_); }
+    /// Builds or reads the pending object, if there is one.
+    void loadPending();
+    /// The estimated duration of loadPending(); for entries of the catalogue, accurate to within a factor of three.
     std::chrono::duration<double> cost() const;
 
-    /// The estimated memory for carrying out the order and for its result, in bytes; 0 without an order.
+    /// The estimated memory of loadPending() and its result, in bytes; 0 if nothing is pending.
     std::size_t bytesNeeded() const;
-    /// Whether work() has built a polytope, or any call has read a file.
-    bool hasWorked() const { return built_ || reading_; }
+    /// Whether loadPending() has built a polytope, or any call has read a file.
+    bool hasLoaded() const { return built_ || reading_; }
 
     /// One warning for each fault that was corrected in the file; empty if no file has been read.
     std::vector<std::string> warnings() const;
@@ -64,12 +64,12 @@ class ObjectLoader {
 
     Limits limits_;
     polytopes::PolytopeCache& cache_;
-    Pace pace_;
+    Mode mode_;
     FileReader reader_;
-    std::variant<std::monostate, polytopes::Design, const Load*> order_;
+    std::variant<std::monostate, polytopes::Design, const Load*> pending_;
     std::string builtName_;  ///< the name of the design from which `built_` was built
     std::optional<Result<slicing::Object>> built_;
-    std::optional<Result<Reading>> reading_;
+    std::optional<Result<LoadedObject>> reading_;
 };
 
 }  // namespace oval4d::session

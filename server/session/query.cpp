@@ -7,7 +7,7 @@
 #include "session/command_line.hpp"
 #include "session/expression.hpp"
 #include "session/settings.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::session {
 

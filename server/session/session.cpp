@@ -10,7 +10,7 @@
 #include "session/keymap.hpp"
 #include "session/object_loader.hpp"
 #include "session/settings.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::session {
 

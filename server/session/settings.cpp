@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "session/cell_types.hpp"
-#include "session/object_choice.hpp"
-#include "text/suggest.hpp"
+#include "session/object_lookup.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::session {
 
@@ -16,13 +16,13 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-struct Range {
+struct Bounds {
     double least, most;
     std::string_view unit;
 };
 
 // Stores a value, if there is one; an error if it is out of range.
-Result<std::monostate> put(std::string_view name, std::optional<double> value, Range range, double& into) {
+Result<std::monostate> put(std::string_view name, std::optional<double> value, Bounds range, double& into) {
     if (!value) return std::monostate{};
     if (!(*value >= range.least && *value <= range.most)) {
         return Error{ErrorCode::out_of_range, std::string(name) + " must be from " + text::shortest(range.least) +

@@ -18,18 +18,18 @@ void CloudSlicer::slice(const geometry::PointCloud& cloud, const geometry::Rotat
     out.planes = planes;
     const std::size_t count = cloud.points.size();
     const glm::dmat4 matrix = orientation.matrix();
-    out.turned.resize(count);
+    out.rotatedVertices.resize(count);
     planeOf_.resize(count);
     next_.assign(static_cast<std::size_t>(planes.count) + 1, 0);
     for (std::size_t p = 0; p < count; ++p) {
-        out.turned[p] = matrix * cloud.points[p];
-        const double plane = std::floor(out.turned[p].w / planes.spacing + 0.5) - planes.first;
+        out.rotatedVertices[p] = matrix * cloud.points[p];
+        const double plane = std::floor(out.rotatedVertices[p].w / planes.spacing + 0.5) - planes.first;
         planeOf_[p] = plane >= 0 && plane < planes.count ? static_cast<std::int32_t>(plane) : -1;
         if (planeOf_[p] >= 0) ++next_[static_cast<std::size_t>(planeOf_[p]) + 1];
     }
     for (std::size_t i = 1; i < next_.size(); ++i) next_[i] += next_[i - 1];
 
-    SliceSize size;
+    ElementCounts size;
     size.vertices = next_.back();
     out.resize(size);
     for (int i = 0; i <= planes.count; ++i) out.begin(i, {next_[static_cast<std::size_t>(i)], 0, 0, 0});
@@ -40,9 +40,9 @@ void CloudSlicer::slice(const geometry::PointCloud& cloud, const geometry::Rotat
     for (std::size_t p = 0; p < count; ++p) {
         if (planeOf_[p] < 0) continue;
         const std::uint32_t at = next_[static_cast<std::size_t>(planeOf_[p])]++;
-        out.vertices[at] = out.turned[p];
+        out.vertices[at] = out.rotatedVertices[p];
         out.vertexSource[at] = static_cast<std::uint32_t>(p);
-        const double distance = std::abs(out.turned[p].w - planes.w(planeOf_[p])) / (planes.spacing / 2);
+        const double distance = std::abs(out.rotatedVertices[p].w - planes.w(planeOf_[p])) / (planes.spacing / 2);
         out.ballOpacity[at] = static_cast<float>(1 - 0.8 * std::min(distance, 1.0));
         out.ballScale[at] = static_cast<float>(cloud.radii[p] > 0 ? cloud.radii[p] / usual : 1);
     }

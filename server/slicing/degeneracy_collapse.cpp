@@ -10,8 +10,8 @@ void DegeneracyCollapse::begin(const polytopes::Polytope& polytope, Levels level
     sliceEdge_.assign(polytope.edges.size(), kNone);
 }
 
-SliceSize DegeneracyCollapse::collapse(const polytopes::Polytope& polytope, int plane, SliceSize at, SliceSize size,
-                                       SliceSet& out) {
+ElementCounts DegeneracyCollapse::collapse(const polytopes::Polytope& polytope, int plane, ElementCounts at,
+                                           ElementCounts size, SliceSet& out) {
     plane_ = plane;
     size.vertices = collapseVertices(polytope, at, size.vertices, out);
     size.edges = collapseEdges(polytope, at, size.edges, out);
@@ -19,7 +19,7 @@ SliceSize DegeneracyCollapse::collapse(const polytopes::Polytope& polytope, int 
     return size;
 }
 
-std::uint32_t DegeneracyCollapse::collapseVertices(const polytopes::Polytope& polytope, SliceSize at,
+std::uint32_t DegeneracyCollapse::collapseVertices(const polytopes::Polytope& polytope, ElementCounts at,
                                                    std::uint32_t count, SliceSet& out) {
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     auto* vertices = out.vertices.data() + at.vertices;
@@ -36,7 +36,7 @@ std::uint32_t DegeneracyCollapse::collapseVertices(const polytopes::Polytope& po
             continue;
         }
         if (sliceVertex_[lower] == kNone) {
-            vertices[kept] = out.turned[lower];
+            vertices[kept] = out.rotatedVertices[lower];
             vertexSource[kept] = edges + lower;
             sliceVertex_[lower] = kept++;
         }
@@ -45,8 +45,8 @@ std::uint32_t DegeneracyCollapse::collapseVertices(const polytopes::Polytope& po
     return kept;
 }
 
-std::uint32_t DegeneracyCollapse::collapseEdges(const polytopes::Polytope& polytope, SliceSize at, std::uint32_t count,
-                                                SliceSet& out) {
+std::uint32_t DegeneracyCollapse::collapseEdges(const polytopes::Polytope& polytope, ElementCounts at,
+                                                std::uint32_t count, SliceSet& out) {
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     const auto* vertexSource = out.vertexSource.data() + at.vertices;
@@ -74,7 +74,7 @@ std::uint32_t DegeneracyCollapse::collapseEdges(const polytopes::Polytope& polyt
     return kept;
 }
 
-void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, SliceSize at, SliceSize& size,
+void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, ElementCounts at, ElementCounts& size,
                                        SliceSet& out) const {
     const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());

@@ -35,15 +35,17 @@ class DegeneracyCollapse {
 
     /// Collapses in place the slice of `size` at `at` in `out`, which was cut just above hyperplane `plane`: all of its
     /// vertices are cut from edges, its edges from 2-faces, and its faces from cells. Returns the new size.
-    SliceSize collapse(const polytopes::Polytope& polytope, int plane, SliceSize at, SliceSize size, SliceSet& out);
+    ElementCounts collapse(const polytopes::Polytope& polytope, int plane, ElementCounts at, ElementCounts size,
+                           SliceSet& out);
 
   private:
     static constexpr std::uint32_t kNone = 0xffffffffU;
 
-    std::uint32_t collapseVertices(const polytopes::Polytope& polytope, SliceSize at, std::uint32_t count,
+    std::uint32_t collapseVertices(const polytopes::Polytope& polytope, ElementCounts at, std::uint32_t count,
                                    SliceSet& out);
-    std::uint32_t collapseEdges(const polytopes::Polytope& polytope, SliceSize at, std::uint32_t count, SliceSet& out);
-    void collapseFaces(const polytopes::Polytope& polytope, SliceSize at, SliceSize& size, SliceSet& out) const;
+    std::uint32_t collapseEdges(const polytopes::Polytope& polytope, ElementCounts at, std::uint32_t count,
+                                SliceSet& out);
+    void collapseFaces(const polytopes::Polytope& polytope, ElementCounts at, ElementCounts& size, SliceSet& out) const;
     std::uint32_t baseEdge(const polytopes::Polytope& polytope, std::uint32_t face,
                            std::array<std::uint32_t, 2> ends) const;
     std::uint32_t baseFace(const polytopes::Polytope& polytope, std::uint32_t cell, std::size_t corners) const;

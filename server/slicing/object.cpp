@@ -102,12 +102,12 @@ std::span<const std::uint32_t> cellTypesOf(const Object& object) {
                       object);
 }
 
-std::string write4Off(const Object& object, std::span<const glm::dvec4> turned) {
-    return std::visit(Visitor{[&](const PolytopePtr& p) { return polytopes::write4Off(*p, turned); },
+std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices) {
+    return std::visit(Visitor{[&](const PolytopePtr& p) { return polytopes::write4Off(*p, rotatedVertices); },
                               [&](const CloudPtr& cloud) {
                                   Polytope points;
                                   points.name = cloud->name;
-                                  return polytopes::write4Off(points, turned);
+                                  return polytopes::write4Off(points, rotatedVertices);
                               }},
                       object);
 }

@@ -46,7 +46,7 @@ std::size_t bytesOf(const Object& object);
 /// An address that identifies an object: copies of the object share it.
 const void* identityOf(const Object& object);
 
-/// The smallest and the largest w of the vertices when turned by `orientation`.
+/// The smallest and the largest w of the vertices when rotated by `orientation`.
 std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotation& orientation);
 
 /// The radius of the balls at slice vertices, as a fraction of the circumradius. It grows with the mean edge length, so
@@ -61,8 +61,8 @@ void findCellCenters(const Object& object, std::vector<glm::dvec4>& out);
 /// The cell type of each cell, as an index into ObjectInfo::cellTypes.
 std::span<const std::uint32_t> cellTypesOf(const Object& object);
 
-/// The object in 4OFF, with the vertices `turned`, in its own units. Reading that of a polytope gives the same
+/// The object in 4OFF, with the vertices `rotatedVertices`, in its own units. Reading that of a polytope gives the same
 /// polytope; of a cloud, it lists the points.
-std::string write4Off(const Object& object, std::span<const glm::dvec4> turned);
+std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices);
 
 }  // namespace oval4d::slicing

@@ -43,6 +43,10 @@ void visitCloud(Archive& archive, Cloud& cloud) {
 
 enum class Kind : std::uint8_t { polytope, cloud };
 
+void requirePolytope(Kind kind) {
+    if (kind != Kind::polytope) throw std::runtime_error("an unknown kind of object");
+}
+
 /// Reads a jagged array and checks that all its rows lie within it.
 JaggedArray arrayFrom(ByteReader& archive) {
     JaggedArray array;
@@ -76,6 +80,7 @@ Object decodeObject(std::string_view bytes) {
         visitCloud(archive, *cloud);
         return CloudPtr(std::move(cloud));
     }
+    requirePolytope(kind);
     auto p = std::make_shared<Polytope>();
     visitPolytope(archive, *p);
     std::size_t types = 0;
@@ -112,7 +117,7 @@ Object readParts(ByteReader& archive, const std::string& name, std::size_t maxVe
             throw std::runtime_error("an invalid point cloud: " + std::string(invalid.what()));
         }
     }
-    if (kind != Kind::polytope) throw std::runtime_error("an unknown kind of object");
+    requirePolytope(kind);
     JaggedArray faces = arrayFrom(archive), cells = arrayFrom(archive);
     std::vector<std::uint32_t> typeOfCell;
     archive(typeOfCell);

@@ -61,9 +61,9 @@ void PolytopeSlicer::cutOne(const polytopes::Polytope& polytope, std::int32_t pl
         upTo_[v] = std::clamp(allUpTo_[v] - plane, 0, 1);
     }
     single.planes = {all.planes.first + plane, 1, all.planes.spacing};
-    single.turned.swap(all.turned);
+    single.rotatedVertices.swap(all.rotatedVertices);
     cutAny(polytope, single);
-    single.turned.swap(all.turned);
+    single.rotatedVertices.swap(all.rotatedVertices);
 }
 
 void PolytopeSlicer::locateVertices(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
@@ -73,13 +73,13 @@ void PolytopeSlicer::locateVertices(const polytopes::Polytope& polytope, const g
     const double tolerance = kOnPlane * polytope.circumradius * inverse;
     const glm::dmat4 m = orientation.matrix();
     const std::size_t n = polytope.vertices.size();
-    out.turned.resize(n);
+    out.rotatedVertices.resize(n);
     below_.resize(n);
     upTo_.resize(n);
     anyLie_ = false;
     for (std::size_t v = 0; v < n; ++v) {
-        out.turned[v] = m * polytope.vertices[v];
-        const double level = out.turned[v].w * inverse - out.planes.first;
+        out.rotatedVertices[v] = m * polytope.vertices[v];
+        const double level = out.rotatedVertices[v].w * inverse - out.planes.first;
         const double above = std::clamp(level - tolerance, 0.0, count);
         const auto whole = static_cast<std::int32_t>(above);
         below_[v] = whole + (above > whole ? 1 : 0);  // rounded up
@@ -117,7 +117,7 @@ void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out
         if (below_[v] == upTo_[v]) continue;
         const std::uint32_t point = cursor_[below_[v]]++;
         vertexPoint_[v] = point;
-        out.vertices[point] = out.turned[v];
+        out.vertices[point] = out.rotatedVertices[v];
         out.vertexSource[point] = edges + v;
     }
     std::uint32_t* slot = slotPoint_.data();
@@ -130,8 +130,8 @@ void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out
             *slot++ = vertexPoint_[lower];
             ++k;
         }
-        const glm::dvec4& a = out.turned[lower];
-        const glm::dvec4 along = out.turned[upper] - a;
+        const glm::dvec4& a = out.rotatedVertices[lower];
+        const glm::dvec4 along = out.rotatedVertices[upper] - a;
         const glm::dvec3 perRise = glm::dvec3(along) * (1 / along.w);
         for (; k < below_[upper]; ++k) {
             const std::uint32_t point = cursor_[k]++;
@@ -401,9 +401,10 @@ bool PolytopeSlicer::liesOnTop(const polytopes::Polytope& polytope, std::uint32_
     double volume = 0;
     for (std::uint32_t at = polytope.cells.begin[cell]; at < polytope.cells.begin[cell + 1]; ++at) {
         const auto loop = polytope.faces[polytope.cells.items[at]];
-        const glm::dvec3 first(out.turned[loop[0]]);
+        const glm::dvec3 first(out.rotatedVertices[loop[0]]);
         for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-            const glm::dvec3 normal = glm::cross(glm::dvec3(out.turned[loop[i]]), glm::dvec3(out.turned[loop[i + 1]]));
+            const glm::dvec3 normal =
+                glm::cross(glm::dvec3(out.rotatedVertices[loop[i]]), glm::dvec3(out.rotatedVertices[loop[i + 1]]));
             volume += polytope.cellSigns[at] * glm::dot(first, normal);
         }
     }

@@ -13,7 +13,7 @@
 #include "geometry/rotation.hpp"
 #include "parallel/fork_join.hpp"
 #include "polytopes/polytope.hpp"
-#include "slicing/convex_cut.hpp"
+#include "slicing/convex_slicer.hpp"
 #include "slicing/slice_set.hpp"
 
 namespace oval4d::slicing {
@@ -25,7 +25,7 @@ class PolytopeSlicer {
     /// With `forkJoin`, large polytopes are sliced on two cores.
     explicit PolytopeSlicer(parallel::ForkJoin* forkJoin = nullptr) : convexCut_(forkJoin) {}
 
-    /// Slices `polytope` turned by `orientation`. Overwrites `out` and reuses its memory.
+    /// Slices `polytope` rotated by `orientation`. Overwrites `out` and reuses its memory.
     void slice(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
                const geometry::Hyperplanes& planes, SliceSet& out);
 
@@ -81,7 +81,7 @@ class PolytopeSlicer {
     void traceCell(const polytopes::Polytope& polytope, std::uint32_t cell);
     void placeLoops(SliceSet& out);
 
-    ConvexCut convexCut_;
+    ConvexSlicer convexCut_;
     std::array<SliceSet, 2> singles_;               // the slices in hyperplanes that the polytope touches from one side
     std::vector<SliceSet*> touching_;               // by hyperplane: an element of singles_, or null
     std::vector<std::int32_t> allBelow_, allUpTo_;  // below_ and upTo_ for all hyperplanes, while one is cut separately

@@ -17,10 +17,10 @@ namespace oval4d::slicing {
 inline constexpr double kOnPlane = 1e-9;
 
 /// Numbers of slice elements: the size of one slice, or of all slices before it, which is where its elements begin.
-struct SliceSize {
+struct ElementCounts {
     std::uint32_t vertices = 0, edges = 0, faces = 0, corners = 0;
 
-    SliceSize operator+(SliceSize more) const {
+    ElementCounts operator+(ElementCounts more) const {
         return {vertices + more.vertices, edges + more.edges, faces + more.faces, corners + more.corners};
     }
 };
@@ -35,7 +35,7 @@ struct SliceSize {
 /// faces and cells are the polytope's numbers of them.
 struct SliceSet {
     geometry::Hyperplanes planes;
-    std::vector<glm::dvec4> turned;  ///< the rotated vertices of the polytope
+    std::vector<glm::dvec4> rotatedVertices;  ///< the rotated vertices of the polytope
 
     std::vector<std::uint32_t> vertexBegin, edgeBegin, faceBegin;  ///< planes.count + 1 each
     std::vector<glm::dvec3> vertices;
@@ -55,17 +55,17 @@ struct SliceSet {
     std::size_t faceCount(int slice) const { return faceBegin[slice + 1] - faceBegin[slice]; }
 
     /// The total size of all slices.
-    SliceSize size() const { return {vertexBegin.back(), edgeBegin.back(), faceBegin.back(), cornerBegin.back()}; }
+    ElementCounts size() const { return {vertexBegin.back(), edgeBegin.back(), faceBegin.back(), cornerBegin.back()}; }
     /// Resizes the arrays for planes.count slices with this total size.
-    void resize(SliceSize size);
+    void resize(ElementCounts size);
     /// Records that slice number `slice` begins at `at`.
-    void begin(int slice, SliceSize at) {
+    void begin(int slice, ElementCounts at) {
         vertexBegin[slice] = at.vertices;
         edgeBegin[slice] = at.edges;
         faceBegin[slice] = at.faces;
     }
     /// Records that the last slice ends at `at`, and truncates the arrays there.
-    void end(SliceSize at);
+    void end(ElementCounts at);
 };
 
 /// An empty set of slices.

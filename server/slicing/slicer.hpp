@@ -18,7 +18,7 @@ class Slicer {
     /// With `forkJoin`, large polytopes are sliced on two cores.
     explicit Slicer(parallel::ForkJoin* forkJoin = nullptr) : polytopes_(forkJoin) {}
 
-    /// Slices `object` turned by `orientation`. Overwrites `out` and reuses its memory.
+    /// Slices `object` rotated by `orientation`. Overwrites `out` and reuses its memory.
     void slice(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                SliceSet& out);
 

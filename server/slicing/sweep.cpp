@@ -36,8 +36,8 @@ void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::
 }
 
 // Copies a single slice into `out` at `at`; returns its size.
-SliceSize insert(const SliceSet& slice, SliceSize at, SliceSet& out) {
-    const SliceSize size = slice.size();
+ElementCounts insert(const SliceSet& slice, ElementCounts at, SliceSet& out) {
+    const ElementCounts size = slice.size();
     const auto copy = [](const auto& from, auto& to, std::size_t begin) {
         std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(begin));
     };
@@ -61,16 +61,16 @@ bool Sweep::begin(const polytopes::Polytope& polytope, Levels levels, int planes
     return findElements(polytope, planes);
 }
 
-bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, SliceSize& at,
+bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, ElementCounts& at,
                 SliceSet& out) {
     first_ = first;
-    SliceSize here = at;  // a local copy, which no other write can alias
+    ElementCounts here = at;  // a local copy, which no other write can alias
     for (std::size_t step = 0; step + 1 < steps_.size(); ++step) {
         int k = steps_[step];
         const int next = steps_[step + 1];
-        advance(polytope, out.turned, k);
-        const SliceSize size = sizeOfSlice();
-        if (event_[k] == Event::inside) {
+        advance(polytope, out.rotatedVertices, k);
+        const ElementCounts size = sizeOfSlice();
+        if (vertexStep_[k] == VertexStep::inside) {
             out.begin(first + k, here);
             if (!touching.empty() && touching[k] != nullptr) {
                 here = here + insert(*touching[k], here, out);
@@ -89,17 +89,17 @@ bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> 
 
 // Finds the hyperplanes at which the set of cut elements may change.
 void Sweep::findSteps(const polytopes::Polytope& polytope, int planes) {
-    event_.assign(planes + 1, Event::none);
-    for (const std::int32_t below : levels_.below) event_[below] = Event::between;
+    vertexStep_.assign(planes + 1, VertexStep::none);
+    for (const std::int32_t below : levels_.below) vertexStep_[below] = VertexStep::between;
     if (levels_.anyLie) {
         for (std::size_t v = 0; v < levels_.below.size(); ++v) {
-            if (levels_.below[v] != levels_.upTo[v]) event_[levels_.below[v]] = Event::inside;
+            if (levels_.below[v] != levels_.upTo[v]) vertexStep_[levels_.below[v]] = VertexStep::inside;
         }
         collapse_.begin(polytope, levels_);
     }
     steps_.assign(1, 0);
     for (int k = 1; k < planes; ++k) {
-        if (event_[k] != Event::none) steps_.push_back(k);
+        if (vertexStep_[k] != VertexStep::none) steps_.push_back(k);
     }
     steps_.push_back(planes);
 }
@@ -110,7 +110,7 @@ bool Sweep::findElements(const polytopes::Polytope& polytope, int planes) {
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
-    SliceSize total;
+    ElementCounts total;
     std::uint32_t ends = 0;
     edges_.clear(edges, planes);
     for (std::uint32_t e = 0; e < edges; ++e) {
@@ -164,20 +164,20 @@ bool Sweep::findElements(const polytopes::Polytope& polytope, int planes) {
     return true;
 }
 
-void Sweep::advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& turned, int plane) {
-    for (const ActiveList::Element& edge : edges_.advance(plane)) beginEdge(polytope, edge.number, turned);
+void Sweep::advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& rotatedVertices, int plane) {
+    for (const ActiveList::Element& edge : edges_.advance(plane)) beginEdge(polytope, edge.number, rotatedVertices);
     faces_.advance(plane);
     cells_.advance(plane);
 }
 
 // Makes an edge active: finds its line, and links the sections of the 2-faces and cells around it.
 inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t e,
-                             const std::vector<glm::dvec4>& turned) {
+                             const std::vector<glm::dvec4>& rotatedVertices) {
     const std::int32_t* below = levels_.below.data();
     const auto& edge = polytope.edges[e];
     const std::uint32_t rises = below[edge[0]] < below[edge[1]] ? 1 : 0;
-    const glm::dvec4& at = turned[edge[1 - rises]];
-    const glm::dvec4 along = turned[edge[rises]] - at;
+    const glm::dvec4& at = rotatedVertices[edge[1 - rises]];
+    const glm::dvec4 along = rotatedVertices[edge[rises]] - at;
     Line& line = line_[e];
     line.at = at;
     line.slope = glm::dvec3(along) * (1 / along.w);
@@ -195,13 +195,13 @@ inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t 
 
 // Writes the slices in hyperplanes plane … end − 1. No vertex lies between these, so the slices differ only in the
 // coordinates of their vertices.
-bool Sweep::write(int plane, int end, SliceSize at, SliceSet& out) {
+bool Sweep::write(int plane, int end, ElementCounts at, SliceSet& out) {
     writeVertices(plane, end, at, out);
     writeEdges(at, out);
     if (!writeFaces(at, out)) return false;
     const auto times = static_cast<std::size_t>(end - plane);
     if (times == 1) return true;
-    const SliceSize size = sizeOfSlice();
+    const ElementCounts size = sizeOfSlice();
     repeat(out.vertexSource, at.vertices, size.vertices, times);
     repeat(out.edges, at.edges, size.edges, times);
     repeat(out.edgeSource, at.edges, size.edges, times);
@@ -213,7 +213,7 @@ bool Sweep::write(int plane, int end, SliceSize at, SliceSet& out) {
     return true;
 }
 
-void Sweep::writeVertices(int plane, int end, SliceSize at, SliceSet& out) {
+void Sweep::writeVertices(int plane, int end, ElementCounts at, SliceSet& out) {
     const auto cut = edges_.active();
     const Line* edgeLines = line_.data();
     std::uint32_t* vertexSource = out.vertexSource.data() + at.vertices;
@@ -231,7 +231,7 @@ void Sweep::writeVertices(int plane, int end, SliceSize at, SliceSet& out) {
     }
 }
 
-void Sweep::writeEdges(SliceSize at, SliceSet& out) {
+void Sweep::writeEdges(ElementCounts at, SliceSet& out) {
     const auto cut = faces_.active();
     const std::uint32_t* vertices = vertex_.data();
     const std::uint32_t* ends = end_.data();
@@ -246,7 +246,7 @@ void Sweep::writeEdges(SliceSize at, SliceSet& out) {
     }
 }
 
-bool Sweep::writeFaces(SliceSize at, SliceSet& out) const {
+bool Sweep::writeFaces(ElementCounts at, SliceSet& out) const {
     const auto cut = cells_.active();
     const std::uint32_t* sliceEdges = sliceEdge_.data();
     const std::uint32_t* next = next_.data();

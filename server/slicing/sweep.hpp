@@ -31,13 +31,13 @@ class Sweep {
 
     /// Returns an upper bound of the total size of the slices, not counting those that `cut` gets in `touching`: slices
     /// in hyperplanes with vertices become smaller.
-    SliceSize size() const { return size_; }
+    ElementCounts size() const { return size_; }
 
     /// Writes the slices to `out`, numbered from `first` on and with their elements from `at` on; advances `at` to
-    /// their end. `out` must have its turned vertices and enough room. `touching` holds, by hyperplane, the slice (a
+    /// their end. `out` must have its rotated vertices and enough room. `touching` holds, by hyperplane, the slice (a
     /// set of one) if the polytope touches the hyperplane from one side, else null; it may be empty if there are none.
     /// Returns false in the same case as `begin`.
-    bool cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, SliceSize& at,
+    bool cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, ElementCounts& at,
              SliceSet& out);
 
   private:
@@ -50,23 +50,24 @@ class Sweep {
         std::int32_t from, to;
     };
     // Whether vertices lie in a hyperplane, or else between it and the one below.
-    enum class Event : std::uint8_t { none, between, inside };
+    enum class VertexStep : std::uint8_t { none, between, inside };
     void findSteps(const polytopes::Polytope& polytope, int planes);
     bool findElements(const polytopes::Polytope& polytope, int planes);
-    void advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& turned, int plane);
-    void beginEdge(const polytopes::Polytope& polytope, std::uint32_t edge, const std::vector<glm::dvec4>& turned);
-    SliceSize sizeOfSlice() const { return {edges_.size(), faces_.size(), cells_.size(), 2 * faces_.size()}; }
-    bool write(int plane, int end, SliceSize at, SliceSet& out);
-    void writeVertices(int plane, int end, SliceSize at, SliceSet& out);
-    void writeEdges(SliceSize at, SliceSet& out);
-    bool writeFaces(SliceSize at, SliceSet& out) const;
+    void advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& rotatedVertices, int plane);
+    void beginEdge(const polytopes::Polytope& polytope, std::uint32_t edge,
+                   const std::vector<glm::dvec4>& rotatedVertices);
+    ElementCounts sizeOfSlice() const { return {edges_.size(), faces_.size(), cells_.size(), 2 * faces_.size()}; }
+    bool write(int plane, int end, ElementCounts at, SliceSet& out);
+    void writeVertices(int plane, int end, ElementCounts at, SliceSet& out);
+    void writeEdges(ElementCounts at, SliceSet& out);
+    bool writeFaces(ElementCounts at, SliceSet& out) const;
 
     Levels levels_;
-    SliceSize size_;
+    ElementCounts size_;
     int first_ = 0;
     ActiveList edges_, faces_, cells_;
     std::vector<Span> faceSpan_;
-    std::vector<Event> event_;              // by hyperplane
+    std::vector<VertexStep> vertexStep_;    // by hyperplane
     std::vector<int> steps_;                // the first hyperplane, the others with an event, and the end of the range
     std::vector<Line> line_;                // by active edge
     std::vector<std::uint32_t> vertex_;     // by active edge: its slice vertex

@@ -1,6 +1,6 @@
 #include "store/cbor.hpp"
 
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::store {
 

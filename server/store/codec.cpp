@@ -9,10 +9,10 @@
 #include "polytopes/catalogue/catalogue.hpp"
 #include "session/settings.hpp"
 #include "store/cbor.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
-// A session is a CBOR array, [version, …]. A state is an array too, and refers to its polytope by an index into the
-// session's list of polytopes. The structured bindings name every member of a struct, so that adding a member breaks
+// A session is a CBOR array, [version, …]. A state is an array too, and refers to its object by an index into the
+// session's list of objects. The structured bindings name every member of a struct, so that adding a member breaks
 // the build until it is encoded here.
 
 namespace oval4d::store {
@@ -69,7 +69,7 @@ slicing::Object constructed(const std::string& name, polytopes::PolytopeCache& c
 /// The list of a session's objects, without duplicates.
 class ObjectTable {
   public:
-    explicit ObjectTable(const KeyOf& keyOf) : keyOf_(keyOf) {}
+    explicit ObjectTable(const ObjectKeyLookup& keyOf) : keyOf_(keyOf) {}
 
     std::size_t number(const slicing::Object& object) {
         const auto [found, isNew] = numbers_.try_emplace(slicing::identityOf(object), list.size());
@@ -86,13 +86,13 @@ class ObjectTable {
     json list = json::array();
 
   private:
-    const KeyOf& keyOf_;
+    const ObjectKeyLookup& keyOf_;
     std::map<const void*, std::size_t> numbers_;
 };
 
 using ObjectList = std::vector<slicing::Object>;
 
-ObjectList objectsIn(const json& list, const ObjectOf& objectOf, polytopes::PolytopeCache& cache) {
+ObjectList objectsIn(const json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache) {
     ObjectList objects;
     std::size_t vertexBudget = kMaxTotalVertices;
     for (const json& entry : list) {
@@ -226,13 +226,13 @@ json history(const States& states, std::size_t maxCount, ObjectTable& objects) {
 
 }  // namespace
 
-std::string encodeHead(const Session& session, const KeyOf& keyOf) {
+std::string encodeHead(const Session& session, const ObjectKeyLookup& keyOf) {
     ObjectTable objects(keyOf);
     json now = encoded(session.now, objects);
     return bytesOf({kRecordVersion, session.revision, objects.list, std::move(now)});
 }
 
-std::string encodeWhole(const Session& session, std::size_t maxUndo, const KeyOf& keyOf) {
+std::string encodeWhole(const Session& session, std::size_t maxUndo, const ObjectKeyLookup& keyOf) {
     const auto& [now, past, future, loaded, pendingKey, revision] = session;
     ObjectTable objects(keyOf);
     json state = encoded(now, objects);
@@ -244,7 +244,7 @@ std::string encodeWhole(const Session& session, std::size_t maxUndo, const KeyOf
                     std::move(own), pendingKey});
 }
 
-Session decode(std::string_view whole, std::string_view head, const ObjectOf& objectOf,
+Session decode(std::string_view whole, std::string_view head, const ObjectLookup& objectOf,
                polytopes::PolytopeCache& cache) {
     return translatingErrors([&] {
         const json value = parsedRecord(whole);

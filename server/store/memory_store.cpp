@@ -10,7 +10,7 @@ namespace oval4d::store {
 std::size_t MemoryStore::Entry::bytes() const {
     constexpr std::size_t kOverhead = 512;  // about what a map takes for an entry
     std::size_t bytes = kOverhead + tokenHash.size() + whole.size() + head.size();
-    for (const auto& [key, polytope] : polytopes) bytes += kOverhead + polytope.size();
+    for (const auto& [key, object] : objects) bytes += kOverhead + object.size();
     return bytes;
 }
 
@@ -24,7 +24,7 @@ std::optional<Record> MemoryStore::claim(const std::string& id) {
     if (found == entries_.end()) return std::nullopt;
     Entry& entry = found->second;
     entry.touched = Clock::now();
-    return Record{entry.whole, entry.head, {entry.polytopes.begin(), entry.polytopes.end()}, ++entry.fence, {}};
+    return Record{entry.whole, entry.head, {entry.objects.begin(), entry.objects.end()}, ++entry.fence, {}};
 }
 
 /// An upper bound: counts what the updates replace, too.
@@ -55,8 +55,8 @@ std::vector<SaveResult> MemoryStore::save(std::span<const RecordUpdate> updates)
         entry.changed = update.changed;
         if (!update.whole.empty()) entry.whole = update.whole;
         if (!update.whole.empty() || !update.head.empty()) entry.head = update.head;
-        for (const auto& [key, bytes] : update.polytopes) entry.polytopes[key] = bytes;
-        for (const std::string& key : update.dropped) entry.polytopes.erase(key);
+        for (const auto& [key, bytes] : update.objects) entry.objects[key] = bytes;
+        for (const std::string& key : update.dropped) entry.objects.erase(key);
         bytes_ += entry.bytes();
     }
     return results;

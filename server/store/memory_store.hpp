@@ -14,7 +14,7 @@ class MemoryStore final : public Store {
     /// `quota` limits the bytes of all records together.
     explicit MemoryStore(std::size_t quota = kDefaultQuota) : quota_(quota) {}
 
-    Pace pace() const override { return Pace::at_close; }
+    WritePolicy writePolicy() const override { return WritePolicy::at_close; }
     std::string name() const override { return "memory"; }
     std::optional<std::string> tokenHash(const std::string& id) override;
     std::optional<Record> claim(const std::string& id) override;
@@ -29,7 +29,7 @@ class MemoryStore final : public Store {
   private:
     struct Entry {
         std::string tokenHash, whole, head;
-        std::map<std::string, std::string> polytopes;
+        std::map<std::string, std::string> objects;
         Fence fence = 0;
         Clock::time_point touched;
         bool changed = true;

@@ -6,7 +6,7 @@
 
 namespace oval4d::store {
 
-/// Opens the store that `options.place` names. Throws std::invalid_argument if `place` is malformed, StoreError if a
+/// Opens the store that `options.url` names. Throws std::invalid_argument if `url` is malformed, StoreError if a
 /// file cannot be used. A store on the network need not be reachable yet.
 std::unique_ptr<Store> openStore(const StoreOptions& options);
 

@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// KEYS: the session, its polytopes. ARGV: this server, expiry in milliseconds, the session's id. Allowed in a full
+// KEYS: the session, its objects. ARGV: this server, expiry in milliseconds, the session's id. Allowed in a full
 // Redis (allow-oom), so that its sessions can still be opened.
 constexpr const char* kClaim = R"(#!lua flags=allow-oom
 local owner, whole, head = unpack(redis.call('HMGET', KEYS[1], 'owner', 'whole', 'head'))
@@ -31,7 +31,7 @@ redis.call('PEXPIRE', KEYS[2], ARGV[2])
 return {fence, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 
 // KEYS: as above. ARGV: this server, expiry, fence, the token's hash, the token or nothing, head, whole, 1 if no client
-// has the session open anymore, the number of polytopes to add, their keys and bytes, the keys of those to drop.
+// has the session open anymore, the number of objects to add, their keys and bytes, the keys of those to drop.
 // Returns a SaveResult. Two servers have equal fences only if Redis has lost writes; then the owner's save is accepted.
 // A save of the head does not restart the expiry: one of the whole session follows within a second.
 constexpr const char* kSave = R"(
@@ -82,7 +82,7 @@ constexpr auto kConnectTimeout = 1000ms;
 
 // The hash tag in braces keeps both keys of a session on one node of a cluster.
 std::string sessionKey(const std::string& id) { return "oval4d:{" + id + "}"; }
-std::string polytopesKey(const std::string& id) { return sessionKey(id) + ":polytopes"; }
+std::string objectsKey(const std::string& id) { return sessionKey(id) + ":polytopes"; }
 
 timeval asTimeval(Milliseconds time) {
     return {static_cast<time_t>(time.count() / 1000), static_cast<suseconds_t>(time.count() % 1000 * 1000)};
@@ -110,7 +110,7 @@ void RedisStore::Closer::operator()(redisReply* reply) const { freeReplyObject(r
 
 RedisStore::RedisStore(const StoreOptions& options)
     : expiry_(options.expiry), timeout_(options.timeout), self_(randomName(10)) {
-    std::string_view rest = options.place;
+    std::string_view rest = options.url;
     rest.remove_prefix(std::string_view("redis://").size());
     if (const auto at = rest.rfind('@'); at != std::string_view::npos) {
         const std::string_view login = rest.substr(0, at);
@@ -204,7 +204,7 @@ RedisStore::Reply RedisStore::ask(const Arguments& command) {
 }
 
 RedisStore::Reply RedisStore::ask(const std::string& script, const std::string& id, const Arguments& arguments) {
-    Arguments command{"EVALSHA", script, "2", sessionKey(id), polytopesKey(id)};
+    Arguments command{"EVALSHA", script, "2", sessionKey(id), objectsKey(id)};
     command.insert(command.end(), arguments.begin(), arguments.end());
     return ask(command);
 }
@@ -230,7 +230,7 @@ std::optional<Record> RedisStore::claim(const std::string& id) {
         textOf(*reply->element[1]), textOf(*reply->element[2]), {}, static_cast<Fence>(reply->element[0]->integer), {}};
     const redisReply& polytopes = *reply->element[3];
     for (std::size_t i = 0; i + 1 < polytopes.elements; i += 2) {
-        record.polytopes.emplace_back(textOf(*polytopes.element[i]), textOf(*polytopes.element[i + 1]));
+        record.objects.emplace_back(textOf(*polytopes.element[i]), textOf(*polytopes.element[i + 1]));
     }
     return record;
 }
@@ -244,7 +244,7 @@ std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) 
                           saveScript_,
                           "2",
                           sessionKey(id),
-                          polytopesKey(id),
+                          objectsKey(id),
                           self_,
                           std::to_string(expiry_.count()),
                           std::to_string(update.fence),
@@ -253,8 +253,8 @@ std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) 
                           update.head,
                           update.whole,
                           update.last ? "1" : "0",
-                          std::to_string(update.polytopes.size())};
-        for (const auto& [key, bytes] : update.polytopes) {
+                          std::to_string(update.objects.size())};
+        for (const auto& [key, bytes] : update.objects) {
             command.push_back(key);
             command.push_back(bytes);
         }
@@ -268,7 +268,7 @@ std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) 
 
 void RedisStore::remove(std::span<const std::string> ids) {
     if (!context_) connect();
-    for (const std::string& id : ids) send({"EVALSHA", removeScript_, "2", sessionKey(id), polytopesKey(id), self_});
+    for (const std::string& id : ids) send({"EVALSHA", removeScript_, "2", sessionKey(id), objectsKey(id), self_});
     for (std::size_t i = 0; i < ids.size(); ++i) receive();
 }
 
@@ -277,7 +277,7 @@ void RedisStore::touch(std::span<const std::string> ids) {
     const bool hashed = !storesPlainTokens();  // then delete the plain-text tokens
     for (const std::string& id : ids) {
         send({"PEXPIRE", sessionKey(id), std::to_string(expiry_.count())});
-        send({"PEXPIRE", polytopesKey(id), std::to_string(expiry_.count())});
+        send({"PEXPIRE", objectsKey(id), std::to_string(expiry_.count())});
         if (hashed) send({"HDEL", sessionKey(id), "token"});
     }
     for (std::size_t i = 0; i < (hashed ? 3 : 2) * ids.size(); ++i) receive();

@@ -10,7 +10,7 @@ struct redisReply;    // NOLINT(readability-identifier-naming)
 
 namespace oval4d::store {
 
-/// A session is a Redis hash, and its polytopes are another; Redis itself expires both. Operations that must be atomic
+/// A session is a Redis hash, and its objects are another; Redis itself expires both. Operations that must be atomic
 /// (a claim that increments the fence, a save that compares it) are Lua scripts. The ids of sessions that other servers
 /// have claimed from this one are in a Redis list of its own. Requires Redis 7 or later.
 class RedisStore final : public Store {
@@ -20,7 +20,7 @@ class RedisStore final : public Store {
     explicit RedisStore(const StoreOptions& options);
     ~RedisStore() override;
 
-    Pace pace() const override { return Pace::at_once; }
+    WritePolicy writePolicy() const override { return WritePolicy::at_once; }
     std::string name() const override;
     std::optional<std::string> tokenHash(const std::string& id) override;
     std::optional<Record> claim(const std::string& id) override;

@@ -69,7 +69,7 @@ std::string digestOf(std::span<const std::string_view> parts) {
     return digest;
 }
 
-bool sameSecret(std::string_view given, std::string_view expected) {
+bool equalInConstantTime(std::string_view given, std::string_view expected) {
     // Lengths are not secret: all tokens have the same length, and so do all hashes.
     return given.size() == expected.size() && sodium_memcmp(given.data(), expected.data(), given.size()) == 0;
 }

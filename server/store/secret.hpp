@@ -20,6 +20,6 @@ std::string hashOf(std::string_view token);
 std::string digestOf(std::span<const std::string_view> parts);
 
 /// Compares two secrets in constant time.
-bool sameSecret(std::string_view given, std::string_view expected);
+bool equalInConstantTime(std::string_view given, std::string_view expected);
 
 }  // namespace oval4d::store

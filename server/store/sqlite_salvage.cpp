@@ -54,7 +54,7 @@ class IdScan {
 struct Row {
     std::string tokenHash, whole, head;
     std::int64_t fence = 0, touched = 0, changed = 1;
-    std::vector<std::pair<std::string, std::string>> polytopes;
+    std::vector<std::pair<std::string, std::string>> objects;
 };
 
 /// Reads a session; nothing if it is missing or damaged.
@@ -76,7 +76,7 @@ std::optional<Row> rowOf(Database& from, bool hashed, const std::string& id) {
     polytopes.text(id);
     while (polytopes.row()) {
         if (polytopes.numberAt(2) == 0) return std::nullopt;
-        row.polytopes.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
+        row.objects.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
     }
     return row;
 }
@@ -86,7 +86,7 @@ void insert(Database& to, const std::string& id, const Row& row) {
                   "INSERT INTO session VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, digest_of(?1, ?2, ?6), digest_of(?1, ?7))");
     session.text(id).text(row.tokenHash).number(row.fence).number(row.touched).number(row.changed);
     session.blob(row.whole).blob(row.head).row();
-    for (const auto& [key, bytes] : row.polytopes) {
+    for (const auto& [key, bytes] : row.objects) {
         Query polytope(to, "INSERT INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");
         polytope.text(id).text(key).blob(bytes).row();
     }

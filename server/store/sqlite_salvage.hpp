@@ -23,7 +23,7 @@ inline constexpr const char* kSchema = R"(
         ) WITHOUT ROWID;
     CREATE INDEX session_touched ON session (touched);
     CREATE INDEX session_changed ON session (changed, touched);
-    CREATE TABLE polytope (
+    CREATE TABLE polytope (    -- objects of every kind, not polytopes alone
         session TEXT NOT NULL REFERENCES session ON DELETE CASCADE, key TEXT NOT NULL, bytes BLOB NOT NULL,
         digest BLOB NOT NULL,      -- of session, key, bytes
         PRIMARY KEY (session, key));
@@ -40,7 +40,7 @@ struct SalvageResult {
     bool complete = true;        ///< whether all ids were found
 };
 
-/// Copies every intact session and its polytopes from a damaged file of version 1 or 2 into `to`, whose schema must be
+/// Copies every intact session and its objects from a damaged file of version 1 or 2 into `to`, whose schema must be
 /// kSchema and whose tables must be empty. Throws StoreError if `to` fails.
 SalvageResult salvage(Database& from, Database& to);
 

@@ -37,7 +37,7 @@ std::int64_t pagesFor(std::span<const RecordUpdate> updates) {
         if (bytes < kPageSize / 4) {
             small += 2 * bytes;
         } else {
-            pages += bytes / kPageSize + 2 + update.polytopes.size();
+            pages += bytes / kPageSize + 2 + update.objects.size();
         }
     }
     return static_cast<std::int64_t>(pages + small / kPageSize);
@@ -302,8 +302,8 @@ std::optional<Record> SqliteStore::claim(const std::string& id) {
                         "SELECT key, bytes, digest = digest_of(session, key, bytes) FROM polytope WHERE session = ?");
         polytopes.text(id);
         while (polytopes.row()) {
-            record.polytopes.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
-            if (polytopes.numberAt(2) == 0) record.damage = "one of its polytopes in the store is damaged";
+            record.objects.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
+            if (polytopes.numberAt(2) == 0) record.damage = "one of its objects in the store is damaged";
         }
         return record;
     });
@@ -355,7 +355,7 @@ SaveResult SqliteStore::saveOne(const RecordUpdate& update) {
         Query query(*database_, "SELECT 1 FROM session WHERE id = ?");
         return query.text(id).row() ? SaveResult::taken : SaveResult::missing;
     }
-    for (const auto& [key, bytes] : update.polytopes) {
+    for (const auto& [key, bytes] : update.objects) {
         Query query(*database_, "INSERT OR REPLACE INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");
         query.text(id).text(key).blob(bytes).row();
     }

@@ -23,7 +23,7 @@ class SqliteStore final : public Store {
     /// or if it is not a store of oval4d, not owned by the server's user, or not a regular file.
     explicit SqliteStore(std::string path, std::size_t quota = kDefaultQuota);
 
-    Pace pace() const override { return Pace::soon; }
+    WritePolicy writePolicy() const override { return WritePolicy::soon; }
     std::string name() const override { return "sqlite:" + path_; }
     std::optional<std::string> tokenHash(const std::string& id) override;
     bool isDamaged(const std::string& id) override;

@@ -28,11 +28,11 @@ struct SessionCredentials {
 /// the record's.
 using Fence = std::uint64_t;
 
-/// A stored session, as encoded by codec.hpp. `polytopes` are (key, encoded polytope) pairs of the polytopes that have
+/// A stored session, as encoded by codec.hpp. `objects` are (key, encoded object) pairs of the objects that have
 /// no name in the catalogue.
 struct Record {
     std::string whole, head;
-    std::vector<std::pair<std::string, std::string>> polytopes;
+    std::vector<std::pair<std::string, std::string>> objects;
     Fence fence = 0;
     std::string damage;  ///< which part does not match its digest; empty if the record is intact
 };
@@ -41,12 +41,12 @@ struct Record {
 struct RecordUpdate {
     SessionCredentials credentials;
     Fence fence = 0;
-    std::string head;                                            ///< empty: unchanged
-    std::string whole;                                           ///< empty: unchanged; else `head` is replaced too
-    std::vector<std::pair<std::string, std::string>> polytopes;  ///< to add
-    std::vector<std::string> dropped;                            ///< keys of polytopes to remove
-    bool last = false;                                           ///< no client has the session open anymore
-    bool changed = true;                                         ///< the session has changed since its creation
+    std::string head;                                          ///< empty: unchanged
+    std::string whole;                                         ///< empty: unchanged; else `head` is replaced too
+    std::vector<std::pair<std::string, std::string>> objects;  ///< to add
+    std::vector<std::string> dropped;                          ///< keys of objects to remove
+    bool last = false;                                         ///< no client has the session open anymore
+    bool changed = true;                                       ///< the session has changed since its creation
 };
 
 /// The result of one update.
@@ -78,12 +78,12 @@ class Store {
     virtual ~Store() = default;
 
     /// When the changes of an open session are written to the store.
-    enum class Pace : std::uint8_t {
+    enum class WritePolicy : std::uint8_t {
         at_close,  ///< when the last client leaves
         soon,      ///< within a second
         at_once,   ///< before the change is acknowledged, because another server may have to take over
     };
-    virtual Pace pace() const = 0;
+    virtual WritePolicy writePolicy() const = 0;
 
     /// The name for logs, without passwords, such as "sqlite:/var/lib/oval4d/sessions.sqlite".
     virtual std::string name() const = 0;
@@ -131,7 +131,7 @@ class Store {
 inline std::size_t bytesOf(const RecordUpdate& update) {
     constexpr std::size_t kOverhead = 640;  // id, hash, times and index entries of a row
     std::size_t bytes = kOverhead + update.head.size() + update.whole.size();
-    for (const auto& [key, polytope] : update.polytopes) bytes += kOverhead + polytope.size();
+    for (const auto& [key, object] : update.objects) bytes += kOverhead + object.size();
     return bytes;
 }
 
@@ -139,7 +139,7 @@ inline constexpr std::size_t kDefaultQuota = std::size_t{1} << 30U;
 
 /// The operator's choice of a store.
 struct StoreOptions {
-    std::string place = "memory";       ///< "memory", "sqlite:PATH", "redis://[user:password@]host[:port][/database]"
+    std::string url = "memory";         ///< "memory", "sqlite:PATH", "redis://[user:password@]host[:port][/database]"
     Milliseconds expiry{1'800'000};     ///< lifetime of a session that no client has open
     Milliseconds timeout{1000};         ///< for a reply of a store on the network
     std::size_t quota = kDefaultQuota;  ///< bytes of the file or of the records in memory; Redis has `maxmemory`

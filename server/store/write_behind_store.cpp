@@ -54,7 +54,7 @@ std::size_t bytesOf(const Session& session) {
 
 WriteBehindStore::WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener)
     : store_(std::move(store)),
-      pace_(store_->pace()),
+      writePolicy_(store_->writePolicy()),
       name_(store_->name()),
       settings_(settings),
       listener_(std::move(listener)),
@@ -89,34 +89,34 @@ SessionCredentials WriteBehindStore::create() {
     return credentials;
 }
 
-void WriteBehindStore::fetch(SessionCredentials credentials, std::function<void(Fetch)> done) {
+void WriteBehindStore::fetch(SessionCredentials credentials, std::function<void(FetchResult)> done) {
     {
         const std::lock_guard lock(mutex_);
         tasks_.emplace_back(
-            [this, credentials = std::move(credentials), done = std::move(done)] { answer(credentials, done); });
+            [this, credentials = std::move(credentials), done = std::move(done)] { fetchNow(credentials, done); });
     }
     wake_.notify_one();
 }
 
-void WriteBehindStore::know(const std::string& id, Keys keys) {
+void WriteBehindStore::setStoredKeys(const std::string& id, Keys keys) {
     const std::lock_guard lock(mutex_);
     tasks_.emplace_back([this, id, keys = std::move(keys)] {
-        PolytopeKeys& stored = keys_[id];
+        ObjectKeys& stored = keys_[id];
         stored.clear();
         for (const auto& [serial, key] : keys) stored[serial] = {key, true};
     });
 }
 
-void WriteBehindStore::save(const std::string& id, Session value, Part part, Written written) {
+void WriteBehindStore::save(const std::string& id, Session value, SaveScope scope, Written written) {
     bool ours = false;
     {
         const std::lock_guard lock(mutex_);
         if (const auto found = held_.find(id); found != held_.end()) {
             ours = true;
             Held& held = found->second;
-            (part == Part::head ? held.head : held.whole) = std::make_shared<const Session>(std::move(value));
+            (scope == SaveScope::head ? held.head : held.whole) = std::make_shared<const Session>(std::move(value));
             enqueue(id, held);
-            if (trouble_.empty() && written) held.waiting.push_back(std::exchange(written, nullptr));
+            if (lastError_.empty() && written) held.waiting.push_back(std::exchange(written, nullptr));
         }
     }
     wake_.notify_one();
@@ -136,7 +136,7 @@ void WriteBehindStore::close(const std::string& id, Session value) {
         held.closedAt = Clock::now();
         held.bytes = bytes;
         enqueue(id, held);
-        if (!trouble_.empty()) evicted = evictClosed();
+        if (!lastError_.empty()) evicted = evictClosed();
     }
     if (!evicted.empty()) spdlog::warn("sessions evicted from memory while the store fails count={}", evicted.size());
     for (const Held& held : evicted) {
@@ -172,7 +172,7 @@ std::vector<WriteBehindStore::Held> WriteBehindStore::evictClosed() {
     return evicted;
 }
 
-void WriteBehindStore::forget(const std::string& id) {
+void WriteBehindStore::remove(const std::string& id) {
     {
         const std::lock_guard lock(mutex_);
         tasks_.emplace_back([this, id] {
@@ -194,13 +194,13 @@ void WriteBehindStore::forget(const std::string& id) {
     wake_.notify_one();
 }
 
-/// Drops the polytope keys of a session that is no longer held.
+/// Drops the object keys of a session that is no longer held.
 void WriteBehindStore::dropKeys(const std::string& id) {
     const std::lock_guard lock(mutex_);
     if (!held_.contains(id)) keys_.erase(id);
 }
 
-void WriteBehindStore::letGo(const std::string& id) {
+void WriteBehindStore::release(const std::string& id) {
     const std::lock_guard lock(mutex_);
     held_.erase(id);
 }
@@ -208,7 +208,7 @@ void WriteBehindStore::letGo(const std::string& id) {
 std::size_t WriteBehindStore::count() const {
     const std::lock_guard lock(mutex_);
     // The size of a shared store says nothing about the load of this server.
-    return pace_ == Store::Pace::at_once ? held_.size() : kept_ + created_;
+    return writePolicy_ == Store::WritePolicy::at_once ? held_.size() : kept_ + created_;
 }
 
 std::size_t WriteBehindStore::unsaved() const {
@@ -219,9 +219,9 @@ std::size_t WriteBehindStore::unsaved() const {
     }));
 }
 
-std::string WriteBehindStore::trouble() const {
+std::string WriteBehindStore::lastError() const {
     const std::lock_guard lock(mutex_);
-    return trouble_;
+    return lastError_;
 }
 
 void WriteBehindStore::enqueue(const std::string& id, Held& held) {
@@ -266,13 +266,13 @@ void WriteBehindStore::run() {
     }
 }
 
-/// Carries out an operation of the store, and reports its duration and outcome to the listener. `what` is the name of
+/// Carries out an operation of the store, and reports its duration and outcome to the listener. `name` is that of
 /// the operation in the metrics.
 template <typename Operation>
-auto WriteBehindStore::timed(const char* what, Operation operation) {
+auto WriteBehindStore::timed(const char* name, Operation operation) {
     const auto start = Clock::now();
     const auto report = [&](bool done) {
-        listener_.asked(what, std::chrono::duration<double>(Clock::now() - start).count(), done);
+        listener_.operationEnded(name, std::chrono::duration<double>(Clock::now() - start).count(), done);
     };
     try {
         auto result = operation();
@@ -288,9 +288,9 @@ void WriteBehindStore::storeFailed(const std::exception& fault) {
     const std::string why = fault.what();
     const bool readable = dynamic_cast<const NotWritable*>(&fault) != nullptr;
     if (!readable) {
-        // The store may have lost its data: polytopes must be written again.
+        // The store may have lost its data: objects must be written again.
         for (auto& [id, keys] : keys_) {
-            for (auto& [serial, polytope] : keys) polytope.stored = false;
+            for (auto& [serial, object] : keys) object.stored = false;
         }
     }
     // Exponential backoff with jitter.
@@ -301,19 +301,19 @@ void WriteBehindStore::storeFailed(const std::exception& fault) {
     retryAt_ = pollAt_ = Clock::now() + pause;
     readAt_ = readable ? Clock::time_point() : retryAt_;
     recount();
-    if (trouble_.empty()) spdlog::error("store fails, changes stay in memory until it works fault=\"{}\"", why);
-    trouble_ = why;
+    if (lastError_.empty()) spdlog::error("store fails, changes stay in memory until it works fault=\"{}\"", why);
+    lastError_ = why;
 }
 
 void WriteBehindStore::storeWorked() {
     {
         const std::lock_guard lock(mutex_);
         failures_ = 0;
-        if (trouble_.empty()) return;
-        trouble_.clear();
+        if (lastError_.empty()) return;
+        lastError_.clear();
     }
     spdlog::info("store works again store={}", name_);
-    listener_.back();
+    listener_.recovered();
 }
 
 // --- Writing
@@ -413,16 +413,16 @@ void WriteBehindStore::writeRemovals() {
     pollAt_ = Clock::time_point();  // update the number of stored sessions now
 }
 
-/// Encodes a job as an update. Each polytope is written once, and dropped when the session no longer has it.
+/// Encodes a job as an update. Each object is written once, and dropped when the session no longer has it.
 void WriteBehindStore::encode(Job& job, RecordUpdate& update) {
-    PolytopeKeys& keys = keys_[job.id];
+    ObjectKeys& keys = keys_[job.id];
     std::set<std::uint64_t> used;
-    const KeyOf keyOf = [&](const slicing::Object& object) {
+    const ObjectKeyLookup keyOf = [&](const slicing::Object& object) {
         const std::uint64_t serial = slicing::infoOf(object).serial;
         auto& [key, stored] = keys[serial];
         if (key.empty()) key = randomName(kKeyBytes);
         if (used.insert(serial).second && !stored) {
-            update.polytopes.emplace_back(key, encodeObject(object));
+            update.objects.emplace_back(key, encodeObject(object));
             job.added.push_back(serial);
         }
         return key;
@@ -432,14 +432,14 @@ void WriteBehindStore::encode(Job& job, RecordUpdate& update) {
         update.head = encodeHead(*job.head, keyOf);
     update.changed = (job.head && job.head->revision > 0) || (job.whole && job.whole->revision > 0);
     if (!job.whole) return;
-    for (const auto& [serial, polytope] : keys) {
-        if (!used.contains(serial)) update.dropped.push_back(polytope.key);
+    for (const auto& [serial, object] : keys) {
+        if (!used.contains(serial)) update.dropped.push_back(object.key);
     }
 }
 
 void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveResult result) {
     if (result == SaveResult::saved) {
-        PolytopeKeys& keys = keys_[job.id];
+        ObjectKeys& keys = keys_[job.id];
         for (const std::uint64_t serial : job.added) keys[serial].stored = true;
         std::erase_if(keys, [&](const auto& entry) {
             return std::ranges::find(update.dropped, entry.second.key) != update.dropped.end();
@@ -456,9 +456,9 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
             }
         }
     } else if (result == SaveResult::missing) {
-        for (auto& [serial, polytope] : keys_[job.id]) polytope.stored = false;
+        for (auto& [serial, object] : keys_[job.id]) object.stored = false;
         requeue(job);
-        listener_.wanted(job.id);
+        listener_.missing(job.id);
         return;
     } else {
         dropTaken(job.id);
@@ -479,7 +479,7 @@ void WriteBehindStore::requeue(Job& job) {
         if (!held.head) held.head = std::move(job.head);
         if (!held.whole) held.whole = std::move(job.whole);
         std::ranges::move(job.waiting, std::back_inserter(held.waiting));
-        if (!trouble_.empty()) {
+        if (!lastError_.empty()) {
             enqueue(job.id, held);
             released = std::exchange(held.waiting, {});
         }
@@ -501,7 +501,7 @@ void WriteBehindStore::dropTaken(const std::string& id) {
     }
     keys_.erase(id);
     for (const Written& written : released) written(false);
-    if (open) listener_.taken(id);
+    if (open) listener_.claimed(id);
 }
 
 // --- Polling
@@ -555,7 +555,7 @@ void WriteBehindStore::refreshExpiry() {
 
 // --- Reading
 
-void WriteBehindStore::answer(const SessionCredentials& credentials, const std::function<void(Fetch)>& done) {
+void WriteBehindStore::fetchNow(const SessionCredentials& credentials, const std::function<void(FetchResult)>& done) {
     try {
         done(claimOrFind(credentials));
     } catch (const std::exception& fault) {
@@ -564,12 +564,12 @@ void WriteBehindStore::answer(const SessionCredentials& credentials, const std::
     }
 }
 
-WriteBehindStore::Fetch WriteBehindStore::claimOrFind(const SessionCredentials& credentials) {
+WriteBehindStore::FetchResult WriteBehindStore::claimOrFind(const SessionCredentials& credentials) {
     {
         const std::lock_guard lock(mutex_);
         if (const auto found = held_.find(credentials.id); found != held_.end()) {
             Held& held = found->second;
-            if (!sameSecret(credentials.token, held.credentials.token)) return kBadToken;
+            if (!equalInConstantTime(credentials.token, held.credentials.token)) return kBadToken;
             if (!held.whole) return kNoAnswer;  // another client is opening it, or it is being written
             held.closed = false;
             return Fetched{*held.whole, {}};
@@ -579,7 +579,7 @@ WriteBehindStore::Fetch WriteBehindStore::claimOrFind(const SessionCredentials& 
     }
     const auto hash = timed("token", [&] { return store_->tokenHash(credentials.id); });
     if (!hash) return kNotFound;
-    if (!sameSecret(hashOf(credentials.token), *hash)) {
+    if (!equalInConstantTime(hashOf(credentials.token), *hash)) {
         // The stored hash itself may be damaged.
         return timed("token", [&] { return store_->isDamaged(credentials.id); }) ? kNotFound : kBadToken;
     }

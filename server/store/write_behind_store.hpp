@@ -39,31 +39,34 @@ class WriteBehindStore {
     };
     /// Callbacks.
     struct Listener {
-        std::function<void(const std::string& id)> taken;   ///< another server has claimed this session
-        std::function<void(const std::string& id)> wanted;  ///< the store lacks this session: save it with Part::whole
-        std::function<void()> back;  ///< the store works again, and may have lost data: save all sessions
+        /// another server has claimed this session
+        std::function<void(const std::string& id)> claimed;
+        /// the store lacks this session: save it with SaveScope::whole
+        std::function<void(const std::string& id)> missing;
+        /// the store works again, and may have lost data: save all sessions
+        std::function<void()> recovered;
         /// an operation of the store has ended; for metrics
-        std::function<void(const char* what, double seconds, bool worked)> asked;
+        std::function<void(const char* operation, double seconds, bool succeeded)> operationEnded;
     };
     /// A fetched session: a value if it was still in memory, else a record to be decoded with codec.hpp.
     struct Fetched {
         std::optional<session::Session> session;
         Record record;
     };
-    using Fetch = Result<Fetched>;
-    /// The keys under which a session's polytopes are stored, by Polytope::serial.
+    using FetchResult = Result<Fetched>;
+    /// The keys under which a session's objects are stored, by ObjectInfo::serial.
     using Keys = std::map<std::uint64_t, std::string>;
     /// Called when a save has ended: see save().
     using Written = std::function<void(bool)>;
     /// The parts of a record: see encodeHead and encodeWhole in codec.hpp.
-    enum class Part : std::uint8_t { head, whole };
+    enum class SaveScope : std::uint8_t { head, whole };
 
     WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener);
     WriteBehindStore(const WriteBehindStore&) = delete;
     WriteBehindStore& operator=(const WriteBehindStore&) = delete;
     ~WriteBehindStore();
 
-    Store::Pace pace() const { return pace_; }
+    Store::WritePolicy writePolicy() const { return writePolicy_; }
     const std::string& name() const { return name_; }
 
     /// Creates a session that is open on this server. It is not in the store until it is saved.
@@ -71,32 +74,32 @@ class WriteBehindStore {
 
     /// Claims a session for this server. Calls `done` with the session, or with an error: `not_found`, `bad_token`, or
     /// `internal` if the store does not answer.
-    void fetch(SessionCredentials credentials, std::function<void(Fetch)> done);
+    void fetch(SessionCredentials credentials, std::function<void(FetchResult)> done);
 
-    /// Tells which of a fetched session's polytopes the store has, after its record was decoded.
-    void know(const std::string& id, Keys keys);
+    /// Tells which of a fetched session's objects the store has, after its record was decoded.
+    void setStoredKeys(const std::string& id, Keys keys);
 
-    /// Queues a session for writing: the whole of it, or with Part::head only its current state. Calls `written` with
-    /// true when it is in the store, or immediately while the store fails; with false if this server no longer owns the
-    /// session.
-    void save(const std::string& id, session::Session value, Part part, Written written = {});
+    /// Queues a session for writing: the whole of it, or with SaveScope::head only its current state. Calls `written`
+    /// with true when it is in the store, or immediately while the store fails; with false if this server no longer
+    /// owns the session.
+    void save(const std::string& id, session::Session value, SaveScope scope, Written written = {});
 
     /// Queues the last write of a session that no client has open anymore.
     void close(const std::string& id, session::Session value);
 
     /// Deletes a closed session here and in the store; if the store fails, it is deleted there later. Does nothing if a
     /// client has the session open, on this server or another.
-    void forget(const std::string& id);
+    void remove(const std::string& id);
 
     /// Drops a session that was fetched but could not be decoded. Its record in the store is unchanged.
-    void letGo(const std::string& id);
+    void release(const std::string& id);
 
     /// The approximate number of sessions in the store and in memory; only those in memory if servers share the store.
     std::size_t count() const;
     /// The number of sessions with changes that are not known to be in the store.
     std::size_t unsaved() const;
     /// The store's last error; empty while it works.
-    std::string trouble() const;
+    std::string lastError() const;
 
     /// Writes the pending changes, for at most `limit`, and ends the thread.
     void stop(Milliseconds limit);
@@ -116,18 +119,18 @@ class WriteBehindStore {
         Clock::time_point closedAt;
         std::size_t bytes = 0;  ///< estimated memory of a closed session
     };
-    /// A polytope's key, and whether the store has the polytope.
-    struct PolytopeKey {
+    /// An object's key, and whether the store has the object.
+    struct ObjectKey {
         std::string key;
         bool stored = false;
     };
-    using PolytopeKeys = std::map<std::uint64_t, PolytopeKey>;
+    using ObjectKeys = std::map<std::uint64_t, ObjectKey>;
     /// One write of a session.
     struct Job {
         std::string id;
         Value head, whole;
         std::vector<Written> waiting;
-        std::vector<std::uint64_t> added;  ///< serials of the polytopes that it adds to the store
+        std::vector<std::uint64_t> added;  ///< serials of the objects that it adds to the store
     };
 
     // On the thread of the write-behind store.
@@ -143,10 +146,10 @@ class WriteBehindStore {
     void dropTaken(const std::string& id);
     void poll();
     void refreshExpiry();
-    void answer(const SessionCredentials& credentials, const std::function<void(Fetch)>& done);
-    Fetch claimOrFind(const SessionCredentials& credentials);
+    void fetchNow(const SessionCredentials& credentials, const std::function<void(FetchResult)>& done);
+    FetchResult claimOrFind(const SessionCredentials& credentials);
     template <typename Operation>
-    auto timed(const char* what, Operation operation);
+    auto timed(const char* name, Operation operation);
     void storeFailed(const std::exception& fault);
     void storeWorked();
 
@@ -158,7 +161,7 @@ class WriteBehindStore {
     Clock::time_point nextWake() const;
 
     const std::unique_ptr<Store> store_;
-    const Store::Pace pace_;
+    const Store::WritePolicy writePolicy_;
     const std::string name_;
     const Settings settings_;
     const Listener listener_;
@@ -172,15 +175,15 @@ class WriteBehindStore {
     std::set<std::string> removals_;           // ids to remove from the store
     std::size_t kept_ = 0;                     // sessions in the store, as of the last poll
     std::size_t created_ = 0;                  // sessions that have never been in the store
-    std::string trouble_;
+    std::string lastError_;
     Clock::time_point retryAt_, pollAt_;  // earliest next write, next poll
     Clock::time_point readAt_;            // earliest next read
     bool stopping_ = false;
     Clock::time_point stopAt_;
 
     // Used by the thread alone.
-    std::map<std::string, PolytopeKeys, std::less<>> keys_;  // by session id
-    int failures_ = 0;                                       // in a row
+    std::map<std::string, ObjectKeys, std::less<>> keys_;  // by session id
+    int failures_ = 0;                                     // in a row
     Clock::time_point refreshAt_;
     std::minstd_rand random_;
 

@@ -11,8 +11,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "wire/arrays.hpp"
 #include "wire/buffer.hpp"
-#include "wire/columns.hpp"
 
 namespace oval4d::wire {
 

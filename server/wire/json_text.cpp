@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::wire {
 

@@ -150,7 +150,7 @@ void JsonWriter::numbers(std::span<const std::uint32_t> list) {
     array(list.size(), [list](char* at) { return list.empty() ? at : putIntegers(at, list) - 1; });
 }
 
-void JsonWriter::lists(ListsView view) {
+void JsonWriter::lists(JaggedArrayView view) {
     array(view.begin.size() + view.items.size(), [&view](char* at) {
         if (view.begin.size() < 2) return at;
         *at++ = '[';

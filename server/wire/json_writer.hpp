@@ -11,8 +11,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "wire/arrays.hpp"
 #include "wire/buffer.hpp"
-#include "wire/columns.hpp"
 
 namespace oval4d::wire {
 
@@ -60,7 +60,7 @@ class JsonWriter {
     void triples(std::span<const Triple> list);
     void numbers(std::span<const std::uint32_t> list);
     void floats(std::span<const float> list);  ///< rounded to four decimals
-    void lists(ListsView view);
+    void lists(JaggedArrayView view);
     /// An image with this number of columns, as an array of rows.
     void image(std::span<const std::uint8_t> pixels, std::size_t columns);
 

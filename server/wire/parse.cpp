@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 #include "wire/json_text.hpp"
 #include "wire/schema.hpp"
 
@@ -124,9 +124,9 @@ Get getOf(const json& message) {
     if (message.contains("width") != message.contains("height"))
         throw InvalidRequest{"get: give /width and /height together, or neither"};
     Get get;
-    choose(message, "what", kWhats, get.what);
+    choose(message, "what", kGetTargets, get.what);
     get.viewport = viewportOf(message);
-    if (get.what == What::file) get.file = exportRequestOf(message);
+    if (get.what == GetTarget::file) get.file = exportRequestOf(message);
     return get;
 }
 
@@ -221,7 +221,7 @@ std::variant<Request, BadRequest> requestOf(JsonText&& read) {
                                                    text::didYouMean(name, requestTypes()) + "; allowed are " +
                                                    text::listed(requestTypes()));
     }
-    if (std::optional<Error> error = misfit(name, message)) {
+    if (std::optional<Error> error = validationError(name, message)) {
         if (read.repaired) error->message += " (" + read.fault + ")";
         return refuse(error->code, std::move(error->message));
     }

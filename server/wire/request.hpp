@@ -33,19 +33,19 @@ struct Hello {
     std::optional<std::string> token;  ///< of the session that the connection joins
 };
 /// The data that a `get` message requests.
-enum class What : std::uint8_t { state, slices, frame, file, catalogue, keymap };
-inline constexpr auto kWhats = std::to_array<text::Choice<What>>({{"state", What::state},
-                                                                  {"slices", What::slices},
-                                                                  {"frame", What::frame},
-                                                                  {"file", What::file},
-                                                                  {"catalogue", What::catalogue},
-                                                                  {"keymap", What::keymap}});
+enum class GetTarget : std::uint8_t { state, slices, frame, file, catalogue, keymap };
+inline constexpr auto kGetTargets = std::to_array<text::Choice<GetTarget>>({{"state", GetTarget::state},
+                                                                            {"slices", GetTarget::slices},
+                                                                            {"frame", GetTarget::frame},
+                                                                            {"file", GetTarget::file},
+                                                                            {"catalogue", GetTarget::catalogue},
+                                                                            {"keymap", GetTarget::keymap}});
 
 /// Requests data once.
 struct Get {
-    What what = What::state;
+    GetTarget what = GetTarget::state;
     std::optional<scene::Viewport> viewport;  ///< for slices and frames; the connection's viewport if absent
-    exports::ExportRequest file;              ///< the export options, for What::file
+    exports::ExportRequest file;              ///< the export options, for GetTarget::file
 };
 /// Reports the revision that the client displays.
 struct ShownRevision {

@@ -14,7 +14,7 @@
 #include <valijson/validator.hpp>
 
 #include "contract/embedded.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::wire {
 
@@ -129,7 +129,7 @@ std::string notThis(const json& value) {
 
 std::span<const std::string_view> requestTypes() { return kRequests; }
 
-std::optional<Error> misfit(std::string_view type, const json& message) {
+std::optional<Error> validationError(std::string_view type, const json& message) {
     const MessageSchema& schema = schemaOf(type);
     valijson::Validator validator;
     // Most messages are valid: the first pass collects no errors, which is fast.

@@ -17,6 +17,6 @@ std::span<const std::string_view> requestTypes();
 /// Validates `message` against the schema of this type, which must exist. Returns nothing if it is valid, otherwise an
 /// error whose message says what is wrong, where, and what is allowed: "rotate: /angles/0 must be a finite number of
 /// radians". Errors: `out_of_range` for a number outside its bounds, `bad_message` for anything else.
-std::optional<Error> misfit(std::string_view type, const nlohmann::json& message);
+std::optional<Error> validationError(std::string_view type, const nlohmann::json& message);
 
 }  // namespace oval4d::wire

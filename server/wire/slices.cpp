@@ -130,7 +130,7 @@ void SlicesWriter::writeMessage(W&& w, CachedText<StaticScene>& cache, const Sce
     w.endObject();
     if (scene.look.parts.coordinates) {
         w.key("coordinates");
-        w.vectors(std::span<const glm::dvec4>(scene.slices->turned));
+        w.vectors(std::span<const glm::dvec4>(scene.slices->rotatedVertices));
         if (scene.coordinates.density) {
             w.key("density");
             w.image(scene.density, scene::Density::kColumns);

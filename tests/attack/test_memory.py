@@ -123,7 +123,7 @@ def test_a_file_over_the_budget_is_refused_before_it_is_made():
 
 @pytest.mark.parametrize("how", ["http", "websocket"])
 def test_who_reads_too_slowly_is_dropped(how):
-    with Server("--least-read-rate", "4M", "--write-timeout", 1 * SLOW) as server:
+    with Server("--min-read-rate", "4M", "--write-timeout", 1 * SLOW) as server:
         if how == "http":
             raw = Socket(server, ATTACKER, receive_buffer=4096)
             raw.send(request(FILE))
@@ -236,7 +236,7 @@ def test_messages_that_are_sent_by_half():
 
 def test_answers_that_nobody_reads():
     unsent = 64 << 10
-    with Server("--max-unsent", unsent, "--write-timeout", 1000, "--least-read-rate", 1, "--max-new-sessions", 1000) as server:
+    with Server("--max-unsent", unsent, "--write-timeout", 1000, "--min-read-rate", 1, "--max-new-sessions", 1000) as server:
         count = 30
         peers = [WebSocket(server, source=ATTACKER, receive_buffer=4096) for _ in range(count)]
         try:

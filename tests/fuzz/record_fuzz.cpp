@@ -66,8 +66,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     if (namesLarge(whole) || namesLarge(head)) return 0;
     try {
-        const store::ObjectOf objectOf = [&](const std::string&) { return own; };
-        const store::KeyOf keyOf = [](const slicing::Object&) { return "key"; };
+        const store::ObjectLookup objectOf = [&](const std::string&) { return own; };
+        const store::ObjectKeyLookup keyOf = [](const slicing::Object&) { return "key"; };
         const session::Session session = store::decode(whole, head, objectOf, fuzz::cache());
         requireUsable(session);
         const std::string bytes = store::encodeWhole(session, 1'000'000, keyOf);

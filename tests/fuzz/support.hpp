@@ -135,14 +135,14 @@ inline void requireSentence(const Error& error) {
 inline void carryOut(session::Session& session, const session::Command& command) {
     const session::Session before = session;
     const bool small = isSmall(polytopeIn(command, session.now)) && !std::holds_alternative<session::Key>(command);
-    session::ObjectLoader loader(kLimits, cache(), session::ObjectLoader::Pace::later, session::readObject);
+    session::ObjectLoader loader(kLimits, cache(), session::ObjectLoader::Mode::deferred, session::readObject);
     auto done = session::apply(session, command, kLimits, loader);
-    if (loader.ordered()) {
+    if (loader.isPending()) {
         require(!done && session == before, "what is not ready yet changes nothing");
         if (!small) return;
-        loader.work();
+        loader.loadPending();
         done = session::apply(session, command, kLimits, loader);
-        require(!loader.ordered(), "a command orders one thing");
+        require(!loader.isPending(), "a command orders one thing");
     }
     if (!done) {
         requireSentence(done.error());

@@ -37,7 +37,7 @@ std::string csv(const Source& source) {
 
     out += "\ncritical_w,vertices\n";
     std::vector<double> levels;
-    for (const glm::dvec4& v : slices.turned) levels.push_back(v.w);
+    for (const glm::dvec4& v : slices.rotatedVertices) levels.push_back(v.w);
     std::ranges::sort(levels);
     const double same = slicing::kOnPlane * source.scene.circumradius;
     for (auto first = levels.begin(); first != levels.end();) {

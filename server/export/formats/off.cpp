@@ -2,6 +2,8 @@
 
 namespace oval4d::exports {
 
-std::string off(const Source& source) { return slicing::write4Off(source.object, source.scene.slices->turned); }
+std::string off(const Source& source) {
+    return slicing::write4Off(source.object, source.scene.slices->rotatedVertices);
+}
 
 }  // namespace oval4d::exports

@@ -89,7 +89,7 @@ std::string densityPaths(const scene::Density& density) {
 std::string strip(const Source& source) {
     using scene::Density;
     scene::Density density;
-    density.measure(source.scene.slices->turned, glm::dmat4(1), source.scene.circumradius);
+    density.measure(source.scene.slices->rotatedVertices, glm::dmat4(1), source.scene.circumradius);
     const double step = (kWidth - 2 * kMargin) / 3, bottom = kMargin + 2 * kAmplitude;
     const std::array<scene::Color, 4> colors = axisColors();
     std::string out = opening(source.scene.title, bottom + kMargin + kText);
@@ -118,8 +118,8 @@ std::string strip(const Source& source) {
 }  // namespace
 
 std::string svg(const Source& source) {
-    if (source.scene.slices->turned.size() > scene::kMostLines) return strip(source);
-    const Columns columns(source.scene.slices->turned.size());
+    if (source.scene.slices->rotatedVertices.size() > scene::kMostLines) return strip(source);
+    const Columns columns(source.scene.slices->rotatedVertices.size());
     const double height = columns.rowStep * static_cast<double>(columns.rows) + kMargin;
     const double right = columns.left(columns.perRow - 1) + columns.step;
     std::string out = opening(source.scene.title, height);
@@ -135,19 +135,20 @@ std::string svg(const Source& source) {
     for (int axis = 0; axis < 4; ++axis) {
         out += "<g id=\"" + std::string(1, "xyzw"[axis]) + "\" stroke=\"" + color(axes[axis]) + "\" stroke-width=\"" +
                number(std::min(1.6, 0.7 * lineStep)) + "\">\n";
-        for (std::size_t i = 0; i < source.scene.slices->turned.size(); ++i) {
+        for (std::size_t i = 0; i < source.scene.slices->rotatedVertices.size(); ++i) {
             const std::string x = number(columns.left(i) + lineStep * (axis + 1));
             const double zero = columns.zero(i / columns.perRow);
-            out += "<line x1=\"" + x + "\" y1=\"" + number(zero) + "\" x2=\"" + x + "\" y2=\"" +
-                   number(zero - kAmplitude * source.scene.slices->turned[i][axis] / source.scene.circumradius) +
-                   "\"/>\n";
+            out +=
+                "<line x1=\"" + x + "\" y1=\"" + number(zero) + "\" x2=\"" + x + "\" y2=\"" +
+                number(zero - kAmplitude * source.scene.slices->rotatedVertices[i][axis] / source.scene.circumradius) +
+                "\"/>\n";
         }
         out += "</g>\n";
     }
     if (columns.named) {
         out += "<g font-family=\"DejaVu Sans, sans-serif\" font-size=\"" + number(kText) +
                "\" text-anchor=\"middle\" fill=\"#444444\">\n";
-        for (std::size_t i = 0; i < source.scene.slices->turned.size(); ++i) {
+        for (std::size_t i = 0; i < source.scene.slices->rotatedVertices.size(); ++i) {
             out += "<text x=\"" + number(columns.left(i) + columns.step / 2) + "\" y=\"" +
                    number(columns.zero(i / columns.perRow) + kAmplitude + 1.2 * kText) + "\">P" + std::to_string(i) +
                    "</text>\n";

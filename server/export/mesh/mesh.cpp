@@ -66,8 +66,8 @@ glm::dvec3 normalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
 }
 
 void Box::include(const glm::dvec3& point) {
-    least = glm::min(least, point);
-    most = glm::max(most, point);
+    min = glm::min(min, point);
+    max = glm::max(max, point);
 }
 
 Box boxOf(const Mesh& mesh) {

@@ -63,9 +63,9 @@ glm::dvec3 normalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triang
 
 /// An axis-aligned bounding box.
 struct Box {
-    glm::dvec3 least{1e300}, most{-1e300};
+    glm::dvec3 min{1e300}, max{-1e300};
     void include(const glm::dvec3& point);
-    glm::dvec3 size() const { return most - least; }
+    glm::dvec3 size() const { return max - min; }
 };
 Box boxOf(const Mesh& mesh);
 

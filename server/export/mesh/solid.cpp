@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "export/mesh/hull.hpp"
-#include "export/mesh/skin.hpp"
+#include "export/mesh/outer_surface.hpp"
 
 namespace oval4d::exports {
 

@@ -96,7 +96,7 @@ Access::Verdict Access::judge(const Credentials& credentials) const {
 }
 
 std::string Access::cookieFor(const Credentials& credentials) const {
-    if (token_.empty() || !store::sameSecret(credentials.token, token_)) return {};
+    if (token_.empty() || !store::equalInConstantTime(credentials.token, token_)) return {};
     // Without a Path the cookie applies to the page's own folder, and so works behind any path prefix.
     return std::string(kCookie) + "=" + token_ + "; HttpOnly; SameSite=Strict";
 }
@@ -132,9 +132,9 @@ bool Access::hasToken(const Credentials& credentials) {
 
 bool Access::hasCorrectToken(const Credentials& credentials) const {
     if (token_.empty()) return true;
-    return store::sameSecret(credentials.token, token_) ||
-           store::sameSecret(bearerIn(credentials.authorization), token_) ||
-           store::sameSecret(cookieIn(credentials.cookie), token_);
+    return store::equalInConstantTime(credentials.token, token_) ||
+           store::equalInConstantTime(bearerIn(credentials.authorization), token_) ||
+           store::equalInConstantTime(cookieIn(credentials.cookie), token_);
 }
 
 }  // namespace oval4d::net

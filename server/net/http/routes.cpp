@@ -13,7 +13,7 @@
 #include "net/on_pool.hpp"
 #include "pipeline/cost.hpp"
 #include "session/object_loader.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 #include "wire/messages.hpp"
 
 namespace oval4d::net {
@@ -175,10 +175,10 @@ asio::awaitable<Result<session::State>> Routes::state(session::Query query, Clie
     std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
     const session::Limits& limits = services_.options.session;
     const auto loader = std::make_shared<session::ObjectLoader>(
-        limits, services_.polytopes, session::ObjectLoader::Pace::later, session::FileReader());
+        limits, services_.polytopes, session::ObjectLoader::Mode::deferred, session::FileReader());
     for (;;) {
         auto state = session::stateFromQuery(query, limits, *loader);
-        if (!loader->ordered()) co_return state;
+        if (!loader->isPending()) co_return state;
         const auto reservation = client->byteAccount().reserve(loader->bytesNeeded());
         if (!reservation) co_return kTooManyBytes;
         co_await onPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader), client->lane(),
@@ -236,11 +236,11 @@ Reply Routes::readiness() const {
     if (readiness_.stopping()) return textReply("text/plain", "stopping\n", 503);
     if (readiness_.ready()) {
         // Stay ready if the store fails: it fails on the other servers too.
-        const std::string trouble = hub_.writeBehind().trouble();
-        return textReply("text/plain", trouble.empty() ? "ready\n"
-                                                       : "ready, but the store fails, so sessions are kept in memory "
-                                                         "for now: " +
-                                                             trouble + "\n");
+        const std::string error = hub_.writeBehind().lastError();
+        return textReply("text/plain", error.empty() ? "ready\n"
+                                                     : "ready, but the store fails, so sessions are kept in memory "
+                                                       "for now: " +
+                                                           error + "\n");
     }
     const bool broken = readiness_.broken();
     return textReply("text/plain",
@@ -252,7 +252,7 @@ Reply Routes::metrics() {
     shown.sessions.Set(static_cast<double>(hub_.writeBehind().count()));
     shown.openSessions.Set(static_cast<double>(hub_.openCount()));
     shown.unsaved.Set(static_cast<double>(hub_.writeBehind().unsaved()));
-    shown.storeUp.Set(hub_.writeBehind().trouble().empty() ? 1 : 0);
+    shown.storeUp.Set(hub_.writeBehind().lastError().empty() ? 1 : 0);
     shown.workers.Set(static_cast<double>(services_.pictureWorkers.workers().size()));
     shown.workerSeconds.Increment(
         std::max(0.0, Seconds(services_.pictureWorkers.workers().worked()).count() - shown.workerSeconds.Value()));

@@ -21,7 +21,7 @@ store::WriteBehindStore::Settings settingsFrom(const Options& options) {
 class RecordObjects {
   public:
     explicit RecordObjects(const store::Record& record) {
-        for (const auto& [key, bytes] : record.polytopes) bytes_[key] = bytes;
+        for (const auto& [key, bytes] : record.objects) bytes_[key] = bytes;
     }
     std::optional<slicing::Object> operator()(const std::string& key) {
         auto& object = decoded_[key];
@@ -45,7 +45,7 @@ class RecordObjects {
 Seconds decodingCost(const store::Record& record) {
     constexpr double kByte = 1e-7;
     std::size_t bytes = record.whole.size() + record.head.size();
-    for (const auto& [key, polytope] : record.polytopes) bytes += polytope.size();
+    for (const auto& [key, object] : record.objects) bytes += object.size();
     return Seconds(1e-4 + kByte * static_cast<double>(bytes));
 }
 
@@ -99,7 +99,7 @@ std::optional<Error> Hub::admitSession(Client& client) {
 /// Deletes a session to make room for a new one. Call with mutex_ held.
 void Hub::evict(const std::string& id) {
     spdlog::debug("session evicted for a new one session={}", id);
-    writeBehind_.forget(id);
+    writeBehind_.remove(id);
     ledger_.remove(id);
 }
 
@@ -114,12 +114,12 @@ void Hub::create(const ClientPtr& client, const JoinHandler& done) {
     const auto session = activate(credentials, client, session::Session{});
     lock.unlock();
     spdlog::info("session created session={}", credentials.id);
-    if (writeBehind_.pace() == store::Store::Pace::at_once) {
+    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
         // Every server must know the session before its client is told about it.
-        writeBehind_.save(credentials.id, session::Session{}, WriteBehindStore::Part::whole,
+        writeBehind_.save(credentials.id, session::Session{}, WriteBehindStore::SaveScope::whole,
                           [done, session](bool) { done(session); });
     } else {
-        if (writeBehind_.pace() == store::Store::Pace::soon) session->save();
+        if (writeBehind_.writePolicy() == store::Store::WritePolicy::soon) session->save();
         done(session);
     }
 }
@@ -129,7 +129,7 @@ void Hub::join(const store::SessionCredentials& credentials, const ClientPtr& cl
     if (const auto found = live_.find(credentials.id); found != live_.end()) {
         LiveEntry& live = found->second;
         const auto session = live.session;
-        const bool authorized = store::sameSecret(credentials.token, session->credentials().token);
+        const bool authorized = store::equalInConstantTime(credentials.token, session->credentials().token);
         if (authorized) ++live.clients;
         lock.unlock();
         done(authorized ? JoinResult(session) : Error{ErrorCode::bad_token, "this token does not match the session"});
@@ -141,12 +141,13 @@ void Hub::join(const store::SessionCredentials& credentials, const ClientPtr& cl
         return;
     }
     lock.unlock();
-    writeBehind_.fetch(credentials, [self = shared_from_this(), pending = PendingJoin{credentials, client, done}](
-                                        WriteBehindStore::Fetch fetch) { self->onFetched(pending, std::move(fetch)); });
+    writeBehind_.fetch(credentials,
+                       [self = shared_from_this(), pending = PendingJoin{credentials, client, done}](
+                           WriteBehindStore::FetchResult fetch) { self->onFetched(pending, std::move(fetch)); });
 }
 
 /// Runs on the store's thread, so a worker decodes the record.
-void Hub::onFetched(const PendingJoin& pending, WriteBehindStore::Fetch fetch) {
+void Hub::onFetched(const PendingJoin& pending, WriteBehindStore::FetchResult fetch) {
     if (!fetch) {
         finishOpening(pending, fetch.error());
     } else if (fetch->session) {
@@ -159,7 +160,7 @@ void Hub::onFetched(const PendingJoin& pending, WriteBehindStore::Fetch fetch) {
             },
             pending.client->lane(), cost);
         if (accepted) return;
-        writeBehind_.letGo(pending.credentials.id);
+        writeBehind_.release(pending.credentials.id);
         finishOpening(pending, kTooManyJobs);
     }
 }
@@ -170,11 +171,11 @@ void Hub::decode(const PendingJoin& pending, const store::Record& record) {
         RecordObjects objects(record);
         auto value = store::decode(record.whole, record.head, std::ref(objects), services_.polytopes);
         if (!record.damage.empty()) throw store::Unreadable(record.damage);
-        writeBehind_.know(id, objects.keys());
+        writeBehind_.setStoredKeys(id, objects.keys());
         finishOpening(pending, std::move(value));
     } catch (const std::exception& fault) {
         spdlog::error("session cannot be read session={} store={} fault=\"{}\"", id, writeBehind_.name(), fault.what());
-        writeBehind_.letGo(id);
+        writeBehind_.release(id);
         finishOpening(pending,
                       Error{ErrorCode::not_found, "this session is stored in a form that the server cannot read: " +
                                                       std::string(fault.what())});
@@ -245,7 +246,7 @@ std::shared_ptr<LiveSession> Hub::find(const std::string& id) const {
 }
 
 void Hub::saveAll(const std::shared_ptr<void>& completion) {
-    if (writeBehind_.pace() == store::Store::Pace::at_close) return;
+    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
     const std::lock_guard lock(mutex_);
     for (const auto& [id, live] : live_) live.session->save(completion);
 }

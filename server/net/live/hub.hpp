@@ -57,7 +57,7 @@ class Hub : public std::enable_shared_from_this<Hub> {
     std::shared_ptr<LiveSession> find(const std::string& id) const;
     std::optional<Error> admitSession(Client& client);
     void evict(const std::string& id);
-    void onFetched(const PendingJoin& pending, store::WriteBehindStore::Fetch fetch);
+    void onFetched(const PendingJoin& pending, store::WriteBehindStore::FetchResult fetch);
     void decode(const PendingJoin& pending, const store::Record& record);
     void finishOpening(const PendingJoin& pending, Result<session::Session> value);
     std::shared_ptr<LiveSession> activate(store::SessionCredentials credentials, const ClientPtr& client,

@@ -114,13 +114,13 @@ void LiveSession::updateReservation(bool polytopesChanged) {
 void LiveSession::saveNow(store::WriteBehindStore::Written written) {
     assertOnStrand();
     if (!detached_)
-        writeBehind_.save(credentials_.id, session_, store::WriteBehindStore::Part::whole, std::move(written));
+        writeBehind_.save(credentials_.id, session_, store::WriteBehindStore::SaveScope::whole, std::move(written));
 }
 
 /// Schedules a save. Call after each change.
 void LiveSession::scheduleSave() {
     assertOnStrand();
-    if (saveTimerSet_ || writeBehind_.pace() == store::Store::Pace::at_close) return;
+    if (saveTimerSet_ || writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
     saveTimerSet_ = true;
     saveTimer_.expires_after(kSaveDelay);
     saveTimer_.async_wait([weak = weak_from_this()](boost::system::error_code) {
@@ -132,16 +132,16 @@ void LiveSession::scheduleSave() {
 }
 
 /// Returns a function that writes the session, or only its head, to the store and calls back when that is done.
-std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::WriteBehindStore::Part part) {
+std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::WriteBehindStore::SaveScope scope) {
     session::Session value;
-    if (part == store::WriteBehindStore::Part::whole) {
+    if (scope == store::WriteBehindStore::SaveScope::whole) {
         value = session_;
     } else {
         value.now = session_.now;
         value.revision = revision();
     }
-    return [self = shared_from_this(), part, value](const std::function<void(bool)>& written) {
-        self->writeBehind_.save(self->credentials_.id, value, part, written);
+    return [self = shared_from_this(), scope, value](const std::function<void(bool)>& written) {
+        self->writeBehind_.save(self->credentials_.id, value, scope, written);
     };
 }
 
@@ -185,7 +185,7 @@ asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, w
 /// not. With a store shared by several servers, the command is acknowledged only once its result is in the store.
 asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, const session::Command& command, Id id) {
     const auto loader = std::make_shared<session::ObjectLoader>(
-        services_.options.session, services_.polytopes, session::ObjectLoader::Pace::later, fileReader(services_));
+        services_.options.session, services_.polytopes, session::ObjectLoader::Mode::deferred, fileReader(services_));
     Result<std::monostate> done = kInternalError;
     std::uint64_t before = 0;
     slicing::Object shown;
@@ -194,13 +194,13 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
             before = revision();
             shown = session_.now.object;
             done = session::apply(session_, command, services_.options.session, *loader);
-            if (!loader->ordered()) break;
+            if (!loader->isPending()) break;
             auto reservation = client_->byteAccount().reserve(loader->bytesNeeded());
             if (!reservation) {
                 done = kTooManyBytes;
                 break;
             }
-            if (loader->orderedFile()) {
+            if (loader->isFilePending()) {
                 co_await onPool<std::monostate>(services_.loadWorkers, loaderJob(loader), client_->loadingLane(),
                                                 loader->cost());
             } else {
@@ -208,7 +208,7 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
                                                 lanesOf(*peer).pictures, loader->cost());
             }
         }
-        if (done) updateReservation(loader->hasWorked() || session_.now.object != shown);
+        if (done) updateReservation(loader->hasLoaded() || session_.now.object != shown);
     } catch (const parallel::QueueFull&) {
         done = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -223,11 +223,11 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
     if (reached != before) {
         changed_ = Clock::now();
         scheduleSave();
-        if (writeBehind_.pace() == store::Store::Pace::at_once) {
+        if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
             // The head of a record does not contain polytopes, so a new one requires the whole.
             const bool whole = session_.now.object != shown;
-            auto write =
-                storeWriter(whole ? store::WriteBehindStore::Part::whole : store::WriteBehindStore::Part::head);
+            auto write = storeWriter(whole ? store::WriteBehindStore::SaveScope::whole
+                                           : store::WriteBehindStore::SaveScope::head);
             if (id) {
                 const bool written = co_await awaitCallback<bool>(std::move(write));
                 if (!written) co_return;  // another server owns the session; the client is being sent there
@@ -246,27 +246,27 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
     StreamKey key = client->second.streamKey;
     if (get.viewport) key.viewport = *get.viewport;
     switch (get.what) {
-        case wire::What::state:
+        case wire::GetTarget::state:
             peer->send(textMessage(wire::stateMessage(session_.now, revision(), id)));
             break;
-        case wire::What::catalogue: {
+        case wire::GetTarget::catalogue: {
             std::vector<slicing::Object> loaded;
             for (const auto& [name, object] : session_.loaded) loaded.push_back(object);
             peer->send(textMessage(wire::catalogueMessage(id, loaded)));
             break;
         }
-        case wire::What::keymap:
+        case wire::GetTarget::keymap:
             peer->send(textMessage(wire::keymapMessage(id)));
             break;
-        case wire::What::slices:
+        case wire::GetTarget::slices:
             key.stream = Stream::geometry;
             co_await answerWithPicture(peer, key, id);
             break;
-        case wire::What::frame:
+        case wire::GetTarget::frame:
             key.stream = Stream::frames;
             co_await answerWithPicture(peer, key, id);
             break;
-        case wire::What::file:
+        case wire::GetTarget::file:
             co_await answerWithFile(peer, get.file, id);
             break;
     }
@@ -516,7 +516,7 @@ void LiveSession::onJobDone(JobResult result) {
 
 const Message* LiveSession::findPicture(const StreamKey& key, std::uint64_t ofRevision) const {
     if (!snapshot_ || snapshot_->revision != ofRevision) return nullptr;
-    const auto found = std::ranges::find(pictures_, key, &Pictures::value_type::first);
+    const auto found = std::ranges::find(pictures_, key, &EncodedPictures::value_type::first);
     return found == pictures_.end() ? nullptr : &found->second;
 }
 

@@ -71,7 +71,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
         Pacing pacing;
         bool stateInFlight = false;  ///< without a stream: a `state` message is not yet written to the socket
     };
-    using Pictures = std::vector<std::pair<StreamKey, Message>>;
+    using EncodedPictures = std::vector<std::pair<StreamKey, Message>>;
     /// A job that makes pictures of one revision.
     struct PictureJob {
         std::uint64_t number = 0;
@@ -90,7 +90,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
         std::uint64_t job = 0;
         std::uint64_t revision = 0;
         SnapshotPtr snapshot;
-        Pictures pictures;
+        EncodedPictures pictures;
         std::vector<StreamKey> failed;
     };
 
@@ -106,7 +106,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request, Id id);
     std::function<Message(pipeline::Pipeline&)> requestedPictureJob(const StreamKey& key, Id id) const;
     boost::asio::awaitable<void> applyCommand(std::shared_ptr<Peer> peer, const session::Command& command, Id id);
-    std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::Part part);
+    std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::SaveScope scope);
     void updateReservation(bool polytopesChanged);
     void scheduleSave();
     void saveNow(store::WriteBehindStore::Written written = {});
@@ -145,7 +145,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     std::map<const Peer*, Client> clients_;
     Clock::time_point changed_;  ///< the time at which the session reached its revision
     SnapshotPtr snapshot_;       ///< the newest, kept while a client waits for it
-    Pictures pictures_;          ///< of snapshot_
+    EncodedPictures pictures_;   ///< of snapshot_
     Bytes stateText_;            ///< the `state` message of stateRevision_, for clients without a stream
     std::optional<std::uint64_t> stateRevision_;
     std::uint64_t jobs_ = 0;     ///< the number of jobs so far

@@ -256,7 +256,7 @@ asio::awaitable<void> Connection::handleHello(wire::Hello hello, Id id) {
 asio::awaitable<Hub::JoinResult> Connection::joinSession(wire::Hello hello) {
     const std::string token = hello.token.value_or("");
     if (session_) {
-        if (hello.token && !store::sameSecret(token, session_->credentials().token)) {
+        if (hello.token && !store::equalInConstantTime(token, session_->credentials().token)) {
             co_return Error{ErrorCode::bad_token, "this token does not match the session"};
         }
         co_return session_;

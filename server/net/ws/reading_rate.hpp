@@ -17,7 +17,7 @@ class ReadingRate {
     using Clock = std::chrono::steady_clock;
 
     explicit ReadingRate(const Options& options)
-        : grace_(options.writeTimeout), perSecond_(static_cast<double>(options.leastReadRate)) {}
+        : grace_(options.writeTimeout), perSecond_(static_cast<double>(options.minReadRate)) {}
 
     /// Counts bytes that the client has accepted.
     void count(std::size_t bytes) { taken_ += static_cast<double>(bytes); }

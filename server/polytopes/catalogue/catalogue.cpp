@@ -127,7 +127,7 @@ std::vector<Near> nearest(std::string_view text) {
             const std::size_t known = text::folded(name).size();
             const std::size_t longer = std::max(known, wanted) - std::min(known, wanted);
             if (longer > least.first) return;
-            const std::pair distance(polytopes::likeness(text, name), longer);
+            const std::pair distance(polytopes::editDistance(text, name), longer);
             if (distance < least) best.clear();
             if (distance <= least && (best.empty() || best.back().entry != &entry)) best.push_back({name, &entry});
             least = std::min(least, distance);
@@ -144,9 +144,9 @@ std::span<const CatalogueEntry> catalogue() { return entries(); }
 
 const CatalogueEntry* findEntry(std::string_view text) {
     if (const auto found = index().find(text::folded(text)); found != index().end()) return found->second;
-    const auto described = describedBy(text, [](std::string_view base) -> Described {
+    const auto described = describedBy(text, [](std::string_view base) -> DesignOrError {
         const CatalogueEntry* entry = findEntry(base);
-        return entry != nullptr ? Described(entry->design) : NameError{};
+        return entry != nullptr ? DesignOrError(entry->design) : NameError{};
     });
     const auto* design = std::get_if<Design>(&described);
     if (design == nullptr) return nullptr;
@@ -154,7 +154,7 @@ const CatalogueEntry* findEntry(std::string_view text) {
     return found == index().end() ? nullptr : found->second;
 }
 
-Described designNamed(std::string_view text, std::size_t maxVertices) {
+DesignOrError designNamed(std::string_view text, std::size_t maxVertices) {
     if (const auto* entry = findEntry(text)) return entry->design;
     auto described = describedBy(text, [=](std::string_view base) { return designNamed(base, maxVertices); });
     if (const auto* design = std::get_if<Design>(&described)) {
@@ -168,7 +168,7 @@ Described designNamed(std::string_view text, std::size_t maxVertices) {
     return described;
 }
 
-std::size_t likeness(std::string_view one, std::string_view other) {
+std::size_t editDistance(std::string_view one, std::string_view other) {
     constexpr std::size_t kLongest = 64;
     const std::string a = text::folded(one.substr(0, kLongest));
     const std::string b = text::folded(other.substr(0, kLongest));

@@ -37,7 +37,7 @@ const CatalogueEntry* findEntry(std::string_view text);
 
 /// Returns the design that a text names: that of a catalogue entry, or of any polytope that the text describes (see
 /// names.hpp) with at most `maxVertices` vertices.
-Described designNamed(std::string_view text, std::size_t maxVertices);
+DesignOrError designNamed(std::string_view text, std::size_t maxVertices);
 
 /// Returns the name or alias with the least edit distance from `text`, for suggestions ("did you mean").
 std::string_view nearestName(std::string_view text);
@@ -47,6 +47,6 @@ std::vector<std::string_view> nearestNames(std::string_view text);
 
 /// Returns the edit distance (Levenshtein) of two names. Ignores case, blanks, hyphens, and everything after the first
 /// 64 characters.
-std::size_t likeness(std::string_view one, std::string_view other);
+std::size_t editDistance(std::string_view one, std::string_view other);
 
 }  // namespace oval4d::polytopes

@@ -53,7 +53,7 @@ bool isCalled(const UniformPolychoron& row, std::string_view name) {
 }
 
 template <typename Result>
-Described designFrom(const Result& read) {
+DesignOrError designFrom(const Result& read) {
     if (const auto* error = std::get_if<NameError>(&read)) return *error;
     return designOf(std::get<Diagram>(read));
 }
@@ -77,7 +77,7 @@ std::optional<Design> snubPrismNamed(std::string_view symbol) {
     return {};
 }
 
-Described duoprismNamed(std::vector<std::string> words) {
+DesignOrError duoprismNamed(std::vector<std::string> words) {
     // "5,7" and "5x7" are single words.
     if (words.size() == 1) {
         std::string pair = words[0];
@@ -105,7 +105,7 @@ Described duoprismNamed(std::vector<std::string> words) {
     return duoprism(polygons[0], polygons[1]);
 }
 
-Described prismNamed(const std::vector<std::string>& words) {
+DesignOrError prismNamed(const std::vector<std::string>& words) {
     const std::string base = text::joined(words, 0, words.size());
     for (const NamedPolyhedron& solid : namedPolyhedra()) {
         if (base == solid.name || base == solid.adjective) return prismOf(solid);
@@ -123,7 +123,7 @@ Described prismNamed(const std::vector<std::string>& words) {
     return antiprism ? antiprismPrism(polygon->numerator) : duoprism(*polygon, {4, 1});
 }
 
-Described operationNamed(const std::vector<std::string>& words) {
+DesignOrError operationNamed(const std::vector<std::string>& words) {
     for (const Operation& operation : kOperations) {
         if (words[0] != operation.name) continue;
         for (const UniformPolychoron& row : uniformPolychora()) {
@@ -146,37 +146,37 @@ constexpr auto kNotations = std::to_array<Notation>({
     // A dual: "dual of rectified 5-cell", "dual 3,5-duoprism".
     dualNamed,
     // A Schläfli symbol: "{5,5/2,5}", "t0,1{3,3,5}".
-    [](const NamedText& text) -> std::optional<Described> {
+    [](const NamedText& text) -> std::optional<DesignOrError> {
         if (text.from(0).find('{') == std::string::npos) return {};
         return designFrom(parseSchlaefli(text.from(0)));
     },
     // A diagram: "x5o3o3x", "x3o3o *b3o", "x5o x7o".
-    [](const NamedText& text) -> std::optional<Described> {
+    [](const NamedText& text) -> std::optional<DesignOrError> {
         if (!looksLikeDiagram(text.from(0))) return {};
         return designFrom(parseDiagram(text.from(0)));
     },
     // The diagram of a snub prism: "s4s3s x".
-    [](const NamedText& text) -> std::optional<Described> {
+    [](const NamedText& text) -> std::optional<DesignOrError> {
         if (auto snub = snubPrismNamed(text.from(0))) return *snub;
         return {};
     },
     // A duoprism: "5,7-duoprism", "5-7 duoprism", "triangular-square duoprism", "pentagonal duoprism" (both pentagons).
-    [](const NamedText& text) -> std::optional<Described> {
+    [](const NamedText& text) -> std::optional<DesignOrError> {
         if (text.words.back() != "duoprism") return {};
         return duoprismNamed(text.withoutLast());
     },
     // A prism: "pentagonal antiprism prism", "6-gonal prism prism", "snub cube prism", "truncated cubic prism".
-    [](const NamedText& text) -> std::optional<Described> {
+    [](const NamedText& text) -> std::optional<DesignOrError> {
         if (text.words.back() != "prism" || text.words.size() < 2) return {};
         return prismNamed(text.withoutLast());
     },
     // An operation on a regular polychoron: "omnitruncated 120-cell", "rectified hexacosichoron".
-    [](const NamedText& text) -> std::optional<Described> { return operationNamed(text.words); },
+    [](const NamedText& text) -> std::optional<DesignOrError> { return operationNamed(text.words); },
 });
 
 }  // namespace
 
-Described describedBy(std::string_view text, const DesignLookup& lookup) {
+DesignOrError describedBy(std::string_view text, const DesignLookup& lookup) {
     const std::vector<std::string> words = text::wordsOf(text);
     if (words.empty()) return NameError{};
     for (const Notation notation : kNotations) {

@@ -12,7 +12,7 @@ namespace oval4d::polytopes {
 
 /// Returns the design that a text describes in one of the notations that names.cpp lists with examples. Ignores case;
 /// blanks and hyphens between words are equivalent. `lookup` finds polytopes whose names are part of other names.
-Described describedBy(std::string_view text, const DesignLookup& lookup);
+DesignOrError describedBy(std::string_view text, const DesignLookup& lookup);
 
 /// Returns the names of a diagram as operations on convex regular polychora, such as "truncated tesseract",
 /// "truncated 8-cell" or "bitruncated 16-cell"; empty if there are none.

@@ -100,10 +100,10 @@ std::optional<Design> dualOfRegular(const Design& base) {
 
 }  // namespace
 
-std::optional<Described> dualNamed(const NamedText& text) {
+std::optional<DesignOrError> dualNamed(const NamedText& text) {
     if (text.words.front() != "dual" || text.words.size() < 2) return {};
     const std::size_t skipped = text.words[1] == "of" ? 2 : 1;
-    Described described = text.lookup(text.from(skipped));
+    DesignOrError described = text.lookup(text.from(skipped));
     const auto* base = std::get_if<Design>(&described);
     if (base == nullptr) {
         NameError error = std::get<NameError>(described);

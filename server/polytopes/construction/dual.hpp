@@ -15,6 +15,6 @@ namespace oval4d::polytopes {
 /// circumradius times the least distance of a cell from the center. So the dual is as large as the polytope, and the
 /// dual of the dual is the polytope itself. The dual of a regular polytope has the design of that regular polytope.
 /// Building throws std::invalid_argument if the hyperplane of a cell passes through the center.
-std::optional<Described> dualNamed(const NamedText& text);
+std::optional<DesignOrError> dualNamed(const NamedText& text);
 
 }  // namespace oval4d::polytopes

@@ -15,10 +15,10 @@
 namespace oval4d::polytopes {
 
 /// The design that a text denotes, or the reason why it denotes none.
-using Described = std::variant<Design, NameError>;
+using DesignOrError = std::variant<Design, NameError>;
 
 /// Finds the design for any text; for notations that contain the name of another polytope.
-using DesignLookup = std::function<Described(std::string_view text)>;
+using DesignLookup = std::function<DesignOrError(std::string_view text)>;
 
 /// A text that may name a polytope, in lower case and split into words, of which there is at least one.
 struct NamedText {
@@ -31,6 +31,6 @@ struct NamedText {
 };
 
 /// A parser for one notation. Returns nothing if the text is not in this notation.
-using Notation = std::optional<Described> (*)(const NamedText& text);
+using Notation = std::optional<DesignOrError> (*)(const NamedText& text);
 
 }  // namespace oval4d::polytopes

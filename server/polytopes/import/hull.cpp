@@ -17,7 +17,7 @@ extern "C" {
 #include "geometry/point_index.hpp"
 #include "polytopes/import/convex_distance.hpp"
 #include "polytopes/import/coplanar_merge.hpp"
-#include "polytopes/import/file_text.hpp"
+#include "polytopes/import/file_tokenizer.hpp"
 #include "polytopes/import/hull_frame.hpp"
 
 namespace oval4d::polytopes {

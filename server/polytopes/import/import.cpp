@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "polytopes/import/file_text.hpp"
+#include "polytopes/import/file_tokenizer.hpp"
 #include "polytopes/import/hull.hpp"
 #include "polytopes/import/polygon_soup.hpp"
 #include "polytopes/import/repair.hpp"
@@ -30,7 +30,7 @@ struct Counts {
     std::uint32_t vertices = 0, faces = 0, edges = 0, cells = 0;
 };
 
-Counts readCounts(FileText& file) {
+Counts readCounts(FileTokenizer& file) {
     if (const auto header = file.next(); header != "4OFF") {
         refuse(file.line(),
                "the file must begin with 4OFF" + (header.empty() ? std::string{} : ", not " + inQuotes(header)));
@@ -61,8 +61,9 @@ struct Noun {
 };
 
 // Reads records "n i …", each a list of n ≥ `least` members: indices less than `below`.
-void readLists(FileText& file, std::uint32_t records, std::size_t below, std::size_t least, const std::string& what,
-               const Noun& member, geometry::JaggedArray& lists, std::vector<PolygonSoup::Origin>& origins) {
+void readLists(FileTokenizer& file, std::uint32_t records, std::size_t below, std::size_t least,
+               const std::string& what, const Noun& member, geometry::JaggedArray& lists,
+               std::vector<PolygonSoup::Origin>& origins) {
     lists.begin.reserve(std::size_t{records} + 1);
     std::vector<std::uint32_t> list;
     for (std::uint32_t i = 0; i < records; ++i) {
@@ -114,7 +115,7 @@ Imported finish(const PolygonSoup& soup, double mergeDistance, const std::string
 }
 
 Imported readOff4(std::string_view text, const std::string& name, const ImportLimits& limits) {
-    FileText file(text);
+    FileTokenizer file(text);
     const Counts counts = readCounts(file);
     checkCount(counts.vertices, "vertices", limits.maxVertices, file.line());
     if (counts.vertices * kVertexBytes + counts.faces * kFaceBytes + counts.cells * kCellBytes > text.size() + 1) {
@@ -176,7 +177,7 @@ Hull hullOf(std::span<const glm::dvec4> points, const WrittenPrecision& precisio
 }
 
 Imported readPoints(std::string_view text, std::string name, const ImportLimits& limits) {
-    FileText file(text, true);
+    FileTokenizer file(text, true);
     std::vector<glm::dvec4> points;
     WrittenPrecision precision;
     bool first = true;
@@ -229,7 +230,7 @@ std::variant<Imported, ImportError> importPolytope(FileFormat format, std::strin
 }
 
 FileFormat formatOf(std::string_view text) {
-    return FileText(text).next().ends_with("OFF") ? FileFormat::off4 : FileFormat::points;
+    return FileTokenizer(text).next().ends_with("OFF") ? FileFormat::off4 : FileFormat::points;
 }
 
 }  // namespace oval4d::polytopes

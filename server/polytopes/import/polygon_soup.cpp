@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "polytopes/import/file_text.hpp"
+#include "polytopes/import/file_tokenizer.hpp"
 
 namespace oval4d::polytopes {
 

@@ -146,7 +146,7 @@ void paintCoordinates(const scene::Scene& scene, Overlay& overlay) {
     const scene::Style& style = scene::style();
     const auto height = static_cast<double>(scene.viewport.height);
     const std::array colors{style.axisX, style.axisY, style.axisZ, style.axisW};
-    const auto count = static_cast<int>(scene.slices->turned.size());
+    const auto count = static_cast<int>(scene.slices->rotatedVertices.size());
     // Lines at least one pixel wide are sharpest on whole pixels.
     const double lineWidth = layout.lineWidth * height;
     const auto snap = [&](double x) { return static_cast<float>(lineWidth >= 1 ? std::round(x) : x); };
@@ -165,7 +165,7 @@ void paintCoordinates(const scene::Scene& scene, Overlay& overlay) {
         const double column = (layout.left + (i % layout.perRow) * layout.columnStep) * height;
         for (int k = 0; k < 4; ++k) {
             const float x = snap(column + k * layout.lineStep * height);
-            const double value = scene.slices->turned[static_cast<std::size_t>(i)][k] / scene.circumradius;
+            const double value = scene.slices->rotatedVertices[static_cast<std::size_t>(i)][k] / scene.circumradius;
             const auto end = static_cast<float>(zero + value * layout.amplitude * height);
             const auto start = static_cast<float>(zero);
             overlay.box({x, std::min(start, end), x + lineThickness, std::max(start, end)},

@@ -241,7 +241,7 @@ ShapeProgram::ShapeProgram(const scene::Style& style, Depth depth)
 void ShapeProgram::draw(const ShapeBatch& shapes) { draw(shapes, 0, 0); }
 
 // The depth −1 … 1 is linear in 1 / distance, so that it is linear in screen space on a plane.
-void ShapeProgram::drawWithDepth(Range range, const ShapeBatch& shapes) {
+void ShapeProgram::drawWithDepth(DepthRange range, const ShapeBatch& shapes) {
     const float offset = 2 / (1 / range.to - 1 / range.from);
     draw(shapes, 1 - offset / range.to, offset);
 }

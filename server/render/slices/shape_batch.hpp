@@ -66,7 +66,7 @@ class ShapeBatch {
 };
 
 /// A range of depths along the view axis.
-struct Range {
+struct DepthRange {
     float from = 1, to = 2;
 };
 
@@ -82,7 +82,7 @@ class ShapeProgram {
     void draw(const ShapeBatch& shapes);
 
     /// Draws the shapes with depths, for a depth buffer that covers `range`.
-    void drawWithDepth(Range range, const ShapeBatch& shapes);
+    void drawWithDepth(DepthRange range, const ShapeBatch& shapes);
 
   private:
     void draw(const ShapeBatch& shapes, float scale, float offset);

@@ -15,7 +15,7 @@ using namespace oval4d::slicing;
 TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     const Polytope& p = named("120-cell");
     const Rotation none;
-    const ExportRequest skeleton{.format = formatNamed("stl"), .extent = Extent::oval, .body = Body::skeleton};
+    const ExportRequest skeleton{.format = formatNamed("stl"), .extent = SliceSelection::oval, .body = Body::skeleton};
     const Hyperplanes oval{-10, 21, 0.5};
     Limits limits;
     limits.triangles = 1000;
@@ -55,15 +55,16 @@ TEST(File, ofTheOvalHasBodiesThatDoNotMeet) {
     for (const int count : {1, 5, 21, 61}) {
         const double spacing = count == 1 ? 1 : 2 * p.circumradius / (count - 1);
         for (const Body body : {Body::solid, Body::skeleton}) {
-            const auto bodies = bodiesIn(fileOf(p, {}, {-(count - 1) / 2, count, spacing},
-                                                {.format = formatNamed("obj"), .extent = Extent::oval, .body = body}));
+            const auto bodies =
+                bodiesIn(fileOf(p, {}, {-(count - 1) / 2, count, spacing},
+                                {.format = formatNamed("obj"), .extent = SliceSelection::oval, .body = body}));
             EXPECT_GE(static_cast<int>(bodies.size()), std::max(1, count - 2));
             // Each stands in a ball of its own.
             std::vector<std::pair<glm::dvec3, double>> balls;
             for (const auto& points : bodies) {
                 Box box;
                 for (const auto& v : points) box.include(v);
-                const glm::dvec3 middle = (box.least + box.most) / 2.0;
+                const glm::dvec3 middle = (box.min + box.max) / 2.0;
                 double radius = 0;
                 for (const auto& v : points) radius = std::max(radius, glm::distance(v, middle));
                 balls.emplace_back(middle, radius);

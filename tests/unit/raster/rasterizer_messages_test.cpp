@@ -19,9 +19,9 @@ TEST(RasterizerMessages, OrdersComeAsTheyWere) {
     state.look.orbit = {0.5, 0.25, 2};
     state.look.cellTypes = {{1, 3}, {2}};
     std::string bytes;
-    encodeOrder(state, {640, 360}, {7, 8}, bytes);
-    Order order;
-    decodeOrder(bytes, order);
+    encodeRequest(state, {640, 360}, {7, 8}, bytes);
+    DrawRequest order;
+    decodeRequest(bytes, order);
     EXPECT_EQ(order.object, slicing::infoOf(state.object).serial);
     EXPECT_EQ(order.state.orientation, state.orientation);
     EXPECT_EQ(order.state.slices, state.slices);
@@ -33,10 +33,10 @@ TEST(RasterizerMessages, OrdersComeAsTheyWere) {
 
 TEST(RasterizerMessages, BytesCutShortAreRefused) {
     std::string bytes;
-    encodeOrder(session::initialState(), {640, 360}, {}, bytes);
-    Order order;
+    encodeRequest(session::initialState(), {640, 360}, {}, bytes);
+    DrawRequest order;
     for (std::size_t size = 0; size < bytes.size(); ++size)
-        EXPECT_THROW(decodeOrder(std::string_view(bytes).substr(0, size), order), std::runtime_error);
+        EXPECT_THROW(decodeRequest(std::string_view(bytes).substr(0, size), order), std::runtime_error);
 }
 
 }  // namespace

@@ -30,11 +30,11 @@ TEST(Channel, LongMessagesArriveWholeWithTheirFile) {
     const auto [here, there] = socketPair();
     const Channel sender(here), receiver(there);
     SharedPixels pixels;
-    const auto written = pixels.take(1'000'000);
+    const auto written = pixels.resize(1'000'000);
     written[999'999] = 42;
     const std::string text(5'000'000, 'x');  // many times what a socket holds
     std::thread sending([&] {
-        EXPECT_EQ(sender.send(MessageType::order, text, pixels.file()), Transfer::complete);
+        EXPECT_EQ(sender.send(MessageType::draw, text, pixels.file()), Transfer::complete);
         EXPECT_EQ(sender.send(MessageType::ready), Transfer::complete);
     });
     MessageType type{};
@@ -42,12 +42,12 @@ TEST(Channel, LongMessagesArriveWholeWithTheirFile) {
     int file = Channel::kNoFile;
     EXPECT_EQ(receiver.receive(type, body, &file), Transfer::complete);
     sending.join();
-    EXPECT_EQ(type, MessageType::order);
+    EXPECT_EQ(type, MessageType::draw);
     EXPECT_EQ(body, text);
     ASSERT_NE(file, Channel::kNoFile);
     SharedPixels seen(file);
     EXPECT_EQ(seen.number(), pixels.number());
-    EXPECT_EQ(seen.see(1'000'000)[999'999], 42);
+    EXPECT_EQ(seen.remap(1'000'000)[999'999], 42);
     EXPECT_EQ(receiver.receive(type, body, &file), Transfer::complete);
     EXPECT_EQ(type, MessageType::ready);
     EXPECT_TRUE(body.empty());
@@ -62,7 +62,7 @@ TEST(Channel, FilesThatNobodyWantsAreDropped) {
     const int before = dup(0);
     close(before);
     SharedPixels pixels;
-    EXPECT_EQ(sender.send(MessageType::order, "1", pixels.file()), Transfer::complete);
+    EXPECT_EQ(sender.send(MessageType::draw, "1", pixels.file()), Transfer::complete);
     EXPECT_EQ(receiver.receive(type, body), Transfer::complete);
     EXPECT_EQ(body, "1");
     const int after = dup(0);  // the lowest number that is free
@@ -74,12 +74,12 @@ TEST(SharedPixels, AreSeenThroughAllSizes) {
     SharedPixels pixels;
     SharedPixels other(dup(pixels.file()));
     for (const std::size_t size : {100U, 100'000U, 100U, 5'000'000U, 64U}) {
-        const auto written = pixels.take(size);
+        const auto written = pixels.resize(size);
         ASSERT_EQ(written.size(), size);
         written[size - 1] = static_cast<std::uint8_t>(size % 251);
-        EXPECT_EQ(other.see(size)[size - 1], size % 251);
+        EXPECT_EQ(other.remap(size)[size - 1], size % 251);
     }
-    EXPECT_THROW(other.see(1'000'000'000), std::system_error);
+    EXPECT_THROW(other.remap(1'000'000'000), std::system_error);
 }
 
 }  // namespace

@@ -49,10 +49,10 @@ int ordersOf(Session& session, const Command& command, ObjectLoader& loader, Res
     for (int orders = 0;; ++orders) {
         const Session before = session;
         done = apply(session, command, Limits{}, loader);
-        if (!loader.ordered()) return orders;
+        if (!loader.isPending()) return orders;
         EXPECT_FALSE(done);
         EXPECT_EQ(session, before);
-        loader.work();
+        loader.loadPending();
     }
 }
 
@@ -60,14 +60,14 @@ TEST(Load, MayBeReadAhead) {
     Session session;
     Result<std::monostate> done = std::monostate{};
     const Command load = Load{"mine", "points", "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n.1 .1 .1 .1\n"};
-    ObjectLoader reader(Limits{}, support::cache(), ObjectLoader::Pace::later, readObject);
+    ObjectLoader reader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, load, reader, done), 1);
     EXPECT_TRUE(done);
     EXPECT_EQ(reader.warnings().size(), 1U);
     EXPECT_EQ(infoOf(session.now).name, "mine");
     EXPECT_EQ(slicing::elementCounts(session.now.object)[3], 5U);
 
-    ObjectLoader refuser(Limits{}, support::cache(), ObjectLoader::Pace::later, readObject);
+    ObjectLoader refuser(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, Load{"other", "points", "1 2 3\n"}, refuser, done), 1);
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, ErrorCode::bad_polytope);
@@ -77,23 +77,23 @@ TEST(Load, PolytopesAreBuiltAheadOnlyWhereTheyAreNotBuiltYet) {
     Session session;
     Result<std::monostate> done = std::monostate{};
     const Command unusual = CommandLine{"polytope 17,19-duoprism"};
-    ObjectLoader first(Limits{}, support::cache(), ObjectLoader::Pace::later, readObject);
+    ObjectLoader first(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, unusual, first, done), 1);
     EXPECT_TRUE(done);
     EXPECT_EQ(infoOf(session.now).name, "17,19-duoprism");
     Session other;
-    ObjectLoader second(Limits{}, support::cache(), ObjectLoader::Pace::later, readObject);
+    ObjectLoader second(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_EQ(ordersOf(other, unusual, second, done), 0);
     EXPECT_EQ(other.now.object, session.now.object);
 
-    ObjectLoader turner(Limits{}, support::cache(), ObjectLoader::Pace::later, readObject);
+    ObjectLoader turner(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, Key{"y", false, false}, turner, done), 0);
-    ObjectLoader walker(Limits{}, support::cache(), ObjectLoader::Pace::later, readObject);
+    ObjectLoader walker(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_LE(ordersOf(session, Key{"N", false, false}, walker, done), 1);
     EXPECT_TRUE(done);
 
     // Its elements coincide: told only by building it.
-    ObjectLoader builder(Limits{}, support::cache(), ObjectLoader::Pace::later, readObject);
+    ObjectLoader builder(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, CommandLine{"polytope x3o3o5/2x"}, builder, done), 1);
     EXPECT_FALSE(done);
 }
@@ -110,18 +110,18 @@ TEST(Load, IsLimited) {
 TEST(Load, ReadsByWhatItIsGivenAndOnlyWhatItMayRead) {
     std::string seen;
     const FileReader reader = [&](std::string_view format, std::string_view text, const std::string& name,
-                                  const Limits& /*limits*/) -> Result<Reading> {
+                                  const Limits& /*limits*/) -> Result<LoadedObject> {
         EXPECT_EQ(format, "points");
         seen = name + ": " + std::string(text);
         return Error{ErrorCode::too_large, "so"};
     };
-    ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Pace::at_once, reader);
+    ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::immediate, reader);
     Session session;
     const auto done = apply(session, Load{"mine", "points", "1 2 3"}, Limits{}, loader);
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().message, "so");
     EXPECT_EQ(seen, "mine: 1 2 3");
-    ObjectLoader other(Limits{}, support::cache(), ObjectLoader::Pace::at_once, reader);
+    ObjectLoader other(Limits{}, support::cache(), ObjectLoader::Mode::immediate, reader);
     EXPECT_FALSE(apply(session, Load{"tesseract", "points", "4 5 6"}, Limits{}, other));
     EXPECT_EQ(seen, "mine: 1 2 3");
 }

@@ -75,7 +75,7 @@ TEST(CloudSlicer, leavesOutWhatIsBeyondTheSlices) {
     EXPECT_EQ(slices.size().vertices, 1U);
     EXPECT_EQ(slices.vertexCount(1), 1U);
     EXPECT_EQ(slices.vertexSource[0], 1U);
-    EXPECT_EQ(slices.turned.size(), 3U);
+    EXPECT_EQ(slices.rotatedVertices.size(), 3U);
 }
 
 TEST(CloudSlicer, alternatesWithPolytopes) {

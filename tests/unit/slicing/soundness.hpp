@@ -77,8 +77,8 @@ inline void expectCorrectSources(const polytopes::Polytope& p, const slicing::Sl
     };
     for (auto v = s.vertexBegin[slice]; v < s.vertexBegin[slice + 1]; ++v) {
         const auto ends = verticesOfEdgeOrVertex(s.vertexSource[v]);
-        const glm::dvec4 a = s.turned[*ends.begin()];
-        const glm::dvec4 b = s.turned[*ends.rbegin()];
+        const glm::dvec4 a = s.rotatedVertices[*ends.begin()];
+        const glm::dvec4 b = s.rotatedVertices[*ends.rbegin()];
         ASSERT_NEAR(glm::distance(a, place(v)) + glm::distance(place(v), b), glm::distance(a, b), 1e-8);
     }
     for (auto e = s.edgeBegin[slice]; e < s.edgeBegin[slice + 1]; ++e) {

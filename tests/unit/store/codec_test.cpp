@@ -13,13 +13,13 @@ using session::Session;
 /// Stores objects in encoded form.
 class ObjectTable {
   public:
-    KeyOf keyOf = [this](const slicing::Object& object) {
+    ObjectKeyLookup keyOf = [this](const slicing::Object& object) {
         const auto [found, isNew] =
             keys_.try_emplace(slicing::infoOf(object).serial, "key" + std::to_string(keys_.size()));
         if (isNew) bytes_[found->second] = encodeObject(object);
         return found->second;
     };
-    ObjectOf objectOf = [this](const std::string& key) {
+    ObjectLookup objectOf = [this](const std::string& key) {
         auto& object = built_[key];
         if (!object && bytes_.contains(key)) object = decodeObject(bytes_[key]);
         return object;
@@ -97,7 +97,7 @@ TEST(Codec, LimitsUndoSteps) {
 }
 
 TEST(Codec, RefusesOtherVersionsAndOtherData) {
-    const ObjectOf none = [](const std::string&) { return std::nullopt; };
+    const ObjectLookup none = [](const std::string&) { return std::nullopt; };
     ObjectTable table;
     std::string bytes = encodeWhole(Session{}, 10, table.keyOf);
     ASSERT_EQ(bytes[1], 1) << "the version";
@@ -116,7 +116,7 @@ TEST(Codec, RefusesOtherVersionsAndOtherData) {
 
 /// The records are well-formed, but no session can have these values.
 TEST(Codec, RefusesInvalidValues) {
-    const ObjectOf none = [](const std::string&) { return std::nullopt; };
+    const ObjectLookup none = [](const std::string&) { return std::nullopt; };
     ObjectTable table;
     Session session;
     const auto refused = [&](auto change) {
@@ -146,7 +146,7 @@ TEST(Codec, RefusesInvalidValues) {
 
 /// Declared sizes do not reserve memory, and deep nesting does not overflow the stack.
 TEST(Codec, RefusesExcessiveSizesAndNesting) {
-    const ObjectOf none = [](const std::string&) { return std::nullopt; };
+    const ObjectLookup none = [](const std::string&) { return std::nullopt; };
     const std::string huge("\xff\xff\xff\xff\xff\xff\xf0", 7);
     std::vector<std::string> inputs{std::string(3'000'000, '\x81'), std::string(3'000'000, '\x9f')};
     std::string maps;

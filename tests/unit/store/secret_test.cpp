@@ -19,10 +19,11 @@ TEST(Secret, NamesAreLongAndDifferent) {
 }
 
 TEST(Secret, ComparesSecrets) {
-    EXPECT_TRUE(sameSecret("abc", "abc"));
-    EXPECT_TRUE(sameSecret("", ""));
-    for (const char* other : {"", "ab", "abd", "abcabc", "abcd"}) EXPECT_FALSE(sameSecret(other, "abc")) << other;
-    EXPECT_FALSE(sameSecret("abc", ""));
+    EXPECT_TRUE(equalInConstantTime("abc", "abc"));
+    EXPECT_TRUE(equalInConstantTime("", ""));
+    for (const char* other : {"", "ab", "abd", "abcabc", "abcd"})
+        EXPECT_FALSE(equalInConstantTime(other, "abc")) << other;
+    EXPECT_FALSE(equalInConstantTime("abc", ""));
 }
 
 TEST(Secret, HashIsBlake2b) {

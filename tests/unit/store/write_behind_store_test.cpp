@@ -23,7 +23,7 @@ struct StoreControl {
 class FaultyStore final : public Store {
   public:
     explicit FaultyStore(std::shared_ptr<StoreControl> control) : control_(std::move(control)) {}
-    Pace pace() const override { return Pace::at_once; }
+    WritePolicy writePolicy() const override { return WritePolicy::at_once; }
     std::string name() const override { return "faulty"; }
     std::optional<std::string> tokenHash(const std::string& id) override { return checked().tokenHash(id); }
     std::optional<Record> claim(const std::string& id) override { return checked().claim(id); }
@@ -58,15 +58,16 @@ class FaultyStore final : public Store {
 
 class WriteBehindStoreTest : public testing::Test {
   protected:
-    WriteBehindStore::Fetch fetch(const SessionCredentials& credentials) {
-        std::promise<WriteBehindStore::Fetch> promise;
-        writeBehind.fetch(credentials, [&](WriteBehindStore::Fetch fetch) { promise.set_value(std::move(fetch)); });
+    WriteBehindStore::FetchResult fetch(const SessionCredentials& credentials) {
+        std::promise<WriteBehindStore::FetchResult> promise;
+        writeBehind.fetch(credentials,
+                          [&](WriteBehindStore::FetchResult fetch) { promise.set_value(std::move(fetch)); });
         return promise.get_future().get();
     }
     bool save(const std::string& id, const Session& session,
-              WriteBehindStore::Part part = WriteBehindStore::Part::whole) {
+              WriteBehindStore::SaveScope scope = WriteBehindStore::SaveScope::whole) {
         std::promise<bool> promise;
-        writeBehind.save(id, session, part, [&](bool ours) { promise.set_value(ours); });
+        writeBehind.save(id, session, scope, [&](bool ours) { promise.set_value(ours); });
         return promise.get_future().get();
     }
     static void eventually(const std::function<bool()>& happened) {
@@ -119,7 +120,7 @@ TEST_F(WriteBehindStoreTest, AFailingStoreDoesNotDelayCallers) {
     const SessionCredentials credentials = writeBehind.create();
     control->fails = true;
     EXPECT_TRUE(save(credentials.id, at(1)));
-    eventually([&] { return !writeBehind.trouble().empty(); });
+    eventually([&] { return !writeBehind.lastError().empty(); });
     EXPECT_TRUE(save(credentials.id, at(2)));
     EXPECT_EQ(fetch({"other", "x"}).error().code, ErrorCode::internal) << "not not_found";
     const SessionCredentials closed = writeBehind.create();
@@ -132,7 +133,7 @@ TEST_F(WriteBehindStoreTest, AFailingStoreDoesNotDelayCallers) {
     control->fails = false;
     eventually([&] { return writeBehind.unsaved() == 0; });
     eventually([&] { return back == 1; });
-    EXPECT_EQ(writeBehind.trouble(), "");
+    EXPECT_EQ(writeBehind.lastError(), "");
     EXPECT_EQ(kept(credentials.id), 2U);
     EXPECT_EQ(kept(closed.id), 9U);
 }
@@ -152,7 +153,7 @@ TEST_F(WriteBehindStoreTest, DoesNotWriteSessionsClaimedByOthers) {
 
 TEST_F(WriteBehindStoreTest, RequestsSessionsThatTheStoreLacks) {
     const SessionCredentials credentials = writeBehind.create();
-    writeBehind.save(credentials.id, at(1), WriteBehindStore::Part::head);
+    writeBehind.save(credentials.id, at(1), WriteBehindStore::SaveScope::head);
     eventually([&] { return wanted == 1; });
     EXPECT_TRUE(save(credentials.id, at(2)));
     EXPECT_EQ(kept(credentials.id), 2U);
@@ -161,8 +162,8 @@ TEST_F(WriteBehindStoreTest, RequestsSessionsThatTheStoreLacks) {
 TEST_F(WriteBehindStoreTest, WritesTheNewestOfManyChanges) {
     const SessionCredentials credentials = writeBehind.create();
     EXPECT_TRUE(save(credentials.id, at(1)));
-    for (std::uint64_t i = 2; i < 5000; ++i) writeBehind.save(credentials.id, at(i), WriteBehindStore::Part::head);
-    EXPECT_TRUE(save(credentials.id, at(5000), WriteBehindStore::Part::head));
+    for (std::uint64_t i = 2; i < 5000; ++i) writeBehind.save(credentials.id, at(i), WriteBehindStore::SaveScope::head);
+    EXPECT_TRUE(save(credentials.id, at(5000), WriteBehindStore::SaveScope::head));
     EXPECT_EQ(kept(credentials.id), 5000U);
     EXPECT_LT(control->saves, 5000);
 }
@@ -172,21 +173,21 @@ TEST_F(WriteBehindStoreTest, ForgetsClosedSessionsOnly) {
     EXPECT_TRUE(save(open.id, at(1)));
     writeBehind.close(closed.id, at(2));
     eventually([&] { return writeBehind.unsaved() == 0; });
-    writeBehind.forget(open.id);
-    writeBehind.forget(closed.id);
+    writeBehind.remove(open.id);
+    writeBehind.remove(closed.id);
     EXPECT_EQ(fetch(closed).error().code, ErrorCode::not_found);
     EXPECT_TRUE(save(open.id, at(3))) << "it is still open";
     EXPECT_EQ(kept(open.id), 3U);
     EXPECT_EQ(kept(closed.id), 0U);
     control->fails = true;
     writeBehind.close(waiting.id, at(4));
-    eventually([&] { return !writeBehind.trouble().empty(); });
-    writeBehind.forget(waiting.id);
+    eventually([&] { return !writeBehind.lastError().empty(); });
+    writeBehind.remove(waiting.id);
     EXPECT_EQ(fetch(waiting).error().code, ErrorCode::not_found);
     control->fails = false;
-    eventually([&] { return writeBehind.trouble().empty(); });
+    eventually([&] { return writeBehind.lastError().empty(); });
     EXPECT_EQ(kept(waiting.id), 0U);
-    writeBehind.forget("nobody");
+    writeBehind.remove("nobody");
     EXPECT_EQ(writeBehind.unsaved(), 0U);
 }
 
@@ -197,19 +198,19 @@ TEST_F(WriteBehindStoreTest, WritesPolytopesAgainAfterAFailure) {
     ASSERT_TRUE(session::apply(session, ownObject("own", 1)));
     EXPECT_TRUE(save(credentials.id, session));
     control->fails = true;
-    writeBehind.save(credentials.id, session, WriteBehindStore::Part::whole);
-    eventually([&] { return !writeBehind.trouble().empty(); });
+    writeBehind.save(credentials.id, session, WriteBehindStore::SaveScope::whole);
+    eventually([&] { return !writeBehind.lastError().empty(); });
     {
         const std::lock_guard lock(control->mutex);
         const std::vector<std::string> ids{credentials.id};
         control->kept.remove(ids);
     }
     control->fails = false;
-    eventually([&] { return writeBehind.unsaved() == 0 && writeBehind.trouble().empty(); });
+    eventually([&] { return writeBehind.unsaved() == 0 && writeBehind.lastError().empty(); });
     const std::lock_guard lock(control->mutex);
     const auto record = control->kept.claim(credentials.id);
     ASSERT_TRUE(record);
-    EXPECT_EQ(record->polytopes.size(), 1U);
+    EXPECT_EQ(record->objects.size(), 1U);
 }
 
 /// While the store fails, closed sessions in memory are limited by the quota: those that were never changed are evicted
@@ -220,11 +221,11 @@ TEST(WriteBehindStore, EvictsClosedSessionsBeyondTheQuota) {
     WriteBehindStore writeBehind(
         std::make_unique<FaultyStore>(control), {10s, 100, 100'000},
         {[](const std::string&) {}, [](const std::string&) {}, [] {}, [](const char*, double, bool) {}});
-    for (int i = 0; i < 3000 && writeBehind.trouble().empty(); ++i) std::this_thread::sleep_for(10ms);
+    for (int i = 0; i < 3000 && writeBehind.lastError().empty(); ++i) std::this_thread::sleep_for(10ms);
     Session changed;
     changed.revision = 1;
     const SessionCredentials open = writeBehind.create();
-    writeBehind.save(open.id, changed, WriteBehindStore::Part::whole);
+    writeBehind.save(open.id, changed, WriteBehindStore::SaveScope::whole);
     std::vector<SessionCredentials> credentialsList;
     for (int i = 0; i < 2000; ++i) {
         credentialsList.push_back(writeBehind.create());
@@ -248,10 +249,10 @@ TEST_F(WriteBehindStoreTest, WritesAPolytopeOnce) {
     ASSERT_TRUE(session::apply(session, ownObject("own", 1)));
     const auto polytopes = [&] {
         const std::lock_guard lock(control->mutex);
-        return control->kept.claim(credentials.id)->polytopes;
+        return control->kept.claim(credentials.id)->objects;
     };
-    writeBehind.save(credentials.id, Session{}, WriteBehindStore::Part::whole);
-    writeBehind.save(credentials.id, session, WriteBehindStore::Part::head);
+    writeBehind.save(credentials.id, Session{}, WriteBehindStore::SaveScope::whole);
+    writeBehind.save(credentials.id, session, WriteBehindStore::SaveScope::head);
     EXPECT_TRUE(save(credentials.id, session));
     const auto first = writeBehind.unsaved() == 0 ? polytopes() : decltype(polytopes()){};
     ASSERT_EQ(first.size(), 1U);

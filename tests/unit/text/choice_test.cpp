@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "text/choice.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::text {
 namespace {

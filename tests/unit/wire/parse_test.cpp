@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "session/session.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 #include "unit/wire/support.hpp"
 #include "wire/messages.hpp"
 
@@ -54,11 +54,11 @@ TEST(Parse, GetAndShown) {
     const auto what = [](const std::string& name) {
         return std::get<Get>(parsed(R"({"type":"get","what":")" + name + "\"}").body).what;
     };
-    EXPECT_EQ(what("state"), What::state);
-    EXPECT_EQ(what("slices"), What::slices);
-    EXPECT_EQ(what("frame"), What::frame);
-    EXPECT_EQ(what("catalogue"), What::catalogue);
-    EXPECT_EQ(what("keymap"), What::keymap);
+    EXPECT_EQ(what("state"), GetTarget::state);
+    EXPECT_EQ(what("slices"), GetTarget::slices);
+    EXPECT_EQ(what("frame"), GetTarget::frame);
+    EXPECT_EQ(what("catalogue"), GetTarget::catalogue);
+    EXPECT_EQ(what("keymap"), GetTarget::keymap);
     EXPECT_FALSE(std::get<Get>(parsed(R"({"type":"get","what":"frame"})").body).viewport);
     EXPECT_EQ(std::get<Get>(parsed(R"({"type":"get","what":"frame","width":64,"height":32})").body).viewport,
               (scene::Viewport{64, 32}));

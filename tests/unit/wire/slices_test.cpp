@@ -94,9 +94,9 @@ TEST(SlicesMessage, IsWhatWasCut) {
         EXPECT_EQ(message.at("revision"), 7);
         EXPECT_EQ(message.at("id"), 3);
         expectSlices(message.at("slices"), picture);
-        ASSERT_EQ(message.at("coordinates").size(), picture.slices.turned.size());
-        for (std::size_t v = 0; v < picture.slices.turned.size(); ++v) {
-            expectPoint(message.at("coordinates")[v], &picture.slices.turned[v].x, 4);
+        ASSERT_EQ(message.at("coordinates").size(), picture.slices.rotatedVertices.size());
+        for (std::size_t v = 0; v < picture.slices.rotatedVertices.size(); ++v) {
+            expectPoint(message.at("coordinates")[v], &picture.slices.rotatedVertices[v].x, 4);
         }
         EXPECT_EQ(message.at("scene").at("colors").at("cells"), json(picture.scene.cellColors));
         EXPECT_EQ(message.at("scene").at("scale"), picture.scene.scale);
@@ -294,7 +294,7 @@ TEST(SlicesMessage, CborSaysTheSame) {
         const std::string cbor = messageOf(picture, Encoding::cbor);
         json message = json::from_cbor(cbor, true, true, json::cbor_tag_handler_t::store);
         Reader coordinates(numbersOf<float>(message.at("coordinates"), kFloat32));
-        message["coordinates"] = coordinates.rows(picture.slices.turned.size(), 4);
+        message["coordinates"] = coordinates.rows(picture.slices.rotatedVertices.size(), 4);
         if (message.contains("density")) {
             Reader density(numbersOf<std::uint8_t>(message.at("density"), 64));
             message["density"] = density.rows(scene::Density::kRows, scene::Density::kColumns);

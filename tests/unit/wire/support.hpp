@@ -46,7 +46,7 @@ inline nlohmann::json schemaText(const std::string& file) {
 /// The text must be JSON that fits the schema of its type; returns it.
 inline nlohmann::json fitting(std::string_view text) {
     nlohmann::json message = nlohmann::json::parse(text);
-    const auto fault = misfit(message.at("type").get<std::string>(), message);
+    const auto fault = validationError(message.at("type").get<std::string>(), message);
     EXPECT_FALSE(fault) << fault->message;
     return message;
 }

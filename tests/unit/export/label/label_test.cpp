@@ -103,7 +103,7 @@ TEST(Label, aPlateIsABodyOfItsOwn) {
         expectPrintable(plate);
         const glm::dvec3 extent = boxOf(plate).size();
         EXPECT_NEAR(extent.z, 2, 0.01);
-        EXPECT_LE(boxOf(plate).most.y, 0);
+        EXPECT_LE(boxOf(plate).max.y, 0);
         EXPECT_LT(volumeOf(plate), extent.x * extent.y * extent.z);
         EXPECT_GT(volumeOf(plate), 0.85 * extent.x * extent.y * extent.z);
     }

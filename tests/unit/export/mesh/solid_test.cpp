@@ -190,7 +190,7 @@ TEST(Skin, ofStarPolychoraHoldsThePlacesThatTheFacesWindAround) {
         constexpr int kPlaces = 6000;
         int inside = 0;
         for (int i = 0; i < kPlaces; ++i) {
-            const glm::dvec3 place = box.least + box.size() * glm::dvec3(part(random), part(random), part(random));
+            const glm::dvec3 place = box.min + box.size() * glm::dvec3(part(random), part(random), part(random));
             inside += std::abs(windingAround(s, place / scaleOf(p))) > 0.5 ? 1 : 0;
         }
         const double whole = box.size().x * box.size().y * box.size().z;
@@ -298,8 +298,8 @@ TEST(Mesh, theCheckSeesWhatIsOpenDoubledReversedOrTouching) {
     const auto at = [&](const glm::dvec3& place) {
         return static_cast<std::uint32_t>(std::ranges::find(touching.points, place) - touching.points.begin());
     };
-    const auto shared = at(boxOf(cube).most);
-    const auto copy = at(boxOf(cube).least + boxOf(cube).size());
+    const auto shared = at(boxOf(cube).max);
+    const auto copy = at(boxOf(cube).min + boxOf(cube).size());
     ASSERT_EQ(shared, copy);  // found by its place; the second one follows
     for (auto& t : touching.triangles) {
         for (auto& corner : t) {

@@ -78,7 +78,7 @@ class Redis {
     }
     StoreOptions options() const {
         StoreOptions options;
-        options.place = "redis://127.0.0.1:" + std::to_string(port_);
+        options.url = "redis://127.0.0.1:" + std::to_string(port_);
         options.expiry = 300ms;
         return options;
     }
@@ -176,18 +176,18 @@ TEST_P(AnyStore, SaveReturnsAResultForEachUpdate) {
 
 TEST_P(AnyStore, StoresThePolytopesOfASession) {
     RecordUpdate update = whole(1, "s");
-    update.polytopes = {{"p", kBytes}, {"q", "bytes of q"}};
+    update.objects = {{"p", kBytes}, {"q", "bytes of q"}};
     EXPECT_EQ(save(update), SaveResult::saved);
     EXPECT_EQ(save(whole(1, "other", "two")), SaveResult::saved);
-    auto polytopes = store->claim("one")->polytopes;
+    auto polytopes = store->claim("one")->objects;
     std::ranges::sort(polytopes);
-    EXPECT_EQ(polytopes, update.polytopes);
-    EXPECT_TRUE(store->claim("two")->polytopes.empty());
+    EXPECT_EQ(polytopes, update.objects);
+    EXPECT_TRUE(store->claim("two")->objects.empty());
     update = whole(2, "s");
-    update.polytopes = {{"r", "bytes of r"}};
+    update.objects = {{"r", "bytes of r"}};
     update.dropped = {"p", "q"};
     EXPECT_EQ(save(update), SaveResult::saved);
-    EXPECT_EQ(store->claim("one")->polytopes, update.polytopes);
+    EXPECT_EQ(store->claim("one")->objects, update.objects);
 }
 
 TEST_P(AnyStore, ExpiresUntouchedSessions) {
@@ -207,7 +207,7 @@ TEST_P(AnyStore, ExpiresUntouchedSessions) {
 
 TEST_P(AnyStore, RemovesSessionsWithTheirPolytopes) {
     RecordUpdate update = whole(1, "s");
-    update.polytopes = {{"p", "bytes of p"}};
+    update.objects = {{"p", "bytes of p"}};
     update.last = true;
     save(update);
     save(whole(1, "other", "two"));
@@ -216,7 +216,7 @@ TEST_P(AnyStore, RemovesSessionsWithTheirPolytopes) {
     EXPECT_FALSE(store->claim("one"));
     EXPECT_TRUE(store->claim("two"));
     EXPECT_EQ(save(whole(1, "again")), SaveResult::saved);
-    EXPECT_TRUE(store->claim("one")->polytopes.empty());
+    EXPECT_TRUE(store->claim("one")->objects.empty());
 }
 
 /// Checks which sessions a store with a quota of 1 MiB evicts first.
@@ -402,7 +402,7 @@ TEST(SqliteStore, SessionsSurviveARestart) {
     EXPECT_EQ(store.tokenHash("one"), hashOf("secret"));
     const auto record = store.claim("one");
     EXPECT_EQ(record->whole, "whole");
-    EXPECT_EQ(record->polytopes, update.polytopes);
+    EXPECT_EQ(record->objects, update.objects);
 }
 
 TEST(SqliteStore, ErrorsTellWhyAFileCannotBeUsed) {
@@ -488,8 +488,8 @@ TEST(RedisStore, RecoversWhenRedisHasLostAllData) {
 
 TEST(OpenStore, ParsesPlaces) {
     StoreOptions options;
-    const auto named = [&](const std::string& place) {
-        options.place = place;
+    const auto named = [&](const std::string& url) {
+        options.url = url;
         return openStore(options)->name();
     };
     EXPECT_EQ(named("memory"), "memory");

@@ -1,4 +1,4 @@
-#include "polytopes/import/file_text.hpp"
+#include "polytopes/import/file_tokenizer.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -8,12 +8,12 @@ namespace oval4d::polytopes {
 
 void refuse(std::size_t line, std::string reason) { throw ImportError{line, std::move(reason)}; }
 
-FileText::FileText(std::string_view text, bool commas) : text_(text), commas_(commas) {
+FileTokenizer::FileTokenizer(std::string_view text, bool commas) : text_(text), commas_(commas) {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (text_.starts_with(kByteOrderMark)) at_ = kByteOrderMark.size();
 }
 
-std::string_view FileText::next() {
+std::string_view FileTokenizer::next() {
     for (; at_ < text_.size(); ++at_) {
         if (text_[at_] == '#') {
             skipLine();
@@ -28,21 +28,21 @@ std::string_view FileText::next() {
     return {};
 }
 
-std::string_view FileText::nextOnLine() {
+std::string_view FileTokenizer::nextOnLine() {
     while (at_ < text_.size() && isBlank(text_[at_])) ++at_;
     if (at_ == text_.size() || isBreak(text_[at_]) || text_[at_] == '#') return {};
     return word();
 }
 
-void FileText::skipLine() {
+void FileTokenizer::skipLine() {
     while (at_ < text_.size() && !isBreak(text_[at_])) ++at_;
 }
 
-bool FileText::isBlank(char c) const {
+bool FileTokenizer::isBlank(char c) const {
     return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f' || (commas_ && (c == ',' || c == ';'));
 }
 
-std::string_view FileText::word() {
+std::string_view FileTokenizer::word() {
     const std::size_t start = at_;
     while (at_ < text_.size() && !isBreak(text_[at_]) && !isBlank(text_[at_]) && text_[at_] != '#') ++at_;
     return text_.substr(start, at_ - start);

@@ -146,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(Some, ConvexSlices,
                          });
 
 /// An 8-cell whose squares are divided into triangles: a hyperplane may contain several coplanar 2-faces of a cell.
-TEST(ConvexCut, handlesCellsWithSeveralFacesInAHyperplane) {
+TEST(ConvexSlicer, handlesCellsWithSeveralFacesInAHyperplane) {
     const polytopes::Polytope& whole = named("8-cell");
     geometry::JaggedArray faces, cells;
     for (std::size_t f = 0; f < whole.faces.size(); ++f) {
@@ -177,7 +177,7 @@ TEST(ConvexCut, handlesCellsWithSeveralFacesInAHyperplane) {
     }
 }
 
-TEST(ConvexCut, handlesManyElements) {
+TEST(ConvexSlicer, handlesManyElements) {
     Polygon polygon;
     for (int i = 0; i < 130; ++i) polygon.emplace_back(std::cos(2 * pi * i / 130), std::sin(2 * pi * i / 130));
     const polytopes::Polytope p = product(polygon, polygon);
@@ -196,7 +196,7 @@ TEST(ConvexCut, handlesManyElements) {
 }
 
 /// Whether a second core is available depends on the other threads.
-TEST(ConvexCut, givesTheSameSlicesOnOneAndOnTwoCores) {
+TEST(ConvexSlicer, givesTheSameSlicesOnOneAndOnTwoCores) {
     const polytopes::Polytope& p = named("omnitruncated 120-cell");
     polytopes::Polytope general = p;
     general.convex = false;
@@ -221,7 +221,7 @@ TEST(ConvexCut, givesTheSameSlicesOnOneAndOnTwoCores) {
 
 /// With rounded vertices, a hyperplane may cut a 2-face twice, and cells may be slightly nonconvex. The slices must
 /// still be valid data.
-TEST(ConvexCut, isSafeForPolytopesThatAreNotQuiteConvex) {
+TEST(ConvexSlicer, isSafeForPolytopesThatAreNotQuiteConvex) {
     std::mt19937 random(3);
     PolytopeSlicer slicer;
     SliceSet s;

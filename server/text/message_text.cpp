@@ -1,4 +1,4 @@
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 #include <algorithm>
 #include <array>

@@ -18,9 +18,9 @@ inline constexpr double kMaxCoordinate = 1e14;
 
 /// Splits a text into words separated by blanks. A comment extends from # to the end of its line. With `commas`, commas
 /// and semicolons count as blanks.
-class FileText {
+class FileTokenizer {
   public:
-    explicit FileText(std::string_view text, bool commas = false);
+    explicit FileTokenizer(std::string_view text, bool commas = false);
 
     /// The line of the word read last, counted from 1.
     std::size_t line() const { return line_; }

@@ -17,7 +17,7 @@ namespace {
 
 using support::shared;
 
-std::string encoded(const Result<session::Reading>& outcome) {
+std::string encoded(const Result<session::LoadedObject>& outcome) {
     std::string bytes;
     encodeOutcome(outcome, bytes);
     return bytes;
@@ -41,7 +41,7 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
 TEST(ReadingMessages, PolytopesSurviveARoundTripExceptTheirSerial) {
     for (const char* name : {"5-cell", "24-cell", "120-cell", "runcinated tesseract", "{5/2,3,5}"}) {
         const auto sent = shared(name);
-        const auto got = decodeOutcome(encoded(session::Reading{sent, {"one", "δ"}}), "mine", {});
+        const auto got = decodeOutcome(encoded(session::LoadedObject{sent, {"one", "δ"}}), "mine", {});
         ASSERT_TRUE(got) << name;
         EXPECT_EQ(got->warnings, (std::vector<std::string>{"one", "δ"}));
         const polytopes::Polytope& polytope = *std::get<slicing::PolytopePtr>(got->object);
@@ -57,7 +57,7 @@ TEST(ReadingMessages, PolytopesSurviveARoundTripExceptTheirSerial) {
         EXPECT_EQ(polytope.faceCells, sent->faceCells);
         EXPECT_EQ(polytope.typeOfCell, sent->typeOfCell);
         EXPECT_EQ(polytope.convex, sent->convex);
-        EXPECT_LT(encoded(session::Reading{sent, {}}).size(), maxOutcomeBytes(0, {}));
+        EXPECT_LT(encoded(session::LoadedObject{sent, {}}).size(), maxOutcomeBytes(0, {}));
     }
 }
 
@@ -80,11 +80,11 @@ TEST(ReadingMessages, ErrorsAreSafeToSendToClients) {
 TEST(ReadingMessages, RefusesMoreThanTheLimits) {
     session::Limits limits;
     limits.maxVertices = 23;
-    const std::string bytes = encoded(session::Reading{shared("24-cell"), {}});
+    const std::string bytes = encoded(session::LoadedObject{shared("24-cell"), {}});
     EXPECT_TRUE(decodeOutcome(bytes, "mine", {}));
     EXPECT_THROW((void)decodeOutcome(bytes, "mine", limits), std::runtime_error);
     const std::vector<std::string> warnings(1000, "so");
-    EXPECT_THROW((void)decodeOutcome(encoded(session::Reading{shared("5-cell"), warnings}), "mine", {}),
+    EXPECT_THROW((void)decodeOutcome(encoded(session::LoadedObject{shared("5-cell"), warnings}), "mine", {}),
                  std::runtime_error);
 }
 
@@ -106,7 +106,7 @@ TEST(ReadingMessages, CorruptedBytesAreHarmless) {
         }
     };
     for (const char* name : {"5-cell", "tesseract", "{5/2,3,5}"}) {
-        const std::string whole = encoded(session::Reading{shared(name), {"so"}});
+        const std::string whole = encoded(session::LoadedObject{shared(name), {"so"}});
         for (std::size_t size = 0; size < std::min<std::size_t>(whole.size(), 2000); ++size)
             attempt(whole.substr(0, size));
         const int rounds = whole.size() > 5000 ? 300 : 3000;

@@ -15,11 +15,11 @@ namespace oval4d::slicing {
 
 /// Slices convex polytopes with a sweep. Large ones are swept on two cores at once, one for the lower hyperplanes and
 /// one for the upper ones. Reuses its scratch memory between calls.
-class ConvexCut {
+class ConvexSlicer {
   public:
-    explicit ConvexCut(parallel::ForkJoin* forkJoin) : forkJoin_(forkJoin) {}
+    explicit ConvexSlicer(parallel::ForkJoin* forkJoin) : forkJoin_(forkJoin) {}
 
-    /// Fills `out`, whose hyperplanes and turned vertices must be set. For `touching`, see Sweep::cut. Returns false,
+    /// Fills `out`, whose hyperplanes and rotated vertices must be set. For `touching`, see Sweep::cut. Returns false,
     /// and leaves `out` unusable, if rounding errors in the vertices make a hyperplane cut a 2-face or a cell twice.
     bool cut(const polytopes::Polytope& polytope, Levels levels, std::span<SliceSet* const> touching, SliceSet& out);
 
@@ -27,7 +27,7 @@ class ConvexCut {
     struct Half {
         Sweep sweep;
         std::vector<std::int32_t> below;  // as Levels::below, for the hyperplanes of this half
-        SliceSize end;
+        ElementCounts end;
         bool sound = false;
     };
     bool cutHalves(const polytopes::Polytope& polytope, Levels levels, SliceSet& out);

@@ -1,4 +1,4 @@
-#include "cli/one_shot.hpp"
+#include "cli/state_arguments.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -17,10 +17,10 @@ using fuzz::require;
 namespace {
 
 void readOrder(std::string_view bytes) {
-    raster::Order order;
-    raster::decodeOrder(bytes, order);
+    raster::DrawRequest order;
+    raster::decodeRequest(bytes, order);
     const glm::dmat4 matrix = order.state.orientation.matrix();
-    require(std::abs(glm::determinant(matrix) - 1) < 1e-6, "an order has a rotation");
+    require(std::abs(glm::determinant(matrix) - 1) < 1e-6, "a draw request has a rotation");
 }
 
 void readObject(std::string_view bytes) {

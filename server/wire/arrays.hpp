@@ -12,7 +12,7 @@ using Triple = std::array<std::uint32_t, 3>;
 
 /// Several lists in one array. With n + 1 entries in `begin`, there are n lists; list i is the half-open range
 /// [begin[i] − begin[0], begin[i + 1] − begin[0]) of `items`.
-struct ListsView {
+struct JaggedArrayView {
     std::span<const std::uint32_t> begin, items;
 };
 

@@ -1,4 +1,4 @@
-#include "render/slices/crossing_slices.hpp"
+#include "render/slices/nonconvex_slices.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -10,13 +10,13 @@ namespace oval4d::render {
 
 using slicing::Visibility;
 
-void CrossingSlicePainter::paint(const scene::Scene& scene, Layers& out) {
+void NonconvexSlicePainter::paint(const scene::Scene& scene, Layers& out) {
     const glm::dmat4 toView = scene.camera.view();
     const auto viewOf = [&](std::size_t slice) { return SliceView{*scene.slices, scene, toView, slice}; };
     transforms_.clear();
     points_.resize(scene.slices->vertices.size());
     for (auto* items : {&faces_, &skeleton_, &faded_}) items->clear();
-    Range depths{std::numeric_limits<float>::max(), 0};
+    DepthRange depths{std::numeric_limits<float>::max(), 0};
     for (std::size_t i = 0; i < scene.placements.size(); ++i) {
         transforms_.emplace_back(viewOf(i));
         if (scene.placements[i].drawn) collect(viewOf(i), depths);
@@ -50,7 +50,7 @@ void CrossingSlicePainter::paint(const scene::Scene& scene, Layers& out) {
 }
 
 // Collects the items of a slice, and extends `depths` to include them.
-void CrossingSlicePainter::collect(const SliceView& slice, Range& depths) {
+void NonconvexSlicePainter::collect(const SliceView& slice, DepthRange& depths) {
     const scene::Scene& scene = slice.scene;
     const auto number = static_cast<std::uint32_t>(slice.number);
     const SliceTransform& transform = transforms_[number];
@@ -75,13 +75,13 @@ void CrossingSlicePainter::collect(const SliceView& slice, Range& depths) {
     }
 }
 
-void CrossingSlicePainter::add(const Item& item, Visibility visibility) {
+void NonconvexSlicePainter::add(const Item& item, Visibility visibility) {
     if (visibility == Visibility::faded) faded_.push_back(item);
     if (visibility == Visibility::full) (item.kind == Kind::patch ? faces_ : skeleton_).push_back(item);
 }
 
-void CrossingSlicePainter::paintItem(const SliceView& slice, const Item& item, const Skeleton& skeleton,
-                                     ShapeBatch& out) {
+void NonconvexSlicePainter::paintItem(const SliceView& slice, const Item& item, const Skeleton& skeleton,
+                                      ShapeBatch& out) {
     if (item.kind == Kind::patch) return paintPatch(slice, item.number, out);
     const glm::vec3* points = points_.data() + slice.firstVertex();
     if (item.kind == Kind::ball) {
@@ -94,7 +94,7 @@ void CrossingSlicePainter::paintItem(const SliceView& slice, const Item& item, c
     skeleton.bar(points[forth ? a : b], points[forth ? b : a], slice.edgeOpacity(item.number), out);
 }
 
-void CrossingSlicePainter::paintPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out) {
+void NonconvexSlicePainter::paintPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out) {
     const slicing::Fill& fill = slice.scene.fill;
     const slicing::Fill::Patch& patch = fill.patches[number];
     const glm::vec3 normal(glm::dmat3(slice.toView) * patch.normal);

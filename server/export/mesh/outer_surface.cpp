@@ -1,4 +1,4 @@
-#include "export/mesh/skin.hpp"
+#include "export/mesh/outer_surface.hpp"
 
 #include <algorithm>
 #include <array>
@@ -46,7 +46,7 @@ class OuterSurface {
         const double cube = std::max({size.x, size.y, size.z}) / kCubes;
         if (!(cube > 64 * grid.step())) return {};
         // An offset away from symmetric positions of polytopes.
-        SampledField field(box_.least - glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
+        SampledField field(box_.min - glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
         fill(field);
         sortIntoBoxes(4 * cube);
         return marchTetrahedra(
@@ -84,8 +84,8 @@ class OuterSurface {
             const auto [a, b, c] = triangle.corners;
             Box box;
             for (const std::uint32_t corner : triangle.corners) box.include(points_[corner]);
-            const glm::ivec3 least = field.below(box.least);
-            const glm::ivec3 most = field.below(box.most) + 1;
+            const glm::ivec3 least = field.below(box.min);
+            const glm::ivec3 most = field.below(box.max) + 1;
             const glm::dvec3 normal = glm::cross(points_[b] - points_[a], points_[c] - points_[a]);
             for (int k = least.z; k <= most.z; ++k) {
                 for (int j = least.y; j <= most.y; ++j) {
@@ -94,7 +94,7 @@ class OuterSurface {
                     if (turns == 0) continue;
                     const glm::dvec3 to = row - points_[a];
                     const double x = points_[a].x - (normal.y * to.y + normal.z * to.z) / normal.x;
-                    lines[key(j, k)].push_back({std::clamp(x, box.least.x, box.most.x), turns, triangle.cell});
+                    lines[key(j, k)].push_back({std::clamp(x, box.min.x, box.max.x), turns, triangle.cell});
                 }
             }
         }
@@ -132,12 +132,12 @@ class OuterSurface {
             const glm::dvec3 base = points_[corners[0]];
             const glm::dvec3 normal = glm::cross(points_[corners[1]] - base, points_[corners[2]] - base);
             const double reach = 0.51 * width * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
-            const glm::ivec3 least = boxAt(box.least);
-            const glm::ivec3 most = boxAt(box.most);
+            const glm::ivec3 least = boxAt(box.min);
+            const glm::ivec3 most = boxAt(box.max);
             for (int z = least.z; z <= most.z; ++z) {
                 for (int y = least.y; y <= most.y; ++y) {
                     for (int x = least.x; x <= most.x; ++x) {
-                        const glm::dvec3 middle = box_.least + width * (glm::dvec3(x, y, z) + 0.5);
+                        const glm::dvec3 middle = box_.min + width * (glm::dvec3(x, y, z) + 0.5);
                         if (std::abs(glm::dot(middle - base, normal)) <= reach) boxes_[key({x, y, z})].push_back(p);
                     }
                 }
@@ -187,7 +187,7 @@ class OuterSurface {
         return {};
     }
 
-    glm::ivec3 boxAt(const glm::dvec3& place) const { return {glm::floor((place - box_.least) / width_)}; }
+    glm::ivec3 boxAt(const glm::dvec3& place) const { return {glm::floor((place - box_.min) / width_)}; }
     static constexpr int kShift = 1 << 20;
     static std::uint64_t key(int j, int k) {
         return std::uint64_t{static_cast<std::uint32_t>(j + kShift)} << 32U | static_cast<std::uint32_t>(k + kShift);

@@ -12,13 +12,13 @@
 namespace oval4d::render {
 
 /// Prepares layers of shapes for slices that need not be convex. Reuses its memory for the next picture.
-class CrossingSlicePainter {
+class NonconvexSlicePainter {
   public:
     /// Layers in drawing order: opaque faces from near to far; opaque balls and bars from far to near, so that their
     /// antialiased edges blend with what is behind them; faded shapes from far to near, which hide nothing.
     struct Layers {
         ShapeBatch faces, skeleton, faded;
-        Range depths;  ///< the range that contains all shapes
+        DepthRange depths;  ///< the range that contains all shapes
     };
 
     /// Adds all visible slices, with the scene's fill, as seen through the scene's camera. Overwrites `out`.
@@ -32,7 +32,7 @@ class CrossingSlicePainter {
         std::uint32_t slice, number;  // number: the patch in the fill, or the vertex or edge in the slice
     };
 
-    void collect(const SliceView& slice, Range& depths);
+    void collect(const SliceView& slice, DepthRange& depths);
     void add(const Item& item, slicing::Visibility visibility);
     void paintItem(const SliceView& slice, const Item& item, const Skeleton& skeleton, ShapeBatch& out);
     void paintPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out);

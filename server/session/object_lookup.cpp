@@ -1,4 +1,4 @@
-#include "session/object_choice.hpp"
+#include "session/object_lookup.hpp"
 
 #include <algorithm>
 #include <string>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "polytopes/catalogue/catalogue.hpp"
-#include "text/suggest.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::session {
 
@@ -16,10 +16,10 @@ namespace {
 // that is at least as similar.
 std::string suggestion(std::string_view name, const Loaded& loaded) {
     std::vector<std::string_view> near = polytopes::nearestNames(name);
-    std::size_t least = polytopes::likeness(name, near.front());
+    std::size_t least = polytopes::editDistance(name, near.front());
     for (const auto& [own, ignored] : loaded) {
-        if (polytopes::likeness(name, own) > least) continue;
-        least = polytopes::likeness(name, own);
+        if (polytopes::editDistance(name, own) > least) continue;
+        least = polytopes::editDistance(name, own);
         near = {own};
     }
     std::string text;
