@@ -21,6 +21,8 @@ constexpr std::size_t kMaxName = 64;  // characters
 
 bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 
+bool isCloudKeyword(std::string_view word) { return text::folded(word) == "cloud"; }
+
 Result<LoadedObject> readPolytope(polytopes::FileFormat format, std::string_view text, const std::string& name,
                                   const Limits& limits) {
     auto imported = polytopes::importPolytope(format, text, name, {limits.maxVertices, limits.maxHullCells});
@@ -37,13 +39,15 @@ Result<LoadedObject> readPolytope(std::string_view text, const std::string& name
     return readPolytope(format, text, name, limits);
 }
 
-// A point x y z w [radius] per line.
+// A point x y z w [radius] per line, after an optional keyword CLOUD.
 Result<LoadedObject> readCloud(std::string_view text, const std::string& name, const Limits& limits) {
     polytopes::FileTokenizer file(text, true);
     std::vector<glm::dvec4> points;
     std::vector<double> radii;
     try {
-        for (auto word = file.next(); !word.empty(); word = file.next()) {
+        auto word = file.next();
+        if (isCloudKeyword(word)) word = file.next();
+        for (; !word.empty(); word = file.next()) {
             glm::dvec4 point;
             for (int i = 0; i < 4; ++i, word = file.nextOnLine()) {
                 if (word.empty())
@@ -105,7 +109,8 @@ Result<LoadedObject> readObject(std::string_view format, std::string_view text, 
 }
 
 std::string_view formatOf(std::string_view text) {
-    return polytopes::formatOf(text) == polytopes::FileFormat::off4 ? "off" : "points";
+    if (polytopes::formatOf(text) == polytopes::FileFormat::off4) return "off";
+    return isCloudKeyword(polytopes::FileTokenizer(text).next()) ? "cloud" : "points";
 }
 
 std::optional<Error> checkLoad(const Load& load, const Limits& limits) {

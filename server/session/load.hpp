@@ -1,5 +1,5 @@
 #pragma once
-// LoadedObject objects from the text of files.
+// Reads objects from the text of files.
 
 #include <string>
 #include <string_view>
@@ -22,7 +22,7 @@ struct LoadedObject {
 Result<LoadedObject> readObject(std::string_view format, std::string_view text, const std::string& name,
                                 const Limits& limits);
 
-/// Detects the format of a file from its text: "off" or "points".
+/// Detects the format of a file from its first word: "off" (4OFF), "cloud" (CLOUD), or else "points".
 std::string_view formatOf(std::string_view text);
 
 /// Checks the name and the format of `load`, but not its data. Returns nothing, or an error: `bad_message` for a

@@ -41,6 +41,16 @@ test("loading: a dropped file is shown under its name", async () => {
     await close();
 });
 
+test("loading: a file that begins with CLOUD is shown as points", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    await drop(page, file("points.txt", `# measured\nCLOUD\n${kVertices}`));
+    const { polytope } = await script.until((one) => one.polytope.name === "points.txt", "the cloud");
+    assert.deepEqual([polytope.vertices, polytope.edges, polytope.faces, polytope.cells], [5, 0, 0, 0]);
+    await named(page, "points.txt");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("loading: a key and a button open the file chooser", async () => {
     const { page, script, close } = await openWithScript();
     page.on("filechooser", () => {}); // from here on, the browser reports file choosers to the test

@@ -5,7 +5,7 @@ import random
 
 import png
 import pytest
-from harness import Server
+from harness import Server, run
 from wire import Client, Refused
 
 SIZE = {"width": 480, "height": 270}
@@ -66,6 +66,20 @@ async def test_what_is_no_cloud_is_refused(data, message):
                 await client.request("load", name="c", format="cloud", data=data)
             assert refused.value.code == "bad_polytope"
             assert (await client.request("get", what="state"))["polytope"]["name"] == "5-cell"
+
+
+def test_the_command_line_shows_a_cloud(tmp_path):
+    text, _ = points(200)
+    cloud, hull = tmp_path / "cloud.txt", tmp_path / "hull.txt"
+    cloud.write_text("CLOUD\n" + text)
+    hull.write_text(text)
+    pictures = []
+    for file in (cloud, hull):
+        picture = tmp_path / "picture.png"
+        done = run("render", "-o", picture, "--load", file, "--width", 480, "--height", 270)
+        assert done.returncode == 0, done.stderr
+        pictures.append(png.pixels(picture.read_bytes()))
+    assert pictures[0] != pictures[1]
 
 
 async def test_a_cloud_comes_back_from_the_store(tmp_path):

@@ -3,7 +3,7 @@
 /** The members of a `load` message. */
 export interface PolytopeFile {
     name: string;
-    format: "off" | "points";
+    format: "off" | "points" | "cloud";
     data: string;
 }
 
@@ -18,7 +18,7 @@ export async function readFile(file: File, limit: number): Promise<PolytopeFile>
     if (file.size > limit) throw new FileError(tooLarge(file.size, limit));
     const data = await file.text();
     if (data.includes("\0")) {
-        throw new FileError("This is not a text file. oval4d reads 4OFF files and lists of points.");
+        throw new FileError("This is not a text file. oval4d reads 4OFF files, lists of points and point clouds.");
     }
     const message = { name: printable(file.name), format: formatOf(file.name, data), data };
     const bytes = new TextEncoder().encode(JSON.stringify(message)).length + 64; // allows for the other members
@@ -29,6 +29,7 @@ export async function readFile(file: File, limit: number): Promise<PolytopeFile>
 /** The format, from the keyword at the start (after any comments), or else from the file name extension. */
 function formatOf(name: string, data: string): PolytopeFile["format"] {
     const [, first = ""] = /^(?:\s|#[^\n]*(?:\n|$))*([^\s#]*)/.exec(data) ?? [];
+    if (/^cloud$/i.test(first)) return "cloud";
     return /OFF$/i.test(first) || /\.4?off$/i.test(name) ? "off" : "points";
 }
 

@@ -120,15 +120,8 @@ void LiveSession::saveNow(store::WriteBehindStore::Written written) {
 /// Schedules a save. Call after each change.
 void LiveSession::scheduleSave() {
     assertOnStrand();
-    if (saveTimerSet_ || writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
-    saveTimerSet_ = true;
-    saveTimer_.expires_after(kSaveDelay);
-    saveTimer_.async_wait([weak = weak_from_this()](boost::system::error_code) {
-        if (const auto self = weak.lock()) {
-            self->saveTimerSet_ = false;
-            self->saveNow();
-        }
-    });
+    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
+    saveTimer_.start(weak_from_this(), Clock::now() + kSaveDelay, [](LiveSession& session) { session.saveNow(); });
 }
 
 /// Returns a function that writes the session, or only its head, to the store and calls back when that is done.
@@ -373,15 +366,7 @@ void LiveSession::advanceTurn() {
         return;
     const auto now = Clock::now();
     if (lastTurn_ && now - *lastTurn_ < kTurnInterval) {
-        if (turnTimerSet_) return;
-        turnTimerSet_ = true;
-        turnTimer_.expires_at(*lastTurn_ + kTurnInterval);
-        turnTimer_.async_wait([weak = weak_from_this()](boost::system::error_code) {
-            if (const auto self = weak.lock()) {
-                self->turnTimerSet_ = false;
-                self->update();
-            }
-        });
+        turnTimer_.start(weak_from_this(), *lastTurn_ + kTurnInterval, &LiveSession::update);
         return;
     }
     const auto passed = lastTurn_ ? std::min<Clock::duration>(now - *lastTurn_, kMaxTurnStep) : kTurnInterval;
@@ -442,15 +427,7 @@ const LiveSession::Client& LiveSession::nextPayer(const std::vector<StreamKey>& 
 
 /// Schedules another attempt after the pool has refused a job because its queue is full.
 void LiveSession::scheduleRetry() {
-    if (retryTimerSet_) return;
-    retryTimerSet_ = true;
-    retryTimer_.expires_after(kRetryInterval);
-    retryTimer_.async_wait([weak = weak_from_this()](boost::system::error_code) {
-        if (const auto self = weak.lock()) {
-            self->retryTimerSet_ = false;
-            self->update();
-        }
-    });
+    retryTimer_.start(weak_from_this(), Clock::now() + kRetryInterval, &LiveSession::update);
 }
 
 void LiveSession::runJob(pipeline::Pipeline& pipeline) {
@@ -567,24 +544,22 @@ void LiveSession::sendState(Client& client) {
 
 /// Starts a timer after which pictures that a client does not acknowledge count as shown.
 void LiveSession::schedulePacing() {
-    if (paceTimerSet_) return;
-    const auto timeout = std::chrono::duration_cast<Clock::duration>(services_.options.shownTimeout);
     std::optional<Clock::time_point> first;
     for (const auto& [key, client] : clients_) {
-        const auto deadline = client.pacing.deadline(timeout);
+        const auto deadline = client.pacing.deadline(shownTimeout());
         if (deadline && (!first || *deadline < *first)) first = deadline;
     }
-    if (!first) return;
-    paceTimerSet_ = true;
-    paceTimer_.expires_at(*first);
-    paceTimer_.async_wait([weak = weak_from_this(), timeout](boost::system::error_code) {
-        const auto self = weak.lock();
-        if (!self) return;
-        self->paceTimerSet_ = false;
-        for (auto& [key, client] : self->clients_) client.pacing.expire(Clock::now(), timeout);
-        self->update();
-        self->schedulePacing();
-    });
+    if (first) paceTimer_.start(weak_from_this(), *first, &LiveSession::expirePictures);
+}
+
+void LiveSession::expirePictures() {
+    for (auto& [key, client] : clients_) client.pacing.expire(Clock::now(), shownTimeout());
+    update();
+    schedulePacing();
+}
+
+LiveSession::Clock::duration LiveSession::shownTimeout() const {
+    return std::chrono::duration_cast<Clock::duration>(services_.options.shownTimeout);
 }
 
 }  // namespace oval4d::net

@@ -3,7 +3,6 @@
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
 #include <cassert>
 #include <functional>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "net/live/snapshot.hpp"
+#include "net/one_shot_timer.hpp"
 #include "net/services.hpp"
 #include "net/ws/pacing.hpp"
 #include "net/ws/peer.hpp"
@@ -121,6 +121,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void sendPicture(Client& client, const Message& picture);
     void sendState(Client& client);
     void schedulePacing();
+    void expirePictures();
+    Clock::duration shownTimeout() const;
     const Message* findPicture(const StreamKey& key, std::uint64_t ofRevision) const;
     bool readyForNext(const Client& client) const;
     std::size_t countEncoding(const StreamKey& key) const;
@@ -152,8 +154,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     std::uint64_t drawing_ = 0;  ///< the number of the job that is queued or being drawn; 0: none
     std::vector<EncodingPicture> encoding_;
     std::optional<Clock::time_point> lastTurn_;
-    boost::asio::steady_timer turnTimer_, paceTimer_, saveTimer_, retryTimer_;
-    bool turnTimerSet_ = false, paceTimerSet_ = false, saveTimerSet_ = false, retryTimerSet_ = false;
+    OneShotTimer turnTimer_, paceTimer_, saveTimer_, retryTimer_;
     bool detached_ = false;  ///< this object must no longer write the session
 
     // Shared by the strand and a worker.

@@ -56,6 +56,22 @@ int ordersOf(Session& session, const Command& command, ObjectLoader& loader, Res
     }
 }
 
+TEST(Load, TheFirstWordTellsTheFormat) {
+    EXPECT_EQ(formatOf(kPentachoron), "off");
+    EXPECT_EQ(formatOf("1 0 0 0\n"), "points");
+    EXPECT_EQ(formatOf(""), "points");
+    for (const std::string keyword : {"CLOUD", "cloud", "# from a simulation\nCLOUD # of two points"}) {
+        const std::string text = keyword + "\n1 0 0 0\n0 1 0 0 0.25\n";
+        ASSERT_EQ(formatOf(text), "cloud");
+        const auto read = readObject("cloud", text, "two points", Limits{});
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ(slicing::elementCounts(read->object)[0], 2U);
+    }
+    const auto wrong = readObject("points", "CLOUD\n1 0 0 0\n", "two points", Limits{});
+    ASSERT_FALSE(wrong);
+    EXPECT_EQ(wrong.error().code, ErrorCode::bad_polytope);
+}
+
 TEST(Load, MayBeReadAhead) {
     Session session;
     Result<std::monostate> done = std::monostate{};

@@ -1,0 +1,43 @@
+#pragma once
+// A timer that calls its owner once.
+
+#include <boost/asio/steady_timer.hpp>
+#include <boost/system/error_code.hpp>
+#include <chrono>
+#include <concepts>
+#include <functional>
+#include <memory>
+#include <utility>
+
+namespace oval4d::net {
+
+/// A timer that is a member of the object which it calls. Not thread-safe: use it on the strand given to the
+/// constructor, on which it also calls the owner.
+class OneShotTimer {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    template <typename Strand>
+    explicit OneShotTimer(const Strand& strand) : timer_(strand) {}
+
+    /// Calls `expired` with a reference to the owner at `when`, unless the owner has been destroyed by then. Does
+    /// nothing while another call is due. `expired` is a member function of the owner, or a function object.
+    template <typename Owner, std::invocable<Owner&> Expired>
+    void start(std::weak_ptr<Owner> owner, Clock::time_point when, Expired expired) {
+        if (running_) return;
+        running_ = true;
+        timer_.expires_at(when);
+        timer_.async_wait([this, owner = std::move(owner), expired](boost::system::error_code) {
+            const auto alive = owner.lock();
+            if (!alive) return;  // this timer no longer exists either
+            running_ = false;
+            std::invoke(expired, *alive);
+        });
+    }
+
+  private:
+    boost::asio::steady_timer timer_;
+    bool running_ = false;
+};
+
+}  // namespace oval4d::net
