@@ -1,6 +1,6 @@
-# oval4d_library(<folder> [USES <folder>…] [LINKS <target>…]): the library oval4d_<folder>, of all sources in this folder
-# and those below it. It may include the headers of the folders that it uses, and of those that they use; tests/layers
-# checks that it includes no others.
+# oval4d_library(<folder> [USES <folder>…] [LINKS <target>…]): adds the static library oval4d_<folder>, built from all
+# sources in the current folder and its subfolders. USES: the folders whose headers it may include, besides those that
+# these folders use themselves; tests/layers checks that it includes no others. LINKS: targets to link privately.
 function(oval4d_library folder)
   cmake_parse_arguments(PARSE_ARGV 1 LIBRARY "" "" "USES;LINKS")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.cpp)

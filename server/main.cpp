@@ -44,7 +44,8 @@ int main(int argc, char** argv) {
     oval4d::ExportOptions exportOptions;
     CLI::App* exporting = app.add_subcommand("export", "Write a slice or the oval as a file for other programs");
     oval4d::addExportOptions(*exporting, exportOptions);
-    // The server's child processes, which get their options from the environment.
+    // Hidden subcommands, with which the server starts this program as a child process. Child processes read their
+    // options from environment variables.
     const CLI::App* draw = app.add_subcommand(oval4d::raster::kRasterizerCommand)->group("");
     const CLI::App* read = app.add_subcommand(oval4d::reading::kReadingCommand)->group("");
     app.require_subcommand(0, 1);

@@ -1,11 +1,11 @@
 # shellcheck shell=bash
-# Functions that server/build, tests/run and other scripts share: installing packages, configuring, compiling, and
-# reporting progress briefly. To be sourced by bash, with `root` set to the top of the project.
+# Functions that server/build, tests/run and other scripts share: they install packages, configure and compile, and show
+# progress briefly. Bash scripts source this file, with `root` set to the top folder of the project.
 
 logs=${root:?must be the top of the project}/build/log
 mkdir -p "$logs"
 
-[[ -w ${HOME-} ]] || export HOME=$root/build/home # ccache and npm keep their caches there
+[[ -w ${HOME-} ]] || export HOME=$root/build/home # ccache and npm need a writable home
 
 say() { printf 'oval4d: %s\n' "$*" >&2; }
 
@@ -14,15 +14,16 @@ die() {
     exit 1
 }
 
-# show_progress <log>: shows the last line of a growing log on the terminal, until killed.
+# show_progress <log>: keeps showing the last line of a growing log on the terminal, until killed or the script ends.
 show_progress() {
     while sleep 0.5 && kill -0 $$ 2>/dev/null; do
         printf '\r\e[K  %s' "$(tail -c 400 "$1" | tail -n 1 | cut -c "1-$(($(tput cols) - 4))")" >&2
     done
 }
 
-# step <log> <what> <command …>: runs the command and writes its output to build/log/<log>.log; prints the end of the log
-# if the command fails. Shows progress on a terminal, unless `unattended` is set.
+# step <log> <what> <command …>: says <what> is being done, runs the command, and writes its output to
+# build/log/<log>.log. Shows progress on a terminal, unless `unattended` is set. If the command fails, prints the end of
+# the log and returns the command's status.
 step() {
     local log=$logs/$1.log what=$2 status=0 progress=
     shift 2
@@ -46,14 +47,15 @@ step() {
 
 # --- Debian and Ubuntu packages
 
-# Whether npm and Node.js 18 or newer are installed, from whatever source.
+# Succeeds if npm and Node.js 18 or newer are installed, even if not from a Debian package.
 has_recent_node() {
     command -v npm >/dev/null && node -e 'process.exit(parseInt(process.versions.node) < 18 ? 1 : 0)' 2>/dev/null
 }
+# apt_knows <package>: succeeds if apt can install the package.
 apt_knows() { [[ $(LC_ALL=C apt-cache policy "$1" 2>/dev/null) == *"Candidate: "[0-9]* ]]; }
 
-# missing_packages <lists …>: prints the listed packages that are not installed, one a line. Of alternatives (a|b), the
-# first that is installed or known to apt decides; where there is none, the last.
+# missing_packages <lists …>: prints the packages in these list files that are not installed, one per line. A line may
+# list alternatives (a|b): the first one that is installed or that apt can install is chosen, else the last one.
 missing_packages() {
     local line name missing
     local -A installed=()
@@ -76,7 +78,7 @@ apt_get() {
     "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 "$@"
 }
 
-# install_packages <lists …>: installs the listed packages that are missing.
+# install_packages <lists …>: installs the missing packages of these list files.
 install_packages() {
     local missing packages
     if ! command -v dpkg-query >/dev/null; then
@@ -88,7 +90,7 @@ install_packages() {
     ((EUID == 0)) || command -v sudo >/dev/null ||
         die "sudo is not installed; install these packages as root first: ${missing//$'\n'/ }"
     step apt-update "updating the package lists" apt_get update || return
-    missing=$(missing_packages "$@") # again: apt may know more alternatives now
+    missing=$(missing_packages "$@") # the choice among alternatives may have changed
     mapfile -t packages <<<"$missing"
     step apt-install "installing ${#packages[@]} packages" \
         apt_get install --yes --no-install-recommends --no-remove "${packages[@]}"
@@ -96,16 +98,17 @@ install_packages() {
 
 # --- npm packages and the web client
 
-# hash_of <files and folders …>: a digest of their paths and contents.
+# hash_of <files and folders …>: prints a digest of their paths and contents, without node_modules and dist folders.
 hash_of() {
     find "$@" \( -name node_modules -o -name dist \) -prune -o -type f -print0 | sort -z | xargs -0 sha256sum | sha256sum
 }
 
-# unchanged <stamp> <sources …>: whether the sources are the same as when `remember` last wrote the stamp.
+# remember <stamp> <sources …>: writes the digest of the sources to the stamp file.
+# unchanged <stamp> <sources …>: succeeds if the sources are unchanged since `remember` last wrote the stamp file.
 unchanged() { [[ -e $1 && $(<"$1") == "$(hash_of "${@:2}")" ]]; }
 remember() { hash_of "${@:2}" >"$1"; }
 
-# install_npm <folder>: installs the npm packages of the folder's package-lock.json, unless they are installed already.
+# install_npm <folder>: installs the npm packages of the folder's package-lock.json, unless they are up to date.
 install_npm() {
     local lock=$root/$1/package-lock.json stamp=$root/$1/node_modules/.installed
     unchanged "$stamp" "$lock" && return
@@ -124,23 +127,24 @@ build_web_client() {
 
 # --- C++
 
-# The number of compilers to run at once: one for each processor, as long as 1 GiB of memory is available for each.
+# Prints the number of compiler processes to run at once: one per processor, but at most one per GiB of available
+# memory, and at least one.
 compile_jobs() {
     awk -v processors="$(nproc)" \
         '/MemAvailable/ { n = int($2 / 1048576); print n < 1 ? 1 : n < processors ? n : processors }' /proc/meminfo
 }
 
-# configure <preset> <CMake options …>
+# configure <preset> <CMake options …>: runs CMake with a preset of CMakePresets.json.
 configure() {
     step "configure-$1" "configuring build/$1" env -C "$root" cmake --preset "$@"
 }
 
-# compile <preset> <targets …>
+# compile <preset> <targets …>: builds the targets in build/<preset>.
 compile() {
     step "compile-$1" "compiling build/$1" cmake --build "$root/build/$1" --parallel "$(compile_jobs)" --target "${@:2}"
 }
 
-# Builds the fuzzers, with the Clang that tests/packages.txt installs the fuzzer runtime for.
+# Builds the fuzzers with the Clang version whose fuzzer runtime tests/packages.txt installs.
 build_fuzzers() {
     local clang
     for clang in clang++-16 clang++-19 clang++; do command -v "$clang" >/dev/null && break; done

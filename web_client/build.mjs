@@ -1,11 +1,11 @@
-// Bundles the page into dist/: `node build.mjs`, or with --watch anew at every change.
+// Bundles the page into dist/. `node build.mjs --watch` bundles it again after every change.
 import { context } from "esbuild";
 import { cp, mkdir, readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 
-const kLargest = 250 * 1024; // bytes of all files, compressed by gzip
+const kLargest = 250 * 1024; // bytes: the maximum total size of all files, compressed with gzip
 
 const here = dirname(fileURLToPath(import.meta.url));
 const dist = join(here, "dist");
@@ -37,7 +37,7 @@ if (watch) {
     await compress();
 }
 
-/** The server sends these forms to whoever takes them. */
+/** Writes a gzip and a brotli form of each file; the server sends them to clients that accept them. */
 async function compress() {
     let whole = 0;
     for (const file of await readdir(dist)) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Turns the 24-cell as the paper's figure 6 turns the 5-cell, and saves the picture."""
+"""Rotates the 24-cell as figure 6 of Kageyama's paper rotates the 5-cell, and saves the picture as 24-cell.png."""
 from math import pi, sqrt
 
 from oval4d_client import connect

@@ -1,4 +1,4 @@
-"""A client of oval4d: talks to a server over a WebSocket, one call per message.
+"""A client of oval4d: exchanges messages with a server over a WebSocket, one call per message.
 
     with connect("http://127.0.0.1:8080/") as oval:
         oval.hello()
@@ -7,8 +7,8 @@
         open("24-cell.png", "wb").write(oval.frame(1280, 720))
 
 ../README.md specifies the messages and their members. Needs python3-websockets (10 or later), and python3-cbor2 for
-slices in CBOR. A separate thread serves the socket, so calls may come from any thread, and a script that pauses stays
-connected.
+slices in CBOR. A separate thread handles the socket. Therefore any thread may call the client, and the connection stays
+open while a script is idle.
 """
 
 import array
@@ -31,7 +31,7 @@ except ImportError:
 
 SUBPROTOCOL = "oval4d.v1"
 PNG = b"\x89PNG\r\n\x1a\n"
-RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # close codes after which the session continues
+RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # close codes after which the client reconnects to its session
 
 
 class Refused(Exception):
@@ -53,12 +53,13 @@ class Closed(Exception):
 
 
 def connect(url="http://127.0.0.1:8080/", session=None, **options):
-    """Connects to the server at `url` (http, https, ws or wss), to a new session or to an existing one."""
+    """Connects to the server at `url` (http, https, ws or wss), and returns a Client. Opens a new session, or the
+    session with the name `session`. The options are those of Client."""
     return Client(socket_url(url, session), **options)
 
 
 def socket_url(url, session=None):
-    """The WebSocket URL for the URL of the page: http://host/prefix/?query → ws://host/prefix/ws?query."""
+    """Returns the WebSocket URL for the URL of the page: http://host/prefix/?query → ws://host/prefix/ws?query."""
     parts = urlsplit(url)
     scheme = {"http": "ws", "https": "wss"}.get(parts.scheme, parts.scheme)
     path = parts.path.rstrip("/") + "/ws" + (f"/{session}" if session else "")
@@ -66,12 +67,12 @@ def socket_url(url, session=None):
 
 
 class Client:
-    """One connection. `timeout` (seconds) applies to every call; `show` says whether pictures are acknowledged as soon
-    as they arrive, like a client that presents them.
+    """A connection to one session. `timeout` (seconds) applies to every call. If `show` is true, pictures of the stream
+    are acknowledged as soon as they arrive. `headers` are added to the HTTP request that opens the connection.
 
-    If the connection breaks, or the server closes it because it stops, the client reconnects, at once and then with
-    growing pauses, for `timeout` seconds; calls wait meanwhile. A call that was in progress raises Closed, because it
-    is unknown whether it took effect."""
+    If the connection breaks, or the server closes it because the server stops, the client reconnects: at once, and then
+    with growing pauses, for `timeout` seconds. Calls wait in the meantime. A call that was in progress raises Closed,
+    because it is unknown whether the call took effect."""
 
     def __init__(self, url, timeout=30, show=True, headers=None):
         self.timeout = timeout
@@ -85,11 +86,11 @@ class Client:
         self.newest_state = None
         self.newest_slices = None
         self.newest_frame = None
-        self.errors = []  # errors that belong to no call
+        self.errors = []  # error messages that do not answer a call
         self.closed = None  # (code, reason) once the connection has ended for good
         self._ids = itertools.count(1)
-        self._waiting = {}  # id → None, then the answer
-        self._wants_bytes = set()  # ids whose answer is the binary message before their done
+        self._waiting = {}  # for the id of each call in progress: None, then the answer
+        self._wants_bytes = set()  # ids of calls that are answered by a binary message, which precedes their done
         self._binary = None
         self._change = threading.Condition()
         self._loop = asyncio.new_event_loop()
@@ -105,14 +106,15 @@ class Client:
     # Messages
 
     def hello(self, stream="none", **members):
-        """Opens the conversation: stream "geometry", "frames" or "none"; members width, height, encoding, token."""
+        """Sends the first message. `stream` is "geometry", "frames" or "none"; the other members are width, height,
+        encoding and token."""
         return self.request("hello", stream=stream, **members)
 
     def key(self, key, shift=False, ctrl=False):
         return self.request("key", key=key, shift=shift, ctrl=ctrl)
 
     def rotate(self, planes, *angles):
-        """Rotates by angles in radians: rotate("xw", 0.1) or rotate("xw,yz", 0.1, 0.2)."""
+        """Rotates by one angle in radians for each plane: rotate("xw", 0.1) or rotate("xw,yz", 0.1, 0.2)."""
         return self.request("rotate", planes=planes.split(","), angles=list(angles))
 
     def set(self, **settings):
@@ -148,7 +150,8 @@ class Client:
         return self.get("frame", width, height)
 
     def file(self, format, **members):
-        """Returns slices as the bytes of a file: format "stl", "3mf", …; of, body, size, label as in `get`."""
+        """Returns the bytes of an exported file. `format` is "stl", "3mf", …; the other members are of, body, size and
+        label, as in `get`."""
         return self.request("get", what="file", format=format, **members)
 
     def catalogue(self):
@@ -162,7 +165,8 @@ class Client:
         self.send({"type": "shown", "revision": revision})
 
     def wait(self, revision, timeout=None):
-        """Waits for the picture of this revision or a later one (without a stream: for the state)."""
+        """Waits for the picture of this revision or of a later one, or for the state if the stream is "none". Returns
+        the newest state."""
 
         def arrived():
             newest = {"geometry": self.newest_slices, "frames": self.newest_frame and png_state(self.newest_frame)}
@@ -199,7 +203,7 @@ class Client:
         return answer
 
     def send(self, message):
-        """Sends a message unchanged: a dict as JSON, text, or bytes."""
+        """Sends a message without an id, and does not wait: a dict as JSON; text and bytes unchanged."""
         if isinstance(message, dict):
             message = json.dumps(message)
         self._wait_for(lambda: not self._reconnecting, None, "the server")
@@ -253,7 +257,7 @@ class Client:
                 return
 
     async def _return(self, end):
-        """Reconnects to the session, on whichever server answers; returns whether that succeeded."""
+        """Reconnects to the session, on any server that answers. Returns whether the connection is open again."""
         last = time.monotonic() + self.timeout
         pause = 0.1
         parts = urlsplit(self._url)
@@ -278,7 +282,7 @@ class Client:
         return False
 
     def _receive(self, data):
-        """Processes a message; returns its revision if it is a picture of the stream."""
+        """Handles a message. Returns its revision if it is a picture of the stream, else None."""
         picture = None
         with self._change:
             if isinstance(data, bytes) and data.startswith(PNG):
@@ -324,15 +328,15 @@ class Client:
 
 
 def png_state(png):
-    """The state in a frame's iTXt chunk; sent as a `set`, it restores the picture. Raises ValueError if the bytes are
-    not a frame with a state."""
+    """Returns the state in a frame's iTXt chunk. Sent as a `set`, it restores the picture. Raises ValueError if the
+    bytes are not a frame with a state."""
     at = len(PNG) if png.startswith(PNG) else len(png)
     while at + 12 <= len(png):
         size, kind = struct.unpack_from(">I4s", png, at)
         text = png[at + 8 : at + 8 + size]
         if kind == b"iTXt" and text.startswith(b"oval4d\0"):
             try:
-                state = json.loads(text.split(b"\0", 5)[-1])  # keyword, flag, method, language, keyword again: text
+                state = json.loads(text.split(b"\0", 5)[-1])  # after keyword, flag, method, language, second keyword
             except RecursionError:
                 break
             if isinstance(state, dict):
@@ -342,8 +346,8 @@ def png_state(png):
 
 
 def from_cbor(data):
-    """Decodes a slices message in CBOR into one dict per slice; typed arrays become array.array of floats or integers.
-    Raises ValueError if the bytes are not such a message."""
+    """Returns a slices message that is encoded in CBOR as a dict, with one dict per slice. Typed arrays become
+    array.array of floats or integers. Raises ValueError if the bytes are not such a message."""
     if cbor2 is None:
         raise ImportError("decoding slices in CBOR needs python3-cbor2")
 
@@ -361,13 +365,13 @@ def from_cbor(data):
 
 
 def _rows(flat, sizes, width=1):
-    """Splits an array into consecutive parts of `sizes` items; each item has `width` numbers."""
+    """Splits an array into consecutive parts. Part i has sizes[i] items, and each item has `width` numbers."""
     ends = list(itertools.accumulate(sizes, initial=0))
     return [flat[width * begin : width * end] for begin, end in zip(ends, ends[1:])]
 
 
 def _slices_of(columns):
-    """Converts columns (one array per property, for all slices) to one dict per slice."""
+    """Returns one dict per slice. `columns` has one array per property, with the values of all slices."""
     counts = columns["counts"]
     threes = [3] * len(columns["index"])
 

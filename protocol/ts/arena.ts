@@ -1,26 +1,27 @@
-// Memory for the typed arrays of one message at a time, reused for the next message. It grows by doubling, so a steady
-// stream of messages allocates nothing.
+// Memory for the typed arrays of one message, which is reused for the next message. Its size is a power of two, so
+// messages of about the same size do not allocate memory.
 
+/** The class of a typed array. */
 export type Numbers<T> = { new (memory: ArrayBuffer, offset: number, length: number): T; BYTES_PER_ELEMENT: number };
 
 export class Arena {
     private memory = new ArrayBuffer(0);
     private used = 0;
 
-    /** Starts another message, which needs this many bytes; invalidates the arrays of the previous one. */
+    /** Starts a new message, whose arrays need at most this many bytes. Invalidates the arrays of the previous one. */
     begin(bytes: number): void {
         this.used = 0;
         if (bytes > this.memory.byteLength) this.memory = new ArrayBuffer(2 ** Math.ceil(Math.log2(bytes)));
     }
 
-    /** Copies little-endian bytes into an array of numbers; undefined if there is no room. */
+    /** Returns an array of numbers with these little-endian bytes; undefined if there is not enough memory. */
     take<T>(bytes: Uint8Array, numbers: Numbers<T>): T | undefined {
         const room = this.room(bytes.length / numbers.BYTES_PER_ELEMENT, numbers);
         if (room) new Uint8Array(this.memory, this.used - bytes.length, bytes.length).set(bytes);
         return room;
     }
 
-    /** An uninitialized array of `count` numbers; undefined if there is no room. */
+    /** Returns an uninitialized array of `count` numbers; undefined if there is not enough memory. */
     room<T>(count: number, numbers: Numbers<T>): T | undefined {
         const size = numbers.BYTES_PER_ELEMENT;
         const begin = Math.ceil(this.used / size) * size;

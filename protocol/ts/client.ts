@@ -1,5 +1,5 @@
-// A persistent connection to one session: it reconnects automatically, returns to its session with the token, and
-// reports its status.
+// A connection to one session. If it breaks, the client reconnects automatically and uses the token to return to the
+// session. The client reports the status of the connection.
 
 import { Arena } from "./arena";
 import { decodeCbor, decodeText, isFile, isPng } from "./decode";
@@ -15,7 +15,7 @@ export interface Credentials {
 export type Status =
     | { kind: "connecting" }
     | { kind: "open" }
-    | { kind: "waiting"; reason: string; seconds: number } // until the next attempt
+    | { kind: "waiting"; reason: string; seconds: number } // `seconds` until the next attempt to connect
     | { kind: "closed"; reason: string };
 
 export interface Options {
@@ -24,26 +24,26 @@ export interface Options {
     stream?: Stream;
     encoding?: Encoding;
     viewport?: Viewport;
-    /** The session to open; by default a new one is created. */
+    /** The session to open. If absent, a new session is created. */
     credentials?: Credentials;
-    /** Whether the arrays passed to `onSlices` may be reused for the next message, which avoids allocations. */
+    /** If true, the arrays passed to `onSlices` are valid only until the next message, which avoids allocations. */
     transient?: boolean;
-    /** The WebSocket class, for runtimes that have none. */
+    /** The WebSocket class to use, for runtimes that do not have a built-in one. */
     webSocket?: new (url: string, protocols: string) => WebSocket;
 
     onStatus?(status: Status): void;
     onWelcome?(welcome: Welcome): void;
     onState?(state: State): void;
-    /** Pictures; call `shown` once they are presented. */
+    /** Called with each picture of the stream, as onFrame is. Call `shown` once the picture is presented. */
     onSlices?(slices: Slices): void;
     onFrame?(png: Uint8Array): unknown;
-    /** An error that does not answer a request of this client. */
+    /** Called with an error that does not answer a request of this client. */
     onError?(error: ErrorMessage): void;
-    /** The session is gone or its token is wrong; the client continues with a new session. */
+    /** Called if the session no longer exists or its token is wrong. The client then opens a new session. */
     onLost?(reason: string): void;
 }
 
-/** An error message from the server, or the end of the connection before the answer. */
+/** The error of a request that failed: an error message from the server, or "not_connected". */
 export class RequestError extends Error {
     constructor(
         readonly code: string,
@@ -62,12 +62,12 @@ interface PendingRequest {
 
 const kProtocol = 1;
 const kSubprotocol = `oval4d.v${kProtocol}`;
-const kReconnectDelay = 0.1; // seconds after an open connection ended: another server may be available already
+const kReconnectDelay = 0.1; // seconds after an open connection ended; short, since another server may be available
 const kFirstRetryDelay = 0.5; // seconds after the first failed attempt, doubled at each further failure
 const kMaxRetryDelay = 15; // seconds
-const kIdleBeforeTest = 20; // seconds without a message before the connection is tested
-const kTestTimeout = 8; // seconds within which a test must be answered
-const kFileTestTimeout = 300; // the same while waiting for a file, since nothing arrives until the file is complete
+const kIdleBeforeTest = 20; // seconds without a message after which the connection is tested
+const kTestTimeout = 8; // seconds within which the server must answer a test
+const kFileTestTimeout = 300; // the same during the export of a file, when no answer comes until the file is complete
 const kOpen = 1; // WebSocket.OPEN
 
 export class Client {
@@ -94,7 +94,7 @@ export class Client {
         };
     }
 
-    /** Connects now, without waiting for the back-off delay. */
+    /** Connects at once, without waiting for the reconnection delay. */
     connect(): void {
         clearTimeout(this.timer);
         this.drop();
@@ -107,21 +107,21 @@ export class Client {
         url.search = url.hash = "";
         const socket = new (this.options.webSocket ?? WebSocket)(url.href, kSubprotocol);
         socket.binaryType = "arraybuffer";
-        socket.onopen = () => this.hello({}).catch(() => {}); // a refusal is followed by a close, which is handled
+        socket.onopen = () => this.hello({}).catch(() => {}); // after a refusal the socket closes; onclose handles it
         socket.onmessage = (event) => this.receive(event.data as string | ArrayBuffer);
         socket.onclose = (event) => this.closed(event.code, event.reason);
-        socket.onerror = () => {}; // a close follows
+        socket.onerror = () => {}; // onclose follows
         this.socket = socket;
     }
 
-    /** Ends the connection for good. */
+    /** Closes the connection and does not reconnect. */
     close(reason = "closed"): void {
         clearTimeout(this.timer);
         this.drop();
         this.report({ kind: "closed", reason });
     }
 
-    /** Changes the stream, the encoding or the size, for this and later connections. */
+    /** Changes the stream, the encoding or the size of pictures, for this connection and for later ones. */
     hello(change: { stream?: Stream; encoding?: Encoding; viewport?: Viewport }): Promise<Welcome> {
         Object.assign(this.settings, change);
         const { stream, encoding, viewport } = this.settings;
@@ -151,7 +151,7 @@ export class Client {
         });
     }
 
-    /** The number of bytes that are still to be sent to the server. */
+    /** The number of bytes that are queued to be sent to the server. */
     get unsent(): number {
         return this.socket?.bufferedAmount ?? 0;
     }
@@ -173,13 +173,13 @@ export class Client {
         }
         const bytes = new Uint8Array(data);
         if (isFile(bytes)) {
-            this.heldFile = bytes; // its `done` follows
+            this.heldFile = bytes; // until its `done` arrives
         } else if (!isPng(bytes)) {
             const keep = !this.options.transient || this.isAwaiting("slices");
             this.handle(decodeCbor(bytes, keep ? undefined : this.arena));
         } else if (this.isAwaiting("frame")) {
             this.passFrame();
-            this.heldFrame = bytes; // the next message tells whether it is an answer or part of the stream
+            this.heldFrame = bytes; // the next message shows whether the frame is an answer or part of the stream
         } else {
             this.options.onFrame?.(bytes);
         }
@@ -216,7 +216,7 @@ export class Client {
         return [...this.pending.values()].some(({ wants }) => wants === what);
     }
 
-    /** Passes on a held frame that was not followed by its `done`: it belongs to the stream. */
+    /** Passes the held frame, if any, to `onFrame`: it belongs to the stream, because no `done` followed it. */
     private passFrame(): void {
         const frame = this.heldFrame;
         this.heldFrame = undefined;
@@ -235,21 +235,21 @@ export class Client {
         this.options.onWelcome?.(welcome);
     }
 
-    /** Schedules a test of the connection for when it is idle, because a dead network sends no notification. */
+    /** Schedules a test of the connection for when it is idle, because a broken network is not reported by an event. */
     private watch(): void {
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.test(), kIdleBeforeTest * 1000);
         (this.timer as { unref?(): void }).unref?.(); // so that the timer does not keep a script running
     }
 
-    /** Sends a request to test the connection; without an answer, the connection counts as lost. */
+    /** Tests the connection with a request. If the server does not answer, the connection counts as lost. */
     test(): void {
         if (this.status.kind !== "open") return;
         this.request({ type: "get", what: "state" }).catch(() => {});
         this.awaitAnswer(this.unsent);
     }
 
-    /** Waits for the answer. It cannot come before everything is sent, so progress in sending extends the wait. */
+    /** Waits for the answer to a test. It cannot come before all data are sent, so sending data extends the wait. */
     private awaitAnswer(unsent: number): void {
         clearTimeout(this.timer);
         this.timer = setTimeout(

@@ -1,12 +1,14 @@
-// Slices as CBOR messages encode them: one array per property, for all slices.
+// The slices of a CBOR message, which has one array per property with the values of all slices.
 
 import type { Slice, Vector } from "./messages";
 
-/** An array of integers, as wide as its largest value requires. */
+/** An array of integers whose width is the least that its largest value fits into. */
 export type Integers = Uint8Array | Uint16Array | Uint32Array;
 
+/** A value for each kind of element of a slice. */
 type OfEach<T> = Record<"vertices" | "edges" | "faces", T>;
 
+/** The member `slices` of a CBOR message (README.md, "CBOR"). */
 export interface Columns {
     index: number[];
     w: Float64Array;
@@ -36,12 +38,12 @@ export interface Columns {
     };
 }
 
-/** Allocates an array of `count` integers. */
+/** Returns an array of `count` integers. */
 export type Room = (count: number) => Uint32Array;
 
 type Range = [begin: number, end: number];
 
-/** Consecutive ranges of these sizes in a list of `length` elements; throws RangeError if they exceed it. */
+/** Returns consecutive ranges of these sizes. Throws RangeError if they are longer than `length` elements. */
 function ranges(sizes: Integers, length: number): Range[] {
     let end = 0;
     const all = Array.from(sizes, (size): Range => [end, (end += size)]);
@@ -53,7 +55,7 @@ function vector(flat: Float32Array, i: number): Vector {
     return [flat[3 * i]!, flat[3 * i + 1]!, flat[3 * i + 2]!];
 }
 
-/** Converts columns to one object per slice. Its arrays are views of the columns, or of arrays from `room`. */
+/** Returns one object per slice. Its arrays are views of the columns, or of arrays that `room` returned. */
 export function rowsOf(columns: Columns, room: Room): Slice[] {
     const wide = (integers: Integers): Uint32Array => {
         if (integers instanceof Uint32Array) return integers;

@@ -1,4 +1,5 @@
-// Decodes the server's text and binary messages. Slices have the same flat typed arrays whether they are JSON or CBOR.
+// Decodes the server's text and binary messages. Slices have the same flat typed arrays in either encoding, JSON or
+// CBOR.
 
 import * as cborX from "cbor-x/decode-no-eval";
 
@@ -8,14 +9,14 @@ import type { Message, Slice, Slices } from "./messages";
 
 const cbor = new cborX.Decoder({ mapsAsObjects: true, useRecords: false });
 
-/** The library's type declarations lack this function. */
+/** A function of cbor-x that its type declarations do not contain. */
 const { setSizeLimits } = cborX as unknown as {
     setSizeLimits: (limits: { maxArraySize: number; maxMapSize: number }) => void;
 };
 
-let arena: Arena | undefined; // for the message that is being decoded
+let arena: Arena | undefined; // the memory for arrays of the message that is being decoded
 
-/** Registers a little-endian typed array of RFC 8746; aligned data is used in place, other data is copied. */
+/** Registers a little-endian typed array of RFC 8746. Aligned data are used in place; other data are copied. */
 function readTyped<T>(tag: number, numbers: Numbers<T>): void {
     const size = numbers.BYTES_PER_ELEMENT;
     const decode = (bytes: Uint8Array<ArrayBuffer>): T =>
@@ -35,7 +36,7 @@ export function isPng(bytes: Uint8Array): boolean {
     return kPngSignature.every((byte, i) => bytes[i] === byte);
 }
 
-/** Whether the bytes are an exported file: a file begins with an ASCII character, PNG and CBOR do not. */
+/** Returns whether the bytes are an exported file. A file begins with an ASCII character; PNG and CBOR do not. */
 export function isFile(bytes: Uint8Array): boolean {
     return bytes[0]! < 0x80;
 }
@@ -45,13 +46,14 @@ export function decodeText(text: string): Message {
 }
 
 /**
- * Decodes a CBOR message; throws an Error if the bytes are not one. With an arena, the arrays are valid until the arena
- * is used for another message.
+ * Decodes a CBOR message. Throws an Error if the bytes are not a CBOR message. If an arena is given, the arrays are
+ * valid until the arena is used for another message.
  */
 export function decodeCbor(bytes: Uint8Array, within?: Arena): Message {
-    within?.begin(6 * bytes.length); // enough for copied arrays and for those widened from 1 byte to 4
+    within?.begin(6 * bytes.length); // enough for arrays that are copied or widened from 1 byte to 4
     arena = within;
-    // Each item takes at least one byte. Without a limit, the library reads beyond the end if a message announces more.
+    // Each item takes at least one byte. Without these limits, cbor-x reads beyond the end of a message that announces
+    // more items than it has.
     setSizeLimits({ maxArraySize: bytes.length + 1, maxMapSize: bytes.length + 1 });
     try {
         return flattened(cbor.decode(bytes) as Message);
@@ -60,7 +62,7 @@ export function decodeCbor(bytes: Uint8Array, within?: Arena): Message {
     }
 }
 
-/** The text of a PNG file's iTXt chunk with this keyword; undefined if there is none or the file is not a whole PNG. */
+/** Returns the text of the iTXt chunk with this keyword; undefined if there is none or the PNG file is incomplete. */
 export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined {
     const view = new DataView(png.buffer, png.byteOffset, png.byteLength);
     const utf8 = new TextDecoder();
@@ -84,7 +86,7 @@ export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined
 
 type FlatOrNested<T> = T | number[] | number[][];
 
-/** A slice in the JSON encoding, with nested arrays. */
+/** A slice as the JSON encoding has it, with nested arrays. */
 interface JsonSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" | "tints" | "seen" | "balls" | "fill"> {
     vertices: number[][];
     edges: number[][];

@@ -1,6 +1,6 @@
-// A small client of oval4d for pages and for scripts.
+// A small client of oval4d for web pages and scripts.
 //
-//     import WebSocket from "ws"; // for Node before 22; browsers have their own
+//     import WebSocket from "ws"; // for Node before 22; newer versions and browsers have a built-in WebSocket
 //     const client = new Client({
 //         url: "http://localhost:8080/",
 //         webSocket: WebSocket,

@@ -1,18 +1,18 @@
-// Types for the messages of protocol/README.md. Angles are in radians. Lengths are in the polytope's units, except for
-// world lengths (circumradius = 1), which are marked as such.
+// Types for the messages of protocol/README.md. Angles are in radians. Lengths are in the polytope's units, except
+// where world units are stated (in which the polytope's circumradius is 1 if there are 21 slices).
 
 export type Plane = "xy" | "xz" | "xw" | "yz" | "yw" | "zw";
 export type Stream = "none" | "geometry" | "frames";
 export type Encoding = "json" | "cbor";
 export type View = "oval" | "single";
-/** What the face colors show: the cell, the kind of cell, the w of the cell's center after the rotation, or nothing. */
+/** What face colors show: the cell, the kind of the cell, the w of the cell's center after the rotation, or nothing. */
 export type Coloring = "cell" | "kind" | "w" | "plain";
 export type Vector = [number, number, number];
 
 /** Which parts of the picture are drawn. */
 export type Parts = Record<keyof (typeof import("../schema/parts.schema.json"))["properties"], boolean>;
 
-/** The camera's orbit angles around its target, and the magnification. */
+/** How the viewer has moved the camera: the angles of its rotation about its target, and the magnification. */
 export interface Orbit {
     azimuth: number;
     elevation: number;
@@ -32,7 +32,7 @@ export interface Viewport {
 
 // To the server
 
-/** The members of `set`: any of the settings in a state. */
+/** The members of `set`. Absent settings keep their values. */
 export interface Settings {
     polytope?: string | { name: string };
     orientation?: number[][];
@@ -50,7 +50,7 @@ export interface Settings {
     faded?: number[];
 }
 
-/** The options of an exported file. All but the format apply only to files with bodies. */
+/** The options of an exported file. `body`, `size` and `label` apply only to formats with bodies. */
 export interface FileOptions {
     /** A name that export_formats.json lists. */
     format: string;
@@ -75,7 +75,7 @@ export type Request =
     | ({ type: "get"; what: "file" } & FileOptions)
     | { type: "shown"; revision: number };
 
-// To the client
+// From the server
 
 export interface Welcome {
     type: "welcome";
@@ -87,12 +87,12 @@ export interface Welcome {
     limits: Record<string, number>;
 }
 
-/** Cells that the polytope's symmetries map to each other. */
+/** A kind of cells: in general, cells that the polytope's symmetries map to each other. */
 export interface CellKind {
     name: string;
     /** The number of cells of this kind. */
     cells: number;
-    /** The color of the kind when faces are colored by kind, 0xRRGGBB. */
+    /** The color of this kind, 0xRRGGBB, when faces are colored by kind. */
     color?: number;
 }
 
@@ -101,7 +101,7 @@ export interface State {
     id?: number;
     revision: number;
     polytope: { name: string; vertices: number; edges: number; faces: number; cells: number; kinds?: CellKind[] };
-    /** 4 × 4, by rows; v' = M v. */
+    /** The matrix M, 4 × 4, by rows; v' = M v maps the polytope's own coordinates to the rotated ones. */
     orientation: number[][];
     alpha: number;
     beta: number;
@@ -140,13 +140,13 @@ export interface CatalogueEntry {
     /** Schläfli symbol, and Coxeter–Dynkin diagram in linear notation; empty if there is none. */
     schlaefli: string;
     diagram?: string;
-    /** The family under which it is listed: "regular", "uniform H4", "duoprism" … */
+    /** The family in which the polytope is listed: "regular", "uniform H4", "duoprism", … */
     family?: string;
     vertices: number;
     edges: number;
     faces: number;
     cells: number;
-    /** Order of the full symmetry group, including reflections. */
+    /** The order of the full symmetry group, including reflections; absent for loaded polytopes. */
     symmetry_order?: number;
 }
 
@@ -158,7 +158,7 @@ export interface Catalogue {
 
 /** One entry of the key table, protocol/keymap.json. */
 export interface KeyBinding {
-    /** As in KeyboardEvent.key; in a sequence such as "gg", the keys are typed one after the other. */
+    /** The value of KeyboardEvent.key, or a sequence of keys such as "gg", which are typed one after the other. */
     key: string;
     /** KeyboardEvent.code, if the key is recognized by its physical position. */
     code?: string;
@@ -174,7 +174,7 @@ export interface KeyBinding {
     text: string;
     /** A button label for the action. */
     label: string;
-    /** Whether the client handles this key itself; the server refuses it. */
+    /** Whether the client must handle this key itself, because the server refuses it. */
     client?: boolean;
 }
 
@@ -185,12 +185,15 @@ export interface Keymap {
     keys: KeyBinding[];
 }
 
-/** How to draw the slices, such that every client draws the same picture as a frame. */
+/** How to draw the slices, so that the picture of every client is the same as a frame. */
 export interface SceneDescription {
     view: View;
     shown: Parts;
     viewport: Viewport;
-    /** In world lengths. `fov` is vertical; `shift` moves the picture by fractions of the viewport, x right, y up. */
+    /**
+     * Lengths are in world units. `fov` is vertical; `shift` moves the picture right and up by these fractions of the
+     * viewport's width and height.
+     */
     camera: {
         eye: Vector;
         target: Vector;
@@ -200,7 +203,7 @@ export interface SceneDescription {
         far: number;
         shift: [number, number];
     };
-    /** World units per polytope unit. */
+    /** World units per unit of the polytope. */
     scale: number;
     circumradius: number;
     /** Radii in world units. */
@@ -221,11 +224,11 @@ export interface SceneDescription {
         axes: [number, number, number, number];
         cells: Uint32Array;
     };
-    // All members below are in fractions of the viewport's height.
+    // All lengths below are fractions of the viewport's height.
 
-    /** The axes; their center is measured from the upper left corner. */
+    /** The axes in the upper left corner: the distances of their center from the left and top edges; their length. */
     axes: { x: number; y: number; length: number };
-    /** The parallel coordinates, measured from the lower left corner. */
+    /** The layout of the parallel coordinates, measured from the lower left corner. */
     coordinates: {
         rows: number;
         per_row: number;
@@ -240,11 +243,14 @@ export interface SceneDescription {
         /** The number of columns of the density strip; 0 if lines are drawn. */
         columns: number;
     };
-    /** The height of the labels' text. */
+    /** The height of labels. */
     text: number;
 }
 
-/** Triangles, which may cross; `tints` and `seen` (1 faded, 2 full) have one value per triangle. */
+/**
+ * Triangles, which may cross each other, as triples of points. `tints` (the cell that colors the triangle) and `seen`
+ * (1 faded, 2 full) have one value per triangle.
+ */
 export interface Fill {
     points: Float32Array;
     triangles: Uint32Array;
@@ -252,7 +258,7 @@ export interface Fill {
     seen?: Uint32Array;
 }
 
-/** One slice, in flat arrays for either encoding. */
+/** One slice. Its arrays are flat, whichever encoding the message has. */
 export interface Slice {
     index: number;
     w: number;
@@ -262,17 +268,17 @@ export interface Slice {
     edges: Uint32Array;
     /** Face f is the loop corners[begin[f]] … corners[begin[f + 1] − 1], counterclockwise as seen from outside. */
     faces: { begin: Uint32Array; corners: Uint32Array };
-    /** The 4-D edge, 2-face or cell that each element was cut from. */
+    /** The index of the 4-D edge, 2-face or cell that each vertex, edge or face was cut from. */
     of: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
-    /** The cell that colors each face; absent if it is the same as `of.faces`. */
+    /** The cell that determines the color of each face; absent if that is `of.faces`. */
     tints?: Uint32Array;
     /** The visibility of each element: 2 full, 1 faded, 0 hidden; absent if all are fully visible. */
     seen?: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
-    /** The radius of the ball at each vertex, relative to scene.ball, and its opacity; absent if all are 1. */
+    /** The radius of each vertex's ball, relative to scene.ball, and the ball's opacity; absent if all are 1. */
     balls?: { scale: Float32Array; opacity: Float32Array };
     /** What to draw instead of the faces, with a depth buffer; present only if the faces may cross. */
     fill?: Fill;
-    /** The world position of the slice's origin: a vertex p is drawn at position + scale · p. */
+    /** The world position of the slice's origin: a vertex p is drawn at position + scene.scale · p. */
     position: Vector;
     label: string;
     /** The label is centered below this world position. */
@@ -290,7 +296,7 @@ export interface Slices {
     scene: SceneDescription;
     /** x, y, z, w of each vertex of the rotated polytope; empty if the parallel coordinates are not shown. */
     coordinates: Float32Array;
-    /** The density of the coordinate lines, 0 … 255, row by row from the top; empty if single lines are drawn. */
+    /** The density of the lines (0 … 255), row by row from the top; empty unless a density strip is drawn. */
     density: Uint8Array;
     slices: Slice[];
 }

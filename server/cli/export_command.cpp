@@ -23,7 +23,7 @@ const exports::Format& formatOf(const ExportOptions& options) {
                                  : "no format is called " + text::inQuotes(name) + "; the formats are " + known);
 }
 
-/// Far above a server's limits: here the user decides how much time and memory to spend.
+/// Limits far above those of the server, because the user decides how much time and memory to spend on this machine.
 exports::Limits commandLineLimits() {
     exports::Limits limits;
     limits.triangles = 50'000'000;

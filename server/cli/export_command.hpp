@@ -9,13 +9,14 @@ class App;
 
 namespace oval4d {
 
+/// The options of `oval4d export` that do not describe the state or the content of the file.
 struct ExportOptions {
     std::string output = "slice.stl";  ///< "-" for standard output
-    std::string format;                ///< empty: from the extension of `output`
+    std::string format;                ///< name of the file format; empty: the extension of `output`
 };
 
-/// Adds the options of the subcommand to its `app`. Options that describe the file and the state remain in
-/// `app.remaining()`.
+/// Adds these options to `app`, the parser of the subcommand. After parsing, `app.remaining()` contains the options
+/// that describe the state and the content of the file.
 void addExportOptions(CLI::App& app, ExportOptions& options);
 
 /// Writes the file that the parsed command line describes. Throws std::runtime_error with a message for the user.

@@ -13,12 +13,14 @@ class App;
 
 namespace oval4d {
 
+/// The options of `oval4d render` that do not describe the state.
 struct RenderOptions {
     std::string output = "frame.png";  ///< "-" for standard output
     int width = 1280, height = 720;    ///< pixels
 };
 
-/// Adds the options of the subcommand to its `app`. Options that describe the state remain in `app.remaining()`.
+/// Adds these options to `app`, the parser of the subcommand. After parsing, `app.remaining()` contains the options
+/// that describe the state.
 void addRenderOptions(CLI::App& app, RenderOptions& options);
 
 /// Writes the picture that the parsed command line describes. Throws std::runtime_error with a message for the user.

@@ -1,5 +1,5 @@
 #pragma once
-// Shared by the subcommands that make one file from a state given on the command line, without a server.
+// Functions for the subcommands that write one file from a state given on the command line, without a server.
 
 #include <stdexcept>
 #include <string>
@@ -12,11 +12,12 @@
 
 namespace oval4d {
 
-/// Converts options "--name value" and "--name=value" to a query, in the order given. Throws std::runtime_error.
+/// Converts the arguments "--name value" and "--name=value" to a query, in the order given. Throws std::runtime_error
+/// if an argument does not begin with "--" or lacks a value.
 session::Query queryOf(const std::vector<std::string>& words);
 
-/// Returns the state that the query describes. Its parameter "load" names a polytope file to show; warnings about the
-/// file are printed to standard error. Throws std::runtime_error.
+/// Returns the state that the query describes. The query parameter "load" is the path of an object file to show; prints
+/// warnings about that file to standard error. Throws std::runtime_error with a message for the user.
 session::State stateOf(session::Query query);
 
 /// Returns the value, or throws the error's message as a std::runtime_error.
@@ -26,10 +27,10 @@ T valueOrThrow(Result<T> result) {
     return std::move(*result);
 }
 
-/// Writes a file, or to standard output if `path` is "-". Throws std::runtime_error.
+/// Writes `bytes` to the file `path`, or to standard output if `path` is "-". Throws std::runtime_error if that fails.
 void writeOutput(const std::string& path, std::string_view bytes);
 
-/// The part of `--help` on the options that describe a state.
+/// The part of the `--help` text about the options that describe a state.
 inline constexpr const char* kStateHelp =
     "All other options describe the state, as for :set and the query of frame.png:\n"
     "  --polytope 24-cell --rotate xw,yz:pi/8,pi/sqrt(3)-pi/8 --slices 31 --view single\n"

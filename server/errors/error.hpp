@@ -8,40 +8,41 @@
 
 namespace oval4d {
 
-/// Every error that a client can receive. protocol/errors.json and the specification list their names and meanings; a
-/// test compares the names with this enum.
+/// The codes of all errors that a client can receive. protocol/errors.json and the specification list their names and
+/// meanings; a test compares the names with this enum.
 enum class ErrorCode {
     bad_json,            ///< the text is not JSON, nests too deeply or holds too many values
     bad_message,         ///< the JSON does not match the message's schema
     unknown_type,        ///< no message has this type
-    unknown_key,         ///< the key has no meaning
+    unknown_key,         ///< no action is bound to this key
     unknown_polytope,    ///< no polytope has this name
-    unknown_command,     ///< the ':' line names no command
+    unknown_command,     ///< the ':' line names an unknown command or setting
     bad_expression,      ///< a number or angle on the ':' line or in a query cannot be parsed
     out_of_range,        ///< a value is outside the allowed range
     not_a_rotation,      ///< an orientation matrix is not orthogonal with determinant 1
     bad_polytope,        ///< a loaded polytope is invalid
     unsupported_format,  ///< a loaded file has a format that the server does not read
     no_body,             ///< a slice to export is empty or flat, or too small for its label
-    nothing_to_undo,     ///< there is nothing to undo, redo or repeat
-    hello_first,         ///< a message came before hello
+    nothing_to_undo,     ///< there is nothing to undo, redo, repeat or turn
+    hello_first,         ///< a message was sent before hello
     not_found,           ///< no such session or resource
     bad_token,           ///< the token does not open this session
     too_many,            ///< a limit on sessions, connections or requests is reached
     too_large,           ///< a message, frame, file or polytope is over its limit
-    internal,            ///< an error of the server; the session is unchanged
+    internal,            ///< an internal error of the server; the session is unchanged
 };
 
-/// The name in messages, spelled like the enumerator.
+/// Returns the name of the code in protocol messages, which is spelled like the enumerator.
 std::string_view wireName(ErrorCode code);
 
-/// `message` says what was wrong, where, and what is allowed, in a sentence for the user.
+/// An error to report to a client. `message` tells the user what was wrong, where, and what is allowed.
 struct Error {
     ErrorCode code;
     std::string message;
 };
 
-/// A value, or the error that explains why there is none.
+/// Holds a value, or the error that explains why there is none. Converts to true if it holds a value. Reading the value
+/// or the error that it does not hold throws std::bad_variant_access.
 template <typename T>
 class [[nodiscard]] Result {
   public:

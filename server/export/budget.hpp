@@ -1,5 +1,5 @@
 #pragma once
-// Limits on the work for one file.
+// Limits on the size, time and memory of one export.
 
 #include <chrono>
 #include <cstddef>
@@ -11,40 +11,43 @@
 
 namespace oval4d::exports {
 
-/// The limits on the work for one file.
+/// The limits of one export.
 struct Limits {
-    std::size_t triangles = 5'000'000;
-    std::size_t bytes = 512U << 20U;
-    std::chrono::duration<double> time{20};
-    /// Returns whether this many bytes may be allocated in total; called as soon as the number is known. May be null.
+    std::size_t triangles = 5'000'000;       ///< of all bodies together
+    std::size_t bytes = 512U << 20U;         ///< of the file
+    std::chrono::duration<double> time{20};  ///< from the construction of the Budget
+    /// Called with the number of bytes that the export needs in total, whenever a new number is known. Returns false to
+    /// refuse the memory. If null, memory is not limited.
     std::function<bool(std::size_t)> reserve = nullptr;
 };
 
-/// The reason why no file is made. `message` is for the user.
+/// The reason why an export gives no file. `message` is a sentence for the user.
 struct Refusal {
     enum class Cause : std::uint8_t {
         no_body,    ///< the slice is empty or flat, or the label does not fit
-        too_large,  ///< beyond Limits::triangles or bytes
-        too_long,   ///< beyond Limits::time, or stopped
+        too_large,  ///< the file would exceed Limits::triangles or Limits::bytes
+        too_long,   ///< the export exceeds Limits::time, or a stop was requested
         no_room,    ///< Limits::reserve returned false
     };
     Cause cause;
     std::string message;
 };
 
-/// The exception for a refusal inside this folder; `fileOf` catches it and returns the refusal.
+/// The exception that functions in this folder throw to refuse an export. `fileOf` catches it and returns `refusal`.
 struct Refused {
     Refusal refusal;
 };
 
-/// Checks the work for one file against its limits.
+/// Checks one export against its limits. The time counts from the construction of the budget.
 class Budget {
   public:
     Budget(const Limits& limits, std::stop_token stop)
         : limits_(limits), stop_(std::move(stop)), start_(std::chrono::steady_clock::now()) {}
 
+    /// Returns whether the time limit is exceeded or a stop is requested.
     bool isOver() const { return stop_.stop_requested() || std::chrono::steady_clock::now() - start_ > limits_.time; }
-    /// Throws Refused if the time is over or a stop is requested. To be called often.
+    /// Throws Refused if the time limit is exceeded or a stop is requested. Long computations must call it often,
+    /// because they cannot be interrupted otherwise.
     void checkTime() const {
         if (stop_.stop_requested())
             throw Refused{{Refusal::Cause::too_long, "the export was canceled because the server is stopping"}};
@@ -54,7 +57,7 @@ class Budget {
                                                          " s; export only the focus slice, or a solid body"}};
         }
     }
-    /// Throws Refused if the limits do not allow a mesh with this number of triangles.
+    /// Throws Refused if `count` triangles exceed Limits::triangles, or if Limits::reserve refuses their memory.
     void checkTriangles(std::size_t count) const {
         if (count > limits_.triangles) {
             throw Refused{
@@ -64,7 +67,7 @@ class Budget {
         }
         checkRoom(kBytesOfTriangle * count);
     }
-    /// Throws Refused if the limits do not allow a file of this size.
+    /// Throws Refused if `count` bytes exceed Limits::bytes, or if Limits::reserve refuses them.
     void checkBytes(std::size_t count) const {
         if (count > limits_.bytes) {
             throw Refused{{Refusal::Cause::too_large,
@@ -72,10 +75,11 @@ class Budget {
         }
         checkRoom(count);
     }
+    /// Returns Limits::triangles.
     std::size_t triangles() const { return limits_.triangles; }
 
   private:
-    static constexpr std::size_t kBytesOfTriangle = 64;  // approximately, in the file or in memory
+    static constexpr std::size_t kBytesOfTriangle = 64;  // approximate size of a triangle, in the file or in memory
 
     void checkRoom(std::size_t bytes) const {
         if (limits_.reserve && !limits_.reserve(bytes))

@@ -17,8 +17,8 @@ namespace oval4d::exports {
 
 namespace {
 
-// The cube width for meshing a skeleton, in multiples of the bar radius: fine, unless the file would then have more
-// than kTargetTriangles triangles; at most coarse.
+// The width of the cubes in which a skeleton is meshed, as a multiple of the bar radius. It is kFineCube, unless the
+// file would then have more than kTargetTriangles triangles. In that case it is larger, up to kCoarseCube.
 constexpr double kFineCube = 0.5;
 constexpr double kCoarseCube = 1;
 constexpr double kTargetTriangles = 600'000;

@@ -1,4 +1,5 @@
 #pragma once
+// The options of an export.
 
 #include <array>
 #include <cstdint>
@@ -8,10 +9,13 @@
 
 namespace oval4d::exports {
 
-/// The exported part: the focus slice alone, or all slices.
+/// The slices to export: only the focus slice, or all slices.
 enum class SliceSelection : std::uint8_t { focus, oval };
-/// The filled slice, or its balls and bars merged into one body ("frame" in messages).
+/// The shape of a slice's body: the filled slice, or its balls and bars merged into one body. Messages call the latter
+/// a frame.
 enum class Body : std::uint8_t { solid, skeleton };
+/// The form in which the object's name and the slice's w are added: not at all, engraved into a face of the body, or on
+/// a separate plate.
 enum class Label : std::uint8_t { none, engraved, separate };
 
 inline constexpr auto kExtents =
@@ -20,11 +24,11 @@ inline constexpr auto kBodies = std::to_array<text::Choice<Body>>({{"solid", Bod
 inline constexpr auto kLabels = std::to_array<text::Choice<Label>>(
     {{"none", Label::none}, {"engraved", Label::engraved}, {"separate", Label::separate}});
 
-inline constexpr double kMinSize = 1, kMaxSize = 10'000;  ///< millimeters
+inline constexpr double kMinSize = 1, kMaxSize = 10'000;  ///< bounds of ExportRequest::size
 
-/// The options of an export request.
+/// The options of an export. `body`, `size` and `label` apply only to formats with bodies.
 struct ExportRequest {
-    const Format* format = formatNamed("stl");
+    const Format* format = formatNamed("stl");  ///< a row of formats(); not null
     SliceSelection extent = SliceSelection::focus;
     Body body = Body::solid;
     double size = 60;  ///< the diameter of the object's circumscribed sphere in millimeters

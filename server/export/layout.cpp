@@ -66,7 +66,7 @@ void arrangeInOval(std::vector<Group>& groups, const scene::Scene& scene, double
 
 double maxExtentOf(int slices, double size) {
     const double onPlate = std::ceil(std::sqrt(slices)) * (size + gapFor(size)) * 1.5;
-    // Neighbors in the oval are at least the diameter of a slice apart; with few slices, as far apart as in the
+    // Neighbors in the oval are at least the diameter of a slice apart. A few slices are farther apart, as in the
     // picture.
     const double inOval = 60.0 * size * std::max(1.0, slices / 21.0);
     return std::max(onPlate, inOval);

@@ -1,5 +1,5 @@
 #pragma once
-// Arranges the bodies of a file.
+// Arranges the bodies of a file next to each other.
 
 #include <vector>
 
@@ -8,20 +8,21 @@
 
 namespace oval4d::exports {
 
-/// The bodies that are arranged as a unit: those of a slice and of its label.
+/// The bodies of one slice, which are moved together: the slice itself and, if there is one, its separate label.
 struct Group {
     int slice = 0;  ///< index in the slice set
     std::vector<Solid> solids;
 };
 
-/// Arranges groups for a 3-D printer: in rows on the plane z = 0 in the positive octant, by increasing w, with gaps of
-/// size / 12, but at least 2 mm, between their bounding boxes.
+/// Moves groups to where a 3-D printer needs them: in rows on the plane z = 0, in the positive octant, in the given
+/// order. The gaps between their bounding boxes are size / 12, but at least 2 mm. `size`: ExportRequest::size.
 void arrangeOnPlate(std::vector<Group>& groups, double size, const Grid& grid);
 
-/// Arranges groups for viewing: on the oval of the picture, enlarged if necessary so that no two slices touch.
+/// Moves groups to the positions that their slices have in `scene`. If two slices would touch, enlarges the distances
+/// between all of them by a common factor. `size`: ExportRequest::size.
 void arrangeInOval(std::vector<Group>& groups, const scene::Scene& scene, double size, const Grid& grid);
 
-/// An upper bound on the coordinates that either arrangement gives this number of slices.
+/// Returns an upper bound, in millimeters, on the coordinates of `slices` slices after either arrangement.
 double maxExtentOf(int slices, double size);
 
 }  // namespace oval4d::exports

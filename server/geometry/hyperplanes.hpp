@@ -2,13 +2,13 @@
 
 namespace oval4d::geometry {
 
-/// The parallel hyperplanes w = n · spacing for n = first … first + count − 1.
+/// A set of parallel hyperplanes of 4-D space: w = n · spacing for the integers n = first … first + count − 1.
 struct Hyperplanes {
     int first = -10;
     int count = 21;
-    double spacing = 0.1;
+    double spacing = 0.1;  ///< in the units of the object
 
-    /// The w of hyperplane number i, counted from 0.
+    /// Returns the w coordinate of hyperplane i, where i = 0 … count − 1 (not n).
     double w(int i) const { return (first + i) * spacing; }
     bool operator==(const geometry::Hyperplanes&) const = default;
 };

@@ -7,15 +7,19 @@
 
 namespace oval4d::geometry {
 
-/// Rows of different lengths stored in one array: row i is items[begin[i]] … items[begin[i + 1] − 1].
+/// A jagged array: rows of different lengths, stored one after another. Row i consists of the items with the indices
+/// begin[i] … begin[i + 1] − 1.
 struct JaggedArray {
-    std::vector<std::uint32_t> begin{0};
+    std::vector<std::uint32_t> begin{0};  ///< one entry more than there are rows; the last one is items.size()
     std::vector<std::uint32_t> items;
 
+    /// Returns the number of rows.
     std::size_t size() const { return begin.size() - 1; }
+    /// Returns row i, which is valid until the array changes.
     std::span<const std::uint32_t> operator[](std::size_t i) const {
         return {items.data() + begin[i], begin[i + 1] - begin[i]};
     }
+    /// Appends a row.
     void add(std::span<const std::uint32_t> row) {
         items.insert(items.end(), row.begin(), row.end());
         begin.push_back(static_cast<std::uint32_t>(items.size()));

@@ -6,24 +6,25 @@
 
 namespace oval4d::geometry {
 
-/// A type of cells, such as all truncated tetrahedra of a polytope.
+/// A type of cells of a polytope, such as "all its truncated tetrahedra". The user shows or hides cells by type.
 struct CellType {
     std::string name;         ///< "truncated tetrahedron"
-    std::uint32_t cells = 0;  ///< their number
+    std::uint32_t cells = 0;  ///< the number of cells of this type
     bool operator==(const CellType&) const = default;
 };
 
-/// What the program needs to know of any 4-D object, whatever its kind.
+/// The properties that 4-D objects of all kinds (polytopes and point clouds) have.
 struct ObjectInfo {
     std::string name;
-    std::uint64_t serial = 0;         ///< unique among the objects built in this process: the key of caches
-    double circumradius = 0;          ///< the largest distance of a vertex from the origin
-    bool convex = true;               ///< the boundary of a convex body: faces of its slices never cross each other
-    bool constructed = false;         ///< built from its name alone, so that the name is enough to store it
+    std::uint64_t serial = 0;         ///< unique among the objects built in this process; caches use it as their key
+    double circumradius = 0;          ///< the largest distance of a vertex (or point) from the origin
+    bool convex = true;               ///< false for a polytope that does not bound a convex body; faces of its slices
+                                      ///< may then cross each other
+    bool constructed = false;         ///< whether the name alone determines the object, so that storing it is enough
     std::vector<CellType> cellTypes;  ///< empty for an object without cells
 };
 
-/// A serial that no other object of this process has. Thread-safe.
+/// Returns a new value for ObjectInfo::serial: 1, 2, 3 … in this process. Thread-safe.
 std::uint64_t nextSerial();
 
 }  // namespace oval4d::geometry

@@ -12,14 +12,15 @@
 
 namespace oval4d::geometry {
 
-/// A spatial hash of points that identifies points despite rounding: points closer than a quarter of `grid`, the edge
-/// length of the hash's grid cells, count as the same. A lookup checks all grid cells within that distance.
+/// A spatial hash that recognizes equal points despite rounding errors: two points that are less than `grid` / 4 apart
+/// count as equal. `grid` is the edge length of the hash's grid cells. A lookup checks all grid cells within this
+/// distance.
 class PointIndex {
   public:
     explicit PointIndex(double grid) : grid_(grid) {}
 
-    /// Finds p in `points`, or appends it. Returns its index and whether it was appended. `points` must be the same
-    /// vector in all calls.
+    /// Finds p in `points`, or appends it. Returns its index, and true if it was appended. All calls must pass the same
+    /// vector `points`.
     std::pair<std::uint32_t, bool> add(const glm::dvec4& p, std::vector<glm::dvec4>& points) {
         for (unsigned corner = 0; corner < 16; ++corner) {
             const auto known = cells_.find(key(p, corner));
@@ -33,8 +34,8 @@ class PointIndex {
     }
 
   private:
-    // The hash of a grid cell: of the one that contains p if corner = 0xff, else of the one that contains p moved by
-    // ±grid / 4 along each axis, with the signs given by the bits of `corner`.
+    // Returns the hash of a grid cell. If corner = 0xff, this is the cell that contains p; else it is the cell that
+    // contains p moved by grid / 4 along every axis, forward along axis i if bit i of `corner` is set, else backward.
     std::uint64_t key(const glm::dvec4& p, unsigned corner) const {
         std::uint64_t hash = 0;
         for (int i = 0; i < 4; ++i) {

@@ -12,8 +12,8 @@ constexpr std::array<std::string_view, 6> kNames{"xy", "xz", "xw", "yz", "yw", "
 glm::dquat asQuaternion(const glm::dvec4& v) { return {v.w, v.x, v.y, v.z}; }
 glm::dvec4 asVector(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
 
-// exp(u · angle), where the imaginary unit u belongs to the pair of perpendicular planes that contains `plane`: i to
-// yz and xw, j to xz and yw, k to xy and zw.
+// Returns exp(u · angle). The imaginary unit u depends on the pair of perpendicular planes to which `plane` belongs: it
+// is i for yz and xw, j for xz and yw, and k for xy and zw.
 glm::dquat exponential(Plane plane, double angle) {
     const double c = std::cos(angle);
     const double s = std::sin(angle);

@@ -12,27 +12,29 @@
 
 namespace oval4d::geometry {
 
-/// A coordinate plane. The rotation R_ab turns the +a axis toward the +b axis. The order is that of the number keys.
+/// A coordinate plane, in which a rotation R_ab turns the +a axis toward the +b axis. The planes have the order of the
+/// number keys that select them.
 enum class Plane : std::uint8_t { xy, xz, xw, yz, yw, zw };
 
 inline constexpr std::array<Plane, 6> kPlanes{Plane::xy, Plane::xz, Plane::xw, Plane::yz, Plane::yw, Plane::zw};
 
-/// Returns the absolutely perpendicular plane. The pairs are xy and zw, xz and yw, xw and yz.
+/// Returns the plane spanned by the two other axes. The pairs are xy and zw, xz and yw, xw and yz.
 constexpr Plane perpendicular(Plane plane) { return static_cast<Plane>(5 - static_cast<int>(plane)); }
 
 /// Returns "xy" … "zw".
 std::string_view name(Plane plane);
 
-/// Returns the plane with this name, or nothing.
+/// Returns the plane with this name ("xy" … "zw"), or std::nullopt if there is none.
 std::optional<Plane> planeNamed(std::string_view text);
 
-/// A simple rotation R_plane(alpha), or a double rotation R_plane(alpha) · R_perpendicular(beta) if beta is given: the
-/// rotation requested by one key press or `rotate` message. Angles are in radians.
+/// The rotation that one key press or one `rotate` message requests: the simple rotation R_plane(alpha), or, if beta is
+/// given, the double rotation R_plane(alpha) · R_perpendicular(beta). Angles are in radians.
 struct Turn {
     Plane plane = Plane::xy;
     double alpha = 0;
     std::optional<double> beta;
 
+    /// Returns the turn that undoes this one.
     Turn inverse() const;
     /// Returns the turn with all angles multiplied by `factor`.
     Turn scaled(double factor) const;
@@ -44,28 +46,32 @@ struct Turn {
 /// and r suffices to keep the map orthogonal.
 class Rotation {
   public:
+    /// The identity.
     Rotation() = default;
+    /// The map v ↦ l·v·r. Normalizes both quaternions, which must not be 0.
     Rotation(const glm::dquat& left, const glm::dquat& right);
     explicit Rotation(const Turn& turn);
 
-    /// Returns the rotation with the matrix M (v' = M v), or nothing unless every entry of M is within `tolerance` of
-    /// that of a matrix in SO(4).
+    /// Returns the rotation with the matrix M (v' = M v). Returns std::nullopt if M is not a rotation matrix: if an
+    /// entry of M differs by more than `tolerance` from that of the nearest rotation found.
     static std::optional<Rotation> fromMatrix(const glm::dmat4& matrix, double tolerance = 1e-6);
 
-    /// Returns the rotation with exactly these quaternions, which are not normalized again, or nothing if they are not
-    /// of unit length to within 1e-9.
+    /// Returns the rotation with exactly these quaternions, without normalizing them again, so that a stored rotation
+    /// is restored bit by bit. Returns std::nullopt if their lengths differ from 1 by 1e-9 or more.
     static std::optional<Rotation> fromQuaternions(const glm::dquat& left, const glm::dquat& right);
 
     Rotation inverse() const;
+    /// Returns v rotated.
     glm::dvec4 operator()(const glm::dvec4& v) const;
+    /// Returns the matrix M with v' = M v.
     glm::dmat4 matrix() const;
 
     const glm::dquat& left() const { return left_; }
     const glm::dquat& right() const { return right_; }
     bool operator==(const Rotation& other) const = default;
 
-    /// Returns the rotation by `first`, then `second`. The result is normalized, so that a million products do not
-    /// drift.
+    /// Returns the composition that rotates by `first`, then by `second`. Normalizes the result, so that rounding
+    /// errors do not accumulate over many products.
     friend Rotation operator*(const Rotation& second, const Rotation& first);
 
   private:

@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <cstring>
 
-// All rows have the same filter: choosing one for each, as libpng does, takes longer than deflate and does not make
-// the files of these pictures smaller.
+// All rows except the first have the same filter. Choosing the best filter for each row, as libpng does, would take
+// longer than deflate and would not make the files of these pictures smaller.
 
 namespace oval4d::image {
 
@@ -19,8 +19,9 @@ int paeth(int left, int above, int upperLeft) {
     return toAbove <= toUpperLeft ? above : upperLeft;
 }
 
-/// Subtracts the prediction from `count` RGBA pixels, and writes them as RGB. Reads the pixels to the left of `row` and
-/// `above`, too.
+/// Subtracts the Paeth prediction from `count` RGBA pixels, which begin at `row`, and writes the differences as RGB to
+/// `out`. `above` is the pixel above the first one. Also reads the pixel to the left of `row` and the one to the left
+/// of `above`.
 void subtractPaethScalar(const std::uint8_t* row, const std::uint8_t* above, std::uint8_t* out, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -35,10 +36,11 @@ void subtractPaethScalar(const std::uint8_t* row, const std::uint8_t* above, std
 
 using Block = std::uint8_t __attribute__((vector_size(32)));
 
-// Eight pixels at a time, in 8-bit arithmetic. If left and above are both greater or both less than upperLeft, then
-// upperLeft is the farthest of the three from left + above − upperLeft, and its exact distance, which may not fit into
-// a byte, does not matter. Each store writes eight bytes too many, which the next store overwrites; the scalar loop
-// processes the last pixels of a row, so that nothing is written past its end.
+// Like subtractPaethScalar, but processes eight pixels at a time, in 8-bit arithmetic. x is the pixel, and a, b and c
+// are its left, upper and upper-left neighbors. If a and b are both greater or both less than c, then c is the farthest
+// of the three from a + b − c, and its exact distance, which may not fit into a byte, does not matter. Each store
+// writes eight bytes too many, which the next store overwrites; the scalar loop processes the last pixels of a row, so
+// that nothing is written past its end.
 __attribute__((target("avx2"))) void subtractPaethAvx2(const std::uint8_t* row, const std::uint8_t* above,
                                                        std::uint8_t* out, std::size_t count) {
     std::size_t i = 0;
@@ -86,7 +88,7 @@ void filterRows(const image::ImageView& image, int from, int to, std::vector<std
         const std::uint8_t* row = image.pixels.data() + static_cast<std::size_t>(image.height - 1 - y) * width * 4;
         const std::uint8_t* above = row + width * 4;
         at[0] = y == 0 ? kSub : kPaeth;
-        for (std::size_t c = 0; c < 3; ++c) {  // no left neighbor: the prediction is the upper one
+        for (std::size_t c = 0; c < 3; ++c) {  // no left neighbor: the prediction is the upper neighbor
             at[1 + c] = static_cast<std::uint8_t>(row[c] - (y == 0 ? 0 : above[c]));
         }
         if (y == 0) {

@@ -8,9 +8,10 @@
 
 namespace oval4d::image {
 
-/// Flips the image vertically, drops alpha and applies PNG's Paeth filter, which predicts a pixel from its left, upper
-/// and upper-left neighbors, all in one pass. The first row has no upper neighbors and gets the Sub filter. Writes rows
-/// `from` to `to` − 1 of the PNG file to `out`, 1 + 3 · width bytes each, and reuses the memory of `out`.
+/// Computes rows `from` to `to` − 1 of a PNG file, counted from the top of the image: flips the image vertically, drops
+/// alpha, and applies PNG's Paeth filter, which predicts a pixel from its left, upper and upper-left neighbors. Row 0
+/// has no upper neighbors and gets the Sub filter. Overwrites `out` with 1 + 3 · width bytes for each row, the filter
+/// type first, and reuses its memory.
 void filterRows(const image::ImageView& image, int from, int to, std::vector<std::uint8_t>& out);
 
 }  // namespace oval4d::image

@@ -16,12 +16,13 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint8_t kSignature[] = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
-// Keyword and its zero, then: not compressed, method 0, no language, no translated keyword.
+// The start of an iTXt chunk: the keyword and a zero, no compression, compression method 0, then an empty language tag
+// and an empty translated keyword, each with a terminating zero.
 constexpr char kStateHeader[] = "oval4d\0\0\0\0";
 constexpr std::uint8_t kZlibHeader[] = {0x78, 1};  // RFC 1950: deflate, window of 32 KiB, fastest level
 constexpr int kLevel = 1;
 constexpr std::uint32_t kLevelBuffer = ISAL_DEF_LVL1_DEFAULT;
-constexpr std::size_t kLarge = 1'000'000;  // bytes; a second core does not pay for smaller images
+constexpr std::size_t kLarge = 1'000'000;  // bytes; smaller images are not encoded faster on two cores
 
 void store32(std::uint8_t* at, std::uint32_t value) {
     for (int i = 0; i < 4; ++i) at[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
@@ -33,7 +34,7 @@ void append(Bytes& out, const void* data, std::size_t size) {
     std::memcpy(out.data() + out.size() - size, data, size);
 }
 
-/// Begins a chunk at the end of `out`, and returns its position. endChunk() writes its length and CRC.
+/// Begins a chunk at the end of `out`, and returns its position. endChunk() later writes its length and CRC.
 std::size_t beginChunk(Bytes& out, const char* type) {
     const std::size_t start = out.size();
     out.resize(start + 4);
@@ -49,7 +50,7 @@ void endChunk(Bytes& out, std::size_t start) {
     store32(out.data() + out.size() - 4, crc);
 }
 
-/// Compresses `in`, and appends it to `out`. Unless it is the last piece of a deflate stream, another may follow.
+/// Compresses `in` as one piece of a deflate stream, and appends the piece to `out`. `last`: no other piece follows.
 void deflate(Bytes& in, bool last, Bytes& levelBuffer, Bytes& out) {
     isal_zstream stream;
     isal_deflate_init(&stream);
@@ -74,7 +75,8 @@ void deflate(Bytes& in, bool last, Bytes& levelBuffer, Bytes& out) {
     out.resize(start + stream.total_out);
 }
 
-/// The Adler-32 checksum (RFC 1950) of two concatenated pieces, from the checksums of both and the size of the second.
+/// Returns the Adler-32 checksum (RFC 1950) of two concatenated byte strings, from the checksums of both and the size
+/// of the second.
 std::uint32_t combinedAdler32(std::uint32_t first, std::uint32_t second, std::size_t size) {
     constexpr std::uint64_t kBase = 65521;
     const std::uint64_t a = (first & 0xffffU) + kBase - 1;  // both checksums start at 1

@@ -1,5 +1,5 @@
 #pragma once
-// The encoder of PNG files.
+// Encodes PNG files.
 
 #include <array>
 #include <cstdint>
@@ -14,23 +14,25 @@ namespace oval4d::image {
 /// Encodes images as 8-bit RGB PNG files. Not thread-safe: one thread at a time may use an encoder.
 class PngEncoder {
   public:
-    /// With `forkJoin`, large images are encoded on two cores.
+    /// With `forkJoin`, large images are encoded on two cores; null: always on one.
     explicit PngEncoder(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin) {}
 
-    /// Writes `image` without alpha as a PNG file to `out`, which is overwritten and whose memory is reused. The UTF-8
-    /// text `state` follows IHDR in an uncompressed iTXt chunk with the keyword "oval4d". Throws std::invalid_argument
-    /// if the image is empty, lacks pixels or is larger than 2 GiB.
+    /// Encodes `image`, without alpha, as a PNG file. Overwrites `out` and reuses its memory. The file also contains
+    /// the UTF-8 text `state`: after IHDR, in an uncompressed iTXt chunk with the keyword "oval4d". Throws
+    /// std::invalid_argument if the image is empty, if the size of `pixels` is not 4 · width · height bytes, or if the
+    /// image is larger than 2 GiB.
     void encode(const ImageView& image, std::string_view state, std::vector<std::uint8_t>& out);
     void encode(const Image& image, std::string_view state, std::vector<std::uint8_t>& out) {
         encode(ImageView{image.width, image.height, image.pixels}, state, out);
     }
 
   private:
-    /// The encoding of some rows, and its buffers.
+    /// The upper or lower part of an image: its filtered rows, a work buffer of the compressor, and its IDAT chunk.
     struct Band {
         std::vector<std::uint8_t> filtered, levelBuffer, chunk;
         std::uint32_t checksum = 0;  // Adler-32 of `filtered`
     };
+    /// Encodes the rows from … to − 1, counted from the top.
     static void encode(const ImageView& image, int from, int to, Band& band);
 
     parallel::ForkJoin* forkJoin_;

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers for Asio coroutines: a completion token, timer durations, and awaiting a callback.
+// Helpers for Asio coroutines: a completion token, a conversion of durations, and a function that awaits a callback.
 
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/associated_executor.hpp>
@@ -14,23 +14,24 @@
 
 namespace oval4d::net {
 
-/// A completion token: the awaited operation returns a tuple that starts with its error code, and does not throw.
+/// A completion token with which an awaited operation returns a tuple that begins with its error code, instead of
+/// throwing.
 inline constexpr auto kAsTuple = boost::asio::as_tuple(boost::asio::use_awaitable);
 
-/// Converts any duration to the one that asio::steady_timer takes.
+/// Converts any duration to the duration type of asio::steady_timer.
 template <typename Duration>
 auto steady(Duration duration) {
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(duration);
 }
 
-/// Calls `start` with a callback and suspends the coroutine until that callback is called with the result. The callback
-/// must be called exactly once, from any thread; the coroutine resumes on its own executor. Create `start` in an
-/// ordinary function: GCC 12 destroys the captures of a lambda twice if it is created in a coroutine.
+/// Calls `start` with a callback, suspends the coroutine until that callback is called, and returns the value passed to
+/// it. The callback must be called exactly once, from any thread; the coroutine resumes on its own executor. Create
+/// `start` in an ordinary function: GCC 12 destroys the captures of a lambda twice if it is created in a coroutine.
 template <typename Value>
 boost::asio::awaitable<Value> awaitCallback(std::function<void(std::function<void(Value)>)> start) {
     namespace asio = boost::asio;
     auto initiate = [](auto handler, const std::function<void(std::function<void(Value)>)>& begin) {
-        // std::function requires a copyable target, and a completion handler is move-only.
+        // A completion handler is move-only, but std::function requires a copyable target.
         auto shared = std::make_shared<decltype(handler)>(std::move(handler));
         begin([shared](Value value) {
             const auto executor = asio::get_associated_executor(*shared);

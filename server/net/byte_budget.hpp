@@ -1,5 +1,5 @@
 #pragma once
-// The limits on the memory and disk that the server uses for clients.
+// Limits on the memory and disk space that the server uses for clients.
 
 #include <cstddef>
 #include <memory>
@@ -8,9 +8,9 @@
 
 namespace oval4d::net {
 
-/// Counts and limits the bytes held for clients: files and messages not yet read, polytopes loaded or built on request,
-/// and undo history. One budget covers all clients together; each client has an account in it. Bytes are reserved
-/// before they are used. Every function may be called from any thread.
+/// Counts and limits the bytes that the server holds for clients: files and messages that clients have not yet read,
+/// objects loaded or built on request, and undo history. One budget covers all clients together; each client has an
+/// account in it. Bytes are reserved before they are used. Every function may be called from any thread.
 class ByteBudget {
   public:
     class Account;
@@ -24,7 +24,7 @@ class ByteBudget {
         ~Reservation();
 
         std::size_t size() const { return size_; }
-        /// Changes the size without checking the limits, for bytes that are already in use.
+        /// Changes the size to `bytes` without checking the limits, for bytes that are already in use.
         void resize(std::size_t bytes);
         /// Enlarges the reservation to `bytes`. Returns false, and changes nothing, if that would exceed a limit.
         [[nodiscard]] bool grow(std::size_t bytes);
@@ -36,16 +36,16 @@ class ByteBudget {
         std::size_t size_ = 0;
     };
 
-    /// The bytes held for one client, at most `limit`.
+    /// Counts the bytes held for one client, which may be at most `limit`.
     class Account : public std::enable_shared_from_this<Account> {
       public:
         Account(ByteBudget& budget, std::size_t limit) : budget_(budget), limit_(limit) {}
 
         /// Reserves bytes; returns nothing if that would exceed the limit of the client or of the budget.
         std::optional<Reservation> reserve(std::size_t bytes);
-        /// Reserves bytes without checking the limits, for what cannot be refused.
+        /// Reserves bytes without checking the limits, for data that cannot be refused.
         Reservation forceReserve(std::size_t bytes);
-        /// The bytes now reserved on this account.
+        /// Returns the number of bytes now reserved on this account.
         std::size_t held() const;
 
       private:
@@ -60,7 +60,7 @@ class ByteBudget {
     /// `total`: the limit in bytes for all clients together.
     explicit ByteBudget(std::size_t total) : total_(total) {}
 
-    /// The bytes now reserved on all accounts.
+    /// Returns the number of bytes now reserved on all accounts.
     std::size_t held() const;
 
   private:

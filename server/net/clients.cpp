@@ -15,15 +15,16 @@ using asio::ip::address_v6;
 namespace {
 
 constexpr double kMinute = 60;
-constexpr std::size_t kFirstSweep = 256;
-constexpr std::size_t kMaxClients = 65'536;  // all further ones share one client
+constexpr std::size_t kFirstSweep = 256;     // number of clients at which idle ones are first removed
+constexpr std::size_t kMaxClients = 65'536;  // addresses beyond this number share one client
 constexpr unsigned kBits = 128, kMappedBits = 96;
 
 address_v6 mapped(const address& any) {
     return any.is_v6() ? any.to_v6() : asio::ip::make_address_v6(asio::ip::v4_mapped, any.to_v4());
 }
 
-/// The address, or the /64 network of an IPv6 address other than ::1 and mapped IPv4.
+/// Returns the name of the client at an address: the address itself for IPv4, mapped IPv4 and ::1, and the /64 network
+/// for any other IPv6 address.
 std::string nameOf(const address& any) {
     if (any.is_v4()) return any.to_string();
     address_v6 whole = any.to_v6();

@@ -6,15 +6,17 @@ namespace {
 
 using process::SandboxMode;
 
-// File descriptors: the standard streams, the channel, one received through it, and those that libraries keep open.
+// Maximum number of file descriptors of a child process: the standard streams, the channel, one received through it,
+// and those that libraries keep open.
 constexpr std::size_t kOwnFiles = 16;
 
-/// An upper bound on the memory that a picture within the limits needs, in bytes of address space; most of it is never
-/// touched.
+/// Returns an upper bound of the memory that a rasterizer process needs for pictures within the limits, in bytes of
+/// address space. Most of that memory is never touched.
 std::size_t drawMemory(const Options& options) {
     if (options.drawMemory > 0) return options.drawMemory;
-    // kOwn: llvmpipe and the C library, with a heap for each thread. kEachPixel: sixteen buffers of four bytes a pixel.
-    // The rest: slices of the largest polytope, each of whose edges is cut by a few hyperplanes.
+    // kOwn: bytes of llvmpipe and the C library, with a heap for each thread. kEachPixel: sixteen buffers of four bytes
+    // per pixel. The other constants are for the slices of the largest polytope, each of whose edges a few hyperplanes
+    // cut: kCuts is the number of cuts per vertex, kEachCut the bytes of one cut.
     constexpr std::size_t kOwn = std::size_t{3} << 30U, kEachPixel = 64, kEachCut = 1024, kCuts = 16;
     const auto pixels = static_cast<std::size_t>(options.frame.maxPixels);
     return kOwn + kEachPixel * pixels + kEachCut * kCuts * options.session.maxVertices + options.polytopeCache;

@@ -10,14 +10,15 @@
 
 namespace oval4d::net {
 
-/// The environment variables by which the server passes its options to child processes
-/// (process::ChildOptions::environment). Checks whether the system can sandbox them. If it cannot, sets `warning` for
-/// the log, unless the options turn the sandbox off, and throws std::runtime_error if the options require a sandbox.
+/// Returns the environment variables through which the server passes its options to child processes
+/// (process::ChildOptions::environment). Checks whether the system can sandbox these processes. If it cannot, sets
+/// `warning` to a text for the log, unless the options turn the sandbox off; throws std::runtime_error if the options
+/// require a sandbox.
 std::vector<std::string> childEnvironment(const Options& options, std::size_t workers, std::string& warning);
 
-/// The confinement that a rasterizer process applies to itself, given the options read from that environment.
+/// Returns the confinement that a rasterizer process applies to itself. `options`: those read from these variables.
 process::Confinement rasterizerConfinement(const Options& options);
-/// The confinement that a file reader process applies to itself, given the options read from that environment.
+/// Returns the confinement that a file reader process applies to itself. `options`: those read from these variables.
 process::Confinement readingConfinement(const Options& options);
 
 }  // namespace oval4d::net

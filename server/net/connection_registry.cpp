@@ -14,7 +14,7 @@ ConnectionRegistry::Slot::Slot(ConnectionRegistry& connections, ClientPtr client
 }
 
 ConnectionRegistry::Slot::~Slot() {
-    Entry gone;  // destroyed outside the lock: it may own the connection
+    Entry gone;  // destroyed after the lock is released, because it may own the connection
     const std::lock_guard lock(connections_.mutex_);
     const auto found = connections_.entries_.find(number_);
     if (found == connections_.entries_.end()) return;  // the connection was evicted
@@ -66,7 +66,8 @@ std::size_t ConnectionRegistry::countOf(const Client* client) const {
     return count == counts_.end() ? 0 : count->second;
 }
 
-/// Removes the oldest idle connection of this client and returns the handler that ends it; null if none is idle.
+/// Removes the oldest idle connection of this client, and returns the handler that ends it; null if no connection of
+/// the client is idle.
 ConnectionRegistry::EndHandler ConnectionRegistry::evictIdle(const Client* client) {
     const auto idle = std::ranges::find_if(entries_, [client](const auto& entry) {
         return entry.second.client.get() == client && !entry.second.inUse && entry.second.end;
@@ -101,7 +102,7 @@ std::size_t ConnectionRegistry::size() const {
 }
 
 void ConnectionRegistry::stopAll() {
-    // Call the handlers outside the lock: a connection may end at once and destroy its slot.
+    // Call the handlers without holding the lock: a connection may end immediately and destroy its slot.
     std::vector<EndHandler> ends;
     {
         const std::lock_guard lock(mutex_);

@@ -11,9 +11,9 @@
 
 namespace oval4d::net {
 
-/// Limits the number of open connections. When the limit is reached, evicts an idle connection to admit a new one: a
-/// socket without a request in progress, or one that waits for its first message. Every function may be called from any
-/// thread.
+/// Limits the number of open connections. At a limit, evicts an idle connection to admit a new one. A connection is
+/// idle if it has no HTTP request in progress, or if it is a WebSocket whose client has not yet joined a session. Every
+/// function may be called from any thread.
 class ConnectionRegistry {
   public:
     ConnectionRegistry(std::size_t maxConnections, std::size_t maxPerClient)
@@ -31,14 +31,14 @@ class ConnectionRegistry {
         Slot& operator=(const Slot&) = delete;
         ~Slot();
 
-        /// Sets the handler that ends the connection. It is called from any thread: when the server stops or the
-        /// connection is evicted, or within this call if either has happened already.
+        /// Sets the handler that ends the connection. It is called, on any thread, when the server stops or the
+        /// connection is evicted; if either has happened already, it is called within this call.
         void onEndRequest(EndHandler handler);
 
-        /// Marks the connection as in use, which protects it from eviction, or as idle. It starts idle.
+        /// Marks the connection as in use, which protects it from eviction, or as idle. A new connection is idle.
         void setInUse(bool inUse);
 
-        /// Assigns the connection to another client, as identified by a trusted proxy.
+        /// Assigns the connection to another client, which a trusted proxy has named.
         void setClient(const ClientPtr& client);
 
       private:
@@ -46,15 +46,17 @@ class ConnectionRegistry {
         std::uint64_t number_;
     };
 
+    /// Whether a connection is admitted, or else which limit is reached.
     enum class Admission { admitted, server_full, client_full };
     /// Decides whether one more connection of this client is admitted. At a limit, evicts one idle connection: the
-    /// oldest idle one of this client if the client is at its limit, else of the client with the most connections.
-    /// `registered`: the number of connections of this client to leave out of the count, since the new one has its slot
-    /// already. `isProxy`: the client is a trusted proxy and exempt from the limit per client.
+    /// oldest one of this client if the client is at its limit, else the oldest one of the client with the most
+    /// connections. `registered`: 1 if the new connection already has a slot, which is then not counted, else 0.
+    /// `isProxy`: whether the client is a trusted proxy, to which the limit per client does not apply.
     Admission admit(const Client& client, std::size_t registered = 0, bool isProxy = false);
 
+    /// Returns the number of registered connections.
     std::size_t size() const;
-    /// Asks all connections to end, now and in future.
+    /// Calls the handlers of all connections, and those of future connections as soon as they are set.
     void stopAll();
 
   private:
@@ -65,7 +67,7 @@ class ConnectionRegistry {
     };
     using Entries = std::map<std::uint64_t, Entry>;
 
-    // With mutex_ held.
+    // These require that mutex_ is held.
     std::size_t countOf(const Client* client) const;
     EndHandler evictIdle(const Client* client);
     void uncount(const Client* client);

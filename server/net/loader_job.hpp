@@ -8,7 +8,7 @@
 
 namespace oval4d::net {
 
-/// A job for a worker pool that carries out the loader's order.
+/// Returns a job for a worker pool that builds or reads the object for which the loader is pending.
 inline std::function<std::monostate(std::size_t worker)> loaderJob(
     const std::shared_ptr<session::ObjectLoader>& loader) {
     return [loader](std::size_t /*worker*/) {

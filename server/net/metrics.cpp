@@ -10,10 +10,10 @@ namespace {
 
 using prometheus::Histogram;
 
-// From 100 µs to 3 s; each bound is about twice the one before.
+// Bounds in seconds, from 100 µs to 3 s; each is two to four times the one before.
 const Histogram::BucketBoundaries kBuckets{1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.3, 1, 3};
 
-// From 1 ms to a minute.
+// Bounds in seconds, from 1 ms to 1 min.
 const Histogram::BucketBoundaries kFileBuckets{1e-3, 1e-2, 0.1, 0.3, 1, 3, 10, 20, 60};
 
 prometheus::Gauge& gauge(prometheus::Registry& registry, const char* name, const char* help) {
@@ -67,7 +67,9 @@ Metrics::Metrics()
       storeUp(gauge(registry_, "oval4d_store_up", "1 if the session store works, 0 if it fails")),
       unsaved(gauge(registry_, "oval4d_unsaved_sessions", "Sessions with changes not yet written to the store")),
       workers(gauge(registry_, "oval4d_workers", "Threads that slice and draw")),
-      workerSeconds(counters(registry_, "oval4d_worker_seconds_total", "Busy time of these threads, summed").Add({})),
+      workerSeconds(
+          counters(registry_, "oval4d_worker_seconds_total", "Busy time of the threads that slice and draw, summed")
+              .Add({})),
       latency(histograms(registry_, "oval4d_change_to_picture_seconds",
                          "Time from a session's change to its picture written to a client's socket")
                   .Add({}, kBuckets)),

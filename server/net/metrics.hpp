@@ -16,43 +16,48 @@ namespace oval4d::net {
 
 /// The metrics of the server. Every member may be used from any thread.
 class Metrics {
-    prometheus::Registry registry_;  // declared first: it owns the metrics below
+    prometheus::Registry registry_;  // declared first, because it owns the metrics below
 
   public:
     Metrics();
 
-    prometheus::Gauge& connections;  ///< open sockets, HTTP and WebSocket
-    prometheus::Gauge& webSockets;
-    prometheus::Gauge& sessions;      ///< sessions in the store
-    prometheus::Gauge& openSessions;  ///< sessions with at least one client
-    prometheus::Gauge& jobsWaiting;
-    prometheus::Counter& drawingDeaths;  ///< rasterizer processes that died
-    prometheus::Counter& drawingHangs;   ///< rasterizer processes that hung and were killed
-    prometheus::Counter& readingDeaths;  ///< reader processes that died
-    prometheus::Counter& readingHangs;   ///< reader processes that timed out and were killed
-    prometheus::Gauge& filesUnderWay;    ///< files being made
-    prometheus::Histogram& fileTime;     ///< seconds to make a file
-    prometheus::Gauge& memory;           ///< resident bytes of this process
-    prometheus::Gauge& polytopes;        ///< bytes of cached polytopes
-    prometheus::Gauge& bytesHeld;        ///< bytes held for clients (ByteBudget)
-    prometheus::Gauge& clients;          ///< known client addresses
-    prometheus::Counter& messagesReceived;
-    prometheus::Counter& bytesSent;      ///< over WebSockets
-    prometheus::Counter& slowReaders;    ///< clients dropped because they read too slowly
-    prometheus::Counter& sessionsTaken;  ///< sessions taken over by other servers
-    prometheus::Gauge& storeUp;          ///< 1 if the store works, else 0
-    prometheus::Gauge& unsaved;          ///< sessions with changes not yet written to the store
-    prometheus::Gauge& workers;
-    prometheus::Counter& workerSeconds;  ///< busy seconds, summed over all workers
-    prometheus::Histogram& latency;      ///< seconds from a session change until its picture is written to the socket
+    prometheus::Gauge& connections;         ///< open sockets, HTTP and WebSocket
+    prometheus::Gauge& webSockets;          ///< open WebSocket connections
+    prometheus::Gauge& sessions;            ///< sessions in the store
+    prometheus::Gauge& openSessions;        ///< sessions with at least one client
+    prometheus::Gauge& jobsWaiting;         ///< jobs that wait for a picture worker
+    prometheus::Counter& drawingDeaths;     ///< rasterizer processes that died
+    prometheus::Counter& drawingHangs;      ///< rasterizer processes that hung and were killed
+    prometheus::Counter& readingDeaths;     ///< file reader processes that died
+    prometheus::Counter& readingHangs;      ///< file reader processes that hung and were killed
+    prometheus::Gauge& filesUnderWay;       ///< files being made
+    prometheus::Histogram& fileTime;        ///< seconds to make a file
+    prometheus::Gauge& memory;              ///< resident bytes of this process
+    prometheus::Gauge& polytopes;           ///< bytes of cached polytopes
+    prometheus::Gauge& bytesHeld;           ///< bytes held for clients (ByteBudget)
+    prometheus::Gauge& clients;             ///< known client addresses
+    prometheus::Counter& messagesReceived;  ///< messages received over WebSockets
+    prometheus::Counter& bytesSent;         ///< bytes of messages sent over WebSockets
+    prometheus::Counter& slowReaders;       ///< clients dropped because they read too slowly
+    prometheus::Counter& sessionsTaken;     ///< sessions taken over by other servers
+    prometheus::Gauge& storeUp;             ///< 1 if the store works, else 0
+    prometheus::Gauge& unsaved;             ///< sessions with changes not yet written to the store
+    prometheus::Gauge& workers;             ///< picture workers: threads that slice and draw
+    prometheus::Counter& workerSeconds;     ///< busy seconds, summed over all picture workers
+    prometheus::Histogram& latency;  ///< seconds from a session change until its picture is written to the socket
 
+    /// Counts an error sent to a client.
     void countError(ErrorCode code);
+    /// Counts an HTTP request that was answered with this status.
     void countRequest(unsigned httpStatus);
+    /// Counts a picture sent to a client of this stream.
     void countPicture(wire::Stream stream);
+    /// Records the duration of each step of a picture.
     void observe(const pipeline::Times& times);
+    /// Records the duration of a store operation, and counts it if it failed.
     void observeStore(const std::string& operation, double seconds, bool succeeded);
 
-    /// All metrics in the Prometheus text exposition format.
+    /// Returns all metrics in the Prometheus text exposition format.
     std::string text() const;
 
   private:

@@ -15,18 +15,17 @@
 
 namespace oval4d::net {
 
-/// Queues `work` in `lane` of the pool, a parallel::WorkerPool or a pipeline::PipelinePool, and suspends the coroutine
-/// until a worker has run it. The coroutine resumes on its own executor with the value that `work` returned or the
-/// exception that it threw, or with QueueFull if the pool refused the job. `cost` is the estimated running time in
-/// seconds. Create `work` in an ordinary function: GCC 12 destroys the captures of a lambda twice if it is created in a
-/// coroutine.
+/// Queues `work` in `lane` of `pool`, a parallel::WorkerPool or a pipeline::PipelinePool, suspends the coroutine until
+/// a worker has run it, and returns its result. The coroutine resumes on its own executor. Throws the exception that
+/// `work` threw, or QueueFull if the pool rejected the job. `cost`: the estimated running time. Create `work` in an
+/// ordinary function: GCC 12 destroys the captures of a lambda twice if it is created in a coroutine.
 template <typename Value, typename Pool>
 boost::asio::awaitable<Value> onPool(Pool& pool, std::function<Value(typename Pool::Argument)> work,
                                      parallel::WorkerPool::LanePtr lane, parallel::WorkerPool::Seconds cost) {
     namespace asio = boost::asio;
     auto start = [&pool, cost](auto handler, std::function<Value(typename Pool::Argument)> job,
                                parallel::WorkerPool::LanePtr in) {
-        // std::function requires a copyable target, and a completion handler is move-only.
+        // A completion handler is move-only, but std::function requires a copyable target.
         auto shared = std::make_shared<decltype(handler)>(std::move(handler));
         auto run = [shared, job = std::move(job)](typename Pool::Argument argument) mutable {
             std::exception_ptr failure;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMinQuota = std::size_t{1} << 20U;
 
-/// The environment variable of an option: "--max-message" → "OVAL4D_MAX_MESSAGE".
+/// Returns the name of an option's environment variable: "OVAL4D_MAX_MESSAGE" for "--max-message".
 std::string variableFor(const std::string& option) {
     std::string name = "OVAL4D_" + option.substr(2);
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return c == '-' ? '_' : std::toupper(c); });
@@ -25,7 +25,7 @@ CLI::Option* add(CLI::App& app, const std::string& name, T& value, const std::st
     return app.add_option(name, value, help)->envname(variableFor(name))->capture_default_str();
 }
 
-/// Adds a duration in seconds; fractions are allowed.
+/// Adds an option for a duration in seconds; fractions are allowed.
 void addSeconds(CLI::App& app, const std::string& name, Seconds& value, const std::string& help) {
     app.add_option_function<double>(
            name, [&value](double given) { value = Seconds(given); }, help)
@@ -35,12 +35,12 @@ void addSeconds(CLI::App& app, const std::string& name, Seconds& value, const st
         ->check(CLI::Range(0.001, 1e9));
 }
 
-/// Adds a size in bytes; a suffix stands for a power of 1024: 512k, 8M.
+/// Adds an option for a size in bytes; a suffix stands for a power of 1024, as in 512k or 8M.
 CLI::Option* addBytes(CLI::App& app, const std::string& name, std::size_t& value, const std::string& help) {
     return add(app, name, value, help)->transform(CLI::AsSizeValue(false))->type_name("BYTES");
 }
 
-/// A validator for CLI11: the error in the text of a network, or an empty string if it is valid.
+/// A CLI11 validator: returns an error message if the text is not a network, else an empty string.
 std::string checkNetwork(const std::string& text) {
     try {
         (void)Network(text);
@@ -174,7 +174,9 @@ void addLimits(CLI::App& app, Options& options) {
         "Maximum number of pictures, and of files, that wait for a worker; further requests are refused, and the "
         "streams of sessions retry")
         ->check(atLeastOne);
-    add(app, "--max-client-jobs", options.jobs.ofClient, "Maximum number of these for one client")->check(atLeastOne);
+    add(app, "--max-client-jobs", options.jobs.ofClient,
+        "Maximum number of these waiting jobs of one client (see --max-jobs)")
+        ->check(atLeastOne);
     add(app, "--min-side", options.frame.minSide, "Minimum width and height of a picture, in pixels")
         ->check(atLeastOne);
     add(app, "--max-width", options.frame.maxWidth, "Maximum width of a picture, in pixels")

@@ -1,5 +1,5 @@
 #pragma once
-// The options of the server.
+// The options of the server, which the command line and environment variables set.
 
 #include <chrono>
 #include <cstddef>
@@ -32,54 +32,57 @@ struct Options {
     int workers = 0;                                     ///< threads that slice and draw; 0: one per processor
     int fileWorkers = 1;                                 ///< threads that make files
     int loadWorkers = 2;                                 ///< processes that read files concurrently
-    int ioThreads = 1;
-    std::string logLevel = "info";
+    int ioThreads = 1;                                   ///< threads that read and write sockets
+    std::string logLevel = "info";                       ///< least severe level that is logged; a name of spdlog
 
+    /// Host names that clients may use for the server, origins of foreign pages that may connect (both: see Access),
+    /// and networks of proxies whose X-Forwarded-For is trusted (see Network).
     std::vector<std::string> allowedHosts, allowedOrigins, trustedProxies;
-    std::string token;
+    std::string token;  ///< secret that clients must send; empty: a random one if one is required
     bool open = false;  ///< require no token, on any address
 
-    std::size_t maxMessage = 8U << 20U;        ///< largest `load` message
-    std::size_t maxRequestBytes = 64U << 10U;  ///< largest message of any other type
-    int maxDepth = 32;                         ///< deepest nesting of JSON
+    std::size_t maxMessage = 8U << 20U;        ///< maximum size of a `load` message
+    std::size_t maxRequestBytes = 64U << 10U;  ///< maximum size of any other message
+    int maxDepth = 32;                         ///< maximum nesting depth of the JSON of a message
     std::size_t maxUnsent = 1U << 20U;         ///< unsent bytes at which the server stops reading from a client
-    std::size_t maxSessions = 10'000;
-    std::size_t maxConnections = 4096;
-    ClientLimits client;
-    std::size_t maxBytes = 2U << 30U;      ///< held for all clients together (ByteBudget)
-    std::size_t minReadRate = 32U << 10U;  ///< bytes per second that a client must read, at least
-    std::string spool;                     ///< folder for unread files; empty: the system's temporary folder
-    int maxRequests = 2000;                ///< per second and connection
-    parallel::FairQueue::Limits jobs;
-    pipeline::FrameLimits frame;
-    std::size_t maxFill = pipeline::Pipeline::kFillSteps;
-    exports::Limits file;
-    session::Limits session;
-    std::string store = "memory";                   ///< the location, as in store::StoreOptions::url
-    std::size_t storeQuota = store::kDefaultQuota;  ///< largest total size of the sessions in a file or in memory
-    std::size_t keptUndo = 100;                     ///< undo steps of a session that the store keeps
-    std::size_t polytopeCache = 64U << 20U;         ///< largest total size of cached polytopes not in use
+    std::size_t maxSessions = 10'000;          ///< maximum number of stored sessions
+    std::size_t maxConnections = 4096;         ///< maximum number of open connections
+    ClientLimits client;                       ///< limits of each client
+    std::size_t maxBytes = 2U << 30U;          ///< maximum bytes held for all clients together (ByteBudget)
+    std::size_t minReadRate = 32U << 10U;      ///< bytes per second that a client must read, at least
+    std::string spool;                         ///< folder for unread files; empty: the system's temporary folder
+    int maxRequests = 2000;                    ///< messages per second from one connection
+    parallel::FairQueue::Limits jobs;          ///< maximum numbers of waiting jobs in each pool of workers
+    pipeline::FrameLimits frame;               ///< limits on the size of pictures
+    std::size_t maxFill = pipeline::Pipeline::kFillSteps;  ///< maximum number of steps to fill faces in one picture
+    exports::Limits file;                                  ///< limits on the files that clients request
+    session::Limits session;                               ///< limits of each session
+    std::string store = "memory";                          ///< location of the sessions: see store::StoreOptions::url
+    std::size_t storeQuota = store::kDefaultQuota;  ///< maximum total bytes of the sessions in a file or in memory
+    std::size_t keptUndo = 100;                     ///< maximum number of undo steps stored with a session
+    std::size_t polytopeCache = 64U << 20U;         ///< maximum total size of cached polytopes not in use
 
     process::SandboxMode sandbox = process::SandboxMode::automatic;
-    std::size_t drawMemory = 0;             ///< memory limit of a rasterizer process; 0: derived from `frame`
-    std::size_t loadMemory = 1024U << 20U;  ///< memory limit of a reader process
+    std::size_t drawMemory = 0;             ///< memory limit of a rasterizer process; 0: derived from other limits
+    std::size_t loadMemory = 1024U << 20U;  ///< memory limit of a file reader process
 
-    Seconds sessionExpiry{1800};
-    Seconds storeTimeout{1};
-    Seconds drawTimeout{60};
-    Seconds loadTimeout{20};
-    Seconds shownTimeout{1};
-    Seconds writeTimeout{10};
-    Seconds helloTimeout{10};
-    Seconds idleTimeout{30};
-    Seconds pingInterval{30};
-    Seconds stopTimeout{4};
+    Seconds sessionExpiry{1800};  ///< time after which a session that no client has open is deleted
+    Seconds storeTimeout{1};      ///< maximum time to wait for a reply of Redis
+    Seconds drawTimeout{60};      ///< maximum time to draw a picture; a slower rasterizer process is killed
+    Seconds loadTimeout{20};      ///< maximum time to read a file; a slower file reader process is killed
+    Seconds shownTimeout{1};      ///< time after which a sent picture counts as shown without an acknowledgment
+    Seconds writeTimeout{10};     ///< time after which a client that reads nothing is dropped
+    Seconds helloTimeout{10};     ///< time after which a new connection without a request or a hello is closed
+    Seconds idleTimeout{30};      ///< time after which an HTTP connection without a further request is closed
+    Seconds pingInterval{30};     ///< time after which a silent client is pinged; it is dropped after twice this time
+    Seconds stopTimeout{4};       ///< time that clients have to disconnect after a signal to stop
 };
 
-/// Adds every option to `app`; each can also be set by an environment variable OVAL4D_….
+/// Adds every option to `app`, which then writes its value to `options`. Each option can also be set by an environment
+/// variable OVAL4D_….
 void addOptions(CLI::App& app, Options& options);
 
-/// The limits that clients need to know, as the text of the JSON object in `welcome`.
+/// Returns the limits that clients need to know, as the text of a JSON object for the `welcome` message.
 std::string limitsText(const Options& options);
 
 }  // namespace oval4d::net

@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The CPU quota of a control group in processors: 2 for "200000 100000"; nothing for "max 100000" or no file.
+/// Returns the CPU quota of a control group as a number of processors, such as 2 for the cpu.max "200000 100000".
+/// Returns nothing if there is no quota ("max 100000") or no such file.
 std::optional<double> quotaIn(const fs::path& group) {
     double quota = 0, period = 0;
     if (std::ifstream(group / "cpu.max") >> quota >> period && period > 0) return quota / period;
@@ -35,7 +36,8 @@ std::size_t processors(const fs::path& root) {
         const std::string controllers = line.substr(first + 1, second - first - 1);
         if (!controllers.empty() && controllers != "cpu" && controllers != "cpu,cpuacct") continue;
         const fs::path mount = root / "sys/fs/cgroup" / controllers;
-        // In a container the path may be that of the host, of which only the root is visible here.
+        // In a container, the path may be one of the host, of which only the root is visible. Files that are not
+        // visible are skipped.
         for (fs::path path = line.substr(second + 2);; path = path.parent_path()) {
             if (const auto quota = quotaIn(mount / path)) most = std::min(most, *quota);
             if (path.empty()) break;

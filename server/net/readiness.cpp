@@ -13,7 +13,7 @@ void Readiness::warmUp(pipeline::Pipeline& pipeline) {
         std::vector<std::uint8_t> png;
         pipeline.warmUp();
         pipeline.frame(state, "", {}, png);
-        (void)polytopes::findEntry("");  // builds the tables of names
+        (void)polytopes::findEntry("");  // the first call builds the tables of names
         if (--missing_ == 0) spdlog::info("ready");
     } catch (const std::exception& fault) {
         broken_ = true;

@@ -1,5 +1,5 @@
 #pragma once
-// The readiness of the server, as /readyz reports it.
+// The readiness of the server, which /readyz reports.
 
 #include <atomic>
 #include <cstddef>
@@ -8,25 +8,26 @@
 
 namespace oval4d::net {
 
-/// The server is ready once every worker has drawn its first picture, so that shaders are compiled and the initial
-/// polytope is built. Every function may be called from any thread.
+/// Tracks whether the server is ready: every picture worker has drawn a first picture, so that shaders are compiled and
+/// the initial polytope is built. Every function may be called from any thread.
 class Readiness {
   public:
     explicit Readiness(std::size_t workers) : missing_(workers) {}
 
-    /// Draws a first picture; the first job of each worker. If frames cannot be drawn at all, logs the error and marks
-    /// the server broken: it never becomes ready, although it still serves geometry.
+    /// Draws a first picture; each worker must call this once, before its other jobs. If the picture cannot be drawn,
+    /// logs the error and marks the server as broken: it never becomes ready, although it still serves geometry.
     void warmUp(pipeline::Pipeline& pipeline);
 
+    /// Returns whether every worker has drawn its first picture.
     bool ready() const { return missing_ == 0; }
     /// Marks the server as stopping: load balancers should send it no new clients.
     void stop() { stopping_ = true; }
     bool stopping() const { return stopping_; }
-    /// Whether drawing a first picture failed, so that the server will never be ready.
+    /// Returns whether a worker could not draw its first picture, so that the server will never be ready.
     bool broken() const { return broken_; }
 
   private:
-    std::atomic<std::size_t> missing_;
+    std::atomic<std::size_t> missing_;  // number of workers that have not drawn their first picture
     std::atomic<bool> broken_ = false;
     std::atomic<bool> stopping_ = false;
 };

@@ -40,10 +40,10 @@ namespace {
 
 constexpr std::size_t kTokenBytes = 20;
 constexpr auto kWorkerStopTimeout = 500ms;
-// How long a reader process stays idle: a client that has loaded a file may soon load another.
+// Time for which an idle file reader process is kept: a client that has loaded a file may soon load another one.
 constexpr Seconds kReaderIdleTimeout{10};
 
-/// Raises the soft limit of open files to the hard limit: each connection takes a file descriptor.
+/// Raises the soft limit of open files to the hard limit, because each connection uses a file descriptor.
 void raiseFileLimit() {
     rlimit limit{};
     if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -56,8 +56,8 @@ store::StoreOptions storeOptions(const Options& options) {
             std::chrono::duration_cast<store::Milliseconds>(options.storeTimeout), options.storeQuota};
 }
 
-/// The URL of the server at this endpoint. For an unspecified address ("all interfaces") the host is localhost, which a
-/// browser on this machine can open.
+/// Returns the URL of the server at this endpoint. For an unspecified address ("all interfaces"), the host in the URL
+/// is localhost, which a browser on this machine can open.
 std::string urlFor(const tcp::endpoint& endpoint) {
     const bool all = endpoint.address().is_unspecified();
     const std::string address = all ? "localhost" : endpoint.address().to_string();
@@ -69,7 +69,7 @@ tcp::acceptor bindAcceptor(asio::io_context& io, const tcp::endpoint& endpoint) 
     tcp::acceptor acceptor(asio::make_strand(io));
     acceptor.open(endpoint.protocol());
     acceptor.set_option(asio::socket_base::reuse_address(true));
-    // IPv4 and IPv6 get a socket each, so that the system's bindv6only setting does not matter.
+    // The socket of a specific IPv6 address accepts no IPv4 connections, whatever the system's bindv6only setting is.
     if (endpoint.address().is_v6() && !endpoint.address().is_unspecified())
         acceptor.set_option(asio::ip::v6_only(true));
     acceptor.bind(endpoint);
@@ -77,10 +77,11 @@ tcp::acceptor bindAcceptor(asio::io_context& io, const tcp::endpoint& endpoint) 
     return acceptor;
 }
 
-/// One acceptor for each address, all on the same port. Skips an address that this machine lacks, such as ::1 without
-/// IPv6, if another one can be bound. Throws std::runtime_error.
+/// Returns one acceptor for each address, all on the same port. Skips addresses that this machine does not have, such
+/// as ::1 without IPv6, if another one can be bound. Throws std::runtime_error if no address can be bound, or if one
+/// cannot be bound for another reason.
 std::vector<tcp::acceptor> bindAcceptors(asio::io_context& io, const Options& options) {
-    constexpr int kAttempts = 20;  // to find a port that is free at every address
+    constexpr int kAttempts = 20;  // attempts to find a port that is free at every address, if the port may be any
     for (int attempt = 1;; ++attempt) {
         std::vector<tcp::acceptor> acceptors;
         std::uint16_t port = options.port;
@@ -109,6 +110,7 @@ std::vector<tcp::acceptor> bindAcceptors(asio::io_context& io, const Options& op
     }
 }
 
+/// The server: owns all services and runs them until a signal stops it.
 class Server {
   public:
     Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap);
@@ -125,7 +127,7 @@ class Server {
 
     Options options_;
     Clients clients_;
-    ConnectionRegistry connections_;  // outlives io_, whose coroutines hold slots
+    ConnectionRegistry connections_;  // declared before io_, whose coroutines hold slots of the registry
     asio::io_context io_;
     std::vector<tcp::acceptor> acceptors_;
     Metrics metrics_;
@@ -190,8 +192,8 @@ bool Server::onLoopback() const {
                                [](const tcp::acceptor& each) { return each.local_endpoint().address().is_loopback(); });
 }
 
-/// The token that clients must send: the configured one, or a random one if the server listens on more than loopback;
-/// empty if none is required.
+/// Returns the token that clients must send: the configured one, or a random one if the server listens on an address
+/// other than loopback; empty if none is required.
 std::string Server::requiredToken() const {
     if (options_.open || !options_.token.empty()) return options_.open ? std::string() : options_.token;
     return onLoopback() ? std::string() : store::randomName(kTokenBytes);
@@ -224,8 +226,8 @@ void Server::run() {
     spdlog::info("stopped");
 }
 
-/// Stops the workers. Some jobs cannot be interrupted: if one outlasts kWorkerStopTimeout, ends the program at once. By
-/// then nobody waits for the job, and all sessions have been written.
+/// Stops the workers. Some jobs cannot be interrupted: if one is still running after kWorkerStopTimeout, exits the
+/// program immediately. That loses nothing: by then no client waits for the job, and the sessions have been written.
 void Server::stopWorkers() {
     std::atomic_bool ended = false;
     std::thread watchdog([&ended] {
@@ -250,7 +252,7 @@ asio::awaitable<void> Server::listen(tcp::acceptor& acceptor) {
         const auto [fault] = co_await acceptor.async_accept(socket, kAsTuple);
         if (fault == asio::error::operation_aborted) co_return;
         if (fault) {
-            // Most likely out of file descriptors; the end of a connection frees one.
+            // The most likely reason is that no file descriptor is free; when a connection ends, one is.
             spdlog::warn("cannot accept fault=\"{}\"", fault.message());
             asio::steady_timer pause(io_, 100ms);
             co_await pause.async_wait(kAsTuple);
@@ -266,12 +268,12 @@ asio::awaitable<void> Server::stopOnSignal() {
     asio::signal_set signals(executor, SIGINT, SIGTERM, SIGHUP);
     const auto [fault, number] = co_await signals.async_wait(kAsTuple);
     spdlog::info("stopping signal={} connections={}", number, connections_.size());
-    signals.clear();  // so that a second signal ends the program at once
+    signals.clear();  // a second signal ends the program immediately
     readiness_.stop();
     for (tcp::acceptor& acceptor : acceptors_) asio::post(acceptor.get_executor(), [&acceptor] { acceptor.close(); });
     const auto limit = std::chrono::steady_clock::now() + steady(options_.stopTimeout);
     asio::steady_timer poll(executor);
-    // Save what clients have seen before they reconnect to other servers.
+    // Save all sessions before clients reconnect to other servers, so that they find there what they have seen here.
     auto saving = std::make_shared<std::monostate>();
     hub_->saveAll(saving);
     const std::weak_ptr<std::monostate> saved = std::exchange(saving, nullptr);
@@ -293,8 +295,8 @@ asio::awaitable<void> Server::stopOnSignal() {
 void runServer(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap) {
     raiseFileLimit();
     std::signal(SIGPIPE, SIG_IGN);  // hiredis writes to sockets that may have closed
-    std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit becomes a write error, like a full disk
-    std::signal(SIGCHLD, SIG_DFL);  // if ignored, children are reaped at once and their process ids may be reused
+    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails, as on a full disk
+    std::signal(SIGCHLD, SIG_DFL);  // if it were ignored, ended children would be reaped and their ids reused
     Server(std::move(options), forkJoin, heap).run();
 }
 

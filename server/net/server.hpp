@@ -1,5 +1,5 @@
 #pragma once
-// The server: listens, serves clients, and shuts down.
+// Runs the server.
 
 #include "net/options.hpp"
 #include "parallel/fork_join.hpp"
@@ -7,8 +7,9 @@
 
 namespace oval4d::net {
 
-/// Listens and serves clients until SIGINT, SIGTERM or SIGHUP, then tells every client to reconnect later and returns.
-/// Throws std::exception if it cannot listen.
+/// Listens and serves clients until SIGINT, SIGTERM or SIGHUP; then tells every client to reconnect later, writes the
+/// sessions to the store, and returns. Throws an exception derived from std::exception if the server cannot start, for
+/// example because it cannot listen.
 void runServer(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap);
 
 }  // namespace oval4d::net

@@ -1,5 +1,5 @@
 #pragma once
-// The services that connections and sessions share, and the errors that they all send.
+// The services that connections and sessions share, and the errors that both send.
 
 #include <boost/asio/io_context.hpp>
 
@@ -18,28 +18,28 @@ namespace oval4d::net {
 inline const Error kInternalError{ErrorCode::internal,
                                   "the server failed to carry out this request; the session is unchanged"};
 
-/// The reply to a request that would exceed the byte limit of the client, or of all clients together.
+/// The reply to a request that would exceed the byte limit (ByteBudget) of the client or of all clients together.
 inline const Error kTooManyBytes{
     ErrorCode::too_many,
     "the server already holds as many bytes as it may for this client, or for all clients: unread files and pictures, "
     "polytopes loaded or built by name, and undo history (--max-client-bytes, --max-bytes); try again when some of "
     "them have been freed"};
 
-/// The reply to a request whose job was refused with QueueFull.
+/// The reply to a request whose job was rejected because the job queue is full (parallel::QueueFull).
 inline const Error kTooManyJobs{ErrorCode::too_many,
                                 "too many pictures and files are waiting for a worker; try again later"};
 
-/// References to the shared services. They outlive every connection and session.
+/// References to the shared services, which outlive every connection and session.
 struct Services {
     const Options& options;
     boost::asio::io_context& io;
-    pipeline::PipelinePool& pictureWorkers;  ///< draws pictures
-    parallel::WorkerPool& fileWorkers;       ///< makes files, which takes longer
+    pipeline::PipelinePool& pictureWorkers;  ///< threads that slice and draw pictures
+    parallel::WorkerPool& fileWorkers;       ///< threads that make files, which takes longer
     Metrics& metrics;
     Clients& clients;
-    parallel::WorkerPool& loadWorkers;  ///< for files that clients load: its threads wait for the reader processes
-    reading::FileReaders& readers;
-    polytopes::PolytopeCache& polytopes;
+    parallel::WorkerPool& loadWorkers;    ///< threads that wait for file reader processes to read clients' files
+    reading::FileReaders& readers;        ///< the file reader processes
+    polytopes::PolytopeCache& polytopes;  ///< polytopes that were built from their names
 };
 
 }  // namespace oval4d::net

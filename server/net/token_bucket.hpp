@@ -6,13 +6,13 @@
 
 namespace oval4d::net {
 
-/// A token bucket that fills at a constant rate up to `burst` tokens and may be overdrawn. Not thread-safe.
+/// A token bucket: fills at a constant rate, holds at most `burst` tokens, and may be overdrawn. Not thread-safe.
 class TokenBucket {
   public:
     using Clock = std::chrono::steady_clock;
     using Seconds = std::chrono::duration<double>;
 
-    /// Starts full.
+    /// Creates a full bucket. `perSecond`: the number of tokens added per second.
     TokenBucket(double perSecond, double burst, Clock::time_point now)
         : perSecond_(perSecond), burst_(burst), level_(burst), last_(now) {}
 
@@ -23,14 +23,14 @@ class TokenBucket {
         return level_;
     }
 
-    /// The number of tokens at `now`.
+    /// Returns the number of tokens at `now`; negative if the bucket is overdrawn.
     double level(Clock::time_point now) const {
         return std::min(burst_, level_ + perSecond_ * std::chrono::duration<double>(now - last_).count());
     }
 
     bool full(Clock::time_point now) const { return level(now) >= burst_; }
 
-    /// The time until the level is 0 again; zero if the bucket is not overdrawn.
+    /// Returns the time until the level reaches 0 again; zero if the bucket is not overdrawn.
     Seconds debt(Clock::time_point now) const { return Seconds(std::max(0.0, -level(now) / perSecond_)); }
 
   private:

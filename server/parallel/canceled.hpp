@@ -2,8 +2,8 @@
 
 namespace oval4d::parallel {
 
-/// Thrown by work that ends early because a stop was requested. Not a std::exception, because it is not an error to
-/// report.
+/// Thrown by a job that ends early because a stop was requested. Not derived from std::exception, so that handlers that
+/// report errors do not catch it.
 struct Canceled {};
 
 }  // namespace oval4d::parallel

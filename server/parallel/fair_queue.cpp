@@ -8,11 +8,11 @@ namespace {
 
 using Seconds = FairQueue::Seconds;
 
-constexpr Seconds kMinCost{1e-4};  // of any job: no job is free
+constexpr Seconds kMinCost{1e-4};  // the minimum cost of a job: no job is free
 
-constexpr double kDecay = 0.75;        // of the measurements so far, at each further job
-constexpr Seconds kPriorWeight{0.02};  // the prior counts as much as jobs estimated at this in total
-// Measured times are clipped to this multiple of the cost, since other programs sometimes disturb a job.
+constexpr double kDecay = 0.75;        // the factor by which each new measurement reduces the weight of earlier ones
+constexpr Seconds kPriorWeight{0.02};  // the prior has the weight of measured jobs whose estimates sum to this time
+// Measured times are clipped to this multiple of the cost, because other programs sometimes delay a job.
 constexpr double kMaxOverrun = 2;
 constexpr double kMaxCorrection = 8;  // the largest factor by which estimates are corrected
 
@@ -36,7 +36,7 @@ Seconds FairQueue::correctedCost(const Lane& lane, Seconds estimate) const {
     return std::max(kMinCost, lane.correction_.factor(ofClient) * estimate);
 }
 
-/// The cost charged to a class, which is weighted by its number of active clients.
+/// Returns the cost to charge to a class. The weight of a class is its number of active clients.
 Seconds FairQueue::classCost(Length length, Seconds cost) const {
     return cost / std::max<std::size_t>(1, classes_[length].clients.activeFlows());
 }
@@ -120,7 +120,8 @@ void FairQueue::scheduleClient(const ClientPtr& client, Length length) {
     }
 }
 
-/// Threads are kept free only for lanes that have no long jobs.
+/// Records that the lane queues a job of this length. Adds the lane to `active_` unless it has queued a long job within
+/// kActive: threads are kept free only for lanes with short jobs.
 void FairQueue::recordActivity(const LanePtr& lane, Length length, Clock::time_point now) {
     forgetInactive(now);
     if (length == long_job) lane->lastLong_ = now;
@@ -139,7 +140,7 @@ void FairQueue::forgetInactive(Clock::time_point now) {
     }
 }
 
-/// Whether the maximum number of long jobs is running.
+/// Returns whether no long job may start now, because the maximum number of long jobs is running.
 bool FairQueue::longJobsMustWait(Clock::time_point now) {
     if (longRunning_ < maxLongRunning_) return false;
     forgetInactive(now);

@@ -9,14 +9,14 @@
 
 namespace oval4d::parallel {
 
-/// Fork–join for two jobs: a helper thread runs the second of two independent jobs. If that thread is in use, or all
-/// processors are busy, the caller runs both: the total throughput is higher. Waking the thread takes about 10 µs.
-/// Thread-safe.
+/// Runs two independent jobs in parallel: the calling thread runs the first one, and a helper thread runs the second.
+/// If the helper thread is in use, or all processors are busy, the calling thread runs both, which gives a higher total
+/// throughput. Waking the helper thread takes about 10 µs. Thread-safe.
 class ForkJoin {
   public:
     using Job = std::function<void()>;
 
-    /// Marks one processor as busy for the lifetime of this object.
+    /// Marks one processor as busy as long as this object exists.
     class BusyProcessor {
       public:
         explicit BusyProcessor(ForkJoin& forkJoin) : busy_(forkJoin.busyProcessors_) { ++busy_; }
@@ -34,8 +34,8 @@ class ForkJoin {
     ForkJoin(const ForkJoin&) = delete;
     ForkJoin& operator=(const ForkJoin&) = delete;
 
-    /// Runs both jobs and returns when both are done. Rethrows the exception of a job, that of the first if both throw.
-    /// If the first throws, the second may not have run.
+    /// Runs both jobs and returns when both are done. Rethrows the exception of a job; if both jobs throw, that of the
+    /// first. If the first job throws, the second may not have run.
     void invoke(const Job& first, const Job& second);
 
   private:
@@ -43,7 +43,7 @@ class ForkJoin {
 
     const unsigned processors_ = std::thread::hardware_concurrency();
     std::atomic<unsigned> busyProcessors_ = 0;
-    std::atomic_flag taken_;  // set while the thread serves a caller
+    std::atomic_flag taken_;  // set while the helper thread serves a caller
     std::mutex mutex_;
     std::condition_variable changed_;
     // Guarded by mutex_.
@@ -53,7 +53,7 @@ class ForkJoin {
     std::thread thread_;
 };
 
-/// Runs both jobs, with `forkJoin` if it is not null, else one after the other.
+/// Runs both jobs, with `forkJoin` if it is not null, else one after the other on the calling thread.
 void invoke(ForkJoin* forkJoin, const ForkJoin::Job& first, const ForkJoin::Job& second);
 
 }  // namespace oval4d::parallel

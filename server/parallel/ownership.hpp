@@ -1,6 +1,5 @@
 #pragma once
-// Checks, in debug and sanitizer builds, that objects are used by the threads that they belong to. In release builds
-// they are empty.
+// Assertions that objects are used only by the threads that may use them. With NDEBUG (release builds) they do nothing.
 
 #include <atomic>
 #include <cassert>
@@ -8,10 +7,11 @@
 
 namespace oval4d::parallel {
 
-/// Belongs to the thread that constructs it.
+/// Checks that an object is used only by the thread that constructed it. Use as a member or base of that object.
 class ThreadOwned {
   public:
 #ifdef NDEBUG
+    /// Asserts that the calling thread constructed this object.
     void assertOwner() const {}
 #else
     void assertOwner() const {
@@ -23,10 +23,10 @@ class ThreadOwned {
 #endif
 };
 
-/// May be used by any thread, but by one at a time. Copies and moves are unused.
+/// Checks that an object is used by at most one thread at a time, which may be any thread. A copy starts as not in use.
 class OneAtATime {
   public:
-    /// A use, for the lifetime of this object.
+    /// Marks the object as in use for the lifetime of the Use; asserts that no other Use of it exists.
     class Use {
       public:
 #ifdef NDEBUG

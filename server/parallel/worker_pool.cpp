@@ -18,7 +18,7 @@ constexpr auto kRecheckInterval = 1s;
 void carryOut(const WorkerPool::Job& job, std::size_t worker) {
     try {
         job(worker);
-    } catch (const Canceled&) {  // the result is no longer needed
+    } catch (const Canceled&) {  // a stop was requested: nobody needs the result
     }
 }
 
@@ -99,11 +99,12 @@ void WorkerPool::run(std::size_t worker) {
         lock.lock();
         worked_ += took;
         queue_.finished(*next, took);
-        if (queue_.waiting() > 0) wake_.notify_one();  // a long job that had to wait may begin now
+        if (queue_.waiting() > 0) wake_.notify_one();  // a long job that had to wait may start now
     }
 }
 
-/// Waits for a job. Runs `whenIdle` if none is queued for kIdleDelay after the last job.
+/// Waits for a job. Runs `whenIdle` if no job is queued within kIdleDelay after the worker's last job. `used`: whether
+/// the worker has run a job since it last ran `whenIdle`.
 void WorkerPool::wait(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker) {
     if (queue_.waiting() > 0) {
         wake_.wait_for(lock, kRecheckInterval);

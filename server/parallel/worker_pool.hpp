@@ -15,17 +15,17 @@
 
 namespace oval4d::parallel {
 
-/// Thrown when a job is rejected because the queue is full.
+/// Thrown by callers of WorkerPool::post() when it rejects a job because the queue is full.
 class QueueFull : public std::runtime_error {
   public:
     QueueFull() : std::runtime_error("too many jobs are queued") {}
 };
 
-/// Threads that run jobs in the order of a FairQueue. Each job receives the index of its worker, from 0, so that jobs
-/// can use data of the worker. Thread-safe.
+/// A pool of worker threads that run jobs in the order of a FairQueue. Each job receives the index of its worker, from
+/// 0 to size() − 1, so that it can use data that belongs to the worker. Thread-safe.
 class WorkerPool {
   public:
-    using Argument = std::size_t;  ///< of a job
+    using Argument = std::size_t;  ///< the type of a job's argument: the index of the worker
     using Job = FairQueue::Job;
     using Seconds = FairQueue::Seconds;
     using Client = FairQueue::Client;
@@ -37,34 +37,37 @@ class WorkerPool {
     struct Options {
         std::size_t threads = 1;
         Limits limits = {};
-        Job first = [](std::size_t) {};  ///< run once by each worker before any other job
-        /// Run by a worker that has been idle for kIdleDelay since its last job; frees cached memory.
+        Job first = [](std::size_t) {};  ///< called once by each worker before its other jobs
+        /// Called by a worker that has been idle for kIdleDelay since its last job, to free cached memory.
         std::function<void(std::size_t worker)> whenIdle = [](std::size_t) {};
-        ForkJoin* forkJoin = nullptr;  ///< is told which processors are busy; may be null
+        ForkJoin* forkJoin = nullptr;  ///< counts a processor as busy during each job; may be null
     };
     static constexpr std::chrono::seconds kIdleDelay{3};
 
     explicit WorkerPool(Options options);
     ~WorkerPool();
 
-    /// Queues a job, whose estimated duration is `cost`. Jobs without a lane share one. A job must not throw, except
-    /// Canceled after `stop`. Returns false, and drops the job, if the queue is full; after `stop`, drops the job.
+    /// Queues a job whose estimated running time is `cost`. All jobs whose `lane` is null share one lane. A job must
+    /// not throw, except Canceled after stop(). Returns false, and drops the job, if the queue is full. After stop(),
+    /// drops the job and returns true.
     [[nodiscard]] bool post(Job job, LanePtr lane, Seconds cost);
 
-    /// Makes a worker run `whenIdle` when it has been idle for kIdleDelay, even if no job runs before.
+    /// Makes a worker call `whenIdle` after it has been idle for kIdleDelay, even if it has run no job in between.
     void cleanUpWhenIdle();
 
-    /// Finishes or cancels the running jobs, and drops the others.
+    /// Drops the waiting jobs, requests the running ones to stop, and waits until all threads have ended.
     void stop();
 
-    /// The token on which `stop` requests a stop; long jobs should then end early.
+    /// Returns the token through which stop() requests a stop. Long jobs should check it and end early.
     std::stop_token stopToken() const { return stopSource_.get_token(); }
 
+    /// Returns the number of threads; 0 after stop().
     std::size_t size() const { return threads_.size(); }
+    /// Returns the number of waiting jobs.
     std::size_t waiting() const;
-    /// Whether a queued job could start if a thread were free.
+    /// Returns whether a waiting job could start if one more thread were free.
     bool crowded();
-    /// The total time that all threads have spent on jobs.
+    /// Returns the total running time of all jobs that have ended.
     Seconds worked() const;
 
   private:
@@ -78,7 +81,7 @@ class WorkerPool {
     std::stop_source stopSource_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
-    // Guarded by mutex_, as are lanes and clients.
+    // Guarded by mutex_, like the contents of lanes and clients.
     FairQueue queue_;
     Seconds worked_{0};
     bool cleanUp_ = false;  // see cleanUpWhenIdle

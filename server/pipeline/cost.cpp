@@ -12,8 +12,8 @@ double elements(const slicing::Object& object) {
     return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
 }
 
-/// The approximate number of elements, out of n, that a hyperplane meets: the elements form a three-dimensional
-/// boundary.
+/// Returns the approximate number of elements that a hyperplane cuts, out of n. The elements form a three-dimensional
+/// boundary, and the hyperplane cuts it in two dimensions: hence the exponent 2/3.
 double met(double n) { return std::pow(n, 2.0 / 3); }
 
 }  // namespace
@@ -22,7 +22,7 @@ Seconds frameCost(const session::State& state, scene::Viewport viewport) {
     const double n = elements(state.object);
     const double pixels = static_cast<double>(viewport.width) * viewport.height;
     const double bodies = state.slices.count * (2e-5 + 1.2e-6 * met(n));
-    const double layers = 1 + 0.4 * std::log2(1 + n / 25);  // faces blended over each other at a pixel
+    const double layers = 1 + 0.4 * std::log2(1 + n / 25);  // the number of faces blended over each other at a pixel
     return Seconds(5e-4 + bodies + 6e-9 * pixels * layers);
 }
 

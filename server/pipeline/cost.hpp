@@ -8,17 +8,17 @@
 
 namespace oval4d::pipeline {
 
-/// An estimated time, correct within a factor of three on one core of 2020. It depends only on the size of the object,
-/// the number of slices and the size of the picture.
+/// An estimated time, correct within a factor of three on one core of a processor of 2020. It depends only on the
+/// number of elements of the object, the number of slices and the size of the picture.
 using Seconds = std::chrono::duration<double>;
 
-/// The estimated time of Pipeline::frame.
+/// Returns the estimated time of Pipeline::frame.
 Seconds frameCost(const session::State& state, scene::Viewport viewport);
 
-/// The estimated time of Pipeline::cut and Pipeline::message together.
+/// Returns the estimated time of Pipeline::cut and Pipeline::message together.
 Seconds geometryCost(const session::State& state);
 
-/// The estimated time of fileOf.
+/// Returns the estimated time of fileOf.
 Seconds fileCost(const session::State& state);
 
 }  // namespace oval4d::pipeline

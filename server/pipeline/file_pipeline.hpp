@@ -9,16 +9,19 @@
 
 namespace oval4d::pipeline {
 
-/// Converts a session's state to the bytes of a file: state → slices → scene → file. Used by the server and the command
-/// line. Errors: `no_body`, `too_large`, or `too_many` if `limits` leave no room for the file.
+/// Exports the slices of a session's state, or only the focus slice, to a file (state → slices → scene → file), and
+/// returns the bytes of the file. Used by the server and the command line. Errors: `no_body` if there is nothing to
+/// export; `too_large` if the file exceeds a limit, takes too long, or `stop` is requested; `too_many` if
+/// Limits::reserve refuses memory for the file.
 Result<std::string> fileOf(const session::State& state, const exports::ExportRequest& request,
                            const exports::Limits& limits, std::stop_token stop = {});
 
-/// Removes "of", "body", "size" and "label" from `query` and returns the request that they describe. Errors:
-/// `bad_message` or `out_of_range`, with the allowed values.
+/// Removes the parameters "of", "body", "size" and "label" from `query` and returns the export request that they
+/// describe; parameters that are missing have their default values. Errors: `bad_message` for an unknown value,
+/// `out_of_range` for a size that is not allowed; the messages list the allowed values.
 Result<exports::ExportRequest> takeExportRequest(session::Query& query, const exports::Format& format);
 
-/// The suggested file name, in ASCII, such as "24-cell.stl".
+/// Returns a suggested file name: the name of the object, with unusual characters replaced by _, such as "24-cell.stl".
 std::string fileName(const session::State& state, const exports::ExportRequest& request);
 
 }  // namespace oval4d::pipeline

@@ -8,13 +8,13 @@
 
 namespace oval4d::pipeline {
 
-/// The allowed sizes in pixels.
+/// The allowed sizes of pictures, in pixels.
 struct FrameLimits {
     int minSide = 16, maxWidth = 8192, maxHeight = 8192;
     std::int64_t maxPixels = 16'777'216;
 };
 
-/// Returns the viewport, or `out_of_range` with the allowed range if it exceeds the limits.
+/// Returns the viewport if it is within the limits, else the error `out_of_range`, whose message says what is allowed.
 Result<scene::Viewport> checked(scene::Viewport viewport, const FrameLimits& limits);
 
 }  // namespace oval4d::pipeline

@@ -20,44 +20,46 @@
 
 namespace oval4d::pipeline {
 
-/// The seconds that each step of the last call took.
+/// The seconds that each step took; in addition to those of raster::Times: writing a message, and encoding a PNG file.
 struct Times : raster::Times {
     double write = 0, encode = 0;
 };
 
-/// Converts a session's state to what a client displays: state → slices → scene → `slices` message, or state → pixels →
-/// PNG file. Used by the server and the command line. Keeps its memory between calls. One pipeline serves one thread at
-/// a time.
+/// Converts a session's state to the data that a client displays: a `slices` message (state → slices → scene → message)
+/// or a PNG file (state → pixels → file). Used by the server and the command line. Keeps its memory between calls. A
+/// pipeline may be used by one thread at a time.
 class Pipeline {
   public:
-    /// The default limit on the work of filling intersecting faces, in the steps of slicing::Filler.
+    /// The default of `fillSteps`.
     static constexpr std::size_t kFillSteps = 20'000'000;
 
-    /// Draws frames with `rasterizer`.
+    /// Draws frames with `rasterizer`. With `forkJoin`, large objects and pictures are processed on two cores; null: on
+    /// one. `fillSteps` limits the time for filling self-intersecting faces in messages (see slicing::Filler::fill).
     Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin,
              std::size_t fillSteps = kFillSteps);
 
     /// Slices the state's object. Overwrites `out` and reuses its memory.
     void cut(const session::State& state, slicing::SliceSet& out);
 
-    /// Writes the `slices` message of slices that were cut from this state.
+    /// Writes the `slices` message of `slices`, which must have been cut from this state. `id` is that of the request
+    /// which the message answers, if any. Overwrites `out`.
     void message(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
                  std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding, std::string& out);
 
-    /// Makes the picture of the state as a PNG file that contains `stateText`, a `state` message. Calls `drawn`, if
-    /// given, when only encoding is left. Throws std::runtime_error if it cannot be drawn, most likely because no GL
-    /// context can be created.
+    /// Draws the picture of the state and encodes it as a PNG file, with `stateText`, the `state` message, in a text
+    /// chunk. Overwrites `out`. Calls `drawn`, if given, between drawing and encoding. Throws std::runtime_error if the
+    /// picture cannot be drawn, most likely because no GL context can be created.
     void frame(const session::State& state, std::string_view stateText, scene::Viewport viewport,
                std::vector<std::uint8_t>& out, const std::function<void()>& drawn = {});
 
-    /// Waits until the first frame can be drawn as fast as later ones. Throws std::runtime_error if frames cannot be
-    /// drawn.
+    /// Prepares for drawing, so that the first frame takes no longer than later ones (see Rasterizer::warmUp).
     void warmUp() { rasterizer_->warmUp(); }
 
-    /// Frees cached memory, which has the size of the largest picture so far; allocating it again takes a few
-    /// milliseconds. Meant to be called when idle.
+    /// Frees cached memory, which has the size of the largest picture so far. Call this when idle: allocating the
+    /// memory again takes a few milliseconds.
     void freeMemory();
 
+    /// Returns the times of the last `frame`, or of the last `cut` and the `message` after it.
     const Times& times() const { return times_; }
 
   private:

@@ -11,16 +11,17 @@
 
 namespace oval4d::pipeline {
 
-/// A worker pool in which each worker has a pipeline. Thread-safe.
+/// A worker pool in which each worker thread has its own Pipeline, which its jobs use. Thread-safe.
 class PipelinePool {
   public:
-    using Argument = Pipeline&;  ///< of a job
+    using Argument = Pipeline&;  ///< the parameter of a job
     using Job = std::function<void(Pipeline&)>;
 
     struct Options {
         std::size_t threads = 1;
         parallel::WorkerPool::Limits limits = {};
         std::size_t fillSteps = Pipeline::kFillSteps;
+        /// Called once by each worker, to make the rasterizer of its pipeline. `stop`: see WorkerPool::stopToken.
         std::function<std::unique_ptr<raster::Rasterizer>(std::stop_token stop)> makeRasterizer;
         Job first = [](Pipeline&) {};  ///< run once by each worker before any other job
     };
@@ -35,7 +36,7 @@ class PipelinePool {
 
   private:
     std::vector<std::unique_ptr<Pipeline>> pipelines_;  // one for each worker
-    parallel::WorkerPool workers_;                      // last, because its threads use the other members
+    parallel::WorkerPool workers_;                      // declared last, because its threads use the other members
 };
 
 }  // namespace oval4d::pipeline

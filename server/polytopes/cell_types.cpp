@@ -18,7 +18,7 @@ namespace {
 constexpr double kCongruenceTolerance = 1.0 / 500;  // relative to the polytope's extent
 constexpr double kRegularityTolerance = 0.01;       // relative, for the lengths in one cell
 
-// Least, root-mean-square and greatest of some lengths.
+// The least, the root-mean-square and the greatest of some lengths.
 struct LengthStatistics {
     double least = 1e300, most = 0, squares = 0;
     int count = 0;
@@ -43,8 +43,8 @@ struct Measures {
     }
 };
 
-// Measures cells one after another in linear time: each cell marks its vertices with a mark of its own, so that
-// duplicates are recognized without a search.
+// Measures all cells in linear time: each cell marks its vertices with a number of its own, which shows without a
+// search whether a vertex has already been visited in this cell.
 class CellMeasurer {
   public:
     explicit CellMeasurer(const Polytope& polytope) : p_(polytope), markOf_(polytope.vertices.size(), 0) {}
@@ -77,7 +77,7 @@ class CellMeasurer {
     std::uint64_t mark_ = 0;
 };
 
-// The regular polygon {n/d} of a vertex loop; d is its turning number.
+// Returns the regular polygon {n/d} that a vertex loop forms; d is the turning number of the loop.
 Branch polygonOf(const Polytope& p, std::span<const std::uint32_t> loop) {
     const auto n = loop.size();
     if (p.convexFaces || n < 5) return {static_cast<int>(n), 1};
@@ -106,8 +106,8 @@ class Numbering {
 }  // namespace
 
 std::vector<std::uint32_t> cellTypesByShape(const Polytope& p) {
-    // Cells of one type have the same vertex count and polygons (a number of `polygons`). For each such combination,
-    // `seen` lists the metric invariants of the types found so far.
+    // `polygons` numbers the combinations of a vertex count and a list of polygons. For each of these numbers, `seen`
+    // lists the types found so far, with their metric invariants.
     Numbering<std::vector<std::uint32_t>> polygons;
     Numbering<std::array<std::uint32_t, 2>> sizes;
     struct Seen {

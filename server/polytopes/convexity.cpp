@@ -12,7 +12,7 @@ namespace oval4d::polytopes {
 namespace {
 
 constexpr double kTolerance = 1e-9;                // relative to the extent
-constexpr double kMaxTurn = 3 * std::numbers::pi;  // between one full turn and two
+constexpr double kMaxTurn = 3 * std::numbers::pi;  // a sum of angles is 2π (one turn) or at least 4π
 
 // The component of v perpendicular to a unit vector.
 glm::dvec4 rejection(const glm::dvec4& v, const glm::dvec4& unit) { return v - glm::dot(v, unit) * unit; }
@@ -55,8 +55,8 @@ class ConvexityTest {
         return count == p_.cellCount();
     }
 
-    // Finds the foot of the perpendicular from center_ to each cell's hyperplane. Returns false if a cell spans no
-    // hyperplane or one through center_.
+    // Finds the foot of the perpendicular from center_ to each cell's hyperplane. Returns false if the points of a cell
+    // do not span a hyperplane, or if its hyperplane contains center_.
     bool findHyperplanes() {
         for (std::size_t c = 0; c < p_.cellCount(); ++c) {
             points_.clear();
@@ -90,8 +90,8 @@ class ConvexityTest {
         return foot;
     }
 
-    // The same criterion for each cell within its hyperplane: no edge is reentrant, and seen from the mean of the
-    // cell's corners, the 2-faces around each vertex make one full turn.
+    // Applies the test of isConvex to each cell within its hyperplane: no edge is reentrant, and seen from the mean of
+    // the cell's corners, the 2-faces around each vertex make one full turn.
     bool cellsAreConvex() {
         std::vector<glm::dvec4> feet(p_.faces.size()), centers(p_.faces.size());
         std::vector<std::uint32_t> first(p_.edges.size());
@@ -135,20 +135,21 @@ class ConvexityTest {
         }
     }
 
-    // Whether `point` lies beyond the flat whose point nearest to the origin is `foot`.
+    // Returns whether the flat whose point nearest to the origin is `foot` separates `point` from the origin.
     bool isBeyond(const glm::dvec4& foot, const glm::dvec4& point) const {
         return glm::dot(point - foot, foot) > kTolerance * extent_ * glm::length(foot);
     }
 
-    // Whether no 2-face is reentrant: the center of each of its cells lies on the inner side of the other's hyperplane.
+    // Returns whether no 2-face is reentrant: whether, at each 2-face, the center of each of the two cells lies on the
+    // inner side of the hyperplane of the other cell.
     bool isLocallyConvex() const {
         return std::none_of(p_.faceCells.begin(), p_.faceCells.end(), [&](const auto& pair) {
             return isBeyond(feet_[pair[0]], centers_[pair[1]]) || isBeyond(feet_[pair[1]], centers_[pair[0]]);
         });
     }
 
-    // Whether the cells around every edge make one full turn. In the plane perpendicular to the vectors from center_ to
-    // the ends of the edge, each of these cells is a sector.
+    // Returns whether the cells around every edge make one full turn. In the plane perpendicular to the vectors from
+    // center_ to the ends of the edge, each of these cells is a sector.
     bool coversOnce() const {
         const std::size_t edges = p_.edges.size();
         std::vector<double> turn(edges, 0.0), first(edges);

@@ -1,13 +1,14 @@
 #pragma once
-// The convexity test. A convex polytope has convex slices.
+// Tests whether a polytope is convex. A convex polytope has convex slices.
 
 #include "polytopes/polytope.hpp"
 
 namespace oval4d::polytopes {
 
-/// Returns whether `polytope` is the boundary of a convex body. Takes time linear in the number of incidences. The
-/// criterion: seen from the mean of the vertices, the cells cover the sphere of directions exactly once, and no 2-face
-/// is reentrant. Neighboring cells may lie in one hyperplane.
+/// Returns whether `polytope` is the boundary of a convex body. Neighboring cells may lie in one hyperplane. The test
+/// is that the 2-faces and cells are convex, that no 2-face is reentrant (has an inner dihedral angle of more than
+/// 180°), and that the cells, seen from the mean of the vertices, cover the sphere of directions exactly once. Takes
+/// time linear in the number of incidences (pairs of a cell and a 2-face, and of a 2-face and an edge).
 bool isConvex(const Polytope& polytope);
 
 }  // namespace oval4d::polytopes

@@ -9,8 +9,8 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the polytope in 4OFF (Geomview's OFF format in four dimensions), with `vertices` in place of its own.
-/// Coordinates keep the polytope's units; reading the text gives the same polytope.
+/// Returns the text of a 4OFF file (Geomview's OFF format in four dimensions) with the polytope, but with `vertices` in
+/// place of its own. Coordinates are in the polytope's units. Reading the file gives the same polytope.
 std::string write4Off(const Polytope& polytope, std::span<const glm::dvec4> vertices);
 
 }  // namespace oval4d::polytopes

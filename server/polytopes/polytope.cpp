@@ -48,14 +48,15 @@ void findEdges(Polytope& p) {
     }
 }
 
-// +1 if the vertex loop of the 2-face traverses its edge i from the smaller to the larger vertex, else −1.
+// Returns +1 if the vertex loop of the 2-face traverses its i-th edge from the smaller to the larger vertex index, else
+// −1.
 int directionOf(const Polytope& p, std::uint32_t face, std::size_t i) {
     return p.edges[p.faceEdges[face][i]][0] == p.faces[face][i] ? 1 : -1;
 }
 
 // Orients the boundary coherently: assigns a sign to every incidence of a 2-face with a cell such that the vertex loops
 // of a cell, reversed where the sign is negative, traverse each edge of the cell once in each direction, and such that
-// a 2-face has opposite signs in its two cells. A slot is an index into cells.items, that is, one such incidence.
+// a 2-face has opposite signs in its two cells. A slot is an index into cells.items; it identifies an incidence.
 class Orienter {
   public:
     explicit Orienter(Polytope& p) : p_(p), slotsOfFace_(p.faces.size(), {kNone, kNone}), done_(p.cells.size()) {
@@ -91,8 +92,8 @@ class Orienter {
         slots[slots[0] == kNone ? 0 : 1] = slot;
     }
 
-    // Orients one connected component of the boundary. The outward orientation is the one with negative signed
-    // hypervolume; it makes the sections that the slicer links up counterclockwise.
+    // Orients one connected component of the boundary, beginning with the slot `first`. The outward orientation is the
+    // one with negative signed hypervolume. With it, the slicer's face loops are counterclockwise seen from outside.
     void orientComponent(std::uint32_t first) {
         std::vector<std::uint32_t> cells;
         std::vector<std::uint32_t> waiting{first};
@@ -125,7 +126,8 @@ class Orienter {
         }
     }
 
-    // Propagates the sign of one 2-face to the whole cell. Returns false if the cell is oriented already.
+    // Propagates the sign of one 2-face, which is already set, to the whole cell. Returns false if the cell was
+    // oriented before.
     bool orientCell(std::uint32_t cell) {
         if (done_[cell]) return false;
         done_[cell] = true;
@@ -161,8 +163,8 @@ class Orienter {
         return true;
     }
 
-    // Propagates signs across edges to all 2-faces of the cell that are connected to one with a sign. Sides 2i and
-    // 2i + 1 belong to one edge.
+    // Propagates signs across edges to all 2-faces of the cell that are connected to a 2-face with a sign. Sides 2i and
+    // 2i + 1 belong to the same edge.
     void propagateSigns(const std::vector<Side>& sides, std::uint32_t begin, std::uint32_t end) {
         auto& signs = p_.cellSigns;
         std::vector<std::vector<std::size_t>> sidesOf(end - begin);
@@ -183,8 +185,9 @@ class Orienter {
         }
     }
 
-    // 24 times the signed hypervolume of the cone over the cell, as a sum over fans of simplices. The cone's apex is a
-    // vertex of the polytope: if the apex were the origin, rounding errors would swamp the sum for a distant polytope.
+    // Returns 24 times the signed hypervolume of the cone over the cell, as a sum over simplices: each 2-face is
+    // divided into a fan of triangles. The apex of the cone is a vertex of the polytope. If it were the origin,
+    // rounding errors would exceed the sum for a polytope that is far from the origin.
     double coneOver(std::uint32_t cell) const {
         double sum = 0;
         const glm::dvec4 tip = p_.vertices[p_.faces.items[0]];
@@ -207,7 +210,7 @@ class Orienter {
     std::vector<bool> done_;
 };
 
-// Whether a vertex loop is a convex polygon: it turns the same way at every corner, by 2π in total.
+// Returns whether a vertex loop is a convex polygon: whether it turns the same way at every corner, by 2π in total.
 bool isConvexLoop(const Polytope& p, std::span<const std::uint32_t> loop) {
     if (loop.size() == 3) return true;
     const std::size_t n = loop.size();
@@ -237,9 +240,10 @@ void checkIndices(const geometry::JaggedArray& lists, std::size_t below, Part ow
     }
 }
 
-// Builds edgeFaces. At each of its edges a cell has two 2-faces, and their loops, oriented outward from the cell,
-// traverse the edge in opposite directions. Following the cell from one of them to the other orders the 2-faces
-// cyclically; where several cycles meet at an edge, they are stored one after another.
+// Builds edgeFaces. A cell has two 2-faces at each of its edges, and the loops of these, oriented outward from the
+// cell, traverse the edge in opposite directions. Going through the cell from one of the two 2-faces to the other, then
+// through the next cell, and so on, gives the cyclic order. If there are several cycles around an edge, they are stored
+// one after another.
 void findFacesAtEdges(Polytope& p) {
     auto& [begin, items] = p.edgeFaces;
     begin.assign(p.edges.size() + 1, 0);
@@ -252,7 +256,7 @@ void findFacesAtEdges(Polytope& p) {
             items[next[p.faceEdges[f][i]]++] = 2 * f + (directionOf(p, f, i) > 0 ? 1 : 0);
         }
     }
-    std::vector<std::uint32_t> entering(p.cells.size());  // by cell: the position of the side that follows it
+    std::vector<std::uint32_t> entering(p.cells.size());  // by cell: the position in `sides` of the 2-face after it
     for (std::size_t e = 0; e < p.edges.size(); ++e) {
         const auto sides = std::span(items).subspan(begin[e], begin[e + 1] - begin[e]);
         const auto cellBefore = [&](std::uint32_t side) { return p.faceCells[side >> 1U][side & 1U]; };

@@ -20,15 +20,15 @@ struct Header {
     std::uint64_t size;
 };
 
-// Space for one file descriptor that is sent with a message.
+// The ancillary data of a message that carries one file descriptor.
 struct alignas(cmsghdr) AncillaryData {
     char bytes[CMSG_SPACE(sizeof(int))];
 };
 
-// How often a wait checks for a stop request.
+// The interval at which a wait checks for a stop request.
 constexpr std::chrono::milliseconds kStopCheckInterval{100};
 
-/// Waits for a poll(2) event; returns false if it does not happen in time.
+/// Waits for a poll(2) event; returns false if the deadline passes or a stop is requested first.
 bool waitFor(int socket, short event, const Deadline& deadline) {
     using std::chrono::milliseconds;
     const milliseconds longest =
@@ -40,7 +40,8 @@ bool waitFor(int socket, short event, const Deadline& deadline) {
     }
 }
 
-/// Repeats a system call that sends or receives bytes until it has `moved` some of them.
+/// Repeats `call`, a nonblocking system call that sends or receives, until it succeeds, and sets `moved` to the number
+/// of bytes. Waits for `event` while the call would block.
 template <typename Call>
 Transfer moveSome(int socket, short event, const Deadline& deadline, std::size_t& moved, Call call) {
     for (;;) {
@@ -94,7 +95,7 @@ Transfer Channel::send(MessageType type, std::string_view body, int file, const 
 
 Transfer Channel::receive(MessageType& type, std::string& body, int* file, const Deadline& deadline,
                           std::size_t maxBytes) const {
-    // A sender that never pauses must not prevent the timeout.
+    // moveSome() checks the deadline only when it must wait, which never happens if the sender is fast enough.
     if (Deadline::Clock::now() > deadline.until) return Transfer::timed_out;
     if (file != nullptr) *file = kNoFile;
     const auto read = [&](void* to, std::size_t size) {

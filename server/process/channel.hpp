@@ -1,5 +1,5 @@
 #pragma once
-// Messages between the server and its child processes, over a socket pair.
+// Messages between the server and its child processes, sent over a socket pair.
 
 #include <chrono>
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace oval4d::process {
 
-/// The type of a message, each with a comment on its body. A child first sends `ready` or `failed`. A child that draws
-/// answers an `order` with `drawn` or `failed`; if it lacks the object, it first sends `object_missing`, and the server
-/// sends `object`. A child that reads files answers a `file` with `outcome`.
+/// The types of messages; the comment on each describes the body. A child process first sends `ready` or `failed`. A
+/// rasterizer process replies to `draw` with `drawn` or `failed`; if it does not have the object, it first sends
+/// `object_missing`, and the server sends `object`. A file reader process replies to `file` with `outcome`.
 enum class MessageType : std::uint32_t {
     ready,           ///< empty
-    draw,            ///< raster::DrawRequest, with the file of SharedPixels to draw into
+    draw,            ///< raster::DrawRequest; carries the file descriptor of the SharedPixels to draw into
     object,          ///< written by slicing::encodeObject
     object_missing,  ///< empty
     drawn,           ///< raster::Times
@@ -25,21 +25,21 @@ enum class MessageType : std::uint32_t {
     outcome,         ///< the object that was read, or an error
 };
 
-/// When to stop waiting for the other end; by default, never.
+/// The conditions that end the wait for the other end: a point in time, or a stop request. By default, there are none.
 struct Deadline {
     using Clock = std::chrono::steady_clock;
     Clock::time_point until = Clock::time_point::max();
-    std::stop_token stop;  ///< a request takes effect within 0.1 s
+    std::stop_token stop;  ///< a stop request takes effect within 0.1 s
 };
 
-/// The result of sending or receiving a message.
+/// The result of sending or receiving a message. After any result but `complete`, the channel can no longer be used.
 enum class Transfer {
     complete,
     closed,     ///< the other end is closed
-    timed_out,  ///< or a stop was requested; the channel can no longer be used
+    timed_out,  ///< the deadline has passed, or a stop was requested
 };
 
-/// One end of a socket pair. The destructor closes it.
+/// One end of a socket pair, which sends and receives messages. Owns the socket: the destructor closes it.
 class Channel {
   public:
     explicit Channel(int socket) : socket_(socket) {}
@@ -50,15 +50,17 @@ class Channel {
     static constexpr int kNoFile = -1;
     static constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
-    /// Sends a message, with a duplicate of the file descriptor `file` if there is one.
+    /// Sends a message. Unless `file` is kNoFile, the receiver gets a duplicate of that file descriptor.
     Transfer send(MessageType type, std::string_view body = {}, int file = kNoFile,
                   const Deadline& deadline = {}) const;
-    /// Receives a message. If `file` is not null, it is set to the file descriptor that came along, which the caller
-    /// must close, or to kNoFile. Throws std::runtime_error if the body has more than `maxBytes` bytes.
+    /// Receives a message. If `file` is not null, sets `*file` to the file descriptor that was sent with the message,
+    /// which the caller must close, or to kNoFile if there was none. Throws std::runtime_error if the body has more
+    /// than `maxBytes` bytes.
     Transfer receive(MessageType& type, std::string& body, int* file = nullptr, const Deadline& deadline = {},
                      std::size_t maxBytes = kNoLimit) const;
 
-    /// Waits until there is something to receive or the other end is closed; returns false if neither happens in time.
+    /// Waits until a message can be received or the other end is closed; returns false if neither happens before the
+    /// deadline.
     bool wait(const Deadline& deadline) const;
 
   private:

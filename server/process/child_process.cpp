@@ -25,10 +25,11 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = Deadline::Clock;
 
-// Of the reason that a child sends with MessageType::failed, in bytes.
+// The maximum size in bytes of the reason that a child process sends with MessageType::failed.
 constexpr std::size_t kMaxReason = 64U << 10U;
 
-/// The environment of a child: that of this program without OVAL4D_… (except OVAL4D_FONT), and the added variables.
+/// The environment of a child process: the variables of this process, without those named OVAL4D_… except OVAL4D_FONT,
+/// and the variables in `added` whose names are not among them.
 class Environment {
   public:
     explicit Environment(const std::vector<std::string>& added) {
@@ -54,8 +55,8 @@ class Environment {
     throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(error));
 }
 
-// The time that a process has to exit after its channel was closed; then it is killed. A killed process is waited for
-// no longer than this, because a debugger, for example, may delay its end.
+// The time that a process has to exit after its channel was closed; after that, it is killed. Also the longest wait for
+// the end of a killed process, which a debugger, for example, may delay.
 constexpr auto kExitTimeout = 1s;
 
 /// Waits for a process to exit; returns false after kExitTimeout.
@@ -84,7 +85,8 @@ void ChildProcess::start() {
     channel_ = std::make_unique<Channel>(sockets[0]);
     const Channel theirs(sockets[1]);
 
-    // Close the server's other files, or its connections would stay open as long as the child runs.
+    // Close the server's other file descriptors in the child; otherwise the server's connections would stay open as
+    // long as the child runs.
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_adddup2(&files, sockets[1], kChildSocket);
@@ -97,7 +99,8 @@ void ChildProcess::start() {
     const int error = posix_spawn(&process_, "/proc/self/exe", &files, nullptr, words, environment.data());
     posix_spawn_file_actions_destroy(&files);
     if (error == 0) {
-        // Set here and not by the process, because starting is most of the work of many of them.
+        // Set by the parent, because the priority must also apply to the start of the child, which is most of the work
+        // of many child processes.
         if (options_.niceness > 0) setpriority(PRIO_PROCESS, static_cast<id_t>(process_), options_.niceness);
         return;
     }
@@ -109,7 +112,8 @@ void ChildProcess::kill() {
     if (channel_) end(true);
 }
 
-/// Ends the process: kills it at once, or gives it kExitTimeout to exit. Returns its signal or exit status as text.
+/// Closes the channel and ends the process: kills it immediately if `atOnce`, else after kExitTimeout if it has not
+/// exited by then. Returns its signal or exit status as text.
 std::string ChildProcess::end(bool atOnce) {
     channel_.reset();
     ready_ = false;
@@ -142,12 +146,12 @@ void ChildProcess::converse(const Talk& talk, const std::stop_token& stop) {
         auto transfer = Transfer::complete;
         bool talked = false;
         try {
-            // The process may be lost before the conversation, for another reason.
+            // A process that hangs while it starts has not hung because of this conversation: see `talked` below.
             if (!ready_) awaitReady(transfer, deadline(stop));
             talked = ready_;
             if (talked) transfer = talk(*channel_, deadline(stop));
         } catch (...) {
-            end(true);  // or its late answer would be taken for that of the next conversation
+            end(true);  // otherwise the next conversation could receive a late answer to this one
             throw;
         }
         if (transfer == Transfer::complete) return;
@@ -164,10 +168,10 @@ void ChildProcess::converse(const Talk& talk, const std::stop_token& stop) {
 }
 
 void beginChild() {
-    // A terminal or a container sends these to all processes, but the server decides when its children end.
+    // A terminal or a container sends these signals to all processes, but the server decides when its children end.
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGTERM, SIG_IGN);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // a process that hangs or is stopped would not notice that its socket is closed
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // a child that hangs or is stopped would not notice that its socket is closed
 }
 
 }  // namespace oval4d::process

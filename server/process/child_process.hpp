@@ -1,5 +1,5 @@
 #pragma once
-// Child processes that do risky work for the server: it survives if they crash or hang.
+// Child processes that do risky work for the server, which survives if they crash or hang.
 
 #include <sys/types.h>
 
@@ -16,45 +16,46 @@
 
 namespace oval4d::process {
 
-/// The file descriptor of the child's end of the channel.
+/// The file descriptor, in a child process, of its end of the channel.
 inline constexpr int kChildSocket = 3;
 
 using parallel::Canceled;
 
-/// The loss of a process that died, or that hung and was killed.
+/// Describes the loss of a process that died, or that hung and was killed.
 struct Loss {
-    bool hung;
-    std::string how;  ///< for the log
+    bool hung;        ///< whether the process hung; false if it died
+    std::string how;  ///< text for the log, such as "died: signal 11"
 };
 
 /// The options of a child process.
 struct ChildOptions {
-    std::string command;                      ///< the subcommand of this program
-    std::vector<std::string> environment;     ///< "NAME=value", added unless the server's environment has that name
-    std::chrono::duration<double> timeout;    ///< of a start and of each conversation; a slower process has hung
-    bool repeatAfterHang = true;              ///< whether to repeat a conversation in which the process hung
-    std::function<void(const Loss&)> onLoss;  ///< called on any thread
+    std::string command;                      ///< the subcommand of this program that the child runs
+    std::vector<std::string> environment;     ///< "NAME=value"; a variable that the child inherits takes precedence
+    std::chrono::duration<double> timeout;    ///< for the start and for each conversation; then the child has hung
+    bool repeatAfterHang = true;              ///< whether to repeat a conversation in which the child hung
+    std::function<void(const Loss&)> onLoss;  ///< called when a child is lost, on any thread
     int niceness = 0;                         ///< scheduling priority, as for nice(1)
 };
 
-/// A conversation failed because its processes were lost.
+/// Thrown when a conversation fails because its processes were lost.
 class ProcessLost : public std::runtime_error {
   public:
     ProcessLost(const std::string& fault, bool hung) : std::runtime_error(fault), hung_(hung) {}
-    /// Whether the process hung in the conversation itself, which was not repeated.
+    /// Returns whether the process hung during the conversation, which was therefore not repeated.
     bool hung() const { return hung_; }
 
   private:
     bool hung_;
 };
 
-/// A child process that runs this program, started on demand, and again after it was lost. It ends with this object, or
-/// with the program. It inherits no file descriptors of the server except standard error (the log), and no environment
-/// variables OVAL4D_… except OVAL4D_FONT, because they may hold secrets. Not thread-safe: one thread at a time may use
-/// an object.
+/// A child process that runs this program. It is started on demand, and a new one replaces it if it is lost. It ends
+/// when this object is destroyed or the server ends. Of the server's file descriptors it inherits only standard error
+/// (the log). Of the server's environment variables OVAL4D_… it inherits only OVAL4D_FONT, because others may hold
+/// secrets. Not thread-safe: one thread at a time may use an object.
 class ChildProcess {
   public:
-    /// A conversation with the process. Returns the result of its last transfer.
+    /// A conversation: sends messages to the process and receives its replies before the deadline. Returns the result
+    /// of its last transfer.
     using Talk = std::function<Transfer(const Channel&, const Deadline&)>;
 
     explicit ChildProcess(ChildOptions options);
@@ -62,12 +63,15 @@ class ChildProcess {
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// Starts the process unless it is running, and does not wait until it is ready. Throws std::runtime_error.
+    /// Starts the process unless it is running, without waiting until it is ready. Throws std::runtime_error if it
+    /// cannot be started.
     void start();
 
-    /// Calls `talk` when the process is ready, and once more with a new process if the first is lost. Throws Canceled;
-    /// ProcessLost if both are lost; std::runtime_error if the process cannot be started or reports that it failed to
-    /// begin; and what `talk` throws, after killing the process.
+    /// Starts the process if necessary and calls `talk` when it is ready. If the process is lost, repeats this once
+    /// with a new process, unless it hung during `talk` and `repeatAfterHang` is false. Throws Canceled if a stop is
+    /// requested; ProcessLost if the second process is lost, too, or the conversation is not repeated;
+    /// std::runtime_error if the process cannot be started or reports that it failed to start; and what `talk` throws,
+    /// after killing the process.
     void converse(const Talk& talk, const std::stop_token& stop);
 
     /// Kills the process if it is running.
@@ -79,13 +83,13 @@ class ChildProcess {
     void awaitReady(Transfer& transfer, const Deadline& deadline);
 
     const ChildOptions options_;
-    std::unique_ptr<Channel> channel_;  // null: not running
+    std::unique_ptr<Channel> channel_;  // null while no process is running
     bool ready_ = false;
     pid_t process_ = 0;
-    std::vector<pid_t> unreaped_;  // killed, but not ended yet
+    std::vector<pid_t> unreaped_;  // processes that were killed, but had not ended after kExitTimeout
 };
 
-/// Must be called by a child first: makes it end when the server ends, and ignore SIGINT and SIGTERM.
+/// Makes this process end when the server ends, and ignore SIGINT and SIGTERM. A child process must call this first.
 void beginChild();
 
 }  // namespace oval4d::process

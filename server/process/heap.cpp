@@ -8,8 +8,8 @@ namespace oval4d::process {
 
 namespace {
 
-// In bytes. glibc would reach these values by itself after seeing blocks as large.
-constexpr int kMapThreshold = 32 << 20;  // larger blocks are mapped one by one, and unmapped when they are freed
+// Thresholds in bytes. glibc raises its own thresholds to these values after blocks of that size have been freed.
+constexpr int kMapThreshold = 32 << 20;  // each larger block is mapped separately, and unmapped when it is freed
 constexpr int kTrimThreshold = 2 * kMapThreshold;
 
 }  // namespace
@@ -19,8 +19,9 @@ Heap::Heap() {
     mallopt(M_TRIM_THRESHOLD, kTrimThreshold);
 }
 
-/// malloc_trim leaves the end of a thread's arena, however large it is. glibc cuts that off, if it exceeds the trim
-/// threshold, when the thread frees a large block.
+/// malloc_trim does not return the free memory at the end of a thread's arena, however large that is. glibc returns it
+/// when the thread frees a large block and the free memory exceeds the trim threshold: hence the temporary threshold of
+/// 0 and the large block.
 void Heap::returnFreeMemory() {
     mallopt(M_TRIM_THRESHOLD, 0);
     void* const volatile large = ::operator new(1U << 17U);

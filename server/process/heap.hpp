@@ -2,14 +2,15 @@
 
 namespace oval4d::process {
 
-/// The settings of this process's memory allocator (glibc's). Constructed once, in main, before memory is used much.
+/// Configures the memory allocator of this process (glibc's), and returns free memory to the system. Construct one
+/// object in main(), before the program allocates much memory.
 class Heap {
   public:
     Heap();
     Heap(const Heap&) = delete;
     Heap& operator=(const Heap&) = delete;
 
-    /// Returns free memory to the operating system. Thread-safe; takes milliseconds.
+    /// Returns free memory to the operating system, which takes milliseconds. Thread-safe.
     void returnFreeMemory();
 };
 

@@ -28,7 +28,8 @@ void check(int error) {
     if (error < 0) throw std::runtime_error(std::string("cannot filter system calls: ") + std::strerror(-error));
 }
 
-// Allowed in all roles, with any arguments. None of them affects anything outside the process and its open files.
+// System calls that are allowed in all roles, with any arguments. None of them affects anything outside the process and
+// its open files.
 constexpr auto kCommonCalls = std::to_array<const char*>({"brk",
                                                           "clock_getres",
                                                           "clock_gettime",
@@ -77,13 +78,14 @@ constexpr auto kCommonCalls = std::to_array<const char*>({"brk",
                                                           "times",
                                                           "uname"});
 
-// Mesa's threads set their names, processor affinity and priority.
+// Calls with which Mesa's threads set their processor affinity and priority.
 constexpr auto kThreadCalls = std::to_array<const char*>(
     {"arch_prctl", "getpriority", "sched_get_priority_max", "sched_get_priority_min", "sched_getparam",
      "sched_getscheduler", "sched_setaffinity", "sched_setscheduler", "setpriority"});
 
-// These kill the process: no library makes such calls, so that only an attacker who controls the process would. Other
-// calls that are not allowed fail with an error, which libraries can handle: newer versions may try new calls.
+// Calls that kill the process: no library makes them, so they show that an attacker controls the process. All other
+// calls that are not allowed fail with an error instead, because newer versions of libraries may try new calls and can
+// handle the error.
 constexpr auto kIntruderCalls = std::to_array<const char*>({"accept",
                                                             "accept4",
                                                             "bind",
@@ -115,15 +117,16 @@ constexpr auto kIntruderCalls = std::to_array<const char*>({"accept",
                                                             "userfaultfd",
                                                             "vfork"});
 
-/// A seccomp filter under construction. Calls whose name does not exist on this architecture are skipped.
+/// Builds and loads a seccomp filter. `otherwise` is the action for calls without a rule. Rules for calls that do not
+/// exist on this architecture are skipped.
 class Filter {
   public:
     Filter(std::uint32_t otherwise, bool allThreads) : context_(seccomp_init(otherwise), &seccomp_release) {
         if (!context_) check(-ENOMEM);
         check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_TSYNC, allThreads ? 1 : 0));
-        // Calls by the numbers of another architecture, such as 32-bit ones; no part of this program makes them.
+        // Kill the process for calls of another architecture, such as 32-bit ones: no part of this program makes them.
         check(seccomp_attr_set(context_.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS));
-        // 2: a binary search tree, because calls are frequent.
+        // 2: arrange the rules in a binary search tree, because calls are frequent.
         check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_OPTIMIZE, 2));
     }
 
@@ -161,20 +164,21 @@ void limit(decltype(RLIMIT_AS) resource, rlim_t most) {
     setrlimit(resource, &now);
 }
 
-/// Bytes of address space in use.
+/// Returns the address space in use, in bytes.
 std::size_t addressSpace() {
     std::size_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Whether a filter can be set on this system; if not, `why` is set to the reason.
+/// Returns whether a filter can be set on this system; if not, sets `why` to the reason.
 bool canFilter(std::string& why) {
     if (kSanitized) {
         why = "this is a build with a sanitizer";
         return false;
     }
-    // Only a trial tells, because a container's own filter may forbid it. The trial's filter ends with its thread.
+    // Only a trial tells, because a container's own filter may forbid to set another one. The trial sets the filter of
+    // one thread, with which the filter ends.
     std::thread([&why] {
         try {
             Filter filter(SCMP_ACT_ALLOW, false);
@@ -186,7 +190,7 @@ bool canFilter(std::string& why) {
     return why.empty();
 }
 
-/// Allows all threads only the system calls that `role` needs, from now on.
+/// Restricts all threads of this process, from now on, to the system calls that `role` needs.
 void filterSystemCalls(Role role) {
     Filter filter(SCMP_ACT_ERRNO(EPERM), true);
     filter.add(SCMP_ACT_ALLOW, kCommonCalls);
@@ -196,9 +200,9 @@ void filterSystemCalls(Role role) {
     const auto own = static_cast<std::uint64_t>(getpid());
     for (const char* name : {"kill", "tgkill"}) filter.add(SCMP_ACT_ALLOW, name, {is(0, own)});
     filter.add(SCMP_ACT_ALLOW, "fcntl", {is(1, F_GETFL)});
-    filter.add(SCMP_ACT_ALLOW, "prlimit64", {is(0, 0), is(2, 0)});  // read-only: the new limit is null
-    // A filter cannot inspect the arguments of clone3, which are in memory. With ENOSYS the C library falls back to
-    // clone.
+    filter.add(SCMP_ACT_ALLOW, "prlimit64", {is(0, 0), is(2, 0)});  // reads own limits: the new limit is null
+    // A filter cannot inspect the arguments of clone3, because they are in memory. After ENOSYS, the C library uses
+    // clone instead.
     filter.add(SCMP_ACT_ERRNO(ENOSYS), "clone3", {});
     if (role == Role::draw) {
         for (const char* name : {"mmap", "mprotect", "mremap"}) filter.add(SCMP_ACT_ALLOW, name, {});

@@ -1,5 +1,5 @@
 #pragma once
-// SandboxMode of the child processes: resource limits and a seccomp filter of system calls.
+// The sandbox of the child processes: resource limits and a seccomp filter of system calls.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,39 +7,42 @@
 
 namespace oval4d::process {
 
-/// Sets no_new_privs: neither this process nor its descendants can gain privileges by executing a program
-/// (set-user-ID), ever. Must be called before threads are started. Returns false if the system does not support it.
+/// Sets no_new_privs: from now on, neither this process nor its descendants can gain privileges by executing a
+/// set-user-ID program. Must be called before threads are started. Returns false if the system does not support it.
 bool forbidNewPrivileges();
 
+/// Whether the server's child processes are sandboxed.
 enum class SandboxMode : std::uint8_t {
-    automatic,  ///< if the system supports it
-    off,
-    required,
+    automatic,  ///< sandboxed if the system supports it
+    off,        ///< never sandboxed
+    required,   ///< sandboxed; the server does not start if the system does not support it
 };
 
-/// Whether child processes are to be confined by a filter of system calls. Tries to set such a filter; if that fails,
-/// sets `why` to the reason, and throws std::runtime_error if the sandbox is required. Builds with a sanitizer have no
-/// sandbox, because sanitizers need more system calls.
+/// Returns whether child processes are to be confined by a filter of system calls. Unless `wanted` is `off`, tries to
+/// set such a filter; if that fails, sets `why` to the reason, and throws std::runtime_error if the sandbox is
+/// required. Builds with a sanitizer have no sandbox, because sanitizers need more system calls.
 bool isSandboxed(SandboxMode wanted, std::string& why);
 
-/// The task of a child process, which decides what its filter allows. Every child may allocate memory, read the clock,
-/// wait, write to its log, use its channel (kChildSocket), and exit. It may not open, create, find or change files, use
-/// the network, start programs, or access other processes.
+/// The task of a child process, which determines the system calls that its filter allows. Every child may allocate
+/// memory, read the clock, wait, write to standard error (the log), use its channel (kChildSocket), and exit. No child
+/// may open, create, find or change files, use the network, start programs, or access other processes.
 enum class Role : std::uint8_t {
-    draw,  ///< may also start threads, and execute code that it has compiled
-    read,  ///< nothing else
+    draw,  ///< draws pictures; may also start threads, and execute code that it has compiled
+    read,  ///< reads files; may do nothing else
 };
 
+/// The restrictions that a child process applies to itself.
 struct Confinement {
-    bool filtered = false;  ///< only the system calls that the role needs are allowed
+    bool filtered = false;  ///< whether to allow only the system calls that the role needs
     /// Bytes of address space beyond those already in use; 0: no limit. Ignored in builds with a sanitizer.
     std::size_t memory = 0;
-    std::size_t files = 0;  ///< open files, including those open already; 0: no limit
+    /// Number of open file descriptors, including those already open; 0: no limit. Ignored in builds with a sanitizer.
+    std::size_t files = 0;
 };
 
-/// Confines this process and all its threads irrevocably. A forbidden system call fails with EPERM; one that only an
+/// Confines this process and all its threads irrevocably. A forbidden system call fails with EPERM; a call that only an
 /// intruder would make (to start a program, open a socket or access another process) kills the process. Also disables
-/// core dumps, which would contain clients' data. Throws std::runtime_error.
+/// core dumps, which would contain clients' data. Throws std::runtime_error if the filter cannot be set.
 void confine(Role role, const Confinement& confinement);
 
 }  // namespace oval4d::process

@@ -15,34 +15,35 @@
 
 namespace oval4d::raster {
 
-/// The seconds that each step of drawing one picture took.
+/// The seconds that each step of drawing one picture took: slicing the object, composing the scene, and rendering it.
 struct Times {
     double slice = 0, compose = 0, draw = 0;
 };
 
-/// Draws pictures of session states, in this process or in another one. One rasterizer serves one thread at a time.
+/// Draws pictures of session states, in this process or in another one. A rasterizer may be used by one thread at a
+/// time.
 class Rasterizer {
   public:
     virtual ~Rasterizer() = default;
 
-    /// Waits until the first picture can be drawn as fast as later ones. Throws std::runtime_error if no picture can be
-    /// drawn.
+    /// Prepares for drawing, so that the first picture takes no longer than later ones. Returns when all is ready.
+    /// Throws std::runtime_error if pictures cannot be drawn.
     virtual void warmUp() = 0;
 
-    /// Draws the picture of `state` and returns its pixels: RGBA, 8 bits per channel, rows from the bottom up, valid
-    /// until the next call. Throws std::runtime_error.
+    /// Draws the picture of `state`, sets `times`, and returns the pixels in the format of image::Image, which are
+    /// valid until the next call. Throws std::runtime_error if drawing fails.
     virtual std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, Times& times) = 0;
 
     /// Frees cached memory.
     virtual void freeMemory() = 0;
 };
 
-/// Draws in this process. The GL context is bound to the thread that draws first.
+/// Draws in this process. The GL context is created by the first warmUp() or draw(), and bound to the calling thread.
 class LocalRasterizer : public Rasterizer {
   public:
     explicit LocalRasterizer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), memory_(forkJoin) {}
 
-    /// Limits the work of filling intersecting faces, in the steps of slicing::Filler.
+    /// Limits the time for filling self-intersecting faces in one picture; `steps` is that of slicing::Filler::fill.
     void limitFill(std::size_t steps) { fillSteps_ = steps; }
 
     void warmUp() override;
@@ -70,7 +71,7 @@ class LocalRasterizer : public Rasterizer {
     Memory memory_;
 };
 
-/// Runs `work` and returns the seconds that it took. A template, because a std::function would allocate memory.
+/// Runs `work` and returns the seconds that it took. This is a template because a std::function would allocate memory.
 template <typename Work>
 double secondsOf(Work&& work) {
     const auto start = std::chrono::steady_clock::now();

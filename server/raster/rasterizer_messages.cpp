@@ -9,8 +9,8 @@ namespace oval4d::raster {
 
 namespace {
 
-// Reads and writes with the same code, so that the two always agree. A new member of Look makes the structured bindings
-// fail to compile.
+// Reading and writing share this code, so that they always agree. The structured bindings do not compile if a member is
+// added to Look but not here.
 template <typename Archive, typename Look>
 void visitLook(Archive& archive, Look& look) {
     auto& [view, parts, orbit, coloring, cellTypes] = look;

@@ -11,11 +11,11 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// For this long after concurrent pictures, more concurrent pictures are expected.
+// The time after concurrent pictures for which more concurrent pictures are expected.
 constexpr auto kCrowded = 100ms;
 // A picture that takes longer than this to draw, in seconds, counts as large.
 constexpr double kLarge = 0.004;
-constexpr std::size_t kMostThreads = 8;  // more threads would wait for the one that feeds them
+constexpr std::size_t kMostThreads = 8;  // more threads would wait for the thread that gives them work
 
 }  // namespace
 

@@ -13,13 +13,15 @@
 
 namespace oval4d::raster {
 
-/// The state shared by a server's pooled rasterizers: a process with one thread per core (at most 8), which draws a
-/// large picture with the lowest latency while no other picture is being drawn. Concurrent pictures are each drawn by a
-/// single-threaded process: throughput is higher than if they competed for threads. Small pictures are drawn by a
-/// single-threaded process too, since they take less time than waking threads.
+/// The part that the rasterizers of all workers of a server share: a multithreaded rasterizer process with one thread
+/// per core (at most 8). It draws a large picture with the lowest latency while no other picture is being drawn.
+/// Concurrent pictures are drawn by single-threaded processes, one for each worker, because their throughput is higher
+/// than if the pictures competed for threads. Small pictures are also drawn by single-threaded processes, because
+/// drawing them takes less time than waking threads. Thread-safe.
 class RasterizerPool {
   public:
-    /// `crowded` returns whether more pictures are queued; it is called on any thread. Throws std::runtime_error.
+    /// `crowded` returns whether more pictures are queued; it must be callable on any thread. Throws std::runtime_error
+    /// if the multithreaded process cannot be started.
     RasterizerPool(std::size_t cores, RasterizerOptions options, std::function<bool()> crowded);
 
   private:
@@ -27,16 +29,16 @@ class RasterizerPool {
     const RasterizerOptions options_;
     const std::function<bool()> crowded_;
     std::atomic<int> drawing_ = 0;                                    // the number of rasterizers that are drawing
-    std::atomic<std::chrono::steady_clock::duration> lastCrowded_{};  // since the clock's epoch
+    std::atomic<std::chrono::steady_clock::duration> lastCrowded_{};  // when, since the clock's epoch
     std::atomic<double> lastTook_ = 0;                                // drawing time of the last picture in seconds
     std::mutex multithreadedInUse_;
     std::optional<RasterizerProcess> multithreaded_;  // guarded by multithreadedInUse_; none on a single core
 };
 
-/// A worker's rasterizer: draws in its own single-threaded process, or in the multithreaded process of the pool.
+/// The rasterizer of one worker: draws in its own single-threaded process, or in the multithreaded process of the pool.
 class PooledRasterizer : public Rasterizer {
   public:
-    /// After a request on `stop`, functions that wait throw Canceled.
+    /// `pool` must outlive this object. Functions that wait throw process::Canceled once `stop` has been requested.
     PooledRasterizer(RasterizerPool& pool, std::stop_token stop);
 
     void warmUp() override;

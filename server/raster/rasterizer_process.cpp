@@ -71,8 +71,9 @@ std::span<const std::uint8_t> RasterizerProcess::draw(const session::State& stat
     return drawn;
 }
 
-/// Replaces the process after it has drawn pictures of many sizes, so that the new one is ready for the next picture:
-/// OSMesa (of Mesa 22) keeps buffers for each picture size until the process ends.
+/// Replaces the process by a new one after it has drawn pictures of many sizes, because OSMesa (of Mesa 22) keeps
+/// buffers for each picture size until the process ends. Does so after a picture, so that the new process can start
+/// before the next one.
 void RasterizerProcess::restartAfterResizes(scene::Viewport viewport) {
     constexpr std::size_t kMost = std::size_t{128} << 20U;
     if (viewport == lastViewport_) return;

@@ -19,27 +19,28 @@ namespace oval4d::raster {
 /// Options of rasterizer processes.
 struct RasterizerOptions {
     RasterizerLimits limits;
-    std::chrono::duration<double>
-        timeout;  ///< for starting, and for drawing a picture; then the process is considered hung
+    /// The time allowed for starting the process, and for drawing a picture. A slower process counts as hung.
+    std::chrono::duration<double> timeout;
     std::function<void(const process::Loss&)> onLoss;  ///< called on any thread
     std::vector<std::string> environment;              ///< see process::ChildOptions
 };
 
-/// A process that draws pictures for the server. Each process has llvmpipe threads of its own, whereas GL contexts
-/// within one process share them, and the server survives a crash of the driver. Serves one thread at a time. Functions
-/// that wait throw the same exceptions as process::ChildProcess::converse.
+/// A child process that draws pictures for the server. Reasons for separate processes: the server survives a crash of
+/// the OpenGL driver, and each process has its own threads of the software rasterizer llvmpipe, which all GL contexts
+/// of one process would share. May be used by one thread at a time. Functions that wait throw the same exceptions as
+/// process::ChildProcess::converse.
 class RasterizerProcess {
   public:
-    /// `threads`: the number of llvmpipe's threads; 0 means that the main thread does all the drawing.
+    /// `threads` is the number of llvmpipe's threads; 0: the main thread of the process does all the drawing.
     RasterizerProcess(int threads, const RasterizerOptions& options);
 
     /// Starts the process if it is not running, without waiting for it. Throws std::runtime_error.
     void start() { process_.start(); }
 
-    /// Waits until the shaders are compiled.
+    /// Starts the process if it is not running, and waits until it is ready to draw, with its shaders compiled.
     void warmUp(const std::stop_token& stop);
 
-    /// Like Rasterizer::draw, but draws into `pixels`.
+    /// Like Rasterizer::draw, but draws into the memory of `pixels`, which is resized if necessary.
     std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, SharedPixels& pixels,
                                        Times& times, const std::stop_token& stop);
 
@@ -52,7 +53,7 @@ class RasterizerProcess {
     const RasterizerLimits limits_;
     process::ChildProcess process_;
     scene::Viewport lastViewport_{0, 0};
-    std::size_t resized_ = 0;  // bytes of the pictures whose size differed from the previous one
+    std::size_t resized_ = 0;  // total bytes of pictures that differed in size from the one before
     process::MessageType answer_{};
     std::string request_, body_;
 };

@@ -24,7 +24,7 @@ using process::Transfer;
 
 namespace {
 
-/// The most recently drawn objects, the latest first.
+/// A cache of the most recently drawn objects, the latest first.
 class RecentObjects {
   public:
     const slicing::Object* find(std::uint64_t serial) {
@@ -58,7 +58,7 @@ class Service {
 
     void run(const process::Confinement& confinement) {
         const bool ready = attempt([&] {
-            rasterizer_.warmUp();  // reads the font, among other files
+            rasterizer_.warmUp();  // before the sandbox, because it reads the font and other files
             process::confine(process::Role::draw, confinement);
         });
         if (!ready) return;
@@ -76,7 +76,8 @@ class Service {
     }
 
   private:
-    /// Receives a message, and frees memory while idle. Returns false when the connection is closed.
+    /// Receives the next message, and frees memory if none comes for a while. Returns false when the connection is
+    /// closed.
     bool next(MessageType& type) {
         if (!channel_.wait({Deadline::Clock::now() + parallel::WorkerPool::kIdleDelay, {}})) {
             rasterizer_.freeMemory();
@@ -124,8 +125,8 @@ class Service {
     process::Heap& heap_;
     RecentObjects recent_;
     DrawRequest request_;
-    std::map<std::uint64_t, std::unique_ptr<SharedPixels>> files_;  // one for each worker of the server
-    std::uint64_t pixels_ = 0;                                      // the file to draw into
+    std::map<std::uint64_t, std::unique_ptr<SharedPixels>> files_;  // by inode; one for each worker of the server
+    std::uint64_t pixels_ = 0;                                      // the inode of the file to draw into
     std::string body_;
 };
 

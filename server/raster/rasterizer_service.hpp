@@ -6,11 +6,11 @@
 
 namespace oval4d::raster {
 
-/// The subcommand that runs the program as a rasterizer process.
+/// The subcommand of this program that runs it as a rasterizer process.
 inline constexpr const char* kRasterizerCommand = "draw";
 
-/// The main function of a rasterizer process: draws the orders that arrive over `socket` until the other end closes it.
-/// Sandboxes the process once everything that drawing needs is loaded.
+/// The main function of a rasterizer process: draws the pictures that are requested over `socket` until the other end
+/// closes it. Confines the process to a sandbox as soon as everything that drawing needs is loaded.
 void serveRasterizer(int socket, const process::Confinement& confinement, parallel::ForkJoin& forkJoin,
                      process::Heap& heap);
 

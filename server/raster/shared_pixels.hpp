@@ -1,5 +1,5 @@
 #pragma once
-// Picture memory shared by two processes.
+// Memory for the pixels of a picture, shared by two processes.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,27 +7,29 @@
 
 namespace oval4d::raster {
 
-/// A mapped memory file (memfd).
+/// A memory file (memfd_create(2)) and its mapping into this process. Another process can map it, too: it gets the
+/// descriptor over a socket.
 class SharedPixels {
   public:
     /// Creates an empty file. Throws std::system_error.
     SharedPixels();
-    /// Opens the file of another process; takes ownership of the descriptor `file`. Throws std::system_error.
+    /// Takes the file that another process created, and ownership of its descriptor `file`. Throws std::system_error.
     explicit SharedPixels(int file);
     ~SharedPixels();
     SharedPixels(const SharedPixels&) = delete;
     SharedPixels& operator=(const SharedPixels&) = delete;
 
-    /// Returns the first `size` bytes. Grows the file if it is smaller, and shrinks it if it is more than 4 times
-    /// larger. Throws std::system_error.
+    /// Returns the first `size` bytes, which are valid until the next call. Grows the file if it is smaller, and
+    /// shrinks it to `size` if it is more than 4 times larger. Throws std::system_error.
     std::span<std::uint8_t> resize(std::size_t size);
 
-    /// Maps the file at the size that the other process has given it, and returns the first `size` bytes. Throws
-    /// std::system_error, also if the file is smaller.
+    /// Maps the whole file again if the other process has resized it. Returns the first `size` bytes, which are valid
+    /// until the next call. Throws std::system_error, also if the file is smaller than `size`.
     std::span<std::uint8_t> remap(std::size_t size);
 
+    /// Returns the file descriptor.
     int file() const { return file_; }
-    /// The inode number, which is the same in both processes.
+    /// Returns the inode number, which identifies the file in both processes.
     std::uint64_t number() const { return number_; }
 
   private:

@@ -19,7 +19,7 @@ using process::Transfer;
 
 namespace {
 
-// Drawing has priority: a reader that shares a core with a process that draws gets a quarter of it.
+// Drawing has priority: a reader that shares a core with a process that draws gets a quarter of the CPU time.
 constexpr int kNiceness = 5;
 
 }  // namespace
@@ -30,7 +30,7 @@ FileReaders::FileReaders(ReaderOptions options)
 FileReaders::~FileReaders() {
     replacing_.request_stop();
     replacing_.join();
-    for (const Process& process : waiting_) process->kill();  // without waiting, because it has nothing to finish
+    for (const Process& process : waiting_) process->kill();  // it reads no file, so there is nothing to finish
 }
 
 FileReaders::Process FileReaders::acquire() {
@@ -53,8 +53,8 @@ void FileReaders::release(Process used) {
     wake_.notify_all();
 }
 
-/// Runs on its own thread, so that no client waits for it: ends processes that have read a file, starts new ones in
-/// their place, and ends those that were idle for too long.
+/// Kills processes that have read a file, starts new ones in their place, and kills those that have waited for a file
+/// for too long. Runs on its own thread, so that no client waits for the replacement.
 void FileReaders::replaceUsed(const std::stop_token& stop) {
     const auto idle = std::chrono::duration_cast<Clock::duration>(options_.idle);
     std::unique_lock lock(mutex_);

@@ -21,15 +21,16 @@
 namespace oval4d::reading {
 
 struct ReaderOptions {
-    std::chrono::duration<double> timeout;             ///< for reading one file
-    std::chrono::duration<double> idle;                ///< processes end after this time without a file
+    std::chrono::duration<double> timeout;             ///< the time allowed for reading one file
+    std::chrono::duration<double> idle;                ///< waiting processes end after this time without a file
     std::function<void(const process::Loss&)> onLoss;  ///< called on any thread
     std::vector<std::string> environment;              ///< see process::ChildOptions
-    std::size_t waiting;                               ///< the most processes that wait for a file
+    std::size_t waiting;                               ///< the maximum number of waiting processes
 };
 
-/// Each process reads one file and ends, so that no file can affect the next one. Another process is then started in
-/// advance for the next file; it ends if none comes for a while. Thread-safe.
+/// A pool of processes that read files. Each process reads a single file and ends, so that a malicious file cannot
+/// affect the next one. Another process is then started in advance and waits for the next file; it ends if none comes
+/// for a while. Thread-safe.
 class FileReaders {
   public:
     explicit FileReaders(ReaderOptions options);
@@ -37,9 +38,10 @@ class FileReaders {
     FileReaders(const FileReaders&) = delete;
     FileReaders& operator=(const FileReaders&) = delete;
 
-    /// Like session::readObject, but in another process. Also fails with `too_large` if reading takes longer than the
-    /// timeout, or more memory than a process may use. Blocks the calling thread. Throws process::Canceled;
-    /// std::runtime_error if two processes die, none can be started, or the answer is not a valid object.
+    /// Reads a file as session::readObject does, but in another process. Also returns the error `too_large` if reading
+    /// takes longer than the timeout, or more memory than a process may use. Blocks the calling thread. Throws
+    /// process::Canceled if `stop` is requested, and std::runtime_error if the process dies and so does the process
+    /// that tries again, if no process can be started, or if the answer of the process is invalid.
     Result<session::LoadedObject> read(std::string_view format, std::string_view text, const std::string& name,
                                        const session::Limits& limits, const std::stop_token& stop);
 
@@ -55,9 +57,9 @@ class FileReaders {
     std::mutex mutex_;
     std::condition_variable_any wake_;
     // Guarded by mutex_.
-    std::vector<Process> waiting_, used_;
-    Clock::time_point lastUsed_;
-    std::jthread replacing_;  // last: it uses the other members
+    std::vector<Process> waiting_, used_;  // waiting for a file; done with one, to be replaced
+    Clock::time_point lastUsed_;           // when a file was last read
+    std::jthread replacing_;               // runs replaceUsed(); declared last, because it uses the other members
 };
 
 }  // namespace oval4d::reading

@@ -17,7 +17,7 @@ using serialization::ByteWriter;
 
 namespace {
 
-// Bounds on what a reader process may report; the importer itself reports less.
+// Limits on the errors and warnings of a reader process. The importer itself stays below them.
 constexpr std::size_t kMaxText = 2000;  // bytes
 constexpr std::size_t kMaxWarnings = 100;
 
@@ -84,8 +84,8 @@ Result<session::LoadedObject> decodeOutcome(std::string_view bytes, const std::s
 }
 
 std::size_t maxOutcomeBytes(std::size_t textBytes, const session::Limits& limits) {
-    // A number takes at least two bytes in the text, and four as an index in the outcome. A cell of a convex hull, with
-    // its 2-faces, takes less than kPerCell.
+    // A number takes at least two bytes in the text, with the blank after it, and four bytes as an index in the
+    // outcome. A cell of a convex hull, with its 2-faces, takes less than kPerCell bytes.
     constexpr std::size_t kPerTextByte = 16, kPerCell = 512, kBase = 1U << 20U;
     return kBase + kPerTextByte * textBytes + kPerCell * limits.maxHullCells;
 }

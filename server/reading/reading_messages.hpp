@@ -11,7 +11,7 @@
 
 namespace oval4d::reading {
 
-/// A file to read.
+/// A file to read: its format (see session::readObject), the name for the object in it, and its text.
 struct File {
     std::string format, name, text;
     session::Limits limits;  ///< only maxVertices and maxHullCells are sent
@@ -20,18 +20,20 @@ struct File {
 /// Encodes a file and the limits to read it with. Overwrites `out`.
 void encodeFile(std::string_view format, std::string_view text, const std::string& name, const session::Limits& limits,
                 std::string& out);
-/// Throws std::runtime_error if bytes are missing.
+/// Decodes the bytes of `encodeFile` into `out`. Throws std::runtime_error if bytes are missing.
 void decodeFile(std::string_view bytes, File& out);
 
-/// Encodes the result of reading a file; of an object, what it is built from. Overwrites `out`.
+/// Encodes the result of reading a file: an error, or the warnings and the data from which the object can be rebuilt
+/// (slicing::writeParts). Overwrites `out`.
 void encodeOutcome(const Result<session::LoadedObject>& outcome, std::string& out);
 
-/// Decodes untrusted bytes: the result is a valid object called `name`, with a bounded number of printable warnings, or
-/// an error about the file that can be sent to the client. Throws std::runtime_error for anything else.
+/// Decodes the bytes of `encodeOutcome`, which need not be trusted. Returns a valid object called `name` with a bounded
+/// number of printable warnings, or an error about the file that can be sent to the client. Throws std::runtime_error
+/// if the bytes are invalid.
 Result<session::LoadedObject> decodeOutcome(std::string_view bytes, const std::string& name,
                                             const session::Limits& limits);
 
-/// The maximum size in bytes of the outcome of reading a text of `textBytes` bytes.
+/// Returns the maximum size in bytes of the encoded outcome of reading a text of `textBytes` bytes.
 std::size_t maxOutcomeBytes(std::size_t textBytes, const session::Limits& limits);
 
 }  // namespace oval4d::reading

@@ -30,7 +30,7 @@ void outcomeOf(std::string& body) {
     } catch (const std::bad_alloc&) {
     } catch (const std::length_error&) {
     }
-    encodeOutcome(kNoMemory, body);  // the exception has freed the memory
+    encodeOutcome(kNoMemory, body);  // possible, because the memory was freed when the exception was thrown
 }
 
 }  // namespace

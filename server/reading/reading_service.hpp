@@ -5,10 +5,11 @@
 
 namespace oval4d::reading {
 
-/// The subcommand that starts the program as such a process.
+/// The subcommand of this program that runs it as a reader process.
 inline constexpr const char* kReadingCommand = "read";
 
-/// Confines this process, receives one file through `socket`, sends the object in it or an error, and returns.
+/// Confines this process to a sandbox, receives one file over `socket`, sends back the object in the file or an error,
+/// and returns.
 void serveReading(int socket, const process::Confinement& confinement);
 
 }  // namespace oval4d::reading

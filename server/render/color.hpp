@@ -1,5 +1,5 @@
 #pragma once
-// Colors in the format of vertex attributes.
+// Converts colors to the format of vertex attributes.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,8 @@
 
 namespace oval4d::render {
 
-/// Packs a color into the bytes R, G, B, A, in memory order on a little-endian machine. `alpha` is clamped to 0 … 1.
+/// Returns a color as the bytes R, G, B, A, in this order in the memory of a little-endian machine. `alpha` is clamped
+/// to 0 … 1.
 inline std::uint32_t rgba(scene::Color color, float alpha) {
     const auto a = static_cast<std::uint32_t>(std::lround(std::clamp(alpha, 0.0f, 1.0f) * 255));
     return (color >> 16 & 255) | (color & 0xff00) | (color & 255) << 16 | a << 24;

@@ -9,7 +9,7 @@
 
 namespace oval4d::render {
 
-// Enough for a few hundred slices behind one another.
+// Sufficient for a few hundred slices behind one another.
 constexpr int kDepthBits = 16;
 
 struct Context::Native {
@@ -54,7 +54,7 @@ void Context::begin(int width, int height, std::uint8_t* pixels) {
     glViewport(0, 0, width, height);
 }
 
-// A fence flushes the commands; glFlush would copy the whole picture.
+// Creating a fence flushes the commands. glFlush would also copy the whole picture.
 void Context::start() { glDeleteSync(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
 
 void Context::finish() { glFinish(); }

@@ -6,8 +6,8 @@
 
 namespace oval4d::render {
 
-/// An OpenGL 3.3 core context that draws into memory. Bound to the thread that creates it. The only class that uses
-/// OSMesa; the rest of the renderer is plain OpenGL.
+/// An OpenGL 3.3 core context that draws into memory. It may be used only by the thread that created it. No other class
+/// uses OSMesa; the rest of the renderer is plain OpenGL.
 class Context {
   public:
     /// Throws std::runtime_error if no context can be created.
@@ -16,18 +16,18 @@ class Context {
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
-    /// Makes the context current for a picture of width × height pixels, which finish() writes to `pixels`: RGBA, 8
-    /// bits per channel, rows from the bottom up. `pixels` must remain valid until then. Throws std::runtime_error if
-    /// the driver does not support pictures of this size.
+    /// Makes the context current and starts a picture of width × height pixels. finish() writes the picture to
+    /// `pixels`, which must remain valid until then: RGBA, 8 bits per channel, rows from the bottom up. Throws
+    /// std::runtime_error if the driver does not support pictures of this size.
     void begin(int width, int height, std::uint8_t* pixels);
 
-    /// Makes the driver's threads start rasterizing what was drawn so far, without waiting for them.
+    /// Makes the driver's threads rasterize what was drawn so far, and returns without waiting for them.
     void start();
 
-    /// Waits until the picture is drawn. Call it once per picture, because each call copies the whole picture.
+    /// Waits until the picture is drawn. Must be called only once per picture, because each call copies the picture.
     void finish();
 
-    /// The maximum width and height of a picture.
+    /// Returns the maximum width and height of a picture in pixels.
     int maxSize() const { return maxSize_; }
 
   private:

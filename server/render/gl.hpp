@@ -1,5 +1,5 @@
 #pragma once
-// OpenGL with function prototypes of the core profile.
+// Includes the OpenGL headers, with the function prototypes of the core profile.
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>

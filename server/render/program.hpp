@@ -1,5 +1,5 @@
 #pragma once
-// A shader program and the triangles that it draws.
+// A shader program and the buffers of the triangles that it draws.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,29 +10,32 @@
 
 namespace oval4d::render {
 
-/// A vertex attribute: the arguments of glVertexAttribPointer. Bytes are normalized color channels (0 … 255 ↦ 0 … 1).
+/// A vertex attribute, as for glVertexAttribPointer. Bytes are color channels: 0 … 255 becomes 0 … 1 in the shader.
 struct Attribute {
     int components;
     GLenum type;         ///< GL_FLOAT or GL_UNSIGNED_BYTE
-    std::size_t offset;  ///< in the vertex, in bytes
+    std::size_t offset;  ///< offset in the vertex structure, in bytes
 };
 
 /// A linked program with its own vertex buffer and index buffer, which grow as needed. Requires a current GL context
 /// throughout its lifetime.
 class Program {
   public:
-    /// Attribute i has location i in the vertex shader. The sources have no #version line. Throws std::runtime_error
-    /// with the compiler's message.
+    /// Compiles and links the program. The sources have no #version line. `vertexSize` is in bytes. Attribute i has
+    /// location i in the vertex shader. Throws std::runtime_error, with the compiler's message, if a shader does not
+    /// compile, or if the program does not link.
     Program(std::string_view vertexSource, std::string_view fragmentSource, std::size_t vertexSize,
             std::span<const Attribute> attributes);
     ~Program();
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
 
+    /// Returns the location of a uniform variable.
     GLint uniform(const char* name) const { return glGetUniformLocation(program_, name); }
     void use() const { glUseProgram(program_); }
 
-    /// Draws indexed triangles in the given order.
+    /// Draws indexed triangles in the given order. `vertices` has `vertexCount` vertices of the size given to the
+    /// constructor. Copies all data, so it need not remain valid.
     void draw(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices);
 
   private:

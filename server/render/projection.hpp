@@ -9,12 +9,11 @@
 
 namespace oval4d::render {
 
-/// Projects view coordinates (the eye at the origin, x to the right, y up, z toward the viewer) to the picture. Clip
-/// coordinates are (x, y, w), without a depth.
+/// Projects view coordinates (the eye at the origin, x to the right, y up, z toward the viewer) to the picture.
 struct Projection {
-    float width = 1, height = 1;   ///< of the picture, in pixels
-    float scaleX = 1, scaleY = 1;  ///< cotangents of half the fields of view
-    float shiftX = 0, shiftY = 0;  ///< where the view axis meets the picture: −1 … 1, 0 is the center
+    float width = 1, height = 1;   ///< size of the picture in pixels
+    float scaleX = 1, scaleY = 1;  ///< cotangents of half the horizontal and half the vertical field of view
+    float shiftX = 0, shiftY = 0;  ///< the point of the picture that the view axis meets: −1 … 1, 0 is the center
 
     static Projection of(const scene::Camera& camera, scene::Viewport viewport) {
         const auto projection = glm::mat4(camera.projection(static_cast<double>(viewport.width) / viewport.height));
@@ -26,18 +25,18 @@ struct Projection {
                 -projection[2][1]};
     }
 
-    /// Clip coordinates.
+    /// Returns the clip coordinates (x, y, w) of a point; their depth is left out.
     glm::vec3 clip(const glm::vec3& v) const {
         return {scaleX * v.x - shiftX * v.z, scaleY * v.y - shiftY * v.z, -v.z};
     }
 
-    /// Pixel coordinates from the lower left corner.
+    /// Returns the pixel coordinates of a point, from the lower left corner.
     glm::vec2 pixel(const glm::vec3& v) const {
         const glm::vec3 c = clip(v);
         return {(c.x / c.z * 0.5f + 0.5f) * width, (c.y / c.z * 0.5f + 0.5f) * height};
     }
 
-    /// The length in pixels of one unit perpendicular to the view axis, at distance 1.
+    /// Returns the length in pixels of one unit perpendicular to the view axis, at distance 1.
     float pixelsPerUnit() const { return 0.5f * scaleY * height; }
 };
 

@@ -26,8 +26,9 @@ namespace {
 // next.
 constexpr std::size_t kBatchIndices = 12'000;
 
-/// Locks Mesa, whose state all contexts of a process share: a context that draws reads the scenes of the other contexts
-/// (llvmpipe_is_resource_referenced), and Mesa 22.3 does not guard them while another thread frees them.
+/// Returns a lock that every use of Mesa must hold, because all contexts of a process share state: a context that draws
+/// reads the llvmpipe scenes of the other contexts (llvmpipe_is_resource_referenced), and Mesa 22.3 does not guard
+/// these against being freed by another thread.
 std::unique_lock<std::mutex> lockDriver() {
     static std::mutex driver;
     return std::unique_lock(driver);
@@ -44,7 +45,7 @@ struct Renderer::Impl {
     void drawLayers();
 
     parallel::ThreadOwned owner;
-    Context context;  // first, because the other members need it
+    Context context;  // before the members that need a current context
     ShapeProgram flatProgram, roundProgram;
     DensityStrip densityStrip;
     Overlay overlay;
@@ -73,7 +74,7 @@ Renderer::Renderer(const std::string& font) {
         const auto lock = lockDriver();
         impl_ = std::make_unique<Impl>(font);
     }
-    // Mesa compiles a shader when the shader first draws, so draw an empty scene.
+    // Mesa compiles a shader at its first draw call, so draw an empty scene now.
     image::Image image;
     scene::Scene scene;
     scene.viewport = {64, 64};

@@ -19,8 +19,9 @@ Color pack(const std::array<double, 3>& rgb) {
     return color;
 }
 
-// Converts Oklch to sRGB (B. Ottosson, "A perceptual color space for image processing", 2020); colors of equal
-// lightness look equally light at every hue. For colors out of gamut, reduces the chroma.
+// Converts a color from Oklch to sRGB (B. Ottosson, "A perceptual color space for image processing", 2020). In Oklch,
+// colors of equal lightness look equally light whatever their hue. If the color is outside the sRGB gamut, reduces its
+// chroma.
 Color oklch(double lightness, double chroma, double hue) {
     for (;; chroma *= 0.95) {
         const double a = chroma * std::cos(hue);
@@ -44,9 +45,9 @@ Color distinct(std::size_t i, std::size_t count) {
     return oklch(i % 2 == 0 ? 0.76 : 0.69, 0.18, kTau * (0.07 + std::fmod(static_cast<double>(i) * step, 1.0)));
 }
 
-// Gives few cells well-separated colors. For many cells, the Hopf map takes the direction of each cell's center to a
-// point of the sphere, whose longitude determines the hue and whose latitude the lightness; the cells of a ring along a
-// Hopf fiber share one color.
+// Colors up to kFew cells with well-separated hues. For more cells, the Hopf map takes the direction of each cell's
+// center to a point on the 2-sphere; its longitude determines the hue, and its latitude the lightness. The cells of a
+// ring along a Hopf fiber therefore have the same color.
 void paintByCell(const slicing::Object& object, std::vector<Color>& out) {
     constexpr std::size_t kFew = 24;
     if (out.size() <= kFew) {
@@ -71,7 +72,7 @@ void paintByType(const slicing::Object& object, std::vector<Color>& out) {
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = cellTypeColor(typeOfCell[c], types);
 }
 
-// A diverging color scale for −1 … 1: from blue through gray to amber.
+// A diverging color scale for values from −1 to 1: blue, gray at 0, amber.
 constexpr int kSteps = 255;
 using Scale = std::array<Color, kSteps>;
 Scale divergingScale() {

@@ -16,21 +16,23 @@ namespace oval4d::scene {
 /// An sRGB color: 0xRRGGBB.
 using Color = std::uint32_t;
 
-/// The color of cell type `type` of `count` with Coloring::cell_type.
+/// Returns the color of cell type `type` with Coloring::cell_type, if there are `count` cell types.
 Color cellTypeColor(std::size_t type, std::size_t count);
 
-/// Computes the colors of an object's cells. Caches between calls everything that does not depend on the orientation.
+/// Computes the colors of an object's cells. Keeps everything that does not depend on the orientation for the next
+/// call.
 class CellColors {
   public:
-    /// Writes one color per cell to `out`, which the caller passes unchanged to the next call. Equal arguments give
-    /// equal colors. With Coloring::cell, neighboring cells differ in color; if there are more than 24 cells, those
-    /// along one Hopf fiber share a hue. With Coloring::w, the color depends on the w of the cell's center relative to
-    /// the greatest distance of any center from the origin: blue for −1, gray for 0, amber for 1.
+    /// Writes one color per cell to `out`. The caller must pass `out` unchanged to the next call, because colors that
+    /// stay the same are not written again. The same arguments always give the same colors. With Coloring::cell,
+    /// neighboring cells differ in color; if there are more than 24 cells, those along one Hopf fiber share a color.
+    /// With Coloring::w, the color depends on the w of the cell's center, divided by the greatest distance of any
+    /// center from the origin: blue at −1, gray at 0, amber at 1.
     void paint(const slicing::Object& object, Coloring coloring, const geometry::Rotation& orientation,
                std::vector<Color>& out);
 
   private:
-    std::uint64_t paintedFor_ = 0;  // the serial number of the object
+    std::uint64_t paintedFor_ = 0;  // the serial number of the object whose cells were last colored
     Coloring coloring_ = Coloring::cell;
     std::vector<glm::dvec4> centers_;  // of the cells, scaled so that the farthest one has length 1
 };

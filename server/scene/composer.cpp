@@ -10,8 +10,8 @@ namespace {
 using slicing::Object;
 using slicing::SliceSet;
 
-// Writes to `out` the cell that gives each of `elements` its color; leaves `out` empty if each source is a cell, which
-// then gives the color.
+// Writes to `out`, for each of `elements`, the cell that determines its color. Leaves `out` empty if every source is a
+// cell, because that cell then determines the color.
 template <typename Sources, typename SourceOf>
 void findCells(const Object& object, const slicing::Visibilities& visibilities, const Sources& elements,
                SourceOf sourceOf, std::vector<std::uint32_t>& out) {

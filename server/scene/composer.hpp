@@ -1,5 +1,5 @@
 #pragma once
-// Composes the scene of a picture from an object, its slices, and the user's choices.
+// Composes the scene of a picture from an object, its slices and the user's choices.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,15 +11,16 @@
 
 namespace oval4d::scene {
 
-/// Composes scenes. Caches data that stay the same from one scene to the next, and scratch memory. A composer may be
-/// used by one thread at a time, and should always compose into the same Scene, which holds some of the cached data.
+/// Composes scenes. Keeps data that stay the same from one scene to the next, and working memory. A composer may be
+/// used by one thread at a time. It must always compose into the same Scene, which holds some of the kept data.
 class Composer {
   public:
-    /// Limits the work of filling faces that cross each other; `steps` is that of slicing::Filler::fill.
+    /// Limits the time for filling faces that cross each other. `steps` is the parameter of slicing::Filler::fill.
     void limitFill(std::size_t steps) { fillSteps_ = steps; }
 
-    /// Composes the scene of `slices`, which were cut from `object` rotated by `orientation`; `focus` is the index n of
-    /// the focus slice. Overwrites `out` and reuses its memory. `out` refers to `slices`, which must outlive it.
+    /// Composes the scene of `slices`, which must have been cut from `object` rotated by `orientation`. `focus` is the
+    /// index n of the focus slice. Overwrites `out` and reuses its memory. `out` refers to `slices`, which must outlive
+    /// it.
     void compose(const slicing::Object& object, const geometry::Rotation& orientation, const slicing::SliceSet& slices,
                  int focus, const Look& look, Viewport viewport, Scene& out);
 

@@ -12,8 +12,8 @@ namespace {
 constexpr int kReach = static_cast<int>(Density::kLine) * (Density::kRows - 1) / 2;  // steps from 0 to the circumradius
 constexpr int kSteps = 2 * kReach + 1;
 
-// Adding this number to a float gives a sum whose last bit has the value 1, so the float is rounded to an integer.
-// Halves are rounded to the even integer, so opposite values stay opposite.
+// Adding this number to a float rounds the float to an integer, because the last bit of the sum has the value 1. Halves
+// are rounded to the even integer, so opposite values remain opposite.
 constexpr float kRounder = 12582912.0F;  // 1.5 · 2²³
 
 std::uint32_t stepOf(float level) {
@@ -46,8 +46,8 @@ void Density::countColumn(int column) {
     const float *from = levels_[gap].data(), *to = levels_[gap + 1].data();
     const std::size_t count = levels_[gap].size();
 
-    // Consecutive vertices often fall on the same step. Counting them in different tables avoids a dependency of each
-    // increment on the one before it.
+    // Consecutive vertices often have the same step. Counting them in different tables keeps each increment independent
+    // of the previous one.
     constexpr std::size_t kTables = 4, kBatch = 256;
     std::array<std::array<std::uint32_t, kSteps>, kTables> tables{};
     std::array<std::uint32_t, kBatch> steps;

@@ -14,10 +14,10 @@ namespace oval4d::scene {
 
 namespace {
 
-// The oval for a circumradius of 1: slice u (−1 … 1 from the first to the last) is at (halfWidth · u, 0, −depth · u²),
-// and the camera looks down at the focus by the angle `pitch` (radians) from this distance. The numbers come from a
-// search for the largest focus slice at which neighbors hide little of each other; they differ for wide and tall
-// windows.
+// The shape of the oval, for a circumradius of 1. The slice with the parameter u (from −1 for the first slice to 1 for
+// the last) is at (halfWidth · u, 0, −depth · u²). The camera looks down at the focus slice by the angle `pitch`
+// (radians) from this distance. The numbers were found by a search for the largest focus slice at which neighboring
+// slices hide little of each other; they differ for wide and tall windows.
 struct Oval {
     double halfWidth, depth, pitch, distance;
 };
@@ -25,9 +25,11 @@ constexpr Oval kWide{20.5, 49.0, 0.46, 8.3};
 constexpr Oval kTall{7.0, 72.0, 0.52, 9.6};
 constexpr int kReferenceCount = 21;  // the number of slices for which the oval was designed
 
-constexpr double kMargin = 0.02;       // around the picture, as a fraction of the viewport's height
-constexpr double kLabelGap = 0.014;    // between a slice and its label, likewise
-constexpr double kLabelRoom = 0.04;    // for the labels around the slices, likewise
+// Fractions of the viewport's height.
+constexpr double kMargin = 0.02;     // around the picture
+constexpr double kLabelGap = 0.014;  // between a slice and its label
+constexpr double kLabelRoom = 0.04;  // for labels, around the slices
+
 constexpr double kSingleDistance = 7;  // from the eye to the slice in the single view, in circumradii
 
 double mix(double a, double b, double t) { return a + (b - a) * t; }
@@ -38,7 +40,7 @@ Oval ovalFor(double aspect) {
             mix(kWide.pitch, kTall.pitch, t), mix(kWide.distance, kTall.distance, t)};
 }
 
-// A rectangle; in the viewport, its unit is the viewport's height.
+// A rectangle. In the viewport, the unit is the viewport's height.
 struct Rect {
     double left, right, bottom, top;
 };
@@ -93,8 +95,8 @@ double parameterOf(std::size_t i, std::size_t count) {
     return count == 1 ? 0 : 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1;
 }
 
-// The view space of the camera without orbit: its x axis is that of the world, its y and z axes are rotated by the
-// pitch about x.
+// The view space of the camera before the viewer moves it: world space with its y and z axes rotated by the pitch about
+// the x axis.
 struct ViewSpace {
     double cos, sin, distance;
     explicit ViewSpace(const Oval& oval)
@@ -103,8 +105,8 @@ struct ViewSpace {
     double up(const glm::dvec3& p) const { return p.y * cos - p.z * sin; }
 };
 
-// Returns the bounds of the slices' spheres projected onto the plane at distance 1; each projection is treated as a
-// circle, as if the sphere were on the optical axis.
+// Returns the bounds of the slices, projected onto the plane at distance 1 from the eye. Each slice is treated as a
+// sphere whose projection is a circle, as if the sphere were on the optical axis.
 Rect boundsOf(const std::vector<SlicePlacement>& placements, const ViewSpace& space, double radius) {
     constexpr double kInf = std::numeric_limits<double>::infinity();
     Rect bounds{kInf, -kInf, kInf, -kInf};
@@ -119,7 +121,7 @@ Rect boundsOf(const std::vector<SlicePlacement>& placements, const ViewSpace& sp
     return bounds;
 }
 
-// Sets the camera's field of view and shift such that `bounds` fills `room`, magnified by `zoom`.
+// Sets the camera's field of view and shift so that `bounds`, magnified by `zoom`, fills `room`.
 void fit(const Rect& bounds, const Rect& room, double aspect, double zoom, Camera& camera) {
     const double scale = std::min((room.right - room.left) / (bounds.right - bounds.left),
                                   (room.top - room.bottom) / (bounds.top - bounds.bottom));
@@ -150,7 +152,7 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, const Oval& ova
     }
 }
 
-// Points the camera at the focus from its orbit, and sets its clipping planes.
+// Points the camera at the focus slice from the direction that `orbit` specifies, and sets its clipping planes.
 void aim(const Orbit& orbit, const Oval& oval, Camera& camera) {
     constexpr double kMaxPitch = 1.55;  // less than π/2, where the up vector would be undefined
     const double pitch = std::clamp(oval.pitch + orbit.elevation, -kMaxPitch, kMaxPitch);
@@ -163,8 +165,8 @@ void aim(const Orbit& orbit, const Oval& oval, Camera& camera) {
     camera.far = oval.distance + 2 * (oval.depth + oval.halfWidth) + 10;
 }
 
-// Places each label on the outer side of the oval, rather below than above its slice, where there is no neighbor: below
-// the focus slice, and beside the arms of the oval.
+// Places each label on the outer side of the oval, where there is no neighboring slice, with a preference for places
+// below the slice: below the focus slice, and beside the slices on the arms of the oval.
 void placeLabels(const Oval& oval, double radius, const Camera& camera, std::vector<SlicePlacement>& placements) {
     const ViewSpace space(oval);
     const glm::dmat4 view = camera.view();
@@ -203,7 +205,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;
     const bool single = look.view == View::single;
     const Oval oval = single ? Oval{0, 0, 0, kSingleDistance} : ovalFor(aspect);
-    // With twice as many slices on the same parabola, each has about half the space.
+    // With twice as many slices on the same parabola, each slice has about half the space.
     out.sliceRadius =
         single ? 1 : std::clamp(std::pow(static_cast<double>(kReferenceCount) / planes.count, 0.8), 0.1, 1.25);
     const double reach = out.sliceRadius * (1 + ballRadius);

@@ -16,9 +16,9 @@ namespace oval4d::scene {
 /// The placement of one slice and its label in world space.
 struct SlicePlacement {
     int index = 0;           ///< the index n of the hyperplane
-    double w = 0;            ///< of the hyperplane, in the object's units
-    glm::dvec3 position{0};  ///< of the slice's origin
-    std::string label;       ///< "w = −0.25" at the focus, "−0.25" elsewhere
+    double w = 0;            ///< the w of the hyperplane, in the object's units
+    glm::dvec3 position{0};  ///< the position of the slice's origin
+    std::string label;       ///< "w = −0.25" for the focus slice, "−0.25" for others; empty if labels are not shown
     glm::dvec3 labelAt{0};   ///< the center of the label's top edge
     double labelSize = 1;    ///< the height of the label, as a fraction of Style::textHeight
     bool focus = false;      ///< whether this is the focus slice
@@ -26,29 +26,31 @@ struct SlicePlacement {
     bool operator==(const SlicePlacement&) const = default;
 };
 
-/// The layout of the parallel coordinates. Vertex i is in row i / perRow and column i % perRow; its four lines x, y, z,
-/// w extend from the row's zero line up or down by value · amplitude / circumradius. All lengths are fractions of the
-/// viewport's height; positions count from its lower left corner. For many vertices, there is a density strip instead:
-/// a single column whose four lines are the axes, each from −circumradius to +circumradius.
+/// The layout of the parallel coordinates. Vertex i is in row i / perRow and column i % perRow. Its four lines x, y, z
+/// and w extend from the row's zero line up or down by value · amplitude / circumradius. All lengths are fractions of
+/// the viewport's height; positions are measured from the viewport's lower left corner. If there are more than
+/// kMostLines vertices, a density strip is drawn instead: a single column, whose four lines are axes that extend from
+/// −circumradius to +circumradius.
 struct CoordinatesLayout {
     int rows = 1, perRow = 1;
     double left = 0;        ///< the left edge of the first column
     double zero = 0;        ///< the height of the top row's zero line above the bottom of the viewport
-    double rowStep = 0;     ///< the distance from a row's zero line down to the next row's
+    double rowStep = 0;     ///< the distance from a row's zero line down to that of the next row
     double columnStep = 0;  ///< the distance from one vertex to the next
-    double lineStep = 0;    ///< the distance from one of the four lines to the next
+    double lineStep = 0;    ///< the distance from one of the four lines of a vertex to the next
     double lineWidth = 0;
     double amplitude = 0;  ///< the length of a line whose value is the circumradius
-    bool named = true;     ///< whether columns have the labels P0, P1, …, or the strip's axes x, y, z, w, below them
-    bool density = false;  ///< whether there is a density strip
+    bool named = true;     ///< whether the columns have labels P0, P1, … below them, or the strip's axes x, y, z, w
+    bool density = false;  ///< whether a density strip is drawn
     bool operator==(const CoordinatesLayout&) const = default;
 };
 
-/// The maximum number of vertices whose parallel coordinates are drawn as lines; those of more are a density strip.
+/// The maximum number of vertices whose parallel coordinates are drawn as lines. For more vertices, a density strip is
+/// drawn.
 inline constexpr std::size_t kMostLines = 300;
 
-/// The axes in the upper left corner: their center, relative to that corner, and the length of each axis, as fractions
-/// of the viewport's height.
+/// The layout of the axes in the upper left corner: the distances of their center from the left and top edges, and the
+/// length of each axis. All are fractions of the viewport's height.
 struct AxesLayout {
     double x = 0, y = 0, length = 0;
     bool operator==(const AxesLayout&) const = default;

@@ -10,14 +10,14 @@
 
 namespace oval4d::scene {
 
-/// The whole oval, or only the focus slice.
+/// The slices that are shown: all of them on the oval, or only the focus slice.
 enum class View : std::uint8_t { oval, single };
 inline constexpr auto kViews = std::to_array<text::Choice<View>>({{"oval", View::oval}, {"single", View::single}});
 
 /// The property of a cell that determines its color and that of the faces cut from it.
 enum class Coloring : std::uint8_t {
     cell,       ///< the cell itself
-    cell_type,  ///< the cell type, "kind" in messages
+    cell_type,  ///< the cell type, which messages call a kind
     w,          ///< the w of the cell's center after the rotation
     plain,      ///< none: all cells have the same color
 };
@@ -31,7 +31,8 @@ struct CellTypeFilter {
     bool operator==(const CellTypeFilter&) const = default;
 };
 
-/// The viewer's changes to the camera: rotation about its target, in radians, and magnification; 1 is the default.
+/// The viewer's changes to the camera: its rotation about its target in radians, and a factor of magnification. The
+/// defaults mean no change.
 struct Orbit {
     double azimuth = 0, elevation = 0, zoom = 1;
     bool operator==(const Orbit&) const = default;

@@ -12,14 +12,14 @@ struct Parts {
     bool operator==(const Parts&) const = default;
 };
 
-/// One part. Its name is used in messages, queries, stored sessions and on the ':' line, and is also the action of the
-/// key that toggles the part (protocol/keymap.json).
+/// A part of the picture. Its name is used in messages, queries, stored sessions and on the ':' line. The action of the
+/// key that toggles the part (protocol/keymap.json) has the same name.
 struct PartRow {
     std::string_view name;
     bool Parts::* flag;
 };
 
-/// All parts. Stored sessions contain the flags in this order, so new rows must be added at the end.
+/// All parts. Stored sessions contain the flags in this order, so a new row must be added at the end.
 inline constexpr auto kParts = std::to_array<PartRow>({{"faces", &Parts::faces},
                                                        {"bars", &Parts::bars},
                                                        {"balls", &Parts::balls},

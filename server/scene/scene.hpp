@@ -1,6 +1,6 @@
 #pragma once
-// The complete description of a picture. Renderers, message writers and exporters use nothing else, so a page and a
-// frame can be overlaid exactly.
+// The complete description of a picture. Renderers, message writers and exporters use no other data. Therefore the
+// picture that a page draws and a frame from the server can be overlaid exactly.
 
 #include <cstdint>
 #include <string>
@@ -17,31 +17,32 @@
 
 namespace oval4d::scene {
 
-/// A picture: the layout, the slices, and how they are drawn.
+/// A picture: its layout, its slices, and how they are drawn.
 struct Scene : Layout {
     const slicing::SliceSet* slices = &slicing::kNoSlices;  ///< never null; must outlive the scene
     std::string title;                                      ///< the object's name
-    double circumradius = 1;                                ///< of the object, in its units
+    double circumradius = 1;                                ///< the object's circumradius, in the object's units
     Look look;
     Viewport viewport;
     double scale = 1;                      ///< world units per unit of the object
     double ballRadius = 0, barRadius = 0;  ///< in world units
     std::vector<Color> cellColors;         ///< one per cell
-    /// For each face of `slices`, the cell that determines its color; empty if this is SliceSet::faceSource for all.
+    /// For each face of `slices`, the cell that determines its color. Empty if that is SliceSet::faceSource for all
+    /// faces.
     std::vector<std::uint32_t> faceCells;
     slicing::Visibilities visibilities;
     double faceOpacity = style().faceOpacity;  ///< 0 … 1
-    /// Whether faces may cross each other. They are then opaque, and drawn from `fill` instead of their loops.
+    /// Whether faces may cross each other. If so, they are opaque, and `fill` is drawn instead of their loops.
     bool crossing = false;
-    slicing::Fill fill;                     ///< of the faces, if `crossing` and faces are shown; else empty
+    slicing::Fill fill;                     ///< the filled faces, if `crossing` is set and faces are shown; else empty
     std::vector<std::uint32_t> patchCells;  ///< for each patch of `fill`, the cell that determines its color
-    std::vector<std::uint8_t> density;      ///< Density::tones() for the density strip, if it is shown
+    std::vector<std::uint8_t> density;      ///< Density::tones() for the density strip; valid if showsDensity()
 
-    /// The cell that determines the color of a face of `slices`.
+    /// Returns the cell that determines the color of a face of `slices`.
     std::uint32_t cellOfFace(std::size_t face) const {
         return faceCells.empty() ? slices->faceSource[face] : faceCells[face];
     }
-    /// Whether the density strip is shown.
+    /// Returns whether the density strip is shown.
     bool showsDensity() const { return look.parts.coordinates && coordinates.density; }
 };
 

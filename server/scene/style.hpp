@@ -7,17 +7,18 @@
 
 namespace oval4d::scene {
 
-/// Colors and sizes that do not depend on the state.
+/// The colors and sizes that are the same in all pictures.
 struct Style {
     Color background, text, focusText, ball, bar, zeroLine;
     Color axisX, axisY, axisZ, axisW;
     double faceOpacity;  ///< 0 … 1
     glm::dvec3 light;    ///< unit vector toward the light, in camera axes
-    /// Blinn–Phong: color · (ambient + diffuse · max(n·l, 0)) + specular · max(n·h, 0)^shininess.
+    /// The Blinn–Phong shading of balls and bars, for the normal n, the direction l to the light and the half vector h:
+    /// color · (ambient + diffuse · max(n·l, 0)) + specular · max(n·h, 0)^shininess.
     double ambient, diffuse, specular, shininess;
-    double textHeight;  ///< of labels, as a fraction of the viewport's height
+    double textHeight;  ///< height of labels, as a fraction of the viewport's height
 };
-/// The style of all pictures.
+/// Returns the style of all pictures.
 const Style& style();
 
 }  // namespace oval4d::scene

@@ -1,5 +1,5 @@
 #pragma once
-// Serializes values for messages between processes of the same program on the same machine.
+// Serializes values for messages between processes of the same program on the same machine, in its own byte order.
 
 #include <array>
 #include <cstdint>
@@ -12,11 +12,12 @@
 
 namespace oval4d::serialization {
 
-/// Types whose values are copied byte by byte. They must not contain pointers or references.
+/// Types whose values are copied byte by byte. Classes among them must not contain pointers or references, which the
+/// concept cannot check.
 template <typename T>
 concept BytewiseCopyable = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
-/// Appends values to a string of bytes. Texts and vectors are preceded by their size.
+/// Appends values to a string of bytes. Writes the number of elements before those of a string or a vector.
 class ByteWriter {
   public:
     explicit ByteWriter(std::string& out) : out_(out) {}
@@ -40,7 +41,8 @@ class ByteWriter {
     std::string& out_;
 };
 
-/// Reads values in the order in which a ByteWriter wrote them. Throws std::runtime_error if bytes are missing.
+/// Reads values, which must be in the order and of the types in which a ByteWriter wrote them. Throws
+/// std::runtime_error if bytes are missing.
 class ByteReader {
   public:
     explicit ByteReader(std::string_view bytes) : rest_(bytes) {}

@@ -15,10 +15,12 @@
 
 namespace oval4d::session {
 
+/// A key press.
 struct Key {
     std::string key;  ///< the value of KeyboardEvent.key in a browser: "y", "K", "2", " ", "["
     bool shift = false, ctrl = false;
 };
+/// Rotates the object.
 struct Rotate {
     geometry::Turn turn;
 };
@@ -26,26 +28,28 @@ struct Rotate {
 struct Set {
     std::optional<std::string> object;  ///< a name or alias in the catalogue, or the name of a loaded object
     std::optional<glm::dmat4> orientation;
-    std::optional<double> alpha, beta;  ///< radians
-    std::optional<double> step;         ///< radians; the change of an angle by the keys k, j, K and J
-    std::optional<int> count;           ///< odd
+    std::optional<double> alpha, beta;  ///< the angles of the rotation keys, in radians
+    std::optional<double> step;         ///< the change of alpha or beta by the keys k, j, K and J, in radians
+    std::optional<int> count;           ///< the members of SliceSettings; the count is odd
     std::optional<double> spacing;
     std::optional<int> focus;
     std::optional<scene::View> view;
-    std::optional<bool> turning;
-    std::array<std::optional<bool>, scene::kParts.size()> parts;  ///< on or off, in the order of scene::kParts
-    std::optional<double> azimuth, elevation, zoom;
+    std::optional<bool> turning;                                  ///< continuous turning
+    std::array<std::optional<bool>, scene::kParts.size()> parts;  ///< whether each of scene::kParts is shown
+    std::optional<double> azimuth, elevation, zoom;               ///< the members of scene::Orbit
     std::optional<scene::Coloring> coloring;
     std::optional<std::vector<std::uint32_t>> hidden, faded;  ///< cell types, in any order
-    std::optional<geometry::Turn> last;                       ///< the last rotation, which '.' and the space bar repeat
+    std::optional<geometry::Turn> last;  ///< the last rotation, which the keys '.' and space repeat
 };
 /// Loads an object from the text of a file and shows it.
 struct Load {
-    std::string name, format, data;
+    std::string name, format, data;  ///< `data` is the text
 };
 struct Undo {};
 struct Redo {};
+/// Restores the initial orientation and focus, and stops continuous turning.
 struct Reset {};
+/// Applies a ':' line.
 struct CommandLine {
     std::string line;  ///< without the ':'
 };

@@ -18,7 +18,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// A member of Set.
+// A pointer to a member of Set.
 using Member = std::variant<std::optional<double> Set::*, std::optional<int> Set::*, std::optional<bool> Set::*,
                             std::optional<std::string> Set::*, std::optional<scene::View> Set::*,
                             std::optional<scene::Coloring> Set::*, std::optional<CellTypeList> Set::*>;
@@ -52,7 +52,7 @@ std::vector<std::string_view> names() {
 
 Error bad(ErrorCode code, std::string message) { return {code, std::move(message)}; }
 
-// Parses `text` as the value of the setting `name`, and stores it in the given member of `set`.
+// Parses `text` as the value of the setting `name`, and stores it in a member of `set`.
 struct ValueReader {
     Set& set;
     std::string_view name, text;
@@ -137,7 +137,7 @@ Result<Command> polytopeLine(std::string_view rest, const Words& /*words*/, cons
 
 Result<Command> setLine(std::string_view rest, const Words& words, const State& /*state*/) {
     if (words.empty()) return bad(ErrorCode::unknown_command, "set needs name=value; the names are " + settingNames());
-    // A polytope's name may contain blanks: if it is the only setting, the rest of the line is the name.
+    // A polytope's name may contain blanks. If it is the only setting on the line, the rest of the line is the name.
     if (rest.starts_with("polytope=") && rest.find('=') == rest.rfind('='))
         return oneSetting("polytope", rest.substr(std::string_view("polytope=").size()));
     Set set;
@@ -181,7 +181,7 @@ Result<Command> keyLine(std::string_view rest, const Words& words, const State& 
     return Command{key};
 }
 
-// Parses hide, fade and show: cell type numbers, or one cell type name.
+// Parses the arguments of hide, fade and show: cell type numbers, or the name of a cell type.
 template <scene::CellTypeFilter (*change)(scene::CellTypeFilter, const CellTypeList&)>
 Result<Command> cellTypesLine(std::string_view rest, const Words& /*words*/, const State& state) {
     Set set;
@@ -204,7 +204,7 @@ Result<Command> noArguments(std::string_view rest, const Words& /*words*/, const
     return Command{C{}};
 }
 
-// One command: its name, and the function that parses the rest of the line.
+// A command of the ':' line: its name, and the function that parses the rest of the line.
 struct Verb {
     std::string_view name;
     Result<Command> (*read)(std::string_view rest, const Words& words, const State& state);

@@ -1,5 +1,5 @@
 #pragma once
-// The settings by name, as used on the ':' line and in queries.
+// Sets settings by name, for the ':' line and for queries.
 
 #include <string_view>
 
@@ -8,11 +8,12 @@
 
 namespace oval4d::session {
 
-/// Parses the value of one setting and stores it in `set`: "slices" and "31", "alpha" and "pi/12", "faces" and "off".
-/// Errors: `unknown_command` for an unknown name; `bad_expression` or `out_of_range` for an invalid value.
+/// Parses the value of one setting and stores it in `set`. Examples of a name and a value: "slices" and "31", "alpha"
+/// and "pi/12", "faces" and "off". Errors: `unknown_command` for an unknown name; `bad_expression` or `out_of_range`
+/// for an invalid value.
 Result<std::monostate> putSetting(std::string_view name, std::string_view value, Set& set);
 
-/// All names that putSetting accepts, separated by commas.
+/// Returns all names that putSetting accepts, separated by commas.
 std::string settingNames();
 
 }  // namespace oval4d::session

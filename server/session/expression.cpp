@@ -27,7 +27,7 @@ constexpr auto kFunctions = std::to_array<Function>({{"sqrt", [](double x) { ret
                                                      {"deg", [](double x) { return x * std::numbers::pi / 180; }}});
 constexpr auto kNames =
     std::to_array<std::string_view>({"pi", "phi", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "deg"});
-// Unicode alternatives to pi, phi and -.
+// Unicode characters that are accepted in place of pi, phi and -.
 constexpr std::string_view kPiLetter = "π", kPhiLetter = "φ", kMinusSign = "−";
 
 constexpr std::size_t kMaxLength = 1000;
@@ -36,7 +36,8 @@ constexpr int kMaxDepth = 64;
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-// A recursive-descent parser that evaluates as it parses. Throws SyntaxError, which evaluate() catches.
+// A recursive-descent parser that evaluates the expression while it parses. Throws SyntaxError, which evaluate()
+// catches.
 //   sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power   power = atom [^ signed]
 class Parser {
   public:

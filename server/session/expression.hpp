@@ -9,16 +9,16 @@
 
 namespace oval4d::session {
 
-/// Evaluates an expression of + − * / ^, parentheses, decimal numbers with or without exponent, `pi`, `phi`, and the
-/// functions sqrt, sin, cos, tan, asin, acos, atan and deg (degrees to radians). The result is finite. Error:
-/// `bad_expression`, with the position of a syntax error.
+/// Returns the value of an expression, which is finite. An expression consists of + − * / ^, parentheses, decimal
+/// numbers with or without exponent, `pi`, `phi`, and the functions sqrt, sin, cos, tan, asin, acos, atan and deg
+/// (degrees to radians). Error: `bad_expression`, with the position of a syntax error.
 Result<double> evaluate(std::string_view text);
 
-/// Returns a rotation in one plane, such as "xw", or in two perpendicular planes, such as "xw,yz". There must be one
-/// angle expression, in radians, for each plane. Error: `bad_expression`.
+/// Returns a rotation in one plane, such as "xw", or in two perpendicular planes, such as "xw,yz". `angles` must have
+/// one expression, in radians, for each plane. Error: `bad_expression`.
 Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles);
 
-/// Parses a rotation in a query or an option, such as "xw,yz:pi/8,0.2". Error: `bad_expression`.
+/// Parses a rotation given in a query or a command-line option, such as "xw,yz:pi/8,0.2". Error: `bad_expression`.
 Result<geometry::Turn> parseTurn(std::string_view text);
 
 }  // namespace oval4d::session

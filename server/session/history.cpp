@@ -9,7 +9,7 @@ namespace oval4d::session {
 
 namespace {
 
-// Returns `state` seen by a camera at this orbit.
+// Returns `state` with the camera at this orbit.
 State withOrbit(State state, const scene::Orbit& orbit) {
     state.look.orbit = orbit;
     return state;
@@ -19,8 +19,8 @@ std::size_t bytesOfFilter(const State& state) {
     return sizeof(std::uint32_t) * (state.look.cellTypes.hidden.size() + state.look.cellTypes.faded.size());
 }
 
-/// Removes the oldest steps until the memory that only the history uses is at most `maxBytes`. Counts objects, and the
-/// lists of hidden and faded cell types.
+/// Removes the oldest undo steps until the memory that only undo steps use is at most `maxBytes`. This memory consists
+/// of objects, and of the lists of hidden and faded cell types.
 void limitHistoryBytes(Session& session, std::size_t maxBytes) {
     std::map<const void*, std::size_t> steps;  // the number of steps that use each object
     std::size_t bytes = 0;
@@ -47,7 +47,7 @@ void limitHistoryBytes(Session& session, std::size_t maxBytes) {
 void commit(Session& session, State next, const Limits& limits) {
     if (next == session.now) return;
     State before = withOrbit(session.now, next.look.orbit);
-    before.turning = before.turning && next.turning;  // stopping is part of the step that started turning
+    before.turning = before.turning && next.turning;  // stopping belongs to the history step that started turning
     if (before != next) {
         if (limits.maxUndo > 0) session.past.push_back(session.now);
         while (session.past.size() > limits.maxUndo) session.past.pop_front();

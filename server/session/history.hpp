@@ -5,15 +5,15 @@
 
 namespace oval4d::session {
 
-/// Makes `next` the current state and increases the revision; does nothing if `next` equals the current state. Adds a
-/// history step, and clears what redo could restore, unless only the camera has moved or continuous turning has
-/// stopped.
+/// Makes `next` the current state and increases the revision. Adds an undo step and removes all redo steps, unless
+/// `next` differs only by a camera move or by the end of continuous turning. Removes the oldest undo steps that exceed
+/// `limits`. Does nothing if `next` equals the current state.
 void commit(Session& session, State next, const Limits& limits);
 
-/// Removes the older half of the steps that can be undone.
+/// Removes the older half of the undo steps.
 void forgetOldest(Session& session);
 
-/// Undoes or redoes one step. The camera stays where it is. Error: `nothing_to_undo`.
+/// Undoes or redoes one step. Does not move the camera. Error: `nothing_to_undo` if there is no such step.
 Result<std::monostate> undo(Session& session);
 Result<std::monostate> redo(Session& session);
 

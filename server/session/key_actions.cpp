@@ -50,7 +50,7 @@ Done showNeighbor(ActionContext& c, int by) {
 const Error kNoRotationYet{ErrorCode::nothing_to_undo,
                            "nothing to repeat: no rotation has been made yet; 2 … 7, r, t and y make one"};
 
-// Wraps an action that cannot fail as one that returns success.
+// Converts an action that cannot fail and returns nothing to one that returns success.
 template <auto act>
 Done always(ActionContext& c) {
     act(c);

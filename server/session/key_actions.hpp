@@ -1,5 +1,5 @@
 #pragma once
-// The actions of the keys: functions that change a session.
+// The actions that keys trigger: functions that change a session.
 
 #include <span>
 #include <string_view>
@@ -15,21 +15,21 @@ struct ActionContext {
     const Loaded& loaded;
     const Limits& limits;
     ObjectLoader& loader;
-    geometry::Plane plane;  ///< the plane of a rotation by alpha
-    bool doubled;           ///< also rotate by beta in the perpendicular plane
-    bool inverse;           ///< apply the inverse rotation
+    geometry::Plane plane;  ///< the plane of the rotation by alpha
+    bool doubled;           ///< whether to rotate also by beta in the perpendicular plane
+    bool inverse;           ///< whether to apply the inverse rotation
 };
 
-/// One action. Exactly one of the functions is set; after an error, the caller must discard the state that `onState`
-/// was given.
+/// An action. Exactly one of the functions is set. If `onState` returns an error, the caller must discard the state
+/// that it passed.
 struct Action {
     std::string_view name;  ///< the value of "action" in protocol/keymap.json
     Result<std::monostate> (*onState)(ActionContext&) = nullptr;
     Result<std::monostate> (*onSession)(Session&) = nullptr;
 };
 
-/// All actions that the server performs: those of the table in key_actions.cpp, and one for each row of scene::kParts,
-/// which toggles that part of the picture.
+/// Returns all actions that the server performs: those of the table in key_actions.cpp and, for each row of
+/// scene::kParts, one that toggles this part of the picture.
 std::span<const Action> keyActions();
 
 }  // namespace oval4d::session

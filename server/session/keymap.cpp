@@ -17,8 +17,8 @@ bool isUpper(const std::string& key) { return key.size() == 1 && key[0] >= 'A' &
 bool isLower(const std::string& key) { return key.size() == 1 && key[0] >= 'a' && key[0] <= 'z'; }
 bool isDigit(const std::string& key) { return key.size() == 1 && key[0] >= '0' && key[0] <= '9'; }
 
-// Normalizes a key: an uppercase letter becomes Shift and the lowercase letter. Shift is kept with letters and digits
-// only, because all other characters already depend on it.
+// Normalizes a key: an uppercase letter becomes the lowercase letter with Shift. Shift is ignored for keys other than
+// letters and digits, because the character that such a key types already depends on Shift.
 Key normalized(Key key) {
     if (key.key == "Space" || key.key == "Spacebar") key.key = " ";
     if (isUpper(key.key)) {
@@ -33,9 +33,9 @@ Key normalized(Key key) {
 // One row of the key table.
 struct Entry {
     Key key;
-    std::string first;  // the first key of a sequence of two; else empty
+    std::string first;  // the first key of a sequence of two keys, of which `key` is the second; else empty
     Binding binding{};
-    bool client = false;  // only the client handles this key
+    bool client = false;  // whether only the client handles this key
 };
 
 std::vector<Entry> readTable() {
@@ -97,7 +97,7 @@ Result<std::optional<Binding>> bindingOf(const Key& key, std::string& pending) {
         }
         begins = begins || (entry.first == wanted.key && !wanted.shift && !wanted.ctrl);
     }
-    if (!pending.empty()) {  // the key does not continue the sequence: treat it as the first key
+    if (!pending.empty()) {  // the key does not continue the sequence, so it is handled as if none had begun
         std::string alone;
         auto binding = bindingOf(key, alone);
         if (binding) pending = std::move(alone);

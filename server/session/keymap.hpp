@@ -15,13 +15,13 @@ namespace oval4d::session {
 struct Binding {
     const Action* action = nullptr;
     geometry::Plane plane = geometry::Plane::xy;
-    bool doubled = false;  ///< also rotate by beta in the perpendicular plane
-    bool inverse = false;  ///< apply the inverse rotation
+    bool doubled = false;  ///< whether to rotate also by beta in the perpendicular plane
+    bool inverse = false;  ///< whether to apply the inverse rotation
 };
 
-/// Returns the binding of a key, or an empty optional for the first key of a sequence. `pending` is the first key of a
-/// sequence that has begun, or empty: the first g of "gg" sets it to "g", any other key with a binding clears it.
-/// Error: `unknown_key`, also for keys that only the client handles; `pending` is then unchanged.
+/// Returns the binding of a key, or an empty optional if the key begins a sequence. `pending` is the first key of a
+/// sequence that has begun, or empty: the first g of "gg" sets it to "g", and a key with a binding clears it. Error:
+/// `unknown_key`, also for keys that only the client handles; `pending` is then unchanged.
 Result<std::optional<Binding>> bindingOf(const Key& key, std::string& pending);
 
 }  // namespace oval4d::session

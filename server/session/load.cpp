@@ -39,7 +39,7 @@ Result<LoadedObject> readPolytope(std::string_view text, const std::string& name
     return readPolytope(format, text, name, limits);
 }
 
-// A point x y z w [radius] per line, after an optional keyword CLOUD.
+// Reads a point cloud: an optional keyword CLOUD, then one point x y z w [radius] per line.
 Result<LoadedObject> readCloud(std::string_view text, const std::string& name, const Limits& limits) {
     polytopes::FileTokenizer file(text, true);
     std::vector<glm::dvec4> points;
@@ -73,9 +73,9 @@ Result<LoadedObject> readCloud(std::string_view text, const std::string& name, c
     }
 }
 
-/// One file format: its name in `load` messages and in errors, and its reader.
+/// A file format that `load` messages can name, and its reader.
 struct FormatRow {
-    std::string_view name, title;
+    std::string_view name, title;  ///< the name in messages, and the name in the texts of errors
     Result<LoadedObject> (*read)(std::string_view text, const std::string& name, const Limits& limits);
     bool buildsHull;
 };

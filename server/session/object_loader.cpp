@@ -56,7 +56,7 @@ void ObjectLoader::loadPending() {
 
 std::size_t ObjectLoader::bytesNeeded() const {
     constexpr std::size_t kFixed = 64U << 10U;
-    constexpr std::size_t kPerTextByte = 16;  // the numbers, their repaired copy, the polytope and its incidences
+    constexpr std::size_t kPerTextByte = 16;  // the numbers, a copy of them for repairs, the polytope, its incidences
     constexpr std::size_t kPerElement = 256;  // points, incidences, and temporary data of the construction
     if (const auto* load = std::get_if<const Load*>(&pending_)) return kFixed + kPerTextByte * (*load)->data.size();
     const auto* design = std::get_if<polytopes::Design>(&pending_);
@@ -66,8 +66,8 @@ std::size_t ObjectLoader::bytesNeeded() const {
 }
 
 std::chrono::duration<double> ObjectLoader::cost() const {
-    // Seconds per element that is built, per byte of a file of elements, and per byte of a list of points, for which
-    // the convex hull is computed.
+    // Seconds for each element of a polytope that is built, for each byte of a file that lists elements, and for each
+    // byte of a list of points whose convex hull is computed.
     constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6;
     double seconds = 2e-4;
     if (const auto* design = std::get_if<polytopes::Design>(&pending_)) {

@@ -12,8 +12,8 @@ namespace oval4d::session {
 
 namespace {
 
-// Returns "; did you mean …?" with the most similar names in the catalogue, or with the name of a loaded polytope if
-// that is at least as similar.
+// Returns "; did you mean …?" with the most similar names in the catalogue, or with the name of a loaded object if that
+// is at least as similar.
 std::string suggestion(std::string_view name, const Loaded& loaded) {
     std::vector<std::string_view> near = polytopes::nearestNames(name);
     std::size_t least = polytopes::editDistance(name, near.front());

@@ -1,5 +1,5 @@
 #pragma once
-// Finds objects by name, and the next or previous object.
+// Finds an object by its name, and the next or previous object in the list of objects.
 
 #include <string_view>
 
@@ -8,8 +8,9 @@
 
 namespace oval4d::session {
 
-/// Returns the loaded object with this name, or else the polytope whose design polytopes::designNamed returns. Errors:
-/// `unknown_polytope`, with the most similar names or with the reason; `too_large`; those of the loader.
+/// Returns the loaded object with this name or, if there is none, the polytope of this name (see
+/// polytopes::designNamed). Errors: `unknown_polytope`, with the most similar names or with the reason; `too_large`;
+/// those of the loader.
 Result<slicing::Object> findObject(std::string_view name, const Loaded& loaded, const Limits& limits,
                                    ObjectLoader& loader);
 

@@ -13,7 +13,7 @@ namespace oval4d::session {
 
 Result<State> stateFromQuery(const Query& query, const Limits& limits, ObjectLoader& loader,
                              std::optional<slicing::Object> object) {
-    // Settings are collected and applied together, so that a count and a spacing give the same state in either order.
+    // Settings are collected and applied together, so that a count and a spacing in either order give the same state.
     Set set;
     std::vector<geometry::Turn> turns;
     for (const auto& [name, value] : query) {

@@ -1,5 +1,5 @@
 #pragma once
-// States described by names and values: the query of a URL, or the options of `oval4d render`.
+// Converts names and values, from the query of a URL or the options of `oval4d render`, to a state.
 
 #include <optional>
 #include <string>
@@ -15,10 +15,10 @@ namespace oval4d::session {
 /// Pairs of names and values in the order given; a name may occur more than once.
 using Query = std::vector<std::pair<std::string, std::string>>;
 
-/// Returns the state that a query describes. Its names are those of ":set", and "rotate", which may occur any number of
-/// times; rotations are applied in order. The state starts as initialState(), with `object`, if given, in place of the
-/// 5-cell. `loader` provides the polytopes. Error for an unknown name: `unknown_command`, which lists the allowed
-/// names.
+/// Returns the state that a query describes. The names in the query are those of ":set" and "rotate", which may occur
+/// any number of times; rotations are applied in order. All other settings are those of initialState(), but with
+/// `object`, if given, in place of the 5-cell. `loader` provides the polytopes. Errors: `unknown_command` for an
+/// unknown name, with the allowed names; those of putSetting, parseTurn, checkTurn and applySet.
 Result<State> stateFromQuery(const Query& query, const Limits& limits, ObjectLoader& loader,
                              std::optional<slicing::Object> object = {});
 

@@ -123,7 +123,7 @@ std::size_t objectBytes(const Session& session) {
     auto add = [&, last = static_cast<const void*>(nullptr)](const slicing::Object& object) mutable {
         const void* identity = slicing::identityOf(object);
         if (identity != std::exchange(last, identity))
-            objects.try_emplace(identity, &object);  // neighboring states rarely differ in their object
+            objects.try_emplace(identity, &object);  // skipped for most states, which have the object of the last one
     };
     add(session.now.object);
     for (const auto& [name, object] : session.loaded) add(object);

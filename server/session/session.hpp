@@ -21,48 +21,50 @@ namespace oval4d::session {
 /// The objects loaded into a session, by name.
 using Loaded = std::map<std::string, slicing::Object, std::less<>>;
 
-/// The hyperplanes that cut the slices: w = n · spacing for `count` consecutive indices n.
+/// The hyperplanes that cut the slices: w = n · spacing, for `count` consecutive indices n.
 struct SliceSettings {
-    int count = 21;      ///< odd: n runs from focus − h to focus + h, h = (count − 1) / 2
+    int count = 21;      ///< odd; n is from focus − h to focus + h, where h = (count − 1) / 2
     double spacing = 0;  ///< δ, the distance between neighboring hyperplanes, in the polytope's units
     int focus = 0;       ///< f, the index of the focus slice
     bool operator==(const SliceSettings&) const = default;
 };
 
-/// Everything that determines a picture. Undo restores all of it except the camera's orbit.
+/// Everything that determines a picture except the viewport. Undo restores all members except the camera's orbit.
 struct State {
     slicing::Object object;  ///< never null
     geometry::Rotation orientation;
-    double alpha, beta;  ///< radians
-    double step;         ///< radians; the change of an angle by the keys k, j, K and J
+    double alpha, beta;  ///< the angles of the rotation keys, in radians
+    double step;         ///< the change of alpha or beta by the keys k, j, K and J, in radians
     SliceSettings slices;
     scene::Look look;
-    bool turning = false;                ///< continuous turning: advance() repeats `last`
-    std::optional<geometry::Turn> last;  ///< the last rotation, which '.' and the space bar repeat
+    bool turning = false;                ///< whether the object turns continuously: advance() repeats `last`
+    std::optional<geometry::Turn> last;  ///< the last rotation, which the keys '.' and space repeat
 
+    /// Returns the hyperplanes that `slices` describes.
     geometry::Hyperplanes hyperplanes() const;
     bool operator==(const State&) const = default;
 };
 
-/// The initial state of a session: the 5-cell in the paper's position.
+/// Returns the initial state of a session: the 5-cell in the position that it has in Kageyama's paper.
 State initialState();
 
-/// The spacing at which `count` slices span the diameter of the circumscribed sphere.
+/// Returns the spacing at which `count` slices span the diameter of the object's circumscribed sphere; for one slice,
+/// the circumradius.
 double spanningSpacing(const slicing::Object& object, int count);
 
 /// Limits on a session. Each can be set by an option of the server.
 struct Limits {
     int maxSlices = 201;                    ///< the maximum of SliceSettings::count
     std::size_t maxUndo = 1000;             ///< undo steps
-    std::size_t maxUndoBytes = 64U << 20U;  ///< bytes that only the history uses: objects and cell type lists
+    std::size_t maxUndoBytes = 64U << 20U;  ///< bytes of objects and cell type lists that only undo steps use
     std::size_t maxLoaded = 8;              ///< objects loaded into one session
-    /// Vertices of a loaded polytope, points of a list, and vertices of a polytope that is not in the catalogue but is
-    /// built by its name.
+    /// The vertices of a loaded polytope, the points of a list, or the vertices of a polytope that is built by its name
+    /// and is not in the catalogue.
     std::size_t maxVertices = 100'000;
     std::size_t maxHullCells = 100'000;  ///< cells of the convex hull of a list of points
 };
 
-/// A session: the current state, its history, and the loaded polytopes. Sessions can be copied and compared.
+/// A session: the current state, its history, and the loaded objects. Sessions can be copied and compared.
 struct Session {
     State now = initialState();
     std::deque<State> past;     ///< undo steps, the oldest first
@@ -73,23 +75,24 @@ struct Session {
     bool operator==(const Session&) const = default;
 };
 
-/// The memory of a session's objects in bytes, except catalogue polytopes, which all sessions share.
+/// Returns the memory of a session's objects in bytes. It does not include catalogue polytopes, which all sessions
+/// share.
 std::size_t objectBytes(const Session& session);
 
-/// The memory of a session's history in bytes, except the objects.
+/// Returns the memory of a session's history in bytes, without the objects.
 std::size_t historyBytes(const Session& session);
 
 class ObjectLoader;
 
-/// Applies a command. On an error, the session is unchanged. Every change is a history step, which can be undone,
-/// except moving the camera and stopping continuous turning. A command that changes nothing leaves the revision
-/// unchanged. `loader` builds polytopes and reads files.
+/// Applies a command to the session. After an error, the session is unchanged. Every change adds an undo step, except a
+/// move of the camera and the end of continuous turning. A command that changes nothing does not increase the revision.
+/// `loader` builds polytopes and reads files.
 Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);
 
-/// The speed of continuous turning: how many times the last rotation is repeated per second.
+/// The speed of continuous turning: how often the last rotation is repeated per second.
 inline constexpr double kTurnsPerSecond = 6;
-/// Advances continuous turning by `seconds`. Does nothing if the session is not turning. A continuous turn is a single
-/// history step, from start to stop.
+/// Rotates the object by `seconds` of continuous turning. Does nothing if the session is not turning. Continuous
+/// turning is one undo step from its start to its end, so this function adds none.
 void advance(Session& session, double seconds);
 
 /// Parses a ':' line, with or without the ':', such as "polytope 24-cell", "set slices=31",

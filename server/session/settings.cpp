@@ -21,7 +21,7 @@ struct Bounds {
     std::string_view unit;
 };
 
-// Stores a value, if there is one; an error if it is out of range.
+// Stores `value`, if there is one, in `into`. Error: `out_of_range`.
 Result<std::monostate> put(std::string_view name, std::optional<double> value, Bounds range, double& into) {
     if (!value) return std::monostate{};
     if (!(*value >= range.least && *value <= range.most)) {

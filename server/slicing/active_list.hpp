@@ -1,5 +1,5 @@
 #pragma once
-// The active list of a sweep: the elements that the rising hyperplane cuts.
+// The active list of a sweep algorithm: the elements that the hyperplane cuts at its current position.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,38 +9,41 @@
 
 namespace oval4d::slicing {
 
-/// Elements of one dimension, each cut by the hyperplanes from … to − 1. They are sorted once by their first
-/// hyperplane; then the list of active elements, those that are cut, follows the hyperplane as it rises. Whether an
-/// element is cut is unpredictable, and a mispredicted branch costs more than the work that it saves, so the loops are
-/// branch-free. Reuses its memory.
+/// Lists the active elements of one dimension (edges, 2-faces or cells): those that a rising hyperplane currently cuts.
+/// Each element is cut by the hyperplanes from … to − 1 (their indices). To use it, call `clear`, `add` for each
+/// element, `sort` once, and then `advance` as the hyperplane rises. The loops have no branches that depend on whether
+/// an element is cut: the CPU cannot predict these, and a misprediction costs more than the work that a branch saves.
+/// Reuses its memory.
 class ActiveList {
   public:
     struct Element {
-        std::uint32_t number;
-        std::int32_t to;
+        std::uint32_t number;  ///< the index of the edge, 2-face or cell in the polytope
+        std::int32_t to;       ///< the index of the first hyperplane above the element
     };
 
-    /// Removes all elements and makes room for `elements` new ones.
+    /// Removes all elements. Makes room for `elements` new ones, cut by hyperplanes 0 … `planes` − 1.
     void clear(std::size_t elements, int planes) {
         added_.resize(elements + 1);
         end_.assign(planes + 1, 0);
         count_ = activeCount_ = begun_ = 0;
     }
-    /// Adds an element with from ≤ to. An element with from = to is never cut.
+    /// Adds an element that the hyperplanes from … to − 1 cut. Requires from ≤ to. Ignores an element with from = to.
     void add(std::uint32_t number, std::int32_t from, std::int32_t to) {
         const std::uint32_t one = from < to ? 1 : 0;
         added_[count_] = {{number, to}, from};
         end_[from] += one;
         count_ += one;
     }
-    /// Sorts the elements. To be called once all are added. `steps`: in ascending order, the hyperplanes at which
-    /// elements begin, and possibly others.
+    /// Sorts the elements by their first hyperplane. Must be called once, after all calls of `add`. `steps` lists
+    /// hyperplanes in ascending order; it must include the first hyperplane of every element.
     void sort(std::span<const int> steps);
 
-    /// Advances to a step; to be called for all steps in order. Returns the elements that begin there.
+    /// Moves the hyperplane up to `step`. Must be called for the steps of `sort` in their order. Returns the elements
+    /// whose first hyperplane this is.
     std::span<const Element> advance(int step);
     /// Returns the elements that the current hyperplane cuts.
     std::span<const Element> active() const { return {active_.data(), activeCount_}; }
+    /// Returns the number of active elements.
     std::uint32_t size() const { return activeCount_; }
 
   private:
@@ -50,7 +53,8 @@ class ActiveList {
     };
     std::vector<Added> added_;
     std::vector<Element> sorted_, active_;
-    std::vector<std::uint32_t> end_;  // by hyperplane: how many elements begin there; once sorted, where these end
+    std::vector<std::uint32_t> end_;  // by hyperplane: the number of elements that begin there; once sorted, their end
+    // The number of elements added, of active ones, and of those in sorted_ that have become active so far.
     std::uint32_t count_ = 0, activeCount_ = 0, begun_ = 0;
 };
 

@@ -10,22 +10,23 @@
 
 namespace oval4d::slicing {
 
-/// The radius of the usual ball of a cloud, relative to the circumradius: smaller the more points there are.
+/// Returns the default radius of a cloud's balls, as a fraction of the circumradius. It falls with the number of
+/// points.
 double ballRadius(const geometry::PointCloud& cloud);
 
-/// Assigns points to hyperplanes: a slice shows the points within half a spacing of its hyperplane as balls, fainter
-/// the farther away they are, down to a fifth at half a spacing. A point exactly between two hyperplanes belongs to the
-/// one with the larger w. The source number of a vertex is the number of its point. One slicer serves one thread at a
-/// time.
+/// Slices point clouds. A slice shows each point within half a spacing of its hyperplane as a ball, whose opacity falls
+/// linearly with the distance, from 1 in the hyperplane to 0.2 at half a spacing. A point halfway between two
+/// hyperplanes belongs to the one with the larger w. The source number of a slice vertex (see SliceSet) is the index of
+/// its point. A slicer may be used by one thread at a time.
 class CloudSlicer {
   public:
-    /// Turns `cloud` and slices it. Overwrites `out` and reuses its memory.
+    /// Slices `cloud` rotated by `orientation`. Overwrites `out` and reuses its memory.
     void slice(const geometry::PointCloud& cloud, const geometry::Rotation& orientation,
                const geometry::Hyperplanes& planes, SliceSet& out);
 
   private:
-    std::vector<std::int32_t> planeOf_;  // of each point; −1: none
-    std::vector<std::uint32_t> next_;    // by hyperplane: the place of its next vertex
+    std::vector<std::int32_t> planeOf_;  // by point: the index of its hyperplane; −1: none
+    std::vector<std::uint32_t> next_;    // by hyperplane: the index of the slice vertex to write next
 };
 
 }  // namespace oval4d::slicing

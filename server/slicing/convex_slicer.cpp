@@ -7,11 +7,11 @@ namespace oval4d::slicing {
 
 namespace {
 
-// A sweep sorts the elements once and writes them for each hyperplane, so its time is proportional to the number of
-// elements times (the number of hyperplanes + a constant). Below kLarge, waking another core would take longer than the
-// time saved.
+// Whether two cores are faster than one. A sweep sorts the elements once and writes them for each hyperplane, so its
+// time is proportional to the number of elements times (the number of hyperplanes + a constant). If the product is less
+// than kLarge, waking the other core takes longer than the time saved.
 bool isWorthTwoCores(const polytopes::Polytope& polytope, int planes) {
-    constexpr std::size_t kSorting = 40;  // the time of sorting, in multiples of the time for one hyperplane
+    constexpr std::size_t kSorting = 40;  // the time of sorting, as a number of hyperplanes that take the same time
     constexpr std::size_t kLarge = 2'500'000;
     const std::size_t elements =
         polytope.vertices.size() + polytope.edges.size() + polytope.faces.size() + polytope.cells.size();

@@ -13,22 +13,25 @@
 
 namespace oval4d::slicing {
 
-/// Slices convex polytopes with a sweep. Large ones are swept on two cores at once, one for the lower hyperplanes and
-/// one for the upper ones. Reuses its scratch memory between calls.
+/// Slices convex polytopes with a sweep. Splits the hyperplanes of a large polytope into a lower and an upper half and
+/// sweeps both halves at the same time, on two cores. Reuses its scratch memory between calls.
 class ConvexSlicer {
   public:
+    /// `forkJoin` may be null; then everything runs on the calling thread.
     explicit ConvexSlicer(parallel::ForkJoin* forkJoin) : forkJoin_(forkJoin) {}
 
-    /// Fills `out`, whose hyperplanes and rotated vertices must be set. For `touching`, see Sweep::cut. Returns false,
-    /// and leaves `out` unusable, if rounding errors in the vertices make a hyperplane cut a 2-face or a cell twice.
+    /// Slices `polytope` and writes the slices to `out`, whose `planes` and `rotatedVertices` must be set. For
+    /// `touching`, see Sweep::cut. Returns false, and leaves `out` unusable, if rounding errors in the vertices make a
+    /// hyperplane cut a 2-face or a cell twice; the caller must then use a method for nonconvex polytopes.
     bool cut(const polytopes::Polytope& polytope, Levels levels, std::span<SliceSet* const> touching, SliceSet& out);
 
   private:
+    // The lower or upper half of the hyperplanes.
     struct Half {
         Sweep sweep;
         std::vector<std::int32_t> below;  // as Levels::below, for the hyperplanes of this half
-        ElementCounts end;
-        bool sound = false;
+        ElementCounts end;                // the position in `out` at which its next slice begins
+        bool sound = false;               // whether the last call of `sweep` succeeded
     };
     bool cutHalves(const polytopes::Polytope& polytope, Levels levels, SliceSet& out);
 

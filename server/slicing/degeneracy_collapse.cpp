@@ -111,8 +111,8 @@ void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, Elem
     size.corners = to - at.corners;
 }
 
-// The edge of the 2-face that lies in the hyperplane between these two vertices of the slice; kNone if several
-// collinear edges lie there.
+// Returns the edge of the 2-face that lies in the hyperplane and joins these two vertices of the slice; kNone if there
+// is no single edge, because several collinear edges lie between the two.
 std::uint32_t DegeneracyCollapse::baseEdge(const polytopes::Polytope& polytope, std::uint32_t face,
                                            std::array<std::uint32_t, 2> ends) const {
     for (const std::uint32_t e : polytope.faceEdges[face]) {
@@ -123,8 +123,8 @@ std::uint32_t DegeneracyCollapse::baseEdge(const polytopes::Polytope& polytope, 
     return kNone;
 }
 
-// The 2-face of the cell that lies in the hyperplane and has this number of corners; kNone if several coplanar 2-faces
-// lie there.
+// Returns the 2-face of the cell that lies in the hyperplane and has this number of corners; kNone if there is none,
+// because the slice face consists of several coplanar 2-faces.
 std::uint32_t DegeneracyCollapse::baseFace(const polytopes::Polytope& polytope, std::uint32_t cell,
                                            std::size_t corners) const {
     const auto lies = [&](std::uint32_t v) { return levels_.liesIn(v, plane_); };

@@ -121,7 +121,7 @@ bool Filler::findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t 
     return true;
 }
 
-// Finds the levels: between two successive ones, no side begins, ends or crosses another.
+// Finds the levels. Between two successive levels, no side begins, ends or crosses another.
 void Filler::findLevels() {
     levels_.clear();
     for (const Side& side : sides_) {
@@ -156,8 +156,8 @@ void Filler::findLevels() {
     }
 }
 
-// Sweeps upward from level to level; in the strip between two levels the order of the sides from left to right is
-// fixed. Returns the greatest absolute winding number.
+// Sweeps upward from level to level. In the strip between two levels, the order of the sides from left to right does
+// not change. Returns the greatest absolute winding number.
 int Filler::sweep(Fill& out) {
     waiting_.resize(sides_.size());
     for (std::uint32_t i = 0; i < sides_.size(); ++i) waiting_[i] = i;
@@ -212,7 +212,8 @@ void Filler::sortActive(double y) {
     }
 }
 
-// Adds the inside between two sides in the current strip: to a piece that stays convex, or as a new piece.
+// Adds the region between two sides in the current strip, which is inside the face: extends an open piece if this keeps
+// it convex, else begins a new piece.
 void Filler::addSpan(std::uint32_t left, std::uint32_t right, bool positive, double bottom) {
     const Side &l = sides_[left], &r = sides_[right];
     for (Piece& piece : open_) {

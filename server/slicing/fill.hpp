@@ -1,5 +1,5 @@
 #pragma once
-// Filled faces of slices, decomposed into convex pieces, for drawing and for the meshes of nonconvex slices.
+// Filled faces of slices, decomposed into convex polygons, for drawing and for the meshes of nonconvex slices.
 
 #include <array>
 #include <cstdint>
@@ -13,20 +13,21 @@
 
 namespace oval4d::slicing {
 
-/// Faces of slices filled by the nonzero winding rule: a point of a face's plane belongs to the face if the winding
-/// number around it of all loops of one cell in one hyperplane, taken together, is not 0.
+/// The filled faces of slices. All loops that a hyperplane cuts from one cell form one face, which is filled by the
+/// nonzero winding rule: a point of the plane belongs to the face if the sum of the loops' winding numbers around it is
+/// not 0.
 ///
-/// A patch is such a face; slice i owns the patches [patchBegin[i], patchBegin[i + 1]). Patch p owns the pieces
-/// [pieceBegin[p], pieceBegin[p + 1]): convex polygons that do not overlap, unless the patch is filled roughly. Piece k
-/// is the loop corners[cornerBegin[k]] … corners[cornerBegin[k + 1] − 1], counterclockwise seen from outside, or from
-/// inside where the winding number is negative.
+/// A patch is one filled face. Slice i has the patches [patchBegin[i], patchBegin[i + 1]). A patch consists of pieces:
+/// convex polygons that do not overlap, unless the patch is filled roughly (see Filler::fill). Patch p has the pieces
+/// [pieceBegin[p], pieceBegin[p + 1]). Piece k is the loop corners[cornerBegin[k]] … corners[cornerBegin[k + 1] − 1],
+/// counterclockwise seen from outside, or seen from inside where the winding number is negative.
 struct Fill {
     struct Patch {
         glm::dvec3 normal;  ///< unit length, outward; the plane is dot(normal, x) = offset
         double offset;
-        std::uint32_t source;               ///< as SliceSet::faceSource
+        std::uint32_t source;               ///< the source number, as in SliceSet::faceSource
         std::uint32_t firstLoop, lastLoop;  ///< the faces firstLoop … lastLoop − 1 of the SliceSet
-        int winding;                        ///< the greatest absolute winding number; 0 if filled roughly
+        int winding;                        ///< the maximum of |winding number|; 0 if the patch is filled roughly
     };
     std::vector<std::uint32_t> patchBegin, pieceBegin, cornerBegin;
     std::vector<Patch> patches;
@@ -36,37 +37,40 @@ struct Fill {
     void clear();
 };
 
-/// Fills the faces of slices. Reuses its memory between calls. A filler may be used by one thread at a time.
+/// Decomposes the faces of slices into convex polygons with a plane sweep. Reuses its memory between calls. A filler
+/// may be used by one thread at a time.
 class Filler {
   public:
     static constexpr std::size_t kNoLimit = ~std::size_t{0};
 
-    /// Fills all slices of `slices`, which were cut from a polytope of this circumradius. `out` is overwritten and its
-    /// memory reused. `steps` limits the time: a face with n sides that cross at k points takes at most n² + n · k
-    /// steps. A face for which too few steps are left is filled roughly: each loop by the triangles between its sides
-    /// and the mean of its corners. Together these cover the interior of a loop that is star-shaped about the mean, as
-    /// star polygons are.
+    /// Fills the faces of all slices, which were cut from a polytope of this circumradius. Overwrites `out` and reuses
+    /// its memory. `steps` limits the time for all faces together: a face with n sides that cross at k points takes at
+    /// most 2 n² + n · k steps. If too few steps are left for a face, it is filled roughly: each of its loops becomes
+    /// the triangles between the sides of the loop and the mean of its corners. These triangles cover the interior
+    /// exactly if the loop is star-shaped about the mean, as star polygons are.
     void fill(const SliceSet& slices, double circumradius, Fill& out, std::size_t steps = kNoLimit);
 
   private:
-    // A side of a loop, from its lower to its upper end, in the coordinates x, y of the plane.
+    // A side of a loop, from its lower to its upper end, in the coordinates (x, y) of the face's plane.
     struct Side {
         glm::dvec2 low, high;
-        double slope;            // dx/dy
-        int winding;             // the change of the winding number across the side, from left to right
-        std::uint32_t from, to;  // the levels of its ends, indices into levels_
-        double middle;           // x at half the height of the current strip
-        double at(double y) const;
+        double slope;               // dx/dy
+        int winding;                // the change of the winding number across the side, from left to right
+        std::uint32_t from, to;     // the levels of its ends, indices into levels_
+        double middle;              // x at half the height of the current strip
+        double at(double y) const;  // returns x at height y
     };
     // A convex piece under construction, from the bottom up: its left and right chains of corners so far, and the sides
-    // that they currently follow.
+    // that the chains currently follow.
     struct Piece {
-        static constexpr std::size_t kMost = 16;
+        static constexpr std::size_t kMost = 16;  // the maximum number of corners in a chain
         std::array<glm::dvec2, kMost> left, right;
         std::size_t leftCount, rightCount;
         std::uint32_t leftSide, rightSide;
+        // Whether the winding number in the piece is positive; whether the piece extends into the current strip.
         bool positive, continued;
     };
+    // A plane in space, with orthonormal axes.
     struct Plane {
         glm::dvec3 origin, x, y;
     };
@@ -87,10 +91,10 @@ class Filler {
     Plane plane_{};
     std::vector<glm::dvec3> points_;
     std::vector<Side> sides_;
-    std::vector<double> levels_;          // y at which a side begins, ends or crosses another, ascending
+    std::vector<double> levels_;          // each y at which a side begins, ends or crosses another, ascending
     std::vector<std::uint32_t> waiting_;  // sides, sorted by their first level
-    std::vector<std::uint32_t> active_;   // sides through the current strip, from left to right
-    std::vector<Piece> open_;
+    std::vector<std::uint32_t> active_;   // sides through the current strip (between two levels), from left to right
+    std::vector<Piece> open_;             // pieces that may continue in the next strip
 };
 
 }  // namespace oval4d::slicing

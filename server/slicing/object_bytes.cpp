@@ -18,8 +18,8 @@ using polytopes::Polytope;
 using serialization::ByteReader;
 using serialization::ByteWriter;
 
-// Reads and writes with the same code, so that the two always agree. A new member of JaggedArray makes the structured
-// binding fail to compile.
+// Reading and writing share this code, so that they always agree. The structured binding does not compile if a member
+// is added to JaggedArray but not here.
 template <typename Archive, typename Array>
 void visitArray(Archive& archive, Array& array) {
     auto& [begin, items] = array;
@@ -47,7 +47,7 @@ void requirePolytope(Kind kind) {
     if (kind != Kind::polytope) throw std::runtime_error("an unknown kind of object");
 }
 
-/// Reads a jagged array and checks that all its rows lie within it.
+/// Reads a jagged array and checks that all its rows lie within `items`.
 JaggedArray arrayFrom(ByteReader& archive) {
     JaggedArray array;
     visitArray(archive, array);

@@ -1,5 +1,5 @@
 #pragma once
-// Objects as bytes, for messages between this program's own processes.
+// Serializes objects, for messages between processes of this program.
 
 #include <cstddef>
 #include <string>
@@ -10,18 +10,21 @@
 
 namespace oval4d::slicing {
 
-/// Encodes the whole object with its serial number, in its memory layout. Overwrites `out`.
+/// Encodes an object with all its data, including its serial number, in the byte order and number formats of this
+/// machine. Overwrites `out`.
 void encodeObject(const Object& object, std::string& out);
 
-/// Decodes an object from a trusted sender: does not validate it. Throws std::runtime_error if bytes are missing.
+/// Decodes the bytes of `encodeObject`. The sender must be trusted: the bytes are not validated. Throws
+/// std::runtime_error if bytes are missing.
 Object decodeObject(std::string_view bytes);
 
-/// Writes the data from which `readParts` rebuilds the object: vertices, 2-faces, cells and cell types, but no name.
+/// Writes the data from which `readParts` rebuilds the object: the vertices, 2-faces, cells and cell types of a
+/// polytope, or the points and radii of a cloud; not the name.
 void writeParts(const Object& object, serialization::ByteWriter& archive);
 
-/// Builds an object with this name, and a serial number of this process, from the data of `writeParts`. Validates
-/// everything: throws std::runtime_error with the reason if there are more than `maxVertices` vertices or the object is
-/// invalid.
+/// Builds an object with this name and a new serial number from the data of `writeParts`. The sender need not be
+/// trusted: throws std::runtime_error with the reason if the object is invalid or has more than `maxVertices` vertices
+/// or points.
 Object readParts(serialization::ByteReader& archive, const std::string& name, std::size_t maxVertices);
 
 }  // namespace oval4d::slicing

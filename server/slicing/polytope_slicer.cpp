@@ -9,9 +9,9 @@
 #include "slicing/ranges.hpp"
 
 // The polytope is cut just above each hyperplane, where there are no vertices, and the section is then moved down onto
-// the hyperplane: a point on an edge that starts in the hyperplane collapses to that vertex, a line in a 2-face that
-// stands on an edge collapses to that edge, and elements that shrink to a point are dropped. So degenerate positions
-// need no special cases, and sections are closed loops even if 2-faces are stars.
+// the hyperplane: a point on an edge that starts in the hyperplane moves to the vertex where the edge starts, a segment
+// in a 2-face that has an edge in the hyperplane moves to that edge, and elements that shrink to a point are dropped.
+// So vertices in the hyperplane need no special cases, and sections are closed loops even if 2-faces are stars.
 
 namespace oval4d::slicing {
 
@@ -88,7 +88,7 @@ void PolytopeSlicer::locateVertices(const polytopes::Polytope& polytope, const g
     }
 }
 
-// Slice vertices: the polytope's vertices in the hyperplane, and the crossed edges.
+// Finds the slice vertices: the polytope's vertices in the hyperplane, and the points where edges cross it.
 void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out) {
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     const auto vertices = static_cast<std::uint32_t>(polytope.vertices.size());
@@ -142,7 +142,7 @@ void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out
     }
 }
 
-// Slice edges: the polytope's edges in the hyperplane, and the crossed 2-faces.
+// Finds the slice edges: the polytope's edges in the hyperplane, and the segments in which 2-faces cross it.
 void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out) {
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     twice_.resize(below_.size());
@@ -179,7 +179,7 @@ void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out
     numberEdges(polytope, out);
 }
 
-// The loop of a convex 2-face ascends and descends through a hyperplane once each.
+// The vertex loop of a convex 2-face ascends through a hyperplane once, and descends once.
 void PolytopeSlicer::cutConvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above) {
     const auto loop = polytope.faces[face];
     const auto loopEdges = polytope.faceEdges[face];
@@ -196,9 +196,9 @@ void PolytopeSlicer::cutConvexFace(const polytopes::Polytope& polytope, std::uin
     for (std::int32_t k = above.from; k < above.to; ++k) addLine(polytope, face, k, up_[k], down_[k]);
 }
 
-// A nonconvex loop crosses the hyperplane several times: along the line in which the hyperplane cuts the 2-face's
-// plane, the i-th ascent is paired with the i-th descent. Where segments overlap, the 2-face covers the line more than
-// once.
+// A nonconvex loop may cross the hyperplane several times. The crossings are sorted along the line in which the
+// hyperplane cuts the 2-face's plane, and the i-th ascent is paired with the i-th descent. Where the resulting segments
+// overlap, the 2-face covers the line more than once.
 void PolytopeSlicer::cutAnyFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above,
                                 const SliceSet& out) {
     const auto loop = polytope.faces[face];
@@ -237,8 +237,8 @@ void PolytopeSlicer::addLine(const polytopes::Polytope& polytope, std::uint32_t 
     if (a == b) {
         edge = kNone;
     } else if (plane < faceSpan_[face].from) {
-        // The 2-face stands on this hyperplane with an edge: both points are vertices of the 2-face, and the edge
-        // between them lies in the hyperplane.
+        // The 2-face lies above this hyperplane, with an edge in it: both points are vertices of the 2-face, and the
+        // edge between them lies in the hyperplane.
         for (const std::uint32_t e : polytope.faceEdges[face]) {
             const auto [v, u] = polytope.edges[e];
             if (!liesInOne({v, u}) || below_[v] != plane) continue;
@@ -287,7 +287,7 @@ void PolytopeSlicer::numberEdges(const polytopes::Polytope& polytope, SliceSet& 
     }
 }
 
-// Slice faces: the 2-faces in the hyperplane, and the crossed cells.
+// Finds the slice faces: the 2-faces in the hyperplane, and the polygons in which cells cross it.
 void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out) {
     const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
     cellSpan_.resize(cells);
@@ -310,8 +310,8 @@ void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out
     placeLoops(out);
 }
 
-// Links the lines cut from the cell's 2-faces end to start, each in the direction of the 2-face's orientation in this
-// cell, and traces the loops.
+// Joins the segments cut from the cell's 2-faces, each directed by the 2-face's orientation in this cell: the end of
+// one is the start of the next. Then follows these links to find the closed loops.
 void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_t cell) {
     const Span span = cellSpan_[cell];
     starts_.clear();
@@ -343,9 +343,9 @@ void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_
     }
 }
 
-// A 2-face in the hyperplane bounds the slice if a cell stands on it, or if it bounds a cell that lies in the
-// hyperplane on top of the polytope; its loop has the orientation of that cell. If the polytope only touches the
-// hyperplane in a 2-face, that 2-face is the whole slice.
+// A 2-face in the hyperplane is a face of the slice if one of its cells lies above the hyperplane, or if one of its
+// cells lies in the hyperplane, on top of the polytope. Its loop then has the orientation that it has in that cell. If
+// the polytope only touches the hyperplane, in this 2-face, the 2-face is the whole slice.
 void PolytopeSlicer::addLyingFaces(const polytopes::Polytope& polytope, const SliceSet& out) {
     touchingFaces_.clear();
     bounded_.assign(out.planes.count, false);
@@ -395,8 +395,8 @@ void PolytopeSlicer::addLyingFace(const polytopes::Polytope& polytope, std::uint
     }
 }
 
-// Whether a cell in a hyperplane lies on top of the polytope, with its outer side toward larger w. Then its 2-faces,
-// oriented as in this cell, enclose a positive volume.
+// Returns whether a cell in a hyperplane lies on top of the polytope, so that its outer side faces toward larger w.
+// This is the case if its 2-faces, oriented as in this cell, enclose a positive volume.
 bool PolytopeSlicer::liesOnTop(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const {
     double volume = 0;
     for (std::uint32_t at = polytope.cells.begin[cell]; at < polytope.cells.begin[cell + 1]; ++at) {
@@ -411,7 +411,7 @@ bool PolytopeSlicer::liesOnTop(const polytopes::Polytope& polytope, std::uint32_
     return volume > 0;
 }
 
-// Sorts the loops by hyperplane into the slice set.
+// Writes the loops to `out`, sorted by hyperplane.
 void PolytopeSlicer::placeLoops(SliceSet& out) {
     out.faceBegin.assign(out.planes.count + 1, 0);
     cornerCursor_.assign(out.planes.count + 1, 0);

@@ -18,11 +18,11 @@
 
 namespace oval4d::slicing {
 
-/// Slices polytopes. Reuses its scratch memory, so that repeated calls of similar size allocate nothing. One slicer
-/// serves one thread at a time.
+/// Slices polytopes, convex or not. Reuses its scratch memory, so that repeated calls of similar size allocate nothing.
+/// A slicer may be used by one thread at a time.
 class PolytopeSlicer {
   public:
-    /// With `forkJoin`, large polytopes are sliced on two cores.
+    /// With `forkJoin`, large convex polytopes are sliced on two cores; null: always on one.
     explicit PolytopeSlicer(parallel::ForkJoin* forkJoin = nullptr) : convexCut_(forkJoin) {}
 
     /// Slices `polytope` rotated by `orientation`. Overwrites `out` and reuses its memory.
@@ -32,36 +32,40 @@ class PolytopeSlicer {
   private:
     static constexpr std::int32_t kNoPlane = -1;
     static constexpr std::uint32_t kNone = 0xffffffffU;
-    static constexpr std::uint32_t kFresh = 0xfffffffeU;
+    static constexpr std::uint32_t kFresh = 0xfffffffeU;  // see Line
 
-    // The hyperplanes from … to − 1; none if to ≤ from.
+    // The hyperplanes with the indices from … to − 1; none if to ≤ from.
     struct Span {
         std::int32_t from, to;
     };
-    // A segment of a 2-face's section just above hyperplane `plane`, from the edge where the vertex loop rises through
-    // the hyperplane to the edge where it descends. `edge` is its slice edge, or kNone if the segment shrinks to a
-    // point in the hyperplane itself. Until slice edges are numbered, `edge` is instead kFresh, or the 4-D edge in the
-    // hyperplane onto which the segment collapses.
+    // A segment in which a 2-face crosses the level just above hyperplane `plane`, from the edge where the 2-face's
+    // vertex loop rises through this level to the edge where it descends. `edge` is the slice edge of the segment;
+    // kNone if the segment shrinks to a point when moved down into the hyperplane. Until numberEdges() has set `edge`,
+    // it is kFresh for a new slice edge, or the polytope's edge in the hyperplane onto which the segment moves.
     struct Line {
         std::int32_t plane;
-        std::uint32_t up, down;  // slots
+        std::uint32_t up, down;  // slots (see slotBegin_)
         std::uint32_t edge;
     };
-    // A closed loop of a cell's section, with its corners in loopCorners_.
+    // A slice face: a closed loop with `size` corners, which begin at loopCorners_[begin]. `source`: see SliceSet.
     struct Loop {
         std::int32_t plane;
         std::uint32_t source, begin, size;
     };
+    // A point where the vertex loop of a 2-face crosses a hyperplane.
     struct Crossing {
         std::uint32_t slot;
-        double along;
+        double along;  // its position along the line in which the hyperplane cuts the 2-face's plane
     };
 
-    // Turns the vertices and counts the hyperplanes below each.
+    // Rotates the vertices and counts the hyperplanes below each.
     void locateVertices(const polytopes::Polytope& polytope, const geometry::Rotation& orientation, SliceSet& out);
+    // Cuts all slices by the general method, which also handles nonconvex polytopes.
     void cutAny(const polytopes::Polytope& polytope, SliceSet& out);
+    // Cuts all slices of a convex polytope by the faster ConvexSlicer. Returns false if it cannot.
     bool cutConvex(const polytopes::Polytope& polytope, SliceSet& out);
     bool cutTouching(const polytopes::Polytope& polytope, SliceSet& out);
+    // Cuts only hyperplane `plane` of `all`, into `single`.
     void cutOne(const polytopes::Polytope& polytope, std::int32_t plane, SliceSet& single, SliceSet& all);
     void cutEdges(const polytopes::Polytope& polytope, SliceSet& out);
     void cutFaces(const polytopes::Polytope& polytope, SliceSet& out);
@@ -70,6 +74,7 @@ class PolytopeSlicer {
     void addLine(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane, std::uint32_t up,
                  std::uint32_t down);
     void numberEdges(const polytopes::Polytope& polytope, SliceSet& out);
+    // Returns whether the whole edge lies in a hyperplane.
     bool liesInOne(const std::array<std::uint32_t, 2>& edge) const {
         return below_[edge[0]] == below_[edge[1]] && below_[edge[0]] < upTo_[edge[0]] &&
                below_[edge[1]] < upTo_[edge[1]];
@@ -84,31 +89,31 @@ class PolytopeSlicer {
     ConvexSlicer convexCut_;
     std::array<SliceSet, 2> singles_;               // the slices in hyperplanes that the polytope touches from one side
     std::vector<SliceSet*> touching_;               // by hyperplane: an element of singles_, or null
-    std::vector<std::int32_t> allBelow_, allUpTo_;  // below_ and upTo_ for all hyperplanes, while one is cut separately
-    // For each vertex, the number of hyperplanes strictly below it, and the number of those below or through it. The
-    // two differ if the vertex lies in a hyperplane, whose index is then below_.
+    std::vector<std::int32_t> allBelow_, allUpTo_;  // below_ and upTo_ for all hyperplanes, during cutTouching()
+    // By vertex: the number of hyperplanes strictly below it, and the number of those below or through it. The two
+    // differ if the vertex lies in a hyperplane, whose index is then below_.
     std::vector<std::int32_t> below_, upTo_, twice_;  // twice_: their sum
     bool anyLie_ = false;                             // whether any vertex lies in a hyperplane
-    std::vector<std::uint32_t> vertexPoint_;          // the slice vertex of a vertex that lies in a hyperplane
+    std::vector<std::uint32_t> vertexPoint_;          // by vertex that lies in a hyperplane: its slice vertex
     // A slot is the crossing of an edge with the level just above a hyperplane: for edge e and hyperplane k, its index
-    // is slotBegin_[e] + k − below_[lower end].
+    // is slotBegin_[e] + k − below_[lower end]. slotPoint_ is the slice vertex of each slot.
     std::vector<std::uint32_t> slotBegin_, slotPoint_;
     std::vector<std::uint32_t> lyingEdges_;  // edges that lie in a hyperplane
-    std::vector<std::uint32_t> edgeLine_;    // the slice edge of an edge that lies in a hyperplane
+    std::vector<std::uint32_t> edgeLine_;    // by edge that lies in a hyperplane: its slice edge
     std::vector<Line> lines_;                // those of 2-face f begin at lineBegin_[f]
     std::vector<std::uint32_t> lineBegin_;
-    std::vector<Span> faceSpan_, cellSpan_;       // the hyperplanes that strictly cross it
-    std::vector<std::int32_t> lyingIn_;           // the hyperplane that contains the whole 2-face, or kNoPlane
-    std::vector<std::uint32_t> next_, nextEdge_;  // by slot: links around a cell's section
-    // Hyperplane and slot of each link of the current cell.
+    std::vector<Span> faceSpan_, cellSpan_;       // by element: the hyperplanes with its vertices on both sides
+    std::vector<std::int32_t> lyingIn_;           // by 2-face: the hyperplane that contains all of it, or kNoPlane
+    std::vector<std::uint32_t> next_, nextEdge_;  // by slot: the next slot around the cell's section, the edge to it
+    // The hyperplane and the slot of each link in next_ that belongs to the current cell.
     std::vector<std::pair<std::int32_t, std::uint32_t>> starts_;
     std::vector<std::uint32_t> touchingFaces_;  // 2-faces in which the polytope touches a hyperplane
     std::vector<bool> bounded_;                 // by hyperplane: whether a 2-face in it bounds its slice
     std::vector<Loop> loops_;
-    std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // slice vertex, slice edge to the next corner
-    std::vector<std::uint32_t> cursor_, cornerCursor_;
-    std::vector<std::uint32_t> up_, down_;  // by hyperplane: the slots of a convex 2-face
-    std::vector<Crossing> ups_, downs_;     // in one hyperplane: the crossings of a nonconvex 2-face
+    std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // slice vertex, slice edge to the next one
+    std::vector<std::uint32_t> cursor_, cornerCursor_;       // by hyperplane: where to write the next element
+    std::vector<std::uint32_t> up_, down_;  // by hyperplane: the slots where a convex 2-face's loop rises, descends
+    std::vector<Crossing> ups_, downs_;     // in one hyperplane: where a nonconvex 2-face's loop rises, descends
 };
 
 }  // namespace oval4d::slicing

@@ -1,5 +1,5 @@
 #pragma once
-// The slices of a polytope by parallel hyperplanes w = const.
+// The slices of an object by parallel hyperplanes w = const.
 
 #include <array>
 #include <cstddef>
@@ -13,10 +13,11 @@
 
 namespace oval4d::slicing {
 
-/// A vertex lies in a hyperplane if their distance is at most this fraction of the circumradius.
+/// A vertex counts as lying in a hyperplane if their distance is at most this fraction of the circumradius.
 inline constexpr double kOnPlane = 1e-9;
 
-/// Numbers of slice elements: the size of one slice, or of all slices before it, which is where its elements begin.
+/// Numbers of vertices, edges, faces and face corners in slices. Describes the size of a slice, or its position in a
+/// SliceSet: the total size of the slices before it.
 struct ElementCounts {
     std::uint32_t vertices = 0, edges = 0, faces = 0, corners = 0;
 
@@ -25,28 +26,28 @@ struct ElementCounts {
     }
 };
 
-/// Many slices in one set of arrays (structure of arrays). Slice i has the half-open ranges [xBegin[i], xBegin[i+1]) of
-/// vertices, edges and faces; vertex indices in `edges` and `corners` count from the slice's own first vertex, edge
-/// indices in `cornerEdges` from its first edge.
+/// The slices of an object, stored as a structure of arrays. Slice i has the vertices with the indices vertexBegin[i] …
+/// vertexBegin[i + 1] − 1, and likewise edges and faces. Vertex indices in `edges` and `corners` count from the slice's
+/// own first vertex, edge indices in `cornerEdges` from its own first edge.
 ///
-/// Source numbers: `vertexSource` is the index of the 4-D edge that was cut, or edges + v if polytope vertex v lies in
-/// the hyperplane; `edgeSource` is the index of the 2-face that was cut, or faces + e if edge e lies in the hyperplane;
-/// `faceSource` is the index of the cell that was cut, or cells + f if 2-face f lies in the hyperplane. Here edges,
-/// faces and cells are the polytope's numbers of them.
+/// The source number of a slice element tells from which element of the polytope it was cut. For a polytope with E
+/// edges, F 2-faces and C cells, `vertexSource` is the index of the edge that was cut, or E + v if polytope vertex v
+/// lies in the hyperplane; `edgeSource` is the index of the 2-face that was cut, or F + e if edge e lies in the
+/// hyperplane; `faceSource` is the index of the cell that was cut, or C + f if 2-face f lies in the hyperplane. For a
+/// point cloud, `vertexSource` is the index of the point; slices have no edges and faces.
 struct SliceSet {
     geometry::Hyperplanes planes;
-    std::vector<glm::dvec4> rotatedVertices;  ///< the rotated vertices of the polytope
+    std::vector<glm::dvec4> rotatedVertices;  ///< all vertices of the polytope, or points, rotated
 
     std::vector<std::uint32_t> vertexBegin, edgeBegin, faceBegin;  ///< planes.count + 1 each
     std::vector<glm::dvec3> vertices;
     std::vector<std::uint32_t> vertexSource;
-    /// For objects whose balls differ, the relative radius and the opacity of the ball at each vertex. Empty if all
-    /// are 1.
+    /// By vertex: the radius of its ball relative to the usual radius, and the opacity of its ball. Empty if all are 1.
     std::vector<float> ballScale, ballOpacity;
     std::vector<std::array<std::uint32_t, 2>> edges;
     std::vector<std::uint32_t> edgeSource;
-    std::vector<std::uint32_t> cornerBegin;  ///< faces + 1 entries; face f is the loop corners[cornerBegin[f]] …
-    std::vector<std::uint32_t> corners;      ///< vertex indices, counterclockwise seen from outside
+    std::vector<std::uint32_t> cornerBegin;  ///< by face: the index of its first corner; then the total
+    std::vector<std::uint32_t> corners;      ///< the faces' loops: vertices, counterclockwise from outside
     std::vector<std::uint32_t> cornerEdges;  ///< the slice edge from corner i to the next corner of the loop
     std::vector<std::uint32_t> faceSource;
 
@@ -54,7 +55,7 @@ struct SliceSet {
     std::size_t edgeCount(int slice) const { return edgeBegin[slice + 1] - edgeBegin[slice]; }
     std::size_t faceCount(int slice) const { return faceBegin[slice + 1] - faceBegin[slice]; }
 
-    /// The total size of all slices.
+    /// Returns the total size of all slices. Not for a default-constructed set, whose arrays are empty.
     ElementCounts size() const { return {vertexBegin.back(), edgeBegin.back(), faceBegin.back(), cornerBegin.back()}; }
     /// Resizes the arrays for planes.count slices with this total size.
     void resize(ElementCounts size);
@@ -68,7 +69,7 @@ struct SliceSet {
     void end(ElementCounts at);
 };
 
-/// An empty set of slices.
+/// A set without slices.
 inline const SliceSet kNoSlices;
 
 }  // namespace oval4d::slicing

@@ -11,11 +11,11 @@
 
 namespace oval4d::slicing {
 
-/// Slices objects of any kind by parallel hyperplanes w = const; contains one slicer per kind. Reuses its scratch
-/// memory, so that repeated calls of similar size allocate nothing. One slicer serves one thread at a time.
+/// Slices objects of any kind by parallel hyperplanes w = const, with one slicer for each kind. Reuses its scratch
+/// memory, so that repeated calls of similar size allocate nothing. A slicer may be used by one thread at a time.
 class Slicer {
   public:
-    /// With `forkJoin`, large polytopes are sliced on two cores.
+    /// With `forkJoin`, large convex polytopes are sliced on two cores; null: always on one.
     explicit Slicer(parallel::ForkJoin* forkJoin = nullptr) : polytopes_(forkJoin) {}
 
     /// Slices `object` rotated by `orientation`. Overwrites `out` and reuses its memory.

@@ -17,8 +17,9 @@ void copyChunk(const std::byte* from, std::byte* to) {
     std::memcpy(to, &chunk, sizeof chunk);
 }
 
-// Repeats the `size` items from `begin` on, so that they occur `times` times in succession. The first few copies of a
-// small block are made inline, where a call of memcpy would cost more than the copying; further copies by doubling.
+// Repeats the block of `size` items that begins at `begin`, so that it occurs `times` times in succession. Makes the
+// first few copies of a small block inline, where a call of memcpy would take longer than the copying. Then doubles the
+// copied range with each call of memcpy.
 template <typename Item>
 void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::size_t times) {
     constexpr std::size_t kSmall = 256, kFew = 8;
@@ -170,7 +171,7 @@ void Sweep::advance(const polytopes::Polytope& polytope, const std::vector<glm::
     cells_.advance(plane);
 }
 
-// Makes an edge active: finds its line, and links the sections of the 2-faces and cells around it.
+// Makes an edge active: computes its line, and links the sections of the 2-faces and cells around it.
 inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t e,
                              const std::vector<glm::dvec4>& rotatedVertices) {
     const std::int32_t* below = levels_.below.data();

@@ -19,29 +19,30 @@ namespace oval4d::slicing {
 /// Slices a convex polytope with a sweep: a hyperplane w = const rises through the polytope, and active lists hold the
 /// elements that it cuts. Each cut edge gives a vertex of the slice, each cut 2-face an edge, and each cut cell a face.
 /// The section of a 2-face runs from the edge where its vertex loop rises through the hyperplane to the edge where it
-/// descends. The section of a cell continues, across an edge, with the next 2-face around that edge. Both change only
-/// where an edge begins to be cut; between two levels of vertices, only the coordinates of the slice change. Reuses its
-/// scratch memory between calls.
+/// descends. The section of a cell continues, across an edge, with the next 2-face around that edge. This combinatorial
+/// structure changes only when the hyperplane passes a vertex; between two vertices, only the coordinates of the slice
+/// change. Reuses its scratch memory between calls.
 class Sweep {
   public:
-    /// Starts on a polytope: finds the elements that each of `planes` hyperplanes cuts. `levels` counts only these
-    /// hyperplanes; its arrays must outlive the call of `cut`. Returns false if rounding errors in the vertices make a
-    /// hyperplane cut a 2-face or a cell twice.
+    /// Prepares the sweep of a polytope by `planes` hyperplanes: finds the elements that each of them cuts. `levels`
+    /// describes only these hyperplanes; its arrays must outlive the call of `cut`. Returns false if rounding errors in
+    /// the vertices make a hyperplane cut a 2-face or a cell twice.
     bool begin(const polytopes::Polytope& polytope, Levels levels, int planes);
 
-    /// Returns an upper bound of the total size of the slices, not counting those that `cut` gets in `touching`: slices
-    /// in hyperplanes with vertices become smaller.
+    /// Returns an upper bound of the total size of the slices, without those that are passed to `cut` in `touching`. It
+    /// is not exact if vertices lie in hyperplanes, because the slices there become smaller (see DegeneracyCollapse).
     ElementCounts size() const { return size_; }
 
-    /// Writes the slices to `out`, numbered from `first` on and with their elements from `at` on; advances `at` to
-    /// their end. `out` must have its rotated vertices and enough room. `touching` holds, by hyperplane, the slice (a
-    /// set of one) if the polytope touches the hyperplane from one side, else null; it may be empty if there are none.
-    /// Returns false in the same case as `begin`.
+    /// Writes the slices to `out`. The first one becomes slice number `first` of `out`, and its elements begin at
+    /// position `at`; sets `at` to the position after the last slice. `out` must contain the rotated vertices, and its
+    /// arrays must be large enough. `touching` has an entry for each hyperplane: a set with only the slice there if the
+    /// polytope touches the hyperplane from one side, else null. It may be empty if all entries would be null. Returns
+    /// false in the same case as `begin`.
     bool cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, ElementCounts& at,
              SliceSet& out);
 
   private:
-    // The line through an edge; its point at w is at + (w − at.w) · slope.
+    // The line through an edge; its point with the w coordinate w is at + (w − at.w) · slope.
     struct alignas(16) Line {
         glm::dvec4 at;
         glm::dvec3 slope;
@@ -49,7 +50,8 @@ class Sweep {
     struct Span {
         std::int32_t from, to;
     };
-    // Whether vertices lie in a hyperplane, or else between it and the one below.
+    // Where vertices lie: in a hyperplane (inside), only between it and the hyperplane below (between), or in neither
+    // place.
     enum class VertexStep : std::uint8_t { none, between, inside };
     void findSteps(const polytopes::Polytope& polytope, int planes);
     bool findElements(const polytopes::Polytope& polytope, int planes);
@@ -68,13 +70,13 @@ class Sweep {
     ActiveList edges_, faces_, cells_;
     std::vector<Span> faceSpan_;
     std::vector<VertexStep> vertexStep_;    // by hyperplane
-    std::vector<int> steps_;                // the first hyperplane, the others with an event, and the end of the range
+    std::vector<int> steps_;                // hyperplane 0, the others with a vertexStep_, and the end of the range
     std::vector<Line> line_;                // by active edge
     std::vector<std::uint32_t> vertex_;     // by active edge: its slice vertex
     std::vector<std::uint32_t> sliceEdge_;  // by active 2-face: its slice edge
-    // The vertex loop of 2-face f rises through the hyperplane at edge end_[2 f] and descends at edge end_[2 f + 1].
-    // In cell faceCells[f][i], the section traverses the 2-face toward its end 2 f + i and continues, in the next
-    // 2-face, toward the end next_[2 f + i].
+    // The section of 2-face f has two ends, numbered 2 f and 2 f + 1: the 2-face's vertex loop rises through the
+    // hyperplane at edge end_[2 f] and descends at edge end_[2 f + 1]. In cell faceCells[f][i], the cell's section
+    // traverses 2-face f toward the end 2 f + i, and then the next 2-face toward the end next_[2 f + i].
     std::vector<std::uint32_t> end_, next_;
     std::vector<std::uint32_t> startEnd_;  // by active cell: an end at which tracing its section starts
     DegeneracyCollapse collapse_;

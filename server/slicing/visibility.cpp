@@ -13,7 +13,8 @@ using polytopes::Polytope;
 
 void findVisibilities(const Polytope& p, std::span<const Visibility> ofType, Visibilities& out) {
     const std::size_t cells = p.cells.size(), faces = p.faces.size(), edges = p.edges.size();
-    // Each element passes its visibility on to its facets. Indices are source numbers.
+    // From cells to vertices, each element passes its visibility to the elements on its boundary. All indices are
+    // source numbers.
     out.faces.assign(cells + faces, Visibility::hidden);
     out.edges.assign(faces + edges, Visibility::hidden);
     out.vertices.assign(edges + p.vertices.size(), Visibility::hidden);

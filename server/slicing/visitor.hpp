@@ -2,7 +2,7 @@
 
 namespace oval4d::slicing {
 
-/// A visitor for std::visit, made of one function per kind of object. A kind without a function does not compile.
+/// A visitor for std::visit that combines one function for each kind of object. A missing function is a compile error.
 template <typename... Functions>
 struct Visitor : Functions... {
     using Functions::operator()...;

@@ -8,11 +8,12 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kMaxDepth = 16;       // of nested arrays
+constexpr std::size_t kMaxDepth = 16;       // maximum nesting depth of arrays
 constexpr std::size_t kMaxNameBytes = 256;  // 64 characters of UTF-8
 
-/// Limits the nesting depth, because parsing uses stack for each level. Declared sizes need no limit: the parser
-/// reserves nothing for them, and each byte of input makes one value at most.
+/// A SAX handler that stops parsing if values are nested too deeply: the parser uses stack space for each level.
+/// Declared sizes of arrays need no limit: the parser allocates nothing for them, and each byte of input yields at most
+/// one value.
 class DepthLimiter : public json::json_sax_t {
   public:
     bool null() override { return true; }

@@ -1,5 +1,5 @@
 #pragma once
-// CBOR records: reading values out of them, with checks.
+// Functions that write CBOR records (RFC 8949) and read values from them with checks.
 
 #include <concepts>
 #include <cstdint>
@@ -14,20 +14,20 @@
 
 namespace oval4d::store {
 
-/// The version of records that this program writes: the first element of each.
+/// The version of the records that this program writes and reads. It is the first element of each record.
 inline constexpr int kRecordVersion = 1;
 
-/// Throws Unreadable.
+/// Throws Unreadable with this message.
 [[noreturn]] void refuse(const std::string& what);
 
-/// The CBOR encoding of a value.
+/// Returns the CBOR encoding of a value.
 std::string bytesOf(const nlohmann::json& value);
 
-/// Parses a record: an array that begins with kRecordVersion. Throws Unreadable if it is not one or is nested too
-/// deeply.
+/// Parses a record: an array that begins with kRecordVersion. Throws Unreadable if `bytes` is anything else or is
+/// nested too deeply.
 nlohmann::json parsedRecord(std::string_view bytes);
 
-/// Calls `read`, and throws the JSON library's exceptions as Unreadable.
+/// Calls `read` and returns its result. Converts exceptions of the JSON library to Unreadable.
 template <typename Read>
 auto translatingErrors(Read read) {
     try {
@@ -37,11 +37,12 @@ auto translatingErrors(Read read) {
     }
 }
 
-/// Reads a number from `least` to `most`, or from −`most` to `most`. Throws Unreadable.
+/// Returns a number from `least` to `most`, or from −`most` to `most` if there is no `least`. Throws Unreadable if it
+/// is outside that range.
 double number(const nlohmann::json& value, double least, double most);
 double number(const nlohmann::json& value, double most);
 
-/// Reads an integer that T can hold. Throws Unreadable.
+/// Returns an integer. Throws Unreadable if the value is not an integer that T can represent.
 template <std::integral T>
 T integer(const nlohmann::json& value) {
     const auto fitting = [](auto found) {
@@ -53,10 +54,10 @@ T integer(const nlohmann::json& value) {
     refuse("a value is not an integer");
 }
 
-/// Reads an array of integers. Throws Unreadable.
+/// Returns an array of integers from 0 to 2^32 − 1. Throws Unreadable if an element is anything else.
 std::vector<std::uint32_t> integersIn(const nlohmann::json& value);
 
-/// Reads a name: UTF-8, at most 256 bytes. Throws Unreadable.
+/// Returns a name: valid UTF-8 of at most 256 bytes. Throws Unreadable if the text is not.
 std::string textIn(const nlohmann::json& value);
 
 }  // namespace oval4d::store

@@ -11,9 +11,9 @@
 #include "store/cbor.hpp"
 #include "text/message_text.hpp"
 
-// A session is a CBOR array, [version, …]. A state is an array too, and refers to its object by an index into the
-// session's list of objects. The structured bindings name every member of a struct, so that adding a member breaks
-// the build until it is encoded here.
+// A session is encoded as a CBOR array, [version, …]. A state is encoded as an array, too, and refers to its object by
+// an index into the session's list of objects. Structured bindings name every member of an encoded struct, so that a
+// new member breaks the build until it is encoded here.
 
 namespace oval4d::store {
 
@@ -23,12 +23,12 @@ using session::State;
 
 namespace {
 
-// Limits of what is decoded, far above those that a server enforces: a damaged record must be an error, not a picture
-// of a million slices.
+// Limits on decoded values, far above those that the server enforces for clients. Without them, a damaged record could
+// produce, for example, a state with a million slices instead of an error.
 constexpr int kMaxSlices = 100'001;
 constexpr std::size_t kMaxVertices = 1'000'000;        // of one polytope
-constexpr std::size_t kMaxTotalVertices = 10'000'000;  // of a session's polytopes, which a few bytes can name
-constexpr std::uint64_t kMaxRevision = 1ULL << 53U;    // JSON readers distinguish integers up to here
+constexpr std::size_t kMaxTotalVertices = 10'000'000;  // of all polytopes of a session; a few bytes can name large ones
+constexpr std::uint64_t kMaxRevision = 1ULL << 53U;    // JSON readers represent integers exactly up to this one
 
 std::uint64_t revisionIn(const json& value) {
     const auto revision = integer<std::uint64_t>(value);
@@ -51,7 +51,8 @@ glm::dquat quaternionIn(const json& value) {
 
 // --- Objects
 
-/// Builds a polytope from its name, and subtracts its vertices from `vertexBudget`.
+/// Returns the polytope with this name, and subtracts its number of vertices from `vertexBudget`. Throws Unreadable if
+/// the budget is too small.
 slicing::Object constructed(const std::string& name, polytopes::PolytopeCache& cache, std::size_t& vertexBudget) {
     const auto named = polytopes::designNamed(name, kMaxVertices);
     const auto* design = std::get_if<polytopes::Design>(&named);
@@ -66,7 +67,7 @@ slicing::Object constructed(const std::string& name, polytopes::PolytopeCache& c
     }
 }
 
-/// The list of a session's objects, without duplicates.
+/// Collects the objects of a session in a list without duplicates, and numbers them.
 class ObjectTable {
   public:
     explicit ObjectTable(const ObjectKeyLookup& keyOf) : keyOf_(keyOf) {}
@@ -74,7 +75,7 @@ class ObjectTable {
     std::size_t number(const slicing::Object& object) {
         const auto [found, isNew] = numbers_.try_emplace(slicing::identityOf(object), list.size());
         if (isNew) {
-            // [name] for an object that is built from its name, [name, key] for any other
+            // An entry is [name] for an object that is built from its name, and [name, key] for any other object.
             const geometry::ObjectInfo& info = slicing::infoOf(object);
             json entry = json::array({info.name});
             if (!info.constructed) entry.push_back(keyOf_(object));
@@ -138,7 +139,7 @@ json encoded(const scene::Look& look) {
             static_cast<unsigned>(coloring), hidden,           faded};
 }
 
-/// A record of an earlier version has fewer flags: the parts that it lacks are shown.
+/// A record written by an earlier version of the program has fewer flags; the parts without a flag are shown.
 scene::Parts partsIn(const json& value) {
     scene::Parts parts;
     for (std::size_t i = 0; i < std::min(value.size(), scene::kParts.size()); ++i)
@@ -191,7 +192,7 @@ State stateIn(const json& value, const ObjectList& objects) {
     const json& angles = value.at(3);
     const json& slices = value.at(4);
     constexpr double kTwoPi = 2 * std::numbers::pi;
-    // Lengths are limited by their ratio to the circumradius, up to rounding.
+    // The spacing is limited in proportion to the circumradius; kSlack allows for rounding errors.
     const double radius = info.circumradius;
     constexpr double kSlack = 1e-9;
     State state{object,
@@ -214,7 +215,7 @@ State stateIn(const json& value, const ObjectList& objects) {
     return state;
 }
 
-/// Encodes the last `maxCount` states.
+/// Returns the encoding of the last `maxCount` states.
 template <typename States>
 json history(const States& states, std::size_t maxCount, ObjectTable& objects) {
     json list = json::array();

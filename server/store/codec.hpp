@@ -1,5 +1,5 @@
 #pragma once
-// Sessions as CBOR records.
+// Encodes sessions as CBOR records and decodes them.
 
 #include <functional>
 #include <optional>
@@ -12,19 +12,22 @@
 
 namespace oval4d::store {
 
-/// Returns the key of an object that is not built from its name. Keys are unique within one session's record.
+/// Returns the key under which an object is stored. Called for objects that are not built from their names. Keys are
+/// unique within the record of one session.
 using ObjectKeyLookup = std::function<std::string(const slicing::Object&)>;
-/// Returns the object with this key, if there is one. May throw Unreadable.
+/// Returns the stored object with this key; nothing if there is none. May throw Unreadable.
 using ObjectLookup = std::function<std::optional<slicing::Object>(const std::string&)>;
 
-/// Encodes what every command changes, the current state and its revision: a few hundred bytes.
+/// Encodes the head of a session: its current state and revision, which every command changes. Takes a few hundred
+/// bytes.
 std::string encodeHead(const session::Session& session, const ObjectKeyLookup& keyOf);
 
-/// Encodes the whole session, with at most `maxUndo` undo steps and as many redo steps.
+/// Encodes the whole session, with at most `maxUndo` undo steps and at most `maxUndo` redo steps.
 std::string encodeWhole(const session::Session& session, std::size_t maxUndo, const ObjectKeyLookup& keyOf);
 
-/// Decodes `whole`. If `head` has a later revision, its state becomes the current one, one undo step after that of
-/// `whole`. An empty `head` is ignored. Objects that are built from their names come from `cache`. Throws Unreadable.
+/// Decodes a session from the results of encodeWhole and encodeHead. If `head` has a later revision than `whole`, the
+/// state in `head` becomes the current one, and the state in `whole` becomes its undo step. An empty `head` is ignored.
+/// Takes objects that are built from their names from `cache`, and others from `objectOf`. Throws Unreadable.
 session::Session decode(std::string_view whole, std::string_view head, const ObjectLookup& objectOf,
                         polytopes::PolytopeCache& cache);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A store in memory: its sessions end with the process.
+// A store in memory.
 
 #include <map>
 
@@ -7,11 +7,12 @@
 
 namespace oval4d::store {
 
+/// Keeps records in the memory of this process: they are lost when the process ends.
 class MemoryStore final : public Store {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// `quota` limits the bytes of all records together.
+    /// `quota`: the maximum total size of all records, in bytes.
     explicit MemoryStore(std::size_t quota = kDefaultQuota) : quota_(quota) {}
 
     WritePolicy writePolicy() const override { return WritePolicy::at_close; }
@@ -42,7 +43,7 @@ class MemoryStore final : public Store {
     Entries::iterator erase(Entries::iterator entry);
 
     const std::size_t quota_;
-    std::size_t bytes_ = 0;  // of all records
+    std::size_t bytes_ = 0;  // total size of all records
     Entries entries_;
 };
 

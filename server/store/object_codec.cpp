@@ -44,7 +44,7 @@ std::vector<glm::dvec4> verticesIn(const json& value) {
     return vertices;
 }
 
-// [version, name, vertices, 2-faces, cells, the type of each cell]
+// Decodes [version, name, vertices, 2-faces, cells, the type of each cell].
 slicing::Object polytopeIn(const json& value) {
     geometry::JaggedArray cells = arrayIn(value.at(4));
     std::vector<std::uint32_t> typeOfCell = integersIn(value.at(5));
@@ -58,7 +58,7 @@ slicing::Object polytopeIn(const json& value) {
     }
 }
 
-// [version, name, points, radii]
+// Decodes [version, name, points, radii].
 slicing::Object cloudIn(const json& value) {
     std::vector<double> radii;
     for (const json& radius : value.at(3)) radii.push_back(number(radius, 0, kMaxCoordinate));

@@ -24,6 +24,7 @@ constexpr mode_t kPermissions = 07777;
     throw StoreError(path + ": " + what + ": " + std::generic_category().message(errno));
 }
 
+/// Owns a file descriptor.
 class Descriptor {
   public:
     explicit Descriptor(int number) : number_(number) {}
@@ -34,7 +35,7 @@ class Descriptor {
     }
     int number() const { return number_; }
     bool valid() const { return number_ >= 0; }
-    /// A path of the open file that stays valid if the file is renamed.
+    /// Returns a path to the open file that stays valid if the file is renamed.
     std::string name() const { return "/proc/self/fd/" + std::to_string(number_); }
 
   private:
@@ -53,8 +54,8 @@ void makeFolders(const std::filesystem::path& folder) {
     std::filesystem::path made;
     for (const auto& part : folder) {
         made /= part;
-        // Errors are ignored: they show when the file is opened.
-        if (mkdir(made.c_str(), kFolderMode) == 0) chmod(made.c_str(), kFolderMode);  // whatever the umask is
+        // Errors are ignored here, because opening the file reports them. chmod overrides the umask.
+        if (mkdir(made.c_str(), kFolderMode) == 0) chmod(made.c_str(), kFolderMode);
     }
 }
 
@@ -62,13 +63,13 @@ enum class Permissions : std::uint8_t { leave, tighten };
 
 /// Checks that a file is safe to use, and tightens its permissions if asked to. Returns false if it does not exist.
 bool checkFile(const std::string& path, Permissions permissions) {
-    // With O_PATH, closing this descriptor does not release the process's locks on the file.
+    // Closing an ordinary descriptor would release all locks of this process on the file; with O_PATH it does not.
     const Descriptor file(open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
     if (!file.valid()) {
         if (errno == ENOENT) return false;
         fail(path, "unable to open it");
     }
-    struct stat status{};
+    struct stat status {};
     if (fstat(file.number(), &status) != 0) fail(path, "unable to read its status");
     if (!S_ISREG(status.st_mode)) throw StoreError(path + " is " + kindOf(status.st_mode));
     if (status.st_uid != geteuid()) {
@@ -101,7 +102,7 @@ void makePrivateIfExists(const std::string& path) { checkFile(path, Permissions:
 void refuseUnsafe(const std::string& path) { checkFile(path, Permissions::leave); }
 
 std::string identityOf(const std::string& path) {
-    struct stat status{};
+    struct stat status {};
     if (lstat(path.c_str(), &status) != 0) return {};
     return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
 }

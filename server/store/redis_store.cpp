@@ -15,8 +15,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// KEYS: the session, its objects. ARGV: this server, expiry in milliseconds, the session's id. Allowed in a full
-// Redis (allow-oom), so that its sessions can still be opened.
+// The script that claims a session. KEYS: the keys of the session and of its objects. ARGV: the name of this server,
+// the expiry period in milliseconds, the session's id. Returns nothing if there is no such session. Redis runs the
+// script even if its memory is full (allow-oom), so that stored sessions can still be opened.
 constexpr const char* kClaim = R"(#!lua flags=allow-oom
 local owner, whole, head = unpack(redis.call('HMGET', KEYS[1], 'owner', 'whole', 'head'))
 if not whole then return false end
@@ -30,10 +31,11 @@ redis.call('PEXPIRE', KEYS[1], ARGV[2])
 redis.call('PEXPIRE', KEYS[2], ARGV[2])
 return {fence, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 
-// KEYS: as above. ARGV: this server, expiry, fence, the token's hash, the token or nothing, head, whole, 1 if no client
-// has the session open anymore, the number of objects to add, their keys and bytes, the keys of those to drop.
-// Returns a SaveResult. Two servers have equal fences only if Redis has lost writes; then the owner's save is accepted.
-// A save of the head does not restart the expiry: one of the whole session follows within a second.
+// The script that saves a session. KEYS: as above. ARGV: the name of this server, the expiry period, the fence, the
+// hash of the token, the token or an empty text, head, whole, 1 if no client has the session open anymore, the number
+// of objects to add, their keys and bytes, the keys of the objects to drop. Returns a SaveResult. Two servers have
+// equal fences only if Redis has lost writes; then the save of the owner is accepted. A save of the head alone does not
+// restart the expiry period, because a save of the whole session follows within a second.
 constexpr const char* kSave = R"(
 local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
 local mine = tonumber(ARGV[3])
@@ -56,22 +58,23 @@ if last > 9 then redis.call('PEXPIRE', KEYS[2], ARGV[2]) end
 for i = last + 1, #ARGV do redis.call('HDEL', KEYS[2], ARGV[i]) end
 return 0)";
 
-// Adds the hash of a token that is stored as plain text. KEYS: as above. ARGV: the token, its hash, 1 to delete the
-// plain text.
+// The script that adds the hash of a token that is stored as plain text. KEYS: as above. ARGV: the token, its hash, 1
+// to delete the plain text.
 constexpr const char* kHash = R"(#!lua flags=allow-oom
 if redis.call('HGET', KEYS[1], 'token') == ARGV[1] then
   redis.call('HSET', KEYS[1], 'hash', ARGV[2])
   if ARGV[3] == '1' then redis.call('HDEL', KEYS[1], 'token') end
 end)";
 
-// KEYS: as above. ARGV: this server.
+// The script that removes a session unless another server owns it. KEYS: as above. ARGV: the name of this server.
 constexpr const char* kRemove = R"(#!lua flags=allow-oom
 local owner = redis.call('HGET', KEYS[1], 'owner')
 if owner and owner ~= '' and owner ~= ARGV[1] then return end
 redis.call('DEL', KEYS[1], KEYS[2]))";
 
-// The SHA-1 of the save script of version 0.1.0, which shows that servers of that version use this Redis; and the key
-// of the time, in milliseconds of Redis's clock, when a server of a later version first saw that.
+// kOlderSave is the SHA-1 of the save script of version 0.1.0: if Redis knows that script, servers of that version use
+// this Redis. kHashedSince is the key of the time, in milliseconds of Redis's clock, at which a server of a later
+// version first noticed that; kNoteSince is the script that sets it once and returns it.
 constexpr const char* kOlderSave = "3f542d461100cccfdf5dc6b4716be03d88d48eae";
 constexpr const char* kHashedSince = "oval4d:tokens_hashed_since";
 constexpr const char* kNoteSince = R"(#!lua flags=allow-oom
@@ -80,7 +83,7 @@ return redis.call('GET', KEYS[1]))";
 
 constexpr auto kConnectTimeout = 1000ms;
 
-// The hash tag in braces keeps both keys of a session on one node of a cluster.
+// The part in braces, Redis's hash tag, keeps both keys of a session on the same node of a cluster.
 std::string sessionKey(const std::string& id) { return "oval4d:{" + id + "}"; }
 std::string objectsKey(const std::string& id) { return sessionKey(id) + ":polytopes"; }
 
@@ -166,7 +169,8 @@ void RedisStore::detectOlderServers() {
 
 bool RedisStore::storesPlainTokens() const { return std::chrono::steady_clock::now() < plainUntil_; }
 
-/// Closes the connection, because its replies can no longer be matched with requests; the next call opens a new one.
+/// Closes the connection, because its replies can no longer be matched with requests, and throws StoreError. The next
+/// operation opens a new connection.
 void RedisStore::fail() {
     const std::string why = context_->errstr[0] != '\0' ? context_->errstr : "no reply";
     context_.reset();
@@ -235,7 +239,7 @@ std::optional<Record> RedisStore::claim(const std::string& id) {
     return record;
 }
 
-/// Pipelines all updates in one round trip.
+/// Sends all updates before it reads the replies (pipelining), so that the batch takes one round trip.
 std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) {
     if (!context_) connect();
     for (const RecordUpdate& update : updates) {
@@ -274,7 +278,7 @@ void RedisStore::remove(std::span<const std::string> ids) {
 
 void RedisStore::touch(std::span<const std::string> ids) {
     if (!context_) connect();
-    const bool hashed = !storesPlainTokens();  // then delete the plain-text tokens
+    const bool hashed = !storesPlainTokens();  // if so, also deletes the plain-text tokens
     for (const std::string& id : ids) {
         send({"PEXPIRE", sessionKey(id), std::to_string(expiry_.count())});
         send({"PEXPIRE", objectsKey(id), std::to_string(expiry_.count())});

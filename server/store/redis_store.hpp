@@ -10,13 +10,13 @@ struct redisReply;    // NOLINT(readability-identifier-naming)
 
 namespace oval4d::store {
 
-/// A session is a Redis hash, and its objects are another; Redis itself expires both. Operations that must be atomic
-/// (a claim that increments the fence, a save that compares it) are Lua scripts. The ids of sessions that other servers
-/// have claimed from this one are in a Redis list of its own. Requires Redis 7 or later.
+/// Stores each session in one Redis hash and its objects in another; Redis itself expires both. Operations that must be
+/// atomic (a claim, which increments the fence, and a save, which compares it) are Lua scripts. Each server has a Redis
+/// list, to which other servers add the ids of the sessions that they claim from it. Requires Redis 7 or later.
 class RedisStore final : public Store {
   public:
-    /// Connects at first use. Throws std::invalid_argument unless `options.place` is
-    /// redis://[user:password@]host[:port][/database], with no percent-encoding in the password.
+    /// Does not connect: the first operation does. Throws std::invalid_argument unless `options.url` is
+    /// redis://[user:password@]host[:port][/database]. The password is not percent-decoded.
     explicit RedisStore(const StoreOptions& options);
     ~RedisStore() override;
 
@@ -25,7 +25,7 @@ class RedisStore final : public Store {
     std::optional<std::string> tokenHash(const std::string& id) override;
     std::optional<Record> claim(const std::string& id) override;
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
-    /// Evicts nothing: Redis has its own quota, `maxmemory`.
+    /// Does nothing and returns 0: Redis has its own quota, `maxmemory`.
     std::size_t evict(std::span<const RecordUpdate> /*updates*/, const IsPinned& /*isPinned*/) override { return 0; }
     void remove(std::span<const std::string> ids) override;
     void touch(std::span<const std::string> ids) override;
@@ -53,10 +53,11 @@ class RedisStore final : public Store {
     std::string host_, user_, password_, database_;
     int port_ = 6379;
     const Milliseconds expiry_, timeout_;
-    const std::string self_;  ///< random name of this server
+    const std::string self_;  ///< random name by which Redis knows this server
     std::unique_ptr<redisContext, Closer> context_;
-    std::string claimScript_, saveScript_, hashScript_, removeScript_;  ///< SHA-1 digests, by which Redis knows them
-    std::chrono::steady_clock::time_point plainUntil_;  ///< until then, servers of version 0.1.0 may read the tokens
+    std::string claimScript_, saveScript_, hashScript_, removeScript_;  ///< SHA-1 digests of the loaded scripts
+    /// Until this time, tokens are also stored as plain text, for servers of version 0.1.0.
+    std::chrono::steady_clock::time_point plainUntil_;
     std::size_t size_ = 0;
 };
 

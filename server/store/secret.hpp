@@ -8,18 +8,19 @@
 
 namespace oval4d::store {
 
-/// Returns `bytes` bytes of the system's random generator in lower-case base 32 (a–z, 2–7), which URLs and file names
-/// can hold. Cannot be guessed.
+/// Returns an unguessable name: `bytes` random bytes from the system, encoded in lower-case base 32 (a–z, 2–7), whose
+/// characters are allowed in URLs and file names.
 std::string randomName(std::size_t bytes);
 
-/// The hash of a token that a store keeps: 256 bits of BLAKE2b in lower-case hexadecimal. A fast hash without salt is
-/// enough, because tokens are 160 random bits and cannot be found by brute force; a password would need a slow one.
+/// Returns the hash that stores keep in place of a token: 256 bits of BLAKE2b in lower-case hexadecimal. A fast hash
+/// without salt is sufficient, because a token is 160 random bits and cannot be found by brute force, unlike a
+/// password.
 std::string hashOf(std::string_view token);
 
-/// 128 bits of BLAKE2b over `parts` and their lengths. Detects damaged records.
+/// Returns a digest that detects damaged records: 128 bits of BLAKE2b over `parts` and their lengths, as 16 bytes.
 std::string digestOf(std::span<const std::string_view> parts);
 
-/// Compares two secrets in constant time.
+/// Returns whether two secrets are equal. Takes the same time wherever they differ, so that timing reveals nothing.
 bool equalInConstantTime(std::string_view given, std::string_view expected);
 
 }  // namespace oval4d::store

@@ -18,7 +18,7 @@ std::string_view bytesOf(sqlite3_value* value) {
     return bytes == nullptr ? std::string_view() : std::string_view(static_cast<const char*>(bytes), size);
 }
 
-/// Exceptions must not pass through SQLite.
+/// Calls `make` and reports its exceptions to SQLite, because they must not propagate through SQLite's C code.
 template <typename Make>
 void answer(sqlite3_context* context, Make make) {
     try {
@@ -54,10 +54,10 @@ Database::Database(std::string path) : path_(std::move(path)) {
         constexpr int kFlags = SQLITE_UTF8 | SQLITE_DETERMINISTIC | SQLITE_DIRECTONLY;
         sqlite3_create_function(handle_, "hash_of", 1, kFlags, nullptr, hashFunction, nullptr, nullptr);
         sqlite3_create_function(handle_, "digest_of", -1, kFlags, nullptr, digestFunction, nullptr, nullptr);
-        // Do not trust the schema of a damaged or forged file.
+        // The file may be damaged or forged: do not trust its schema.
         sqlite3_db_config(handle_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
         sqlite3_db_config(handle_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-        // None of these reads the file yet.
+        // These statements do not read the file.
         run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA cell_size_check = ON;"
             "PRAGMA secure_delete = ON; PRAGMA foreign_keys = ON");
     } catch (...) {

@@ -1,5 +1,5 @@
 #pragma once
-// RAII wrappers of SQLite's connection, statements and transactions, which throw StoreError.
+// RAII wrappers of SQLite connections, statements and transactions. They report errors as StoreError.
 
 #include <cstdint>
 #include <optional>
@@ -13,29 +13,29 @@ struct sqlite3_stmt;
 
 namespace oval4d::store {
 
-/// The file is corrupt, or is not an SQLite database.
+/// Thrown if the file is corrupt or is not an SQLite database.
 class CorruptDatabase : public StoreError {
   public:
     using StoreError::StoreError;
 };
 
-/// A connection to a database file, with an exclusive lock from the first read on. Its SQL has two additional
-/// functions, hash_of(token) and digest_of(part, …), which are hashOf and digestOf of secret.hpp.
+/// A connection to a database file, which it locks exclusively from the first read on. Provides two SQL functions,
+/// hash_of(token) and digest_of(part, …), which call hashOf and digestOf of secret.hpp.
 class Database {
   public:
-    /// Throws StoreError if there is no such file. Does not read the file: the first statement does.
+    /// Opens an existing file; throws StoreError if there is none. Does not read the file: the first statement does.
     explicit Database(std::string path);
     Database(const Database&) = delete;
     Database& operator=(const Database&) = delete;
     ~Database();
 
     const std::string& path() const { return path_; }
-    /// Executes statements without results. Like every function of a query, throws NotWritable if the disk is full,
-    /// CorruptDatabase, or else StoreError.
+    /// Executes statements whose results are ignored. Like all functions that execute a statement, throws NotWritable
+    /// if the file cannot be written, CorruptDatabase if it is damaged, and StoreError for any other error.
     void run(const char* sql);
-    /// Returns the first value of the first row, or 0 if there are no rows.
+    /// Executes a query and returns the first value of its first row, or 0 if there are no rows.
     std::int64_t number(const char* sql);
-    /// Keeps the write-ahead log when the connection closes, because it belongs to a file that is to be set aside.
+    /// Keeps the write-ahead log file when the connection closes. Call before a damaged file is renamed with its log.
     void keepWriteAheadLog();
 
   private:
@@ -47,7 +47,7 @@ class Database {
     sqlite3* handle_ = nullptr;
 };
 
-/// A prepared statement, executed once. Bound values must outlive it.
+/// A prepared statement that is executed once. Values bound to it are not copied and must outlive it.
 class Query {
   public:
     Query(Database& database, const char* sql);
@@ -55,15 +55,17 @@ class Query {
     Query& operator=(const Query&) = delete;
     ~Query();
 
+    /// These functions bind a value to the next parameter of the statement.
     Query& text(std::string_view value);
     Query& blob(std::string_view value);
     Query& number(std::int64_t value);
 
-    /// Advances to the next row; returns false if there is none.
+    /// Executes the statement up to its next row; returns false if there is none.
     bool row();
+    /// These functions return a value of the current row; columns count from 0.
     std::string bytesAt(int column) const;
     std::int64_t numberAt(int column) const;
-    /// The number of rows that the statement changed.
+    /// Returns the number of rows that the statement changed.
     std::size_t changes() const;
 
   private:
@@ -74,7 +76,7 @@ class Query {
     int bound_ = 0;
 };
 
-/// A transaction, rolled back unless committed.
+/// A transaction, which the destructor rolls back unless it was committed.
 class Transaction {
   public:
     explicit Transaction(Database& database);

@@ -8,9 +8,9 @@ namespace oval4d::store {
 
 namespace {
 
-/// Finds the ids of all sessions. A scan stops at a damaged page, and a scan from beyond that page may find what the
-/// first one missed: so this scans from many starting points in both directions, and also an index, which is on other
-/// pages.
+/// Finds the ids of all sessions. Reading a table in order stops at a damaged page, but reading it from beyond that
+/// page may find ids that were missed. If the first scan fails, the constructor therefore scans from many starting
+/// points in both directions, and also scans an index, which is stored on other pages.
 class IdScan {
   public:
     explicit IdScan(Database& from) : from_(from) {
@@ -57,7 +57,8 @@ struct Row {
     std::vector<std::pair<std::string, std::string>> objects;
 };
 
-/// Reads a session; nothing if it is missing or damaged.
+/// Reads a session; returns nothing if it is missing or damaged. `hashed`: whether the file has the schema of version
+/// 2, with hashed tokens and digests.
 std::optional<Row> rowOf(Database& from, bool hashed, const std::string& id) {
     Query session(from, hashed ? "SELECT token_hash, whole, head, fence, touched, changed FROM session WHERE id = ?1 "
                                  "AND digest = digest_of(id, token_hash, whole) AND head_digest = digest_of(id, head)"
@@ -112,7 +113,7 @@ SalvageResult salvage(Database& from, Database& to) {
         try {
             row = rowOf(from, hashed, id);
         } catch (const StoreError&) {
-            row.reset();  // on a damaged page
+            row.reset();  // the session is on a damaged page
         }
         if (!row) {
             salvaged.lost.insert(id);

@@ -10,7 +10,8 @@
 
 namespace oval4d::store {
 
-/// The version of the schema, kept as user_version. Version 1 had no digests and stored tokens as plain text.
+/// The version of the schema, which the file stores as user_version. Version 1 has no digests and stores tokens as
+/// plain text.
 inline constexpr int kSchemaVersion = 2;
 inline constexpr const char* kSchema = R"(
     CREATE TABLE session (
@@ -30,18 +31,19 @@ inline constexpr const char* kSchema = R"(
     PRAGMA application_id = 1870017636;
     PRAGMA user_version = 2;)";
 
-/// The bytes of the application_id in the file, and their offset.
+/// The bytes of application_id in the header of the file, and their offset.
 inline constexpr std::string_view kApplicationId = "ov4d";
 inline constexpr std::size_t kApplicationIdAt = 68;
 
+/// The result of a salvage.
 struct SalvageResult {
-    std::size_t saved = 0;
-    std::set<std::string> lost;  ///< ids of sessions whose record cannot be read
-    bool complete = true;        ///< whether all ids were found
+    std::size_t saved = 0;       ///< number of sessions copied
+    std::set<std::string> lost;  ///< ids of sessions whose record is damaged
+    bool complete = true;        ///< false if there may be further sessions whose ids were not found
 };
 
-/// Copies every intact session and its objects from a damaged file of version 1 or 2 into `to`, whose schema must be
-/// kSchema and whose tables must be empty. Throws StoreError if `to` fails.
+/// Copies every intact session and its objects from a damaged file of schema version 1 or 2 into `to`, which must have
+/// the schema kSchema and empty tables. Throws StoreError if `to` cannot be written.
 SalvageResult salvage(Database& from, Database& to);
 
 }  // namespace oval4d::store

@@ -16,19 +16,19 @@ namespace oval4d::store {
 namespace {
 
 constexpr std::size_t kPageSize = 4096;
-constexpr std::int64_t kMaxReleasedPages = 1024;  // by one poll
-constexpr std::size_t kMaxListedIds = 20;         // in a line of the log
+constexpr std::int64_t kMaxReleasedPages = 1024;  // maximum number of pages that one poll releases
+constexpr std::size_t kMaxListedIds = 20;         // maximum number of ids in a line of the log
 
-// Pages of the database file. The rest of the quota is for the write-ahead log: its size at a checkpoint, and one
-// transaction.
+// Returns the maximum number of pages of the database file. The rest of the quota is for the write-ahead log: its size
+// at a checkpoint, and one transaction.
 std::int64_t pagesOf(std::size_t quota) { return static_cast<std::int64_t>(quota / kPageSize * 3 / 4); }
 
 std::int64_t now() {
     return std::chrono::duration_cast<Milliseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-/// An upper bound of the pages that updates take: rows share pages that are at least half full, and long values have
-/// their own pages.
+/// Returns an upper bound of the number of pages that updates need: short rows share pages that are at least half full,
+/// and long values have pages of their own.
 std::int64_t pagesFor(std::span<const RecordUpdate> updates) {
     std::size_t pages = 8;  // interior pages of tables and indices
     std::size_t small = 0;
@@ -43,16 +43,16 @@ std::int64_t pagesFor(std::span<const RecordUpdate> updates) {
     return static_cast<std::int64_t>(pages + small / kPageSize);
 }
 
-/// Throws StoreError for an existing file that is not a store of oval4d, so that it is neither changed nor moved. A
-/// store has our application_id or, in version 1, the names of our tables on its first page. A database without tables
-/// is accepted, because they may still be in the write-ahead log.
+/// Throws StoreError if the file exists and is not a store of oval4d, so that the server neither changes nor renames
+/// it. A store has our application_id or, in version 1, the names of our tables on its first page. A database without
+/// tables is accepted, because its tables may still be in the write-ahead log. So is an empty file.
 void refuseForeignFile(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::string start(kPageSize, '\0');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(file.gcount()));
     constexpr std::string_view kMagic("SQLite format 3\0", 16);  // with the terminating zero
-    constexpr std::size_t kTableCount = 103;                     // offset of two bytes: the cells of sqlite_schema
+    constexpr std::size_t kTableCount = 103;  // offset of two bytes: the number of rows of sqlite_schema on page 1
     const bool isDatabase = start.starts_with(kMagic);
     const bool hasNoTables =
         isDatabase && start.size() == kPageSize && start.compare(kTableCount, 2, std::string_view("\0\0", 2)) == 0;
@@ -75,7 +75,7 @@ std::string listed(const std::set<std::string>& ids) {
     return text;
 }
 
-/// Returns an unused name for the damaged file.
+/// Returns an unused path to which to rename a damaged file.
 std::string damagedName(const std::string& path) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     const std::string name =
@@ -173,8 +173,8 @@ void SqliteStore::setUp() {
     size_ = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));
 }
 
-/// Migrates a file of version 1, whose tokens are plain text and whose records have no digests, in one transaction. If
-/// the VACUUM afterwards fails, it is repeated when the file is opened next.
+/// Migrates a file of schema version 1, in which tokens are plain text and records have no digests, in one transaction.
+/// If the VACUUM after the transaction fails, it is repeated when the file is opened the next time.
 void SqliteStore::migrate() {
     if (database_->number("PRAGMA user_version") < kSchemaVersion) {
         database_->run("PRAGMA foreign_keys = OFF");
@@ -214,7 +214,7 @@ void SqliteStore::repair(const std::string& why) {
         to.run(kSchema);
         salvaged = salvage(*database_, to);
     }
-    // The log is renamed first: SQLite would take it for the new file's log.
+    // The write-ahead log is renamed first, because SQLite would apply it to the new file.
     const std::string aside = damagedName(path_);
     database_->keepWriteAheadLog();
     std::error_code missing;
@@ -228,7 +228,7 @@ void SqliteStore::repair(const std::string& why) {
     damage_.clear();
     database_ = std::make_unique<Database>(path_);
     try {
-        // A server that started at the same time may have locked the new file. It gives up once it sees the renames.
+        // A server that started at the same time may have locked the new file; it gives up when it notices the renames.
         database_->run("PRAGMA busy_timeout = 30000");
         setUp();
         database_->run("PRAGMA busy_timeout = 2000");
@@ -238,8 +238,8 @@ void SqliteStore::repair(const std::string& why) {
     }
 }
 
-/// Logs the sessions whose record does not match its digest: bit errors in a record do not make its pages inconsistent.
-/// The records are kept for inspection.
+/// Logs the sessions whose records do not match their digests. The integrity check of the pages does not detect bit
+/// errors within a record. The damaged records are kept for inspection.
 void SqliteStore::logDamagedRecords() {
     std::set<std::string> damaged;
     Query query(
@@ -253,8 +253,8 @@ void SqliteStore::logDamagedRecords() {
                   all - std::min(all, damaged.size()), damaged.size(), listed(damaged));
 }
 
-/// Calls `work`. Damage that it finds is repaired by the next call: the caller of this one learns that the store
-/// failed, and saves the open sessions again once it works.
+/// Calls `work` and returns its result. If `work` finds that the file is damaged, this call fails and the next one
+/// repairs the file first: the caller learns that the store failed, and saves the open sessions again once it works.
 template <typename Work>
 auto SqliteStore::withRepair(Work work) {
     if (!database_) {
@@ -290,7 +290,7 @@ std::optional<Record> SqliteStore::claim(const std::string& id) {
             Query query(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
             query.number(now()).text(id).row();
         } catch (const NotWritable&) {
-            // The record can still be read, and no other server uses this file.
+            // Without the new fence, the record can still be read, and no other server uses this file.
         }
         Query query(*database_,
                     "SELECT whole, head, fence, digest = digest_of(id, token_hash, whole) AND "
@@ -433,7 +433,7 @@ std::int64_t SqliteStore::usedPages() {
     return database_->number("PRAGMA page_count") - database_->number("PRAGMA freelist_count");
 }
 
-/// Releases at most `maxPages` free pages to the file system, and keeps a few for the next updates.
+/// Releases at most `maxPages` free pages to the file system, and keeps kReservedPages for the next updates.
 void SqliteStore::releasePages(std::int64_t maxPages) {
     constexpr std::int64_t kReservedPages = 64;
     const std::int64_t free = database_->number("PRAGMA freelist_count");

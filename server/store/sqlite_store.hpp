@@ -1,5 +1,5 @@
 #pragma once
-// A store in an SQLite file: its sessions outlive the server.
+// A store in an SQLite file.
 
 #include <memory>
 #include <string>
@@ -9,18 +9,20 @@
 
 namespace oval4d::store {
 
-/// Uses a file that belongs to one server and that no other user can read. Saved records survive a kill of the
-/// process at any time, because each commit is in the write-ahead log. The log is not flushed to the disk at each
-/// commit (synchronous = NORMAL), so that a power failure may lose the latest commits, but does not damage the file.
+/// Keeps records in an SQLite file, which outlives the server. Only one server can use the file, and no other user can
+/// read it. Saved records survive if the process is killed at any time, because each commit is in the write-ahead log.
+/// The log is not flushed to the disk at each commit (synchronous = NORMAL): a power failure may lose the latest
+/// commits, but does not damage the file.
 ///
-/// Records carry digests, and the whole file is checked when it is opened. If its pages are found damaged, then or
+/// Records contain digests, and the whole file is checked when it is opened. If pages are found to be damaged, then or
 /// later, the intact sessions are copied into a new file, and the damaged file is renamed to PATH.damaged-TIME. A
-/// damaged record on intact pages is left unchanged. Both are logged.
+/// damaged record on intact pages is left unchanged. Damage of either kind is logged.
 class SqliteStore final : public Store {
   public:
-    /// Opens or creates the file. `quota` limits the bytes of the file and its write-ahead log together; only a single
-    /// update of more than an eighth of it may exceed it for a time. Throws StoreError if another server uses the file,
-    /// or if it is not a store of oval4d, not owned by the server's user, or not a regular file.
+    /// Opens or creates the file. `quota`: the maximum size, in bytes, of the file and its write-ahead log together;
+    /// only a single update of more than an eighth of the quota may exceed it temporarily. Throws StoreError if another
+    /// server uses the file, or if the file is not a store of oval4d, not owned by the server's user, or not a regular
+    /// file.
     explicit SqliteStore(std::string path, std::size_t quota = kDefaultQuota);
 
     WritePolicy writePolicy() const override { return WritePolicy::soon; }
@@ -53,7 +55,7 @@ class SqliteStore final : public Store {
     const std::string path_;
     const std::int64_t maxPages_;
     std::unique_ptr<Database> database_;  ///< null after a failed repair: the next operation opens the file again
-    std::string damage_;                  ///< found while the store was used, repaired by the next operation
+    std::string damage_;                  ///< damage that the next operation must repair; empty if there is none
     std::size_t size_ = 0;
 };
 

@@ -4,7 +4,7 @@
 
 namespace oval4d::store {
 
-/// The bytes are not a valid session or object, or have a version that this program does not read.
+/// Thrown if bytes are not a valid record of a session or object, or are of a version that this program does not read.
 class Unreadable : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

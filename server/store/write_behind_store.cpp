@@ -20,8 +20,8 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr std::size_t kIdBytes = 10, kTokenBytes = 20, kKeyBytes = 10;
-constexpr std::size_t kBatch = 256;                         // most sessions in one write
-constexpr std::size_t kBatchBytes = std::size_t{8} << 20U;  // most bytes in one write, unless one session has more
+constexpr std::size_t kBatch = 256;                         // maximum number of sessions in one write
+constexpr std::size_t kBatchBytes = std::size_t{8} << 20U;  // no session is added to a write of this size
 constexpr auto kPollInterval = 500ms;
 constexpr auto kMinRetryPause = 100ms, kMaxRetryPause = 5000ms;  // between attempts while the store fails
 constexpr auto kMaxRefreshInterval = 60s;
@@ -30,7 +30,7 @@ const Error kNotFound{ErrorCode::not_found, "there is no such session; it may ha
 const Error kBadToken{ErrorCode::bad_token, "this token does not open the session"};
 const Error kNoAnswer{ErrorCode::internal, "stored sessions cannot be loaded at present; try again"};
 
-/// The memory of a session in bytes, including objects that it shares with other sessions.
+/// Returns an estimate of a session's memory in bytes, including objects that it shares with other sessions.
 std::size_t bytesOf(const Session& session) {
     std::map<const void*, const slicing::Object*> objects;
     std::size_t bytes = sizeof session;
@@ -71,7 +71,7 @@ void WriteBehindStore::stop(Milliseconds limit) {
     }
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
-    // The callbacks may own large objects: destroy them before this returns, and without holding the lock.
+    // The callbacks may own large objects: destroy them before this function returns, but without holding the lock.
     decltype(held_) held;
     decltype(tasks_) tasks;
     {
@@ -145,8 +145,8 @@ void WriteBehindStore::close(const std::string& id, Session value) {
     wake_.notify_one();
 }
 
-/// Evicts closed sessions until the rest fit within the quota: first those that were never changed, then those that
-/// were closed first. Skips sessions in flight, which are about to be written or requeued.
+/// Removes closed sessions from memory until the remaining ones fit within the quota, and returns them: first those
+/// that were never changed, then those that were closed first. Skips sessions that are being written.
 std::vector<WriteBehindStore::Held> WriteBehindStore::evictClosed() {
     std::size_t bytes = 0;
     std::vector<decltype(held_)::iterator> closed;
@@ -194,7 +194,7 @@ void WriteBehindStore::remove(const std::string& id) {
     wake_.notify_one();
 }
 
-/// Drops the object keys of a session that is no longer held.
+/// Drops the object keys of a session unless `held_` contains it again.
 void WriteBehindStore::dropKeys(const std::string& id) {
     const std::lock_guard lock(mutex_);
     if (!held_.contains(id)) keys_.erase(id);
@@ -207,7 +207,7 @@ void WriteBehindStore::release(const std::string& id) {
 
 std::size_t WriteBehindStore::count() const {
     const std::lock_guard lock(mutex_);
-    // The size of a shared store says nothing about the load of this server.
+    // If servers share the store (at_once), its size does not tell the load of this server.
     return writePolicy_ == Store::WritePolicy::at_once ? held_.size() : kept_ + created_;
 }
 
@@ -266,8 +266,8 @@ void WriteBehindStore::run() {
     }
 }
 
-/// Carries out an operation of the store, and reports its duration and outcome to the listener. `name` is that of
-/// the operation in the metrics.
+/// Calls `operation`, an operation of the store, and reports its duration and outcome to the listener. `name`: the name
+/// of the operation in the metrics.
 template <typename Operation>
 auto WriteBehindStore::timed(const char* name, Operation operation) {
     const auto start = Clock::now();
@@ -288,7 +288,7 @@ void WriteBehindStore::storeFailed(const std::exception& fault) {
     const std::string why = fault.what();
     const bool readable = dynamic_cast<const NotWritable*>(&fault) != nullptr;
     if (!readable) {
-        // The store may have lost its data: objects must be written again.
+        // The store may have lost its data: all objects must be written again.
         for (auto& [id, keys] : keys_) {
             for (auto& [serial, object] : keys) object.stored = false;
         }
@@ -318,7 +318,7 @@ void WriteBehindStore::storeWorked() {
 
 // --- Writing
 
-/// Takes a batch of sessions from the queue, and encodes it.
+/// Takes a batch of sessions from the queue, and encodes them as updates.
 void WriteBehindStore::takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate>& updates) {
     const std::size_t maxBytes = std::min(kBatchBytes, settings_.quota / 8);
     std::size_t bytes = 0;
@@ -398,7 +398,7 @@ void WriteBehindStore::writeRemovals() {
     std::vector<std::string> ids;
     {
         const std::lock_guard lock(mutex_);
-        std::erase_if(removals_, [&](const std::string& id) { return held_.contains(id); });  // was opened again
+        std::erase_if(removals_, [&](const std::string& id) { return held_.contains(id); });  // reopened meanwhile
         ids.assign(removals_.begin(), removals_.end());
     }
     if (ids.empty()) return;
@@ -410,10 +410,11 @@ void WriteBehindStore::writeRemovals() {
     }
     const std::lock_guard lock(mutex_);
     removals_.clear();
-    pollAt_ = Clock::time_point();  // update the number of stored sessions now
+    pollAt_ = Clock::time_point();  // poll now, to update the number of stored sessions
 }
 
-/// Encodes a job as an update. Each object is written once, and dropped when the session no longer has it.
+/// Encodes a job as an update. An object is written only once, and dropped from the store when the session no longer
+/// has it.
 void WriteBehindStore::encode(Job& job, RecordUpdate& update) {
     ObjectKeys& keys = keys_[job.id];
     std::set<std::uint64_t> used;
@@ -449,7 +450,7 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
         if (found != held_.end()) {
             Held& held = found->second;
             held.inFlight = false;
-            if (!std::exchange(held.saved, true)) pollAt_ = Clock::time_point();  // update the number of sessions now
+            if (!std::exchange(held.saved, true)) pollAt_ = Clock::time_point();  // poll now, to update count()
             if (held.closed && !held.queued) {
                 held_.erase(found);
                 keys_.erase(job.id);
@@ -466,8 +467,8 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
     for (const Written& written : job.waiting) written(result == SaveResult::saved);
 }
 
-/// Keeps the changes of a failed job as pending, unless newer ones are pending already. While the store fails, also
-/// queues them and reports them as written.
+/// Makes the changes of a failed job pending again, unless newer ones are pending already. While the store fails, also
+/// queues them and calls their callbacks, so that no caller waits for the store.
 void WriteBehindStore::requeue(Job& job) {
     std::vector<Written> released;
     {
@@ -525,7 +526,7 @@ void WriteBehindStore::poll() {
         recount();
         waiting = !queue_.empty() || !removals_.empty();
     }
-    if (!waiting) storeWorked();  // else the next write decides, because a full store can be polled too
+    if (!waiting) storeWorked();  // otherwise the next write decides, because a full store can be polled, too
 }
 
 /// Restarts the expiry period of open sessions, and deletes sessions whose expiry period has ended.
@@ -580,7 +581,7 @@ WriteBehindStore::FetchResult WriteBehindStore::claimOrFind(const SessionCredent
     const auto hash = timed("token", [&] { return store_->tokenHash(credentials.id); });
     if (!hash) return kNotFound;
     if (!equalInConstantTime(hashOf(credentials.token), *hash)) {
-        // The stored hash itself may be damaged.
+        // The token may be correct, but the stored hash damaged.
         return timed("token", [&] { return store_->isDamaged(credentials.id); }) ? kNotFound : kBadToken;
     }
     auto record = timed("claim", [&] { return store_->claim(credentials.id); });

@@ -1,5 +1,6 @@
 #pragma once
-// Reads and writes sessions on a thread of its own, so that no other thread waits for a disk or a network.
+// A write-behind cache of sessions, which uses the store on a thread of its own, so that no other thread waits for a
+// disk or a network.
 
 #include <atomic>
 #include <condition_variable>
@@ -20,35 +21,36 @@
 namespace oval4d::store {
 
 /// A write-behind cache in front of a Store. It holds the sessions that are open on this server, and the closed ones
-/// whose last change is not yet in the store. Only its own thread uses the store; of several pending changes to a
-/// session, it writes the newest.
+/// whose last change is not yet in the store. Only the cache's own thread uses the store. Of several pending changes to
+/// a session, it writes only the newest one.
 ///
-/// While the store fails, changes wait in memory, the store is retried with growing pauses, and no caller waits for it.
-/// If the store is full, sessions that no client has open are evicted from it; if the closed sessions that wait for a
-/// failing store would take more memory than `Settings::quota`, they are evicted from memory. An open session is never
-/// evicted.
+/// While the store fails, changes wait in memory, the cache retries with growing pauses (exponential backoff), and no
+/// caller waits for the store. If the store is full, sessions that no client has open are evicted from it. If the
+/// closed sessions that wait for a failing store take more memory than `Settings::quota`, some of them are evicted from
+/// memory. An open session is never evicted.
 ///
-/// Thread-safe. Callbacks run on the write-behind store's thread or within the call, and must return quickly.
+/// Thread-safe. Callbacks run on the cache's thread or on that of the caller during the call, and must return quickly.
 class WriteBehindStore {
   public:
     struct Settings {
-        Milliseconds expiry{1'800'000};  ///< lifetime of a session that no client has open
-        std::size_t maxUndo = 100;       ///< undo steps, and redo steps, that are stored
-        /// estimated bytes of the closed sessions that wait in memory for a failing store
+        Milliseconds expiry{1'800'000};  ///< time after which a session that no client has open is deleted
+        std::size_t maxUndo = 100;       ///< maximum number of undo steps, and of redo steps, to store with a session
+        /// Maximum estimated memory, in bytes, of the closed sessions that wait for a failing store.
         std::size_t quota = kDefaultQuota;
     };
-    /// Callbacks.
+    /// Callbacks for events of the store.
     struct Listener {
-        /// another server has claimed this session
+        /// Called when another server has claimed a session that is open on this server.
         std::function<void(const std::string& id)> claimed;
-        /// the store lacks this session: save it with SaveScope::whole
+        /// Called when the store does not have this session; the listener must save it with SaveScope::whole.
         std::function<void(const std::string& id)> missing;
-        /// the store works again, and may have lost data: save all sessions
+        /// Called when the store works again. It may have lost data, so the listener must save all open sessions.
         std::function<void()> recovered;
-        /// an operation of the store has ended; for metrics
+        /// Called when an operation of the store has ended, for metrics.
         std::function<void(const char* operation, double seconds, bool succeeded)> operationEnded;
     };
-    /// A fetched session: a value if it was still in memory, else a record to be decoded with codec.hpp.
+    /// A fetched session. `session` has the session if it was still in memory; otherwise it is empty, and `record` is
+    /// the stored record, to be decoded with codec.hpp.
     struct Fetched {
         std::optional<session::Session> session;
         Record record;
@@ -56,9 +58,9 @@ class WriteBehindStore {
     using FetchResult = Result<Fetched>;
     /// The keys under which a session's objects are stored, by ObjectInfo::serial.
     using Keys = std::map<std::uint64_t, std::string>;
-    /// Called when a save has ended: see save().
+    /// A callback for the end of a save: see save().
     using Written = std::function<void(bool)>;
-    /// The parts of a record: see encodeHead and encodeWhole in codec.hpp.
+    /// The part of a session to save: the result of encodeHead or of encodeWhole (codec.hpp).
     enum class SaveScope : std::uint8_t { head, whole };
 
     WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener);
@@ -69,55 +71,60 @@ class WriteBehindStore {
     Store::WritePolicy writePolicy() const { return writePolicy_; }
     const std::string& name() const { return name_; }
 
-    /// Creates a session that is open on this server. It is not in the store until it is saved.
+    /// Creates a session that is open on this server, and returns its credentials. It is not in the store until it is
+    /// saved.
     SessionCredentials create();
 
     /// Claims a session for this server. Calls `done` with the session, or with an error: `not_found`, `bad_token`, or
-    /// `internal` if the store does not answer.
+    /// `internal` if the store does not answer. After a fetch with a record, the caller must decode the record, and
+    /// then call setStoredKeys() or, if it cannot be decoded, release().
     void fetch(SessionCredentials credentials, std::function<void(FetchResult)> done);
 
-    /// Tells which of a fetched session's objects the store has, after its record was decoded.
+    /// Records which objects of a fetched session the store already has, so that they are not written again.
     void setStoredKeys(const std::string& id, Keys keys);
 
-    /// Queues a session for writing: the whole of it, or with SaveScope::head only its current state. Calls `written`
-    /// with true when it is in the store, or immediately while the store fails; with false if this server no longer
-    /// owns the session.
+    /// Queues a session to be written: the whole session, or with SaveScope::head only its current state. Calls
+    /// `written` with true once the session is in the store, or immediately if the store fails; with false if this
+    /// server no longer owns the session.
     void save(const std::string& id, session::Session value, SaveScope scope, Written written = {});
 
-    /// Queues the last write of a session that no client has open anymore.
+    /// Queues the last write of a session that no client has open anymore. The session stays in memory until it is
+    /// written.
     void close(const std::string& id, session::Session value);
 
-    /// Deletes a closed session here and in the store; if the store fails, it is deleted there later. Does nothing if a
-    /// client has the session open, on this server or another.
+    /// Deletes a closed session from memory and from the store; while the store fails, the deletion is pending. Does
+    /// nothing if a client has the session open, on this server or another.
     void remove(const std::string& id);
 
-    /// Drops a session that was fetched but could not be decoded. Its record in the store is unchanged.
+    /// Drops a fetched session from memory, without changing its record, because the record could not be decoded.
     void release(const std::string& id);
 
-    /// The approximate number of sessions in the store and in memory; only those in memory if servers share the store.
+    /// Returns the approximate number of sessions in the store and in memory; only of those in memory if servers share
+    /// the store.
     std::size_t count() const;
-    /// The number of sessions with changes that are not known to be in the store.
+    /// Returns the number of sessions with changes that are not known to be in the store.
     std::size_t unsaved() const;
-    /// The store's last error; empty while it works.
+    /// Returns the last error of the store; an empty text while the store works.
     std::string lastError() const;
 
-    /// Writes the pending changes, for at most `limit`, and ends the thread.
+    /// Writes the pending changes, which takes at most about `limit`, and ends the thread.
     void stop(Milliseconds limit);
 
   private:
     using Clock = std::chrono::steady_clock;
     using Value = std::shared_ptr<const session::Session>;
+    /// A session in memory.
     struct Held {
         SessionCredentials credentials;
         Fence fence = 1;
-        Value head, whole;  ///< to be written
-        std::vector<Written> waiting;
-        bool saved = false;  ///< has been in the store
-        bool queued = false;
-        bool inFlight = false;  ///< is being written
-        bool closed = false;    ///< no client has it open: dropped once written
+        Value head, whole;             ///< changes to be written; null if there are none
+        std::vector<Written> waiting;  ///< callbacks to call when these changes are written
+        bool saved = false;            ///< the session has been in the store
+        bool queued = false;           ///< its id is in queue_
+        bool inFlight = false;         ///< it is being written
+        bool closed = false;           ///< no client has it open; it is dropped once it is written
         Clock::time_point closedAt;
-        std::size_t bytes = 0;  ///< estimated memory of a closed session
+        std::size_t bytes = 0;  ///< estimated memory, if it is closed
     };
     /// An object's key, and whether the store has the object.
     struct ObjectKey {
@@ -130,10 +137,10 @@ class WriteBehindStore {
         std::string id;
         Value head, whole;
         std::vector<Written> waiting;
-        std::vector<std::uint64_t> added;  ///< serials of the objects that it adds to the store
+        std::vector<std::uint64_t> added;  ///< ObjectInfo::serial of the objects that this write adds to the store
     };
 
-    // On the thread of the write-behind store.
+    // These run on the cache's thread.
     void run();
     void write();
     void takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate>& updates);
@@ -153,7 +160,7 @@ class WriteBehindStore {
     void storeFailed(const std::exception& fault);
     void storeWorked();
 
-    // With mutex_ held.
+    // These require that mutex_ is held.
     void enqueue(const std::string& id, Held& held);
     void recount();
     std::vector<Held> evictClosed();
@@ -171,19 +178,19 @@ class WriteBehindStore {
     // Guarded by mutex_.
     std::map<std::string, Held, std::less<>> held_;
     std::deque<std::string> queue_;            // ids of sessions with pending changes
-    std::deque<std::function<void()>> tasks_;  // run by the thread before it writes
+    std::deque<std::function<void()>> tasks_;  // the cache's thread runs them before it writes
     std::set<std::string> removals_;           // ids to remove from the store
-    std::size_t kept_ = 0;                     // sessions in the store, as of the last poll
-    std::size_t created_ = 0;                  // sessions that have never been in the store
+    std::size_t kept_ = 0;                     // number of sessions in the store, as of the last poll
+    std::size_t created_ = 0;                  // number of sessions that have never been in the store
     std::string lastError_;
-    Clock::time_point retryAt_, pollAt_;  // earliest next write, next poll
-    Clock::time_point readAt_;            // earliest next read
+    Clock::time_point retryAt_, pollAt_;  // earliest time of the next write; time of the next poll
+    Clock::time_point readAt_;            // earliest time of the next read
     bool stopping_ = false;
-    Clock::time_point stopAt_;
+    Clock::time_point stopAt_;  // when stopping: time to end even if changes are pending
 
-    // Used by the thread alone.
-    std::map<std::string, ObjectKeys, std::less<>> keys_;  // by session id
-    int failures_ = 0;                                     // in a row
+    // Used only by the cache's thread.
+    std::map<std::string, ObjectKeys, std::less<>> keys_;  // keys of each session's objects, by session id
+    int failures_ = 0;                                     // number of failures since the store last worked
     Clock::time_point refreshAt_;
     std::minstd_rand random_;
 

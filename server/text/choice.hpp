@@ -7,15 +7,15 @@
 
 namespace oval4d::text {
 
-/// One row of a table of choices: a value and its name in messages, queries and on the command line. A value may have
-/// several rows: the first holds its name, the others hold aliases.
+/// A row of a table of choices: a value and its name in messages, queries and on the command line. A value may have
+/// several rows: the first one has its name, the others have aliases.
 template <typename Value>
 struct Choice {
     std::string_view name;
     Value value;
 };
 
-/// The value of this name in a table of choices.
+/// Returns the value with this name or alias; nothing if the table has none.
 template <typename Choices>
 constexpr auto valueNamed(const Choices& choices, std::string_view name)
     -> std::optional<decltype(choices.begin()->value)> {
@@ -25,7 +25,7 @@ constexpr auto valueNamed(const Choices& choices, std::string_view name)
     return {};
 }
 
-/// The name of this value; empty if the table lacks it.
+/// Returns the name of this value, that of its first row; empty if the table does not contain the value.
 template <typename Choices, typename Value>
 constexpr std::string_view nameOf(const Choices& choices, const Value& value) {
     for (const auto& choice : choices) {
@@ -34,7 +34,7 @@ constexpr std::string_view nameOf(const Choices& choices, const Value& value) {
     return {};
 }
 
-/// All names, aliases included.
+/// Returns all names and aliases in the order of the table.
 template <typename Choices>
 std::vector<std::string_view> namesOf(const Choices& choices) {
     std::vector<std::string_view> names;

@@ -27,7 +27,7 @@ constexpr std::array<std::uint64_t, 10'000> smallIntegerTexts() {
     return all;
 }
 
-// The text after each number of a vector.
+// The JSON text after a number: a comma within a vector; after its last number, the text up to the next vector.
 struct Separator {
     char text[4];
     std::size_t length;
@@ -45,9 +45,10 @@ char* separate(char* at, const Separator& separator) {
     return at + separator.length;
 }
 
-constexpr float kExponentFrom = 1e5F;  // std::to_chars may write integers with an exponent from here on
+constexpr float kExponentFrom = 1e5F;  // from this value on, std::to_chars may write integers with an exponent
 
-// Writes the numbers from `begin` to `end` − 1 of vectors of `Size` numbers, and the separator after each.
+// Writes the numbers from index `begin` to `end` − 1, each followed by its separator. `numbers` begins with a vector of
+// `Size` numbers.
 template <std::size_t Size>
 char* putPlain(char* at, const double* numbers, std::size_t begin, std::size_t end) {
     static constexpr auto kSeparators = separators<Size>();
@@ -70,30 +71,36 @@ using Halves = std::uint32_t __attribute__((vector_size(32)));
 using Floats = float __attribute__((vector_size(16)));
 using Bits = std::int32_t __attribute__((vector_size(16)));
 
-// Four numbers are a group, one AVX2 register of doubles. Each step processes all groups of a block before the next
-// step, which depends on it: this hides the latency of the instructions.
-constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // a multiple of 3 and 4: whole vectors of either size
+// A group is four numbers, one AVX2 register of doubles. A block is several groups. Each step of the computation
+// processes all groups of a block before the next step, which hides the latency of the instructions: the groups do not
+// depend on each other.
+constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // kBlock: a multiple of 3 and 4, the sizes of vectors
 
-// Numbers as text: the head is the text up to the second decimal, followed by eight more digits with trailing zeros. If
-// a number of a group is too small or too large for this form, or a multiple of 1/100, putPlain writes the whole group.
+// The text of each number of a block: `head` is the text up to the second decimal, of `headLength` bytes, and `digits`
+// are the next eight decimals, including trailing zeros, as bytes from 0 to 9. `plain` marks a group in which a number
+// is too small or too large for this form, or is a multiple of 1/100; putPlain writes all numbers of such a group.
 struct Block {
     alignas(32) std::uint64_t head[kBlock], headLength[kBlock], digits[kBlock];
     bool plain[kGroups];
 };
 
-// Floats from 2^e to 2^(e + 1) are rounded to integer multiples of 10^−p, where 10^−p is the largest power of ten below
-// their spacing 2^(e − 23). The nearest multiple therefore reads back as the same float. At most one multiple of
-// 10^(1 − p) reads back as the same float too; if there is one, it is shorter, and is used instead. This works from
-// e = −10, where powers of two (below which the spacing is half of that above) have at most p decimals and are written
-// exactly, to e = 5, where there are still at most two digits before the point. There p is from 10 to 6.
+// The method: a float from 2^e to 2^(e + 1) is rounded to an integer multiple of 10^−p, where 10^−p is the largest
+// power of ten below the spacing 2^(e − 23) of these floats. The nearest multiple therefore reads back as the same
+// float. At most one multiple of 10^(1 − p) reads back as the same float, too; if there is one, it is shorter and is
+// used instead. The method is valid for e from −10 to 5, where p is from 10 to 6. The lower bound: the spacing of the
+// floats below a power of two is half of the spacing above it, so a power of two must be written exactly, and from e =
+// −10 on it has at most p decimals. The upper bound: numbers have at most two digits before the point.
 constexpr std::int32_t kMinExponent = -10, kExponents = 16;
+// kExponentMask selects the exponent bits of a float; subtracting kHalfSpacing from them yields 2^(e − 24), half of the
+// float's spacing.
 constexpr std::int32_t kExponentMask = 0x7F80'0000, kHalfSpacing = 24 << 23;
-constexpr double kMargin = 0x1p-20;  // above all rounding errors, in units of 10^−p
+constexpr double kMargin = 0x1p-20;  // an upper bound of all rounding errors, in units of 10^−p
 
-// Tables by 10 − p: 10^p, and 10^−p in units of 10^−10. Floats represent them exactly.
+// Tables indexed by 10 − p: kUnits is 10^p, kUnit is 10^−p in units of 10^−10. Floats represent all of them exactly.
 constexpr std::array<float, 8> kUnits{1e10, 1e9, 1e8, 1e7, 1e6}, kUnit{1e0, 1e1, 1e2, 1e3, 1e4};
 
-// Adding this to a number from 0 to 2^51 rounds it to an integer, which is then in the low bits of the sum.
+// Adding kRounder to a number from 0 to 2^51 rounds it to an integer, which is then in the low bits of the sum;
+// integerOf() extracts it.
 constexpr double kRounder = 0x1.8p52;
 [[gnu::target("avx2")]] inline Words integerOf(Reals sum) {
     return Words(sum) ^ std::bit_cast<std::uint64_t>(kRounder);
@@ -101,24 +108,25 @@ constexpr double kRounder = 0x1.8p52;
 
 [[gnu::target("avx2")]] inline Reals widened(Floats numbers) { return Reals(_mm256_cvtps_pd(__m128(numbers))); }
 
+// Returns table[which[i]] for each i.
 [[gnu::target("avx2")]] inline Reals pick(const std::array<float, 8>& table, Bits which) {
     const __m256i places = _mm256_castsi128_si256(__m128i(which));
     const __m256 picked = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table.data()), places);
     return widened(Floats(_mm256_castps256_ps128(picked)));
 }
 
-// Operations on 16-bit numbers: the sum, and the upper half of the product.
+// Operations on 16-bit numbers: plus() adds; highTimes() returns the upper half of the product.
 [[gnu::target("avx2")]] inline Words plus(Words a, Words b) { return Words(_mm256_add_epi16(__m256i(a), __m256i(b))); }
 [[gnu::target("avx2")]] inline Words highTimes(Words a, short b) {
     return Words(_mm256_mulhi_epu16(__m256i(a), _mm256_set1_epi16(b)));
 }
-// The product of the lower byte of each 16-bit number and `b`, which is from −128 to 127.
+// Returns the product of the lower byte of each 16-bit number and `b`, which must be from −128 to 127.
 [[gnu::target("avx2")]] inline Words lowTimes(Words a, int b) {
     return Words(_mm256_maddubs_epi16(__m256i(a), _mm256_set1_epi16(b & 0xFF)));
 }
 
-// Converts each 32-bit half of a word, a number below 10,000, to its four digits, one per byte, the first in the low
-// byte.
+// Converts each 32-bit half of a word, which is a number below 10,000, to its four decimal digits, one per byte, the
+// most significant one in the lowest byte.
 [[gnu::target("avx2")]] inline Words fourDigits(Words numbers) {
     const auto hundreds = Words(Halves(highTimes(numbers, 5243)) >> 3);
     const Words pairs = hundreds | plus(numbers, lowTimes(hundreds, -100)) << 16;
@@ -230,7 +238,7 @@ char* putAll(char* at, std::span<const V> list) {
     if (list.empty()) return at;
     *at++ = '[';
     at = put<sizeof(V) / sizeof(double)>(at, &list[0].x, list.size() * (sizeof(V) / sizeof(double)));
-    return at - 2;  // ",["
+    return at - 2;  // without the ",[" after the last vector
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// Converts coordinates and indices, the bulk of the messages, to decimal text faster than std::to_chars.
+// Converts coordinates and indices, which make up most of the messages, to decimal text faster than std::to_chars.
 
 #include <array>
 #include <bit>
@@ -14,28 +14,30 @@
 
 namespace oval4d::text {
 
-/// Whether the number is an integer within ±2^53, the range in which doubles represent every integer. False for −0,
-/// whose sign an integer would lose.
+/// Returns whether the number is an integer within ±2^53, the range in which doubles represent every integer. Returns
+/// false for −0, because an integer type cannot represent its sign.
 inline bool isExactInteger(double number) {
     return std::abs(number) <= 0x1p53 && std::trunc(number) == number && !(number == 0 && std::signbit(number));
 }
 
-/// Bytes that the buffer must have for each number and the brackets and commas after it. The buffer needs this once
-/// more at its end, because these functions may write beyond the end of the text.
+/// The bytes of buffer that each number needs, including the brackets and commas after it. The buffer must have room
+/// for one number more than it is to contain, because these functions may write beyond the end of the text.
 inline constexpr std::size_t kNumberRoom = 20;
 
-/// Writes vectors as JSON, such as "[1,0.5,0.25],[1,1,0]"; writes nothing for an empty list. Returns the end of the
-/// text. Each number, rounded to a float, has the fewest digits that read back as the same float, rarely one more.
-/// Integers within ±2^53 have all their digits and no exponent. All numbers must be finite.
+/// Writes vectors as JSON at `at`, such as "[1,0.5,0.25],[1,1,0]"; writes nothing for an empty list. Returns the end of
+/// the text. Rounds each number to a float and writes the fewest digits that read back as the same float, in rare cases
+/// one more. Writes integers within ±2^53 with all their digits and without an exponent. All numbers must be finite.
 char* putVectors(char* at, std::span<const glm::dvec3> list);
 char* putVectors(char* at, std::span<const glm::dvec4> list);
 
-/// The decimal text of each number below 10,000: its characters from the low byte on, its length in the high byte.
+/// The decimal text of each number below 10,000, as an integer: the first character is in the lowest byte, the next
+/// ones in the bytes above it, and the number of characters is in the highest byte.
 extern const std::array<std::uint64_t, 10'000> kSmallIntegerTexts;
 
+/// Writes an integer from 10,000 on, and returns the end of the text. Called by putInteger().
 char* putLargeInteger(char* at, std::uint32_t number);
 
-/// Writes an integer, and returns the end of the text.
+/// Writes an integer at `at`, and returns the end of the text. May write up to 7 bytes beyond it.
 inline char* putInteger(char* at, std::uint32_t number) {
     static_assert(std::endian::native == std::endian::little, "the low byte comes first");
     if (number >= kSmallIntegerTexts.size()) return putLargeInteger(at, number);

@@ -13,7 +13,7 @@ namespace oval4d::text {
 
 namespace {
 
-// The Levenshtein distance in O(|a| |b|); both texts are short.
+// Returns the Levenshtein distance in O(|a| |b|) steps, which is fast enough because both texts are short.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -31,8 +31,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 constexpr std::size_t kMaxQuotedBytes = 60;
 
-// The length of the UTF-8 character at this position, or 0 if there is none. The range of the second byte excludes
-// overlong forms, surrogates, and code points above U+10FFFF (RFC 3629, section 4).
+// Returns the length in bytes of the UTF-8 character at this position, or 0 if there is no valid one. The limits on the
+// second byte exclude overlong forms, surrogates, and code points above U+10FFFF (RFC 3629, section 4).
 std::size_t characterAt(std::string_view text, std::size_t at) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
     const unsigned char lead = byte(0);

@@ -8,29 +8,31 @@
 
 namespace oval4d::text {
 
-/// The candidate with the smallest edit distance from `text`; among equals, the first with the length of `text`, else
-/// the first. Empty if more than half of that candidate's bytes would have to change.
+/// Returns the candidate with the smallest edit distance (Levenshtein) from `text`. Of several such candidates, returns
+/// the first one that is as long as `text`, else the first one. Returns an empty text if the distance is more than
+/// about half of the candidate's length.
 std::string_view nearest(std::string_view text, std::span<const std::string_view> candidates);
 
-/// Returns " (did you mean 'x'?)" with the nearest candidate, or an empty string if there is none.
+/// Returns " (did you mean 'x'?)" with the candidate x that nearest() returns, or an empty string if there is none.
 std::string didYouMean(std::string_view text, std::span<const std::string_view> candidates);
 
-/// The names separated by commas: "a, b, c".
+/// Returns the names separated by commas: "a, b, c".
 std::string listed(std::span<const std::string_view> names);
 
-/// The names as alternatives: "a", "a or b", "a, b or c".
+/// Returns the names as alternatives: "a", "a or b", "a, b or c".
 std::string alternatives(std::span<const std::string_view> names);
 
-/// Whether `text` is valid UTF-8 (RFC 3629), as all text in messages must be.
+/// Returns whether `text` is valid UTF-8 (RFC 3629), which all text in messages must be.
 bool isUtf8(std::string_view text);
 
-/// `text` in single quotes, as printable() returns it for at most 60 bytes.
+/// Returns printable(text, 60) in single quotes.
 std::string inQuotes(std::string_view text);
 
-/// `text` with "?" for everything that is not printable UTF-8, truncated with "…" after about `maxBytes` bytes.
+/// Returns `text` with "?" in place of every byte that is a control character or not valid UTF-8. A text of more than
+/// `maxBytes` bytes is cut off there, after a whole character, and "…" is appended.
 std::string printable(std::string_view text, std::size_t maxBytes);
 
-/// The shortest decimal text of a number that reads back as the same double.
+/// Returns the shortest decimal text that reads back as the same double; all digits for an integer within ±2^53.
 std::string shortest(double value);
 
 }  // namespace oval4d::text

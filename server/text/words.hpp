@@ -1,5 +1,5 @@
 #pragma once
-// Splits, joins and compares names.
+// Functions that split text into words, join words, and normalize names for comparison.
 
 #include <string>
 #include <string_view>
@@ -7,19 +7,20 @@
 
 namespace oval4d::text {
 
-/// The parts of a comma-separated list, such as "a,b,c".
+/// Returns the parts of a comma-separated list: "a", "b" and "c" for "a,b,c". The parts refer to the memory of `text`.
 std::vector<std::string_view> listOf(std::string_view text);
 
-/// The words of a text in lower case; white space, hyphens and underscores separate them.
+/// Returns the words of a text in lower case. White space, hyphens and underscores separate words.
 std::vector<std::string> wordsOf(std::string_view text);
 
-/// Joins words[first] … words[end − 1] with spaces.
+/// Returns words[first] … words[end − 1], separated by spaces.
 std::string joined(const std::vector<std::string>& words, std::size_t first, std::size_t end);
 
-/// The text in lower case, without white space, hyphens and underscores, for comparing names.
+/// Returns the text in lower case, without white space, hyphens and underscores. Names are equal if their folded texts
+/// are.
 std::string folded(std::string_view text);
 
-/// The text without blanks and tabs at its ends.
+/// Returns the text without spaces and tabs at its ends.
 std::string_view trimmed(std::string_view text);
 
 }  // namespace oval4d::text

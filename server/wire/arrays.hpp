@@ -1,5 +1,5 @@
 #pragma once
-// Types of the arrays of numbers in messages.
+// Types for arrays of numbers in messages.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace oval4d::wire {
 using Pair = std::array<std::uint32_t, 2>;
 using Triple = std::array<std::uint32_t, 3>;
 
-/// Several lists in one array. With n + 1 entries in `begin`, there are n lists; list i is the half-open range
+/// A jagged array: n lists in one array, where `begin` has n + 1 entries. List i is the half-open range
 /// [begin[i] − begin[0], begin[i + 1] − begin[0]) of `items`.
 struct JaggedArrayView {
     std::span<const std::uint32_t> begin, items;

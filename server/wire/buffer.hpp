@@ -1,5 +1,5 @@
 #pragma once
-// A growing output buffer on top of a string.
+// An output buffer that writes to a string.
 
 #include <cstddef>
 #include <cstring>
@@ -8,8 +8,8 @@
 
 namespace oval4d::wire {
 
-/// Overwrites a string through a pointer. Enlarges the string as needed, and truncates it to the bytes written on
-/// destruction. Reusing the string avoids reallocating it, and zero-filling it for a text as long as the one before.
+/// Overwrites a string through a pointer. Enlarges the string as needed; the destructor truncates it to the bytes that
+/// were written. Writing to the same string again avoids allocating it and filling it with zeros again.
 class Buffer {
   public:
     explicit Buffer(std::string& out);
@@ -17,18 +17,20 @@ class Buffer {
     Buffer(const Buffer&) = delete;
     Buffer& operator=(const Buffer&) = delete;
 
-    /// Ensures that at least `size` bytes can be written at at(). Invalidates earlier results of at().
+    /// Ensures that at least `size` bytes can be written to at(). Invalidates earlier results of at().
     void reserve(std::size_t size) {
         if (static_cast<std::size_t>(end_ - at_) < size) grow(size);
     }
-    /// The current end of the text.
+    /// Returns the current end of the text, where reserved bytes can be written directly.
     char* at() { return at_; }
-    /// Sets the end of the text, after writing directly to at().
+    /// Sets the end of the text after bytes were written directly.
     void moveTo(char* at) { at_ = at; }
+    /// Appends one character.
     void put(char c) {
         reserve(1);
         *at_++ = c;
     }
+    /// Appends a text.
     void put(std::string_view text) {
         reserve(text.size());
         std::memcpy(at_, text.data(), text.size());

@@ -1,17 +1,17 @@
 #pragma once
-// A cache for text that is written repeatedly from the same value.
+// A cache for a text that is often written for the same value.
 
 #include <string>
 #include <string_view>
 
 namespace oval4d::wire {
 
-/// Caches the text written from a value, and writes it again only if the value changes.
+/// Keeps the last value and the text that was written for it.
 template <typename Value>
 class CachedText {
   public:
-    /// Returns the text of `value`. Calls `write(out)` to write it if it is not cached. The result is valid until the
-    /// next call.
+    /// Returns the text of `value`. Calls `write(out)`, with a std::string that it must overwrite, only if `value`
+    /// differs from the last value. The result is valid until the next call.
     template <typename Write>
     std::string_view of(const Value& value, Write write) {
         if (text_.empty() || value_ != value) {

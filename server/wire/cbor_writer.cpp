@@ -13,7 +13,7 @@ static_assert(std::endian::native == std::endian::little, "typed arrays are copi
 // Major types (RFC 8949, section 3.1), and tags of typed arrays (RFC 8746, section 2.1).
 constexpr std::uint8_t kUnsigned = 0, kNegative = 1, kBytes = 2, kText = 3;
 constexpr std::uint8_t kUint8Array = 64, kUint16Array = 69, kUint32Array = 70, kFloat32Array = 85,
-                       kFloat64Array = 86;  // little endian
+                       kFloat64Array = 86;  // little-endian
 
 }  // namespace
 

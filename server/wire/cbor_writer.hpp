@@ -1,6 +1,6 @@
 #pragma once
-// Writes messages as CBOR (RFC 8949). JsonWriter and CborWriter have the same functions, so that one template can write
-// a message in both encodings.
+// Writes messages as CBOR (RFC 8949). JsonWriter and CborWriter have functions of the same names, so that one template
+// can write a message in both encodings.
 
 #include <cstdint>
 #include <cstring>
@@ -16,20 +16,20 @@
 
 namespace oval4d::wire {
 
-/// Overwrites a string with CBOR. The string is complete when the writer is destroyed.
+/// Overwrites a string with CBOR. The string is complete after the writer is destroyed.
 class CborWriter {
   public:
     explicit CborWriter(std::string& out) : buffer_(out) {}
 
-    // Maps and arrays have indefinite length, so that their sizes need not be known in advance.
+    // Objects (maps in CBOR) and arrays have indefinite length, so that their sizes need not be known in advance.
     void beginObject() { buffer_.put('\xBF'); }
     void endObject() { buffer_.put('\xFF'); }
     void beginArray() { buffer_.put('\x9F'); }
     void endArray() { buffer_.put('\xFF'); }
     void key(std::string_view name) { value(name); }
 
-    void value(double number);  ///< with single precision if that is exact, else with double precision
-    void id(double number);     ///< as an integer if it is one and within ±2^53, else as value()
+    void value(double number);  ///< writes single precision if that is exact, else double precision
+    void id(double number);     ///< writes an integer within ±2^53 as an integer, any other number as value()
     void value(std::uint64_t number) { head(0, number); }
     void value(std::int64_t number);
     void value(std::uint32_t number) { head(0, number); }
@@ -37,11 +37,12 @@ class CborWriter {
     void value(bool flag) { buffer_.put(flag ? '\xF5' : '\xF4'); }
     void value(std::string_view text);
     void value(const char* text) { value(std::string_view(text)); }
-    /// Appends encoded CBOR unchanged: a value, or members of a map.
+    /// Appends encoded CBOR unchanged: a value, or members of an object.
     void raw(std::string_view text) { buffer_.put(text); }
 
-    // Typed arrays (RFC 8746), little-endian. Vectors, floats: single precision. Integers: the smallest width of 8, 16
-    // and 32 bits that fits all of them; pairs and triples are flattened.
+    // Typed arrays (RFC 8746), little-endian. `doubles` writes double precision; `vectors` and `floats` write single
+    // precision; the others write integers of 8, 16 or 32 bits, whichever is the least that all of them fit into.
+    // Vectors, pairs and triples are flattened.
     void doubles(std::span<const double> list);
     void vectors(std::span<const glm::dvec3> list);
     void vectors(std::span<const glm::dvec4> list);

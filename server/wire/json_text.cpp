@@ -14,10 +14,10 @@ namespace {
 
 using nlohmann::json;
 
-// Far more than any valid message contains. Limits the memory for reporting an error in each value.
+// Far more than any valid message contains. Limits the memory that the validator needs if every value has an error.
 constexpr std::size_t kMaxValues = 10'000;
 
-// Builds a value from the parser's events; stops if the text nests too deeply or has too many values.
+// Builds a value from the events of nlohmann-json's parser. Stops if the text nests too deeply or has too many values.
 class Builder {
   public:
     Builder(json& root, int maxDepth) : root_(root), maxDepth_(maxDepth) {}
@@ -50,7 +50,7 @@ class Builder {
         return false;
     }
 
-    /// The limit that the text exceeds; empty if it exceeds none.
+    /// Returns a message about the limit that the text exceeds; empty if it exceeds none.
     const std::string& refusal() const { return refusal_; }
     bool overflow() const { return overflow_; }
     std::size_t position() const { return position_; }
@@ -110,7 +110,7 @@ std::string_view badNumberAt(std::string_view text, const Builder& builder) {
     return {};
 }
 
-constexpr int kMaxRepairs = 4;  // numbers that are replaced by null
+constexpr int kMaxRepairs = 4;  // the maximum number of numbers that are replaced by null
 
 }  // namespace
 

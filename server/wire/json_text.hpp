@@ -1,5 +1,5 @@
 #pragma once
-// Parses JSON text, with limits that nlohmann-json does not provide.
+// Parses JSON text, with limits on nesting and size that nlohmann-json does not provide.
 
 #include <string>
 #include <string_view>
@@ -12,12 +12,12 @@ namespace oval4d::wire {
 struct JsonText {
     nlohmann::json value;   ///< valid if `fault` is empty or `repaired` is true
     std::string fault;      ///< the error message; empty if there is no error
-    bool notJson = false;   ///< the text is not JSON
-    bool repaired = false;  ///< the only errors are numbers that are not finite (NaN, 1e999); `value` has null for each
+    bool notJson = false;   ///< whether the text is not JSON
+    bool repaired = false;  ///< whether the only errors are numbers like NaN and 1e999, which are null in `value`
 };
 
-/// Parses JSON text with at most `maxDepth` levels of nesting and at most 10,000 values. Numbers with an integral
-/// value, such as 21.0, become integers, as in JSON Schema.
+/// Parses JSON text. Allows at most `maxDepth` levels of nesting and at most 10,000 values. A number with an integral
+/// value, such as 21.0, becomes an integer, as in JSON Schema.
 JsonText readJson(std::string_view text, int maxDepth);
 
 }  // namespace oval4d::wire

@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t kMaxNumberLength = 32;  // the maximum length of a number
 
-// Returns the bytes to reserve for this number of coordinates or indices, with brackets.
+// Returns the number of bytes to reserve for an array of this many coordinates or indices.
 std::size_t reserveFor(std::size_t numbers) { return (numbers + 2) * text::kNumberRoom; }
 
-// Writes each number with a comma after it.
+// Writes each number, followed by a comma. Returns the end of the text.
 char* putIntegers(char* at, std::span<const std::uint32_t> list) {
     for (const std::uint32_t number : list) {
         at = text::putInteger(at, number);
@@ -24,7 +24,7 @@ char* putIntegers(char* at, std::span<const std::uint32_t> list) {
     return at;
 }
 
-// Writes the separator of two arrays, and one byte beyond it.
+// Writes the separator of two arrays, and overwrites one byte after it. Returns the end of the separator.
 char* putSeparator(char* at) {
     std::memcpy(at, "],[", 4);
     return at + 3;
@@ -106,7 +106,7 @@ void JsonWriter::vector(const glm::dvec3& v) {
     buffer_.moveTo(text::putVectors(buffer_.at(), std::span(&v, 1)));
 }
 
-// Writes an array. `put(at)` writes its content, with `numbers` numbers, and returns the end.
+// Writes an array. `put(at)` writes the content, which consists of `numbers` numbers, and returns its end.
 template <typename Put>
 void JsonWriter::array(std::size_t numbers, Put put) {
     separate();

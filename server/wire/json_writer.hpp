@@ -1,6 +1,6 @@
 #pragma once
-// Writes messages as JSON. JsonWriter and CborWriter have the same functions, so that one template can write a message
-// in both encodings.
+// Writes messages as JSON. JsonWriter and CborWriter have functions of the same names, so that one template can write a
+// message in both encodings.
 
 #include <cstdint>
 #include <cstring>
@@ -16,7 +16,7 @@
 
 namespace oval4d::wire {
 
-/// Overwrites a string with JSON. The string is complete when the writer is destroyed.
+/// Overwrites a string with JSON. The string is complete after the writer is destroyed.
 class JsonWriter {
   public:
     explicit JsonWriter(std::string& out) : buffer_(out) {}
@@ -25,7 +25,7 @@ class JsonWriter {
     void endObject() { close('}'); }
     void beginArray() { open('['); }
     void endArray() { close(']'); }
-    /// Writes a member's name, which is not escaped. Inline, because most names are known at compile time.
+    /// Writes a member's name without escaping it. The function is inline because most names are known at compile time.
     void key(std::string_view name) {
         buffer_.reserve(name.size() + 4);
         char* at = buffer_.at();
@@ -39,7 +39,7 @@ class JsonWriter {
         comma_ = false;
     }
 
-    void value(double number);  ///< integers within ±2^53 have no decimal point and no exponent
+    void value(double number);  ///< writes integers within ±2^53 without decimal point and exponent
     void value(std::uint64_t number);
     void value(std::int64_t number);
     void value(std::uint32_t number) { value(std::uint64_t{number}); }
@@ -52,16 +52,16 @@ class JsonWriter {
     /// Appends JSON text unchanged: a value, or members of an object.
     void raw(std::string_view text);
 
-    // Arrays of numbers. Coordinates have the precision of a float.
+    // Arrays of numbers. Coordinates of vectors have the precision of a float.
     void vector(const glm::dvec3& v);
     void vectors(std::span<const glm::dvec3> list);
     void vectors(std::span<const glm::dvec4> list);
     void pairs(std::span<const Pair> list);
     void triples(std::span<const Triple> list);
     void numbers(std::span<const std::uint32_t> list);
-    void floats(std::span<const float> list);  ///< rounded to four decimals
-    void lists(JaggedArrayView view);
-    /// An image with this number of columns, as an array of rows.
+    void floats(std::span<const float> list);  ///< rounds the numbers to four decimals
+    void lists(JaggedArrayView view);          ///< writes an array of arrays
+    /// Writes an image with this number of columns as an array of rows.
     void image(std::span<const std::uint8_t> pixels, std::size_t columns);
 
     template <typename T>

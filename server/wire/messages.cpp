@@ -14,7 +14,7 @@ namespace oval4d::wire {
 
 namespace {
 
-// Begins a message: its type, and its id if there is one.
+// Begins a message: writes its type, and its id if there is one.
 void begin(JsonWriter& w, std::string_view type, std::optional<double> id) {
     w.beginObject();
     w.member("type", type);

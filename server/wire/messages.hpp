@@ -1,5 +1,5 @@
 #pragma once
-// The messages of the server to clients as JSON text, except `slices`.
+// Writes the messages from the server to clients, except `slices`, as JSON text.
 
 #include <cstdint>
 #include <optional>
@@ -13,14 +13,14 @@
 
 namespace oval4d::wire {
 
-/// Returns the `state` message of a state. Frames embed the same text.
+/// Returns the `state` message of a state. Frames contain the same text.
 std::string stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id = {});
-/// Writes the `state` message to `out`, which is overwritten and its memory reused.
+/// Writes the `state` message to `out`. Overwrites `out` and reuses its memory.
 void stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id, std::string& out);
 
 /// Returns the `error` message.
 std::string errorMessage(const Error& error, std::optional<double> id);
-/// Returns the `done` message; `warnings` are those of reading a file.
+/// Returns the `done` message. `warnings` are the warnings from reading a file.
 std::string doneMessage(std::optional<double> id, std::uint64_t revision,
                         const std::vector<std::string>& warnings = {});
 /// Returns the `catalogue` message: the entries of the catalogue, followed by the session's loaded objects.
@@ -28,7 +28,7 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
 /// Returns the `keymap` message, the key table of protocol/keymap.json.
 std::string keymapMessage(std::optional<double> id);
 
-/// Returns the `welcome` message; `limits` is the text of a JSON object.
+/// Returns the `welcome` message. `limits` is the text of a JSON object.
 std::string welcomeMessage(std::string_view session, std::string_view token, std::string_view limits,
                            std::optional<double> id);
 

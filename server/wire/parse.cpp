@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-// Thrown for an error that a schema cannot describe.
+// Thrown for a fault of a message that its schema cannot describe.
 struct InvalidRequest {
     std::string message;
 };
@@ -147,7 +147,7 @@ decltype(Request::body) bodyOf(const std::string& type, const json& message) {
     return helloOf(message);
 }
 
-// Records the type and the id of a message without building a value.
+// A listener of the JSON parser that records the type and the id of a message, without building a value.
 class Peek : public nlohmann::json_sax<json> {
   public:
     explicit Peek(RequestPeek& seen) : seen_(seen) {}

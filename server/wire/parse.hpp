@@ -1,5 +1,5 @@
 #pragma once
-// Parses the messages of clients, which are JSON.
+// Parses the messages from clients, which are JSON.
 
 #include <optional>
 #include <string>
@@ -11,27 +11,26 @@
 
 namespace oval4d::wire {
 
-/// A message that was refused. It has the id of the message, if that could be read, so that the client can match the
-/// error to its request.
+/// The error for a message that was refused.
 struct BadRequest {
-    std::optional<double> id;
+    std::optional<double> id;  ///< the id of the message, if it could be read
     Error error;
-    bool notJson = false;  ///< the text is not JSON: the connection is closed with code 1007
+    bool notJson = false;  ///< whether the text is not JSON; the connection must then be closed with code 1007
 };
 
 /// Parses one message, with at most `maxDepth` levels of nesting, and validates it against its schema. Errors:
 /// `bad_json`, `bad_message`, `unknown_type`, `out_of_range`.
 std::variant<Request, BadRequest> parseRequest(std::string_view text, int maxDepth = 32);
 
-/// The type and id of a message, as far as they could be read.
+/// The type and the id of a message, if they could be read.
 struct RequestPeek {
     std::optional<std::string> type;
     std::optional<double> id;
 };
-/// Reads the type and the id from the beginning of a message, which may be incomplete or invalid after that.
+/// Reads the type and the id from the beginning of a message. The message may be incomplete, or invalid after them.
 RequestPeek peekRequest(std::string_view beginning);
 
-/// Parses a `state` message, such as the one in a frame's iTXt chunk, and returns the command that restores this state.
+/// Parses a `state` message, such as that in a frame's iTXt chunk, and returns the command that restores this state.
 /// Errors: `bad_json`, `bad_message`, `out_of_range`.
 Result<session::Set> setFromState(std::string_view text);
 

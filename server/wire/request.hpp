@@ -1,5 +1,5 @@
 #pragma once
-// Parsed messages to the server. Only the parser deals with JSON and with type names.
+// Parsed messages from clients. Only the parser deals with JSON and with the names of message types.
 
 #include <array>
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace oval4d::wire {
 
-/// The form in which the server sends the picture after each change of a session: not at all, as `slices` messages, or
-/// as frames.
+/// The form in which the server sends the picture after each change of a session: not at all, as a `slices` message, or
+/// as a frame (PNG).
 enum class Stream : std::uint8_t { none, geometry, frames };
 inline constexpr auto kStreams = std::to_array<text::Choice<Stream>>(
     {{"none", Stream::none}, {"geometry", Stream::geometry}, {"frames", Stream::frames}});
@@ -30,7 +30,7 @@ struct Hello {
     Stream stream = Stream::none;
     Encoding encoding = Encoding::json;
     scene::Viewport viewport;
-    std::optional<std::string> token;  ///< of the session that the connection joins
+    std::optional<std::string> token;  ///< the token of the session that the connection joins
 };
 /// The data that a `get` message requests.
 enum class GetTarget : std::uint8_t { state, slices, frame, file, catalogue, keymap };
@@ -44,10 +44,10 @@ inline constexpr auto kGetTargets = std::to_array<text::Choice<GetTarget>>({{"st
 /// Requests data once.
 struct Get {
     GetTarget what = GetTarget::state;
-    std::optional<scene::Viewport> viewport;  ///< for slices and frames; the connection's viewport if absent
-    exports::ExportRequest file;              ///< the export options, for GetTarget::file
+    std::optional<scene::Viewport> viewport;  ///< for slices and frames; if absent, the connection's viewport is used
+    exports::ExportRequest file;              ///< the options of the export, for GetTarget::file
 };
-/// Reports the revision that the client displays.
+/// Reports the revision of the picture that the client has presented.
 struct ShownRevision {
     std::uint64_t revision = 0;
 };

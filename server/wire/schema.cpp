@@ -35,7 +35,7 @@ struct MessageSchema {
 
 json readSchema(const std::string& file);
 
-// Replaces references to other schemas by the content of these.
+// Replaces references to other schemas by the contents of those schemas.
 void resolveReferences(json& schema) {
     if (schema.is_object() && schema.contains("$ref")) {
         json merged = readSchema(schema.at("$ref"));
@@ -72,7 +72,7 @@ const MessageSchema& schemaOf(std::string_view type) {
     return *schemas.at(type);
 }
 
-// Returns the name in one step of valijson's path to an error, which has the form "<root>", "[angles]", "[0]".
+// Returns the name in one step of valijson's path to an error. Steps have the form "<root>", "[angles]" or "[0]".
 std::string stepName(const std::string& step) { return step.substr(1, step.size() - 2); }
 
 // Returns the error with the longest path, which is the most specific one; nullptr if there is none.
@@ -84,10 +84,10 @@ const valijson::ValidationResults::Error* innermost(const valijson::ValidationRe
     return deepest;
 }
 
-// Returns what a value must be, with its article: "a finite number of radians".
+// Returns what a value must be, as a noun phrase: "a finite number of radians".
 std::string expected(const json& schema) { return schema.value("title", "different"); }
 
-// Describes a missing or unknown member of an object; empty if there is neither.
+// Returns the description of a missing or unknown member of an object; empty if there is none.
 std::string membersFault(const json& schema, const json& value, const std::string& path) {
     if (!value.is_object() || !schema.contains("properties")) return {};
     const json& properties = schema.at("properties");
@@ -108,7 +108,7 @@ std::string membersFault(const json& schema, const json& value, const std::strin
     return {};
 }
 
-// Whether the value is a number of the right type outside the bounds of its schema.
+// Returns whether the value is a number of the right type that is outside the bounds of its schema.
 bool outOfBounds(const json& schema, const json& value) {
     if (!value.is_number()) return false;
     const json type = schema.value("type", json());
@@ -119,7 +119,7 @@ bool outOfBounds(const json& schema, const json& value) {
            (schema.contains("exclusiveMinimum") && number <= schema.at("exclusiveMinimum").get<double>());
 }
 
-// Returns ", not …" with the value; empty for an array or object, which may be long.
+// Returns ", not …" with the value. Returns an empty text for an array or object, because these may be long.
 std::string notThis(const json& value) {
     if (value.is_structured()) return {};
     return ", not " + (value.is_string() ? text::inQuotes(value.get<std::string>()) : value.dump());

@@ -20,7 +20,8 @@ std::span<const T> part(const std::vector<T>& all, std::uint32_t begin, std::uin
     return std::span<const T>(all).subspan(begin, end - begin);
 }
 
-// The sources of the elements of one or several slices: what each element was cut from (see SliceSet).
+// The source numbers of the elements of one or several slices: which element of the polytope each was cut from (see
+// SliceSet).
 struct Sources {
     Numbers vertices, edges, faces;
 };
@@ -44,7 +45,7 @@ void writeSources(W& w, const Sources& of) {
     w.endObject();
 }
 
-// Writes the cell that determines each face's color, unless this is the source of every face.
+// Writes the cell that determines each face's color, unless that is the source of every face.
 template <typename W>
 void writeTints(W& w, const Scene& scene, std::size_t from, std::size_t to) {
     if (scene.faceCells.empty()) return;
@@ -56,7 +57,7 @@ void writeTints(W& w, const Scene& scene, std::size_t from, std::size_t to) {
     w.numbers(cells);
 }
 
-// Writes the visibility of each element, unless everything is fully visible.
+// Writes the visibility of each element, unless all elements are fully visible.
 template <typename W>
 void writeVisibilities(W& w, const slicing::Visibilities& visibilities, const Sources& of) {
     if (visibilities.all()) return;
@@ -88,8 +89,8 @@ void writeBalls(W& w, const SliceSet& slices, std::size_t from, std::size_t to) 
     w.endObject();
 }
 
-// The triangles to draw in place of the faces of slices that need not be convex. The indices in a triangle count from
-// its slice's first point.
+// The triangles that clients draw in place of the faces of slices that need not be convex. Indices in a triangle count
+// from the first point of the triangle's slice.
 struct Fill {
     std::vector<glm::dvec3> points;
     std::vector<Triple> triangles;
@@ -172,7 +173,7 @@ void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, s
     w.endObject();
 }
 
-// Writes one property of all placements: as a typed array for vectors and doubles, else as an array.
+// Writes one property of all placements: vectors and doubles as a typed array, other values as an ordinary array.
 template <typename Property>
 void writeColumn(CborWriter& w, std::string_view name, const std::vector<SlicePlacement>& placements,
                  Property property) {

@@ -1,6 +1,6 @@
 #pragma once
-// Writes the slices of a `slices` message. JSON has one object per slice. CBOR has one array per property, with the
-// values of all slices, because otherwise a small message would consist mostly of property names.
+// Writes the slices of a `slices` message. The JSON encoding has one object per slice. The CBOR encoding has one array
+// per property with the values of all slices, because otherwise a small message would consist mostly of property names.
 
 #include <cstdint>
 #include <span>
@@ -22,11 +22,11 @@ class SliceListWriter {
     void write(CborWriter& w, const scene::Scene& scene);
 
   private:
-    // Writes the lengths of consecutive ranges, given where each begins and, last, where the last range ends.
+    // Writes the lengths of consecutive ranges. `begin` has the beginning of each range and the end of the last one.
     void writeSizes(CborWriter& w, std::string_view name, std::span<const std::uint32_t> begin);
 
-    std::vector<CachedText<scene::SlicePlacement>> placements_;  // for JSON, one per slice
-    CachedText<std::vector<scene::SlicePlacement>> columns_;     // for CBOR, all slices
+    std::vector<CachedText<scene::SlicePlacement>> placements_;  // the texts in JSON, one per slice
+    CachedText<std::vector<scene::SlicePlacement>> columns_;     // the text in CBOR, for all slices
     std::vector<std::uint32_t> sizes_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// The `slices` message: everything that a client needs to draw the picture, with nothing left to compute.
+// Writes the `slices` message, which contains everything that a client needs to draw the picture; the client need not
+// compute anything.
 
 #include <cstdint>
 #include <optional>
@@ -17,12 +18,12 @@ namespace oval4d::wire {
 /// one thread at a time.
 class SlicesWriter {
   public:
-    /// Writes the message of this scene as JSON, or as CBOR (RFC 8949, with typed arrays of RFC 8746). Overwrites `out`
+    /// Writes the message of this scene as JSON, or as CBOR (RFC 8949) with typed arrays (RFC 8746). Overwrites `out`
     /// and reuses its memory.
     void write(const scene::Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
                std::string& out);
 
-    /// The part of a scene that stays the same while the object turns, except the placements.
+    /// The values of a scene that stay the same while the object turns, except the placements.
     struct StaticScene {
         scene::View view{};
         scene::Parts shown;

@@ -1,4 +1,4 @@
-"""The fixtures of tests/service, and its helpers to import."""
+"""Makes the fixtures and the helper modules of tests/service available to the tests of this folder."""
 
 import importlib.util
 import sys

@@ -1,4 +1,4 @@
-"""HTTP/1.1 and WebSocket on bare sockets: nothing is corrected on the way out, and nothing is forgiven on the way in."""
+"""HTTP/1.1 and WebSocket on plain sockets: sends any bytes, valid or not, and parses what the server sends strictly."""
 
 import base64
 import hashlib
@@ -16,11 +16,11 @@ CONTINUATION, TEXT, BINARY, CLOSE, PING, PONG = 0, 1, 2, 8, 9, 10
 
 
 class Ended(Exception):
-    """The peer ended the connection before what was expected came."""
+    """Raised if the peer ends the connection before the expected data has arrived."""
 
 
 class Socket:
-    """A TCP connection with a buffer of what was read. `source` is the address that it comes from."""
+    """A TCP connection with a buffer of received data. `source` is the local address."""
 
     def __init__(self, server, source=None, receive_buffer=None, host=None):
         self.server = server
@@ -45,14 +45,14 @@ class Socket:
         self.socket.sendall(data)
 
     def try_send(self, data):
-        """Sends to somebody who may have hung up."""
+        """Sends data; ignores that the peer may have ended the connection."""
         try:
             self.socket.sendall(data)
         except ConnectionError:
             pass
 
     def more(self):
-        """Reads once more; false at the end, which a reset is too."""
+        """Reads once into the buffer; returns False at the end of the connection, including a reset."""
         try:
             data = self.socket.recv(1 << 20)
         except ConnectionError:
@@ -75,17 +75,17 @@ class Socket:
         return self.take(self.buffer.index(mark) + len(mark))
 
     def ends(self):
-        """Waits for the end, which must come; what came before it."""
+        """Waits for the end of the connection; returns the data that arrived before it."""
         while self.more():
             pass
         return self.take(len(self.buffer))
 
     def is_silent(self, seconds):
-        """Whether nothing comes for so long, neither data nor the end."""
+        """Returns whether neither data nor the end of the connection arrives for so many seconds."""
         return not self.buffer and not select.select([self.socket], [], [], seconds)[0]
 
     def reset(self):
-        """Ends the connection with RST."""
+        """Ends the connection with a TCP reset."""
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
         self.socket.close()
 
@@ -96,14 +96,15 @@ class Socket:
         return Answer(self, method)
 
     def answers(self, method="GET"):
-        """All that come until the connection ends, which it must."""
+        """Returns all responses until the connection ends, which it must."""
         found = []
         while self.buffer or self.more():
             found.append(Answer(self, method))
         return found
 
     def flood(self, data, most):
-        """Sends it again and again until the server ends the connection: the octets sent, or None if it took `most`."""
+        """Sends the data repeatedly until the server ends the connection; returns the number of bytes sent, or None if
+        the server accepted `most` bytes."""
         self.socket.setblocking(False)
         sent, limit, rest = 0, time.monotonic() + DEADLINE, b""
         try:
@@ -124,7 +125,7 @@ class Socket:
 
 
 class Answer:
-    """One response as RFC 9112 frames it; an assertion where it breaks the rules itself."""
+    """An HTTP response, framed as in RFC 9112; asserts that it keeps the rules."""
 
     def __init__(self, raw, method):
         head = raw.take_until(b"\r\n\r\n").decode("latin-1")
@@ -151,7 +152,7 @@ class Answer:
         return [value for found, value in self.fields if found == name]
 
     def get(self, name):
-        """The value of a field that comes once, or None."""
+        """Returns the value of a field that must not be repeated, or None."""
         values = self.all(name.lower())
         assert len(values) <= 1, self.fields
         return values[0] if values else None
@@ -161,7 +162,7 @@ class Answer:
 
 
 def request(target="/healthz", *fields, method="GET", version="HTTP/1.1", host="localhost", close=False):
-    """The octets of a request; `fields` are whole lines."""
+    """Returns the bytes of a request; `fields` are complete header lines."""
     lines = [f"{method} {target} {version}"]
     lines += [f"Host: {host}"] if host is not None else []
     lines += [*fields] + (["Connection: close"] if close else [])
@@ -169,7 +170,7 @@ def request(target="/healthz", *fields, method="GET", version="HTTP/1.1", host="
 
 
 def ask(server, target, *fields, method="GET", host="localhost", source=None):
-    """One request on a connection of its own; its answer."""
+    """Sends one request on its own connection; returns the response."""
     with Socket(server, source) as raw:
         raw.send(request(target, *fields, method=method, host=host, close=True))
         return raw.answer(method)
@@ -186,8 +187,8 @@ def xor(data, mask):
 
 
 def frame(opcode, payload=b"", final=True, reserved=0, mask=b"\x37\xfa\x21\x3d", form=None, announced=None):
-    """A frame. `form` is the size of the length's own form: 7, 16 or 64 bits, the least that holds it unless given;
-    `announced` a length that is not the payload's; `mask` None for none."""
+    """Returns a frame. `form` is the number of bits of the length field, 7, 16 or 64 (by default the least possible);
+    `announced` replaces the length in the header; without a `mask`, the payload is not masked."""
     size = len(payload) if announced is None else announced
     form = form or (7 if size < 126 else 16 if size < 1 << 16 else 64)
     code, length = {7: (size, b""), 16: (126, size.to_bytes(8, "big")[6:]), 64: (127, size.to_bytes(8, "big"))}[form]
@@ -200,7 +201,7 @@ def close_frame(code=None, reason=b""):
 
 
 def handshake(target="/ws", *fields, key=None, host="localhost", protocol="oval4d.v1"):
-    """A good one; further `fields` are whole lines."""
+    """Returns a valid handshake request; `fields` are additional header lines."""
     key = key or base64.b64encode(os.urandom(16)).decode()
     offered = [f"Sec-WebSocket-Protocol: {protocol}"] if protocol else []
     return request(target, "Upgrade: websocket", "Connection: Upgrade", "Sec-WebSocket-Version: 13",
@@ -212,7 +213,7 @@ def accept_for(key):
 
 
 class WebSocket(Socket):
-    """An open one, after the handshake. `pongs` are collected while something else is waited for."""
+    """A WebSocket after the handshake. `pongs` collects the pongs that arrive while another message is awaited."""
 
     def __init__(self, server, target="/ws", *fields, source=None, receive_buffer=None):
         super().__init__(server, source, receive_buffer)
@@ -224,7 +225,7 @@ class WebSocket(Socket):
             raise Ended(f"no WebSocket: {self.upgraded}")
 
     def next_frame(self):
-        """(opcode, payload, final) of the next frame, which must keep to the rules for servers."""
+        """Returns (opcode, payload, final) of the next frame; asserts that it keeps the rules for servers."""
         first, second = self.take(2)
         assert not first & 0x70, "reserved bits are set"
         assert not second & 0x80, "a server's frame is masked"
@@ -241,7 +242,7 @@ class WebSocket(Socket):
         return opcode, self.take(size), final
 
     def next_message(self):
-        """(opcode, payload) of the next message, or of the close; its fragments joined, pings and pongs put aside."""
+        """Returns (opcode, payload) of the next message or close frame. Joins fragments and collects pongs."""
         kind, pieces = None, []
         while True:
             opcode, payload, final = self.next_frame()
@@ -264,7 +265,7 @@ class WebSocket(Socket):
         self.send(frame(TEXT, json.dumps(members).encode()))
 
     def answer_to(self, number):
-        """The message with this id."""
+        """Waits for the message with this id."""
         while True:
             opcode, payload = self.next_message()
             if opcode == CLOSE:
@@ -275,13 +276,13 @@ class WebSocket(Socket):
                     return message
 
     def ask(self, **members):
-        """A request and the message that answers it, which may be an error."""
+        """Sends a request; returns its answer, which may be an error."""
         self.number += 1
         self.say(**members, id=self.number)
         return self.answer_to(self.number)
 
     def pong(self):
-        """The payload of the next pong, or of one that came meanwhile."""
+        """Returns the payload of the first pong not returned yet."""
         while not self.pongs:
             opcode, payload, _ = self.next_frame()
             if opcode == PONG:
@@ -290,7 +291,8 @@ class WebSocket(Socket):
         return self.pongs.pop(0)
 
     def closed(self, answers=True):
-        """The close code of the server's close frame, None if it has none. It is answered; then the connection must end."""
+        """Waits for the server's close frame, answers it, and asserts that the connection ends; returns the close code,
+        None if there is none."""
         while True:
             opcode, payload = self.next_message()
             if opcode == CLOSE:
@@ -300,13 +302,14 @@ class WebSocket(Socket):
                 return int.from_bytes(payload[:2], "big") if payload else None
 
     def fails(self):
-        """The close code with which the server fails the connection."""
+        """Waits until the server fails the connection; returns the close code, which must be present."""
         code = self.closed()
         assert code is not None
         return code
 
     def refuses_its_size(self):
-        """Whether what was just sent is refused as too large, by an error or by the end, and is not carried out."""
+        """Returns whether the message just sent is refused as too large, by an error or the end of the connection;
+        asserts that it is not executed."""
         try:
             while True:
                 opcode, payload = self.next_message()
@@ -315,12 +318,12 @@ class WebSocket(Socket):
                 message = json.loads(payload)
                 if message["type"] == "error":
                     return message["code"] == "too_large"
-                assert message.get("id") is None and message["type"] != "welcome", "it was carried out"
+                assert message.get("id") is None and message["type"] != "welcome", "it was executed"
         except Ended:
-            return True  # what was still being sent was reset
+            return True  # the server reset the connection during the transmission
 
     def end_time(self):
-        """When the server ends the conversation."""
+        """Waits until the server ends the connection; returns the time."""
         try:
             while self.next_message()[0] != CLOSE:
                 pass
@@ -330,7 +333,7 @@ class WebSocket(Socket):
 
 
 class Session:
-    """A session for tests that open many connections: each joins it."""
+    """A session that all connections of a test join."""
 
     def __init__(self, server):
         self.server = server

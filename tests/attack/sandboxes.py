@@ -1,4 +1,4 @@
-"""What the system lets a process do: its status, and its filter of system calls, read out and carried out."""
+"""Inspects sandboxed processes: reads their status and limits, and reads and interprets their seccomp filters."""
 
 import ctypes
 import os
@@ -27,7 +27,7 @@ def number_of(name):
 
 
 def children(server):
-    """The server's own processes, while they live, each with the word that it was started with."""
+    """Returns the server's live child processes: process ID to subcommand ("draw" or "read")."""
     found = {}
     for file in Path("/proc").glob("[0-9]*/stat"):
         try:
@@ -36,26 +36,26 @@ def children(server):
             if int(fields[1]) == server.process.pid and fields[0] != "Z" and words[0] == b"oval4d":
                 found[int(file.parent.name)] = words[1].decode()
         except (OSError, IndexError):
-            continue  # it has ended meanwhile, or is yet to begin
+            continue  # it has ended in the meantime, or has not called exec yet
     return found
 
 
 def status(pid, name, thread=None):
-    """A number of /proc/PID/status."""
+    """Returns a number of /proc/PID/status."""
     place = f"/proc/{pid}/task/{thread}/status" if thread else f"/proc/{pid}/status"
     found = re.search(rf"^{name}:\s+(\d+)", Path(place).read_text(encoding="ascii"), re.M)
     return int(found.group(1))
 
 
 def limit(pid, name):
-    """The soft limit, or None."""
+    """Returns a soft resource limit, None if it is unlimited."""
     line = next(line for line in Path(f"/proc/{pid}/limits").read_text().splitlines() if line.startswith(name))
     value = line[len(name):].split()[0]
     return None if value == "unlimited" else int(value)
 
 
 class Filter:
-    """The filter that a process has set last."""
+    """The seccomp filter that a process has installed last, read with ptrace."""
 
     def __init__(self, pid):
         self.pid = pid
@@ -77,7 +77,7 @@ class Filter:
         return result
 
     def __call__(self, name, *arguments, arch=None):
-        """What becomes of such a call: (KILL | ERRNO | ALLOW, the error's number)."""
+        """Returns what the filter does with this system call: (KILL, ERRNO or ALLOW, error number)."""
         arguments = [x & 0xFFFFFFFFFFFFFFFF for x in arguments] + [0] * (6 - len(arguments))
         data = struct.pack("=iIQ6Q", number_of(name), arch or seccomp.seccomp_arch_native(), 0, *arguments)
         at, a, memory = 0, 0, {}
@@ -100,12 +100,12 @@ class Filter:
             elif code == 0x06:  # ret
                 return k & 0xFFFF0000, k & 0xFFFF
             else:
-                raise AssertionError(f"an instruction that this does not know: {code:#x}")
+                raise AssertionError(f"unknown BPF instruction: {code:#x}")
 
 
 def forbid_filters():
-    """For a process that is about to start a program: as a container does whose own filter lets none be set."""
-    libc.prctl(38, 1, 0, 0, 0)  # no new privileges, or only root may
+    """Called in a child process before exec: forbids further filters, as some container profiles do."""
+    libc.prctl(38, 1, 0, 0, 0)  # PR_SET_NO_NEW_PRIVS, without which only root may install a filter
     context = ctypes.c_void_p(seccomp.seccomp_init(ALLOW))
     refuse = ctypes.c_uint32(ERRNO | 1)
     one = (Argument * 1)(Argument(0, 4, 22, 0))  # SCMP_CMP_EQ, PR_SET_SECCOMP

@@ -1,7 +1,7 @@
-"""Nobody's session waits long beside others that ask for all that they can get.
+"""Fairness: a session stays responsive while other clients request as much as they can.
 
-Each attack is measured in one run: the session alone, then beside the attack. Attackers run in processes of their own,
-so that the clock of the one who measures is not theirs.
+Each test measures the latency of a session alone, and then during an attack. Attackers run in separate processes, so
+that they do not delay the measurement itself.
 """
 
 import asyncio
@@ -30,7 +30,7 @@ def distribution(seconds):
 
 
 async def press(server, seconds, address=VICTIM):
-    """Frames of the 5-cell, key by key: how long each takes."""
+    """Turns the 5-cell key by key; returns the seconds from each key to its frame."""
     latencies = []
     async with Client(server, stream="frames", width=1280, height=720, address=address) as client:
         await client.frame_of(0)
@@ -44,7 +44,7 @@ async def press(server, seconds, address=VICTIM):
     return latencies
 
 
-# --- Attackers: each is a coroutine function (server, address, number), repeated until it is killed.
+# --- Attacks: coroutine functions (server, address, …), which are repeated until their process is killed
 
 
 async def new_session_for_each(server, address, polytope, side=2048):
@@ -82,7 +82,7 @@ async def over_http(server, address, polytope, side=2048):
 
 
 def points(count):
-    """On a sphere, evenly and yet nowhere regular."""
+    """Returns points that are evenly but irregularly distributed on the 3-sphere, as text."""
     golden = [0.8566748838545029, 0.733891856627126, 0.6287067210378087]
     rows = []
     for i in range(count):
@@ -113,7 +113,7 @@ async def repeat(attack, server, address, arguments):
 
 
 def attackers(address, attack, arguments, host_and_port, count):
-    """The body of a process: `count` of them."""
+    """Runs `count` attackers; the main function of an attacking process."""
     class Place:
         host, port = host_and_port
 
@@ -124,7 +124,7 @@ def attackers(address, attack, arguments, host_and_port, count):
 
 @contextlib.contextmanager
 def attacked(server, parties):
-    """Attackers while this lasts: of each address one process."""
+    """Runs attackers during the `with` block, one process per party."""
     context = multiprocessing.get_context("spawn")
     processes = [context.Process(target=attackers, daemon=True,
                                  args=(address, attack, arguments, (server.host, server.port), count))
@@ -141,10 +141,10 @@ def attacked(server, parties):
 
 def measure(parties, options=()):
     with Server(*options) as server:
-        asyncio.run(press(server, 0.5))  # warm
+        asyncio.run(press(server, 0.5))  # warm-up
         alone = asyncio.run(press(server, ALONE))
         with attacked(server, parties):
-            time.sleep(1.5 * SLOW)  # until attackers are at it
+            time.sleep(1.5 * SLOW)  # gives the attackers time to begin
             beside = asyncio.run(press(server, BESIDE))
     return distribution(alone), distribution(beside), len(beside)
 
@@ -174,7 +174,7 @@ ATTACKS = {
 
 @pytest.mark.parametrize("name", ATTACKS)
 def test_another_session_goes_on_beside(name):
-    for _ in range(2):  # other programs may have disturbed the first
+    for _ in range(2):  # another program may have disturbed the first attempt
         alone, beside, count = measure(ATTACKS[name])
         print(json.dumps({"attack": name, "alone ms": [round(1e3 * x, 1) for x in alone],
                           "beside ms": [round(1e3 * x, 1) for x in beside], "pictures": count}))
@@ -196,7 +196,7 @@ def test_twenty_heavy_sessions_leave_room():
 
 @pytest.mark.parametrize("option", ["--max-jobs", "--max-client-jobs"])
 def test_as_many_jobs_wait_as_may(option):
-    """More are refused; a session's stream is not, but comes later."""
+    """Requests beyond the limit on queued jobs are refused; pictures of a session's stream are only delayed."""
     path = f"/api/v1/frame.png?polytope={HEAVY.replace(' ', '%20')}&width=1024&height=1024"
     with Server("--workers", 1, option, 2) as server:
         with ThreadPoolExecutor(12) as pool:
@@ -204,7 +204,7 @@ def test_as_many_jobs_wait_as_may(option):
             latencies = asyncio.run(press(server, 0.5))
             answers = [answer.result() for answer in answers]
         refused = [answer for answer in answers if answer.status == 503]
-        # How many depends on when the polytope is built and the stream takes a place.
+        # The number of refusals depends on timing: the polytope must be built, and the stream occupies a place.
         assert {answer.status for answer in answers} == {200, 503}
         assert {json.loads(answer.body)["code"] for answer in refused} == {"too_many"}
         assert latencies

@@ -1,4 +1,4 @@
-"""The program as it was built: what makes a fault in it harder to make use of."""
+"""The binary is built with hardening, which makes faults harder to exploit."""
 
 import platform
 import re
@@ -19,7 +19,7 @@ def readelf(*options, file=PROGRAM):
 
 
 def symbols(file, defined):
-    """Names of dynamic symbols, without their versions."""
+    """Returns the names of defined or undefined dynamic symbols, without versions."""
     names = set()
     for line in readelf("--dyn-syms", file=file).splitlines():
         fields = line.split()
@@ -46,7 +46,7 @@ def test_addresses_of_functions_are_read_only():
 
 
 def test_nothing_is_written_and_run():
-    """Neither the stack nor any other part of the program."""
+    """No segment is both writable and executable, not even the stack."""
     flags = re.findall(r"^\s+(LOAD|GNU_STACK)\s+(?:0x\S+\s+){5}([RWE ]+?)\s+0x", readelf("--segments"), re.M)
     assert ("GNU_STACK", "RW") in flags and len(flags) > 3
     assert not [entry for entry in flags if "W" in entry[1] and "E" in entry[1]]
@@ -66,7 +66,7 @@ def test_stacks_are_guarded_and_copies_checked():
     called = symbols(PROGRAM, defined=False)
     assert "__stack_chk_fail" in called
     assert {"__memcpy_chk", "__snprintf_chk"} & called
-    # These would be called where the compiler does not know the room: there is no such place in the program.
+    # Unchecked functions, which the compiler leaves where it does not know the size of the buffer: there are none.
     assert not {"gets", "strcpy", "strcat", "sprintf", "vsprintf"} & called
 
 

@@ -1,4 +1,4 @@
-"""HTTP/1.1 as RFC 9110 and RFC 9112 have it, and what attackers make of it: smuggled requests, endless bodies, odd targets."""
+"""HTTP/1.1 as in RFC 9110 and RFC 9112, and attacks on it: request smuggling, endless bodies, unusual targets."""
 
 import concurrent.futures
 import gzip
@@ -12,7 +12,7 @@ from harness import DEADLINE, SLOW, Server, sanitized
 from raw import Ended, Socket, ask, handshake, request
 
 REFUSED = (400, 405, 411, 413, 414, 417, 431, 501, 505)
-IDLE = 30  # seconds that a whole request may take to arrive
+IDLE = 30  # seconds: the server's limit for receiving a whole request
 PAGE = b"<!doctype html><title>page</title>\n" * 40
 SCRIPT = bytes(range(32, 127)) * 20
 SMUGGLED = request("/api/v1/smuggled")
@@ -33,7 +33,7 @@ def a_site(tmp_path_factory):
 
 @pytest.fixture(name="slow_ones", scope="module", autouse=True)
 def some_slow_ones(site):
-    """Requests that never end, an octet at a time, from the first test on: how each ended, after how many seconds."""
+    """Sends endless requests slowly while the other tests run; records after how many seconds each connection ends."""
     over, ends = threading.Event(), {}
     parts = {"line": (b"G", b"E"), "target": (b"GET /", b"x"), "header": (b"GET / HTTP/1.1\r\nX-", b"a"),
              "fields": (b"GET / HTTP/1.1\r\nHost: localhost\r\n", b"A: b\r\n"), "nothing": (b"", b""), "blank lines": (b"", b"\r\n"),
@@ -65,7 +65,8 @@ def some_slow_ones(site):
 
 
 def converse(server, data, method="GET"):
-    """All answers to these octets on one connection, which must end; and nothing in them is the smuggled request's."""
+    """Sends bytes and half-closes; returns all responses. Asserts that the connection ends, and that no response
+    answers the smuggled request."""
     with Socket(server) as raw:
         raw.try_send(data)
         raw.half_close()
@@ -75,7 +76,7 @@ def converse(server, data, method="GET"):
 
 
 def refused_and_ended(server, data, statuses=REFUSED):
-    """One answer, a refusal, and the end of the connection, though the client would go on."""
+    """Asserts one response, which refuses the request, and then that the server ends the connection."""
     with Socket(server) as raw:
         raw.try_send(data)
         answer = raw.answer()
@@ -85,7 +86,8 @@ def refused_and_ended(server, data, statuses=REFUSED):
 
 
 def discarded_or_refused(server, data):
-    """A request with a body that nobody wants, and a good one after it: both are answered, or the first is refused."""
+    """Sends a request with an unexpected body, then a valid one; asserts that both are answered, or the first is
+    refused and the connection ends."""
     answers = converse(server, data + request("/healthz", close=True))
     assert answers, "no answer at all"
     if answers[0].get("Connection") == "close":
@@ -131,7 +133,8 @@ def test_chunked_bodies_are_discarded_or_refused(site, coding, version):
     head = request("/", f"Transfer-Encoding: {coding}", version=version)
     body = b"%x\r\n%s\r\n0\r\n\r\n" % (len(SMUGGLED), SMUGGLED)
     if version == "HTTP/1.0":
-        refused_and_ended(site, head + body)  # RFC 9112, 6.1: its framing is faulty
+        # RFC 9112, 6.1: HTTP/1.0 has no chunked encoding, so the framing is faulty.
+        refused_and_ended(site, head + body)
     else:
         discarded_or_refused(site, head + body)
 
@@ -183,7 +186,7 @@ def test_bodies_are_discarded_or_refused(site, method, size):
         assert [answer.body for answer in rest] == [b"ok\n"]
 
 
-# --- What would fill memory
+# --- Endless requests, which could fill the memory
 
 def fillings():
     chunked = request("/", "Transfer-Encoding: chunked")
@@ -223,7 +226,7 @@ def test_endless_requests_end_and_fill_no_memory(site, what):
 
 
 def test_host_and_token_are_judged_by_the_header_alone():
-    """Who has no token is answered before any of the body is there."""
+    """A client without a token gets its answer before any of the body has arrived."""
     with Server("--host", "0.0.0.0", "--token", "open-sesame") as server:
         server.host = "127.0.0.1"
         for lines in (["Content-Length: 1000"], ["Transfer-Encoding: chunked"]):
@@ -233,7 +236,7 @@ def test_host_and_token_are_judged_by_the_header_alone():
                 assert raw.ends() == b""
 
 
-# --- The request's line and fields (RFC 9112, sections 2, 3 and 5)
+# --- The request line and the header fields (RFC 9112, sections 2, 3 and 5)
 
 @pytest.mark.parametrize("data", [
     b"GET  / HTTP/1.1\r\nHost: localhost\r\n\r\n", b"GET / HTTP/1.1 \r\nHost: localhost\r\n\r\n", b"GET /\tHTTP/1.1\r\nHost: localhost\r\n\r\n",
@@ -282,7 +285,7 @@ def test_http_1_0_needs_no_host_but_is_not_believed_without(site):
 
 @pytest.mark.parametrize("value", ["a\x01b", "a\x0bb", "a\x7fb", "a\x1bb", "a\x08b"], ids=ascii)
 def test_control_characters_in_a_field_harm_nobody(site, value):
-    """RFC 9110, 5.5: they may be kept or refused."""
+    """RFC 9110, 5.5, allows a server to keep or to refuse them."""
     answers = converse(site, request("/app.js", f"X: {value}", close=True))
     assert [answer.status in (200, 400) for answer in answers] == [True]
 
@@ -325,7 +328,7 @@ def test_headers_that_are_too_long_are_refused(site, data):
             answers = raw.answers()
             assert [answer.status in (400, 414, 431) for answer in answers] == [True]
         except Ended:
-            pass  # the rest of the header was reset, and the answer with it
+            pass  # the server reset the connection during the transmission, so the response is lost
 
 
 # --- Methods, targets, paths
@@ -362,7 +365,7 @@ def test_head_is_get_without_a_body(site, path):
     ("localhost:80", (400,)), ("*", (400,)), ("?x", (400,)), ("#", (400,)), ("\\app.js", (400,)), ("file:///etc/passwd", (400, 403)),
 ])
 def test_forms_of_the_target(site, target, statuses):
-    """RFC 9112, 3.2.2: the absolute form must be accepted, and its host is the one that counts."""
+    """RFC 9112, 3.2.2: a server must accept the absolute form, and use its host instead of the Host field."""
     answers = converse(site, request(target, close=True))
     assert [answer.status in statuses for answer in answers] == [True], answers
 
@@ -431,7 +434,7 @@ def test_nothing_is_answered_after_a_close(site):
 
 
 def test_answers_are_finished_though_nobody_takes_the_rest(site):
-    """A thousand pipelined requests whose answers are not read stop the reading, and nothing else."""
+    """If a client pipelines requests and reads no responses, the server stops reading from it and serves others."""
     with Socket(site, receive_buffer=4096) as raw:
         raw.socket.settimeout(1)
         try:
@@ -507,10 +510,10 @@ def test_tags_that_do_not_match(site):
     assert ask(site, "/packed.js", f"If-None-Match: {tag_of(site, '/packed.js')}", "Accept-Encoding: gzip").status == 200
 
 
-# --- Ranges (RFC 9110, 14): who serves them must serve them right, who does not ignores them
+# --- Ranges (RFC 9110, 14): a server may ignore them, but must not serve them incorrectly
 
 def ranges_in(text, size):
-    """What a field asks for: (first, last) of each satisfiable range, [] if none is, None if the field is not valid."""
+    """Parses a Range field: returns (first, last) of each satisfiable range, None if the field is invalid."""
     match = re.fullmatch(r"bytes=(.*)", text)
     if not match:
         return None
@@ -531,7 +534,7 @@ def ranges_in(text, size):
 
 
 def parts_of(answer):
-    """(first, last, content) of each part of a multipart/byteranges."""
+    """Returns (first, last, content) of each part of a multipart/byteranges response."""
     boundary = re.search(r'boundary="?([^";]+)', answer.get("Content-Type"))[1].encode()
     found = []
     for part in answer.body.split(b"--" + boundary)[1:-1]:
@@ -586,7 +589,7 @@ def test_ranges(site, text, path):
 
 
 def test_a_range_is_of_the_file_that_the_client_has(site):
-    """If-Range: RFC 9110, 13.1.5."""
+    """If-Range (RFC 9110, 13.1.5): a range is served only if the client's tag is current."""
     tag = tag_of(site)
     for text in ('"x"', f"W/{tag}", "Sat, 29 Oct 1994 19:43:31 GMT", tag.strip('"'), "*"):
         answer = ask(site, "/app.js", "Range: bytes=0-9", f"If-Range: {text}")
@@ -596,7 +599,7 @@ def test_a_range_is_of_the_file_that_the_client_has(site):
     assert ask(site, "/nothing", "Range: bytes=0-9").status == 404
 
 
-# --- Clients that go, stop or wait
+# --- Clients that leave, stop or wait
 
 def test_a_half_closed_socket_gets_its_answer(site):
     assert converse(site, request("/app.js"))[0].body == SCRIPT
@@ -646,7 +649,7 @@ def test_answers_say_how_they_are_to_be_taken(site):
 
 
 def test_requests_that_never_end_are_given_up(slow_ones):
-    """The last, for it waits until those are over that the first test began."""
+    """Comes last, because it waits for the end of the slow requests that began with the first test."""
     thread, ends, parts = slow_ones
     thread.join((IDLE + DEADLINE) * SLOW)
     assert ends.keys() == parts.keys(), "some are still open"

@@ -1,5 +1,7 @@
-"""One address takes all that it can get; another one is served at once. Loopback has many addresses: the attacker calls from
-127.0.0.2, the other client from 127.0.0.3."""
+"""Limits per client address: while one address uses all it can get, another one is served at once.
+
+Loopback has many addresses: the attacker connects from 127.0.0.2, the other client from 127.0.0.3.
+"""
 
 import concurrent.futures
 import contextlib
@@ -17,7 +19,7 @@ FULL = (429, 503)
 
 @pytest.fixture(autouse=True, scope="module")
 def many_files():
-    """Each connection is one, here as there."""
+    """Raises this process's limit on open files, since each connection needs one."""
     limits = resource.getrlimit(resource.RLIMIT_NOFILE)
     resource.setrlimit(resource.RLIMIT_NOFILE, (limits[1], limits[1]))
     yield
@@ -25,7 +27,7 @@ def many_files():
 
 
 def shook_hands(server, count, source, *fields):
-    """So many connections that were asked to become WebSockets; those that did, and the statuses of the others."""
+    """Requests `count` WebSockets; returns the open ones, and the HTTP statuses of the others."""
     opened, refused = [], []
     with contextlib.ExitStack() as stack:
         while count > 0:
@@ -54,7 +56,7 @@ def let_go(sockets):
 
 
 class Visitor:
-    """Somebody else, who wants all that the server does."""
+    """Another client, which uses every service of the server."""
 
     def __init__(self, server, source=OTHER):
         self.server, self.source = server, source
@@ -68,7 +70,7 @@ class Visitor:
 
 
 def opened_session(server, source, *fields):
-    """Opens a session and leaves it: welcome, or the code of an error, or None."""
+    """Opens a session and leaves it; returns "welcome" or an error code, None if the connection was ended."""
     try:
         with WebSocket(server, "/ws", *fields, source=source) as peer:
             answer = peer.ask(type="hello")
@@ -77,7 +79,7 @@ def opened_session(server, source, *fields):
         return None
 
 
-# --- With the limits as they are
+# --- Default limits
 
 def test_ten_thousand_sessions_by_hello_and_close():
     with Server() as server:
@@ -111,7 +113,7 @@ def test_four_thousand_idle_connections():
         try:
             for _ in range(4200):
                 idle.append(Socket(server, ATTACKER))
-            # Whatever was accepted has been looked at: what follows is behind it in the queue.
+            # Connections are processed in order, so all earlier ones have been processed when this one is served.
             Visitor(server).is_served()
             Visitor(server).is_served()
         finally:
@@ -119,7 +121,7 @@ def test_four_thousand_idle_connections():
 
 
 def test_connections_that_come_and_go_leave_nothing_behind():
-    """A place is given back however a connection ends."""
+    """A connection no longer counts toward the limit once it has ended, in whichever way."""
     with Server("--max-client-connections", 8) as server:
         for number in range(40):
             raw = Socket(server, ATTACKER)
@@ -137,10 +139,10 @@ def test_connections_that_come_and_go_leave_nothing_behind():
         Visitor(server, ATTACKER).is_served()
 
 
-# --- Each limit
+# --- Each limit on its own
 
 def in_session(server, *fields):
-    """A connection that is used: it has said hello."""
+    """Returns a connection that has said hello, and is therefore not replaced by a new one."""
     peer = WebSocket(server, "/ws", *fields, source=ATTACKER)
     assert peer.ask(type="hello")["type"] == "welcome"
     return peer
@@ -177,13 +179,13 @@ def test_sessions_of_one_client():
             assert peer.ask(type="key", key="y")["type"] == "done"
         assert opened_session(server, ATTACKER) == "too_many"
         Visitor(server).is_served()
-        # A session counts for who opened it, wherever it is joined from.
+        # A session counts for the address that opened it, whichever addresses join it.
         assert held[0].ask(type="key", key="y")["type"] == "done"
         let_go(held)
 
 
 def test_sessions_that_a_client_left_count_too():
-    """Else they are opened one after the other. Those that were never touched may be given up for new ones."""
+    """Otherwise a client could open any number, one after the other. Unchanged sessions may be replaced by new ones."""
     with Server("--max-client-sessions", 4, "--max-new-sessions", 1000) as server:
         for _ in range(4):
             with WebSocket(server, source=ATTACKER) as peer:
@@ -223,7 +225,8 @@ def test_joining_a_session_is_not_opening_one():
 
 def test_a_hello_in_time():
     wait = 1 * SLOW
-    sent = [b"", frame(PING, b"x"), frame(TEXT, b'{"type":"undo"}'), HELLO[:10]]  # the last of them, only once
+    # The last one is sent only once, the others repeatedly.
+    sent = [b"", frame(PING, b"x"), frame(TEXT, b'{"type":"undo"}'), HELLO[:10]]
     with Server("--hello-timeout", wait) as server, concurrent.futures.ThreadPoolExecutor(len(sent)) as pool:
         start = time.monotonic()
         greeting, *peers = (WebSocket(server) for _ in range(1 + len(sent)))
@@ -281,7 +284,7 @@ def test_sessions_that_were_touched_are_kept():
 # --- Who a client is: X-Forwarded-For
 
 def sessions_by(server, source, *forwarded):
-    """What opening a session says, for each value of the field."""
+    """Opens a session with each value of X-Forwarded-For; returns the results of opened_session."""
     return [opened_session(server, source, *([f"X-Forwarded-For: {text}"] if text else [])) for text in forwarded]
 
 
@@ -308,11 +311,11 @@ def test_a_trusted_proxy_says_who_calls(trusted):
 
 
 def test_what_a_client_puts_before_the_proxy_s_word_is_not_believed():
-    """A proxy adds the address that it sees at the end; what stands before is the client's own."""
+    """A proxy appends the address that it sees; the client itself may have sent whatever precedes it."""
     with Server(*SMALL, "--trusted-proxy", "127.0.0.2", "--trusted-proxy", "203.0.113.0/24") as server:
         answers = sessions_by(server, ATTACKER, *(f"10.0.0.{number}, 198.51.100.7" for number in range(10)))
         assert set(answers[4:]) == {"too_many"}
-        # Proxies behind each other: the last that is not trusted.
+        # With a chain of proxies, the last address that is not a trusted proxy counts.
         answers = sessions_by(server, ATTACKER, *(f"10.0.1.{number}, 198.51.100.9, 203.0.113.{number}" for number in range(10)))
         assert answers[:3] == ["welcome"] * 3 and set(answers[4:]) == {"too_many"}
 
@@ -369,7 +372,7 @@ def test_a_message_that_is_no_load_has_a_limit_of_its_own():
 
 
 def test_bytes_a_second_of_one_connection():
-    """Beyond it messages are refused, or not read."""
+    """Beyond the limit, messages are refused or not read."""
     rate, message = 256 << 10, 256 << 10
     with Server("--max-byte-rate", rate, "--max-message", message) as server:
         with WebSocket(server, source=ATTACKER) as peer, WebSocket(server, source=OTHER) as other:

@@ -1,5 +1,6 @@
-"""What clients can make the server hold: files that nobody reads, loads that undo keeps, messages that never end. Ceilings are
-ratios to what was sent or asked for in the same run."""
+"""Memory that clients can make the server hold: files that they do not read, loaded polytopes that undo keeps, endless
+messages. The bounds are relative to the data sent or requested in the same run.
+"""
 
 import contextlib
 import math
@@ -18,12 +19,12 @@ pytestmark = pytest.mark.skipif(sanitized(), reason="sanitizers keep what is fre
 
 ATTACKER, OTHER = "127.0.0.2", "127.0.0.3"
 FILE = "/api/v1/file.stl?polytope=24-cell&of=oval&body=frame&slices=11"
-NOISE = 24 << 20  # what allocators and caches hold, more or less, whatever is asked
+NOISE = 24 << 20  # bytes: variation due to allocators and caches
 REFUSED = (413, 429, 503)
 
 
 def settled(server, seconds=4):
-    """The least that the server holds for some time: what was in use for a moment is gone by then."""
+    """Returns the least memory of the server over some seconds, which excludes memory used for a moment."""
     least, end = server.own_memory(), time.monotonic() + seconds * min(SLOW, 3)
     while time.monotonic() < end:
         least = min(least, server.own_memory())
@@ -32,7 +33,7 @@ def settled(server, seconds=4):
 
 
 def duoprism(p, q, seed=0):
-    """A p,q-duoprism as 4OFF: vertices (i, j), the products of two polygons' elements."""
+    """Returns the duoprism of a p-gon and a q-gon as 4OFF; `seed` makes the text unique."""
     def vertex(i, j):
         return i % p * q + j % q
 
@@ -55,7 +56,7 @@ def duoprism(p, q, seed=0):
 
 @contextlib.contextmanager
 def readers(server, count, target=FILE, source=ATTACKER):
-    """So many that ask for the file; their kernels keep little."""
+    """Yields `count` connections that have requested a file and do not read; their receive buffers are small."""
     asked = [Socket(server, source, receive_buffer=4096) for _ in range(count)]
     try:
         for raw in asked:
@@ -94,7 +95,7 @@ def test_sixteen_slow_readers_of_a_large_file():
 
 
 def test_the_budget_of_one_client_and_of_all():
-    """Who asks for many files gets no more of the memory than its part."""
+    """A client that requests many files gets no more than its share of the memory."""
     with Server("--max-client-bytes", "48M", "--max-bytes", "128M") as server:
         size = len(ask(server, FILE).body)
         assert 12 << 20 < size < 40 << 20
@@ -163,7 +164,7 @@ def test_a_polytope_that_is_loaded_again_and_again():
 
 
 def test_the_steps_of_undo_are_counted():
-    """Many small steps: the oldest go where the client's bytes are used up, and nothing else is lost."""
+    """After many small steps, the client's byte limit removes the oldest undo steps, and nothing else."""
     with Server("--max-client-bytes", "128k") as server, WebSocket(server) as peer:
         peer.ask(type="hello")
         for number in range(1000):
@@ -177,7 +178,7 @@ def test_the_steps_of_undo_are_counted():
 
 
 def test_the_steps_that_undo_keeps_are_the_newest():
-    """A small budget takes the oldest polytopes away, and undo stops there; it never goes wrong."""
+    """A small limit removes the oldest polytopes; undo stops there without an inconsistency."""
     with Server("--max-undo-bytes", "512k") as server, WebSocket(server) as peer:
         peer.ask(type="hello")
         for number in range(12):
@@ -209,7 +210,7 @@ def test_messages_that_are_sent_by_half_before_a_hello():
 
 
 def test_messages_that_are_sent_by_half():
-    """Each could be a load of 8 MiB; all together are more than there is."""
+    """Each connection may send a load of 8 MiB; all together exceed the memory limit."""
     with Server("--max-client-connections", 1000, "--max-client-sessions", 1000, "--max-new-sessions", 1000,
                 "--max-client-bytes", "32M", "--max-bytes", "64M", "--max-byte-rate", "1G") as server:
         count = 48
@@ -251,7 +252,7 @@ def test_answers_that_nobody_reads():
                 with contextlib.suppress(TimeoutError, ConnectionError):
                     for _ in range(20):
                         peer.send(flood)
-            # Pictures under way may be a few more than the answers that wait.
+            # A few pictures may be in transit in addition to the queued answers.
             assert server.own_memory() - before < count * (unsent + 4 * answer + (256 << 10)) + NOISE
             with WebSocket(server, source=OTHER) as other:
                 other.ask(type="hello")
@@ -263,7 +264,8 @@ def test_answers_that_nobody_reads():
 
 @contextlib.contextmanager
 def attacker(server, script):
-    """Runs raw.py's user in a process of its own, so that its work is not this one's; it begins when it says so."""
+    """Runs a script that uses raw.py in a separate process, so that its work does not delay the measurement. Waits
+    until the script reports that it has begun."""
     here = Path(__file__).resolve().parent
     head = ("import sys; sys.path[:0] = sys.argv[3:5]\n"
             "from raw import *\n"
@@ -298,7 +300,7 @@ def test_large_commands_do_not_keep_others_waiting():
         with WebSocket(server, source=OTHER) as peer, attacker(server, LARGE_COMMANDS) as process:
             peer.ask(type="hello")
             alone, beside = [], []
-            for _ in range(8):  # by turns, for the machine may have other work
+            for _ in range(8):  # alternately, since the load of the machine may change
                 for number, samples in ((signal.SIGSTOP, alone), (signal.SIGCONT, beside)):
                     process.send_signal(number)
                     time.sleep(0.2)
@@ -313,13 +315,13 @@ def test_large_commands_do_not_keep_others_waiting():
             assert worst < 20, f"one in a hundred waits {worst:.0f} times as long"
 
 
-# --- Processes that draw
+# --- Drawing processes
 
 def test_processes_that_draw_are_killed_again_and_again():
     picture = "/api/v1/frame.png?polytope=24-cell&width=320&height=240"
     with Server() as server:
         first = ask(server, picture).body
-        for _ in range(3):  # as many as there will be
+        for _ in range(3):  # until the number of processes and open files is stable
             server.signal_drawing(signal.SIGKILL)
             assert ask(server, picture).body == first
         before, files, count = settled(server, 1), len(server.files()), len(server.drawing())

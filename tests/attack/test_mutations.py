@@ -1,5 +1,7 @@
-"""Every request there is, damaged at random in every way, thousands of times: others notice nothing. The seed is fixed, so a
-failure comes again; OVAL4D_MUTATIONS and OVAL4D_SEED make it longer or another one."""
+"""Sends thousands of randomly damaged requests of every type; other clients must not be affected.
+
+The seed is fixed, so a failure is reproducible; OVAL4D_MUTATIONS sets the number of messages, OVAL4D_SEED the seed.
+"""
 
 import copy
 import json
@@ -37,7 +39,7 @@ ODD = [None, True, False, 0, -1, 1, 0.5, 1e308, -1e308, 1e-320, 2**31, 2**32, 2*
 
 
 def places(value, path=()):
-    """All places within a message."""
+    """Yields the path of each value in a message, the message itself included."""
     yield path
     items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     for key, inner in items:
@@ -56,11 +58,11 @@ def at(message, path):
     return message
 
 
-DEEP = "nested deeply"  # stands for brackets until the message is text
+DEEP = "nested deeply"  # replaced by nested brackets in the text of the message
 
 
 def mutated(numbers, broken):
-    """The octets of one bad message, or of one that is by chance still good; if `broken`, perhaps no JSON at all."""
+    """Returns a damaged message as bytes. It may be valid by chance; if `broken`, it may not even be JSON."""
     message = copy.deepcopy(numbers.choice(REQUESTS))
     message["id"] = numbers.randrange(1000)
     for _ in range(numbers.choice([1, 1, 1, 2, 3])):
@@ -71,7 +73,7 @@ def mutated(numbers, broken):
         elif kind == 4:
             value = DEEP
         elif kind == 5:
-            value = at(message, numbers.choice(list(places(message))))  # what stands elsewhere in it
+            value = at(message, numbers.choice(list(places(message))))  # a value from another place in the message
             value = copy.deepcopy(value)
         elif kind == 6 and isinstance(value, str) and value:
             cut = numbers.randrange(len(value))
@@ -85,7 +87,7 @@ def mutated(numbers, broken):
     depth = numbers.choice([5, 30, 31, 32, 33, 100, 30_000])
     text = text.replace(f'"{DEEP}"', "[" * depth + "]" * depth)
     kind = numbers.randrange(4) if broken else numbers.choice([0, 4, 4, 4, 4, 4, 4, 4])
-    if kind == 0:  # a member twice
+    if kind == 0:  # repeats a member
         text = text[:-1] + "," + text[1:]
     data = bytearray(text.encode("utf-8", "surrogatepass"))
     if kind == 1:
@@ -100,7 +102,7 @@ def mutated(numbers, broken):
 
 
 class Sender:
-    """Sends bad messages in a session of its own, and comes back whenever it is thrown out."""
+    """Sends damaged messages in its own session, and reconnects whenever the server closes the connection."""
 
     def __init__(self, server):
         self.server, self.session, self.peer = server, None, None
@@ -120,7 +122,7 @@ class Sender:
             self.codes[message["code"]] = self.codes.get(message["code"], 0) + 1
 
     def send(self, messages):
-        """Sends them, and then something good: until that is answered, or the connection is ended."""
+        """Sends the messages, then a valid request; waits until that is answered or the connection ends."""
         if self.peer is None:
             self.connect()
         good = b'{"type":"get","what":"keymap","id":123456789}'
@@ -164,7 +166,7 @@ def test_damaged_requests_harm_nobody():
         print(f"errors {codes}, closes {closes}")
         assert "internal" not in codes, codes
         assert closes.keys() <= {1000, 1003, 1007, 1008, 1009, 4401}, closes
-        # As many kinds of refusal as there are, or the damage was not of every kind.
+        # All error codes that damage can cause must occur; otherwise the damage is not varied enough.
         assert codes.keys() >= {"bad_json", "bad_message", "unknown_type", "unknown_key", "unknown_polytope", "unknown_command",
                                 "bad_expression", "out_of_range", "not_a_rotation", "bad_polytope", "unsupported_format"}, codes
         with WebSocket(server, f"/ws/{welcome['session']}") as again:

@@ -1,4 +1,4 @@
-"""Who may call: hosts, origins, the browser's word on where a request comes from, and tokens."""
+"""Access control: hosts, origins, Fetch Metadata of browsers, and tokens."""
 
 import pytest
 from harness import Server
@@ -17,7 +17,7 @@ def a_server_that_allows_a_page():
 
 
 def status_of_socket(server, *fields, host="localhost", target="/ws", source=None):
-    """The status that a handshake gets."""
+    """Returns the HTTP status of a WebSocket handshake."""
     with Socket(server, source) as raw:
         raw.send(handshake(target, *fields, host=host))
         return raw.answer().status
@@ -104,7 +104,7 @@ def a_server_of_any_name():
 
 @pytest.mark.parametrize("port", ["abc", "99999", "65536", "-1", "81x", "+81", "8 1", "0x51", "99999999999999999999", "81:81", "81@x"])
 def test_origins_whose_ports_are_none_though_the_host_has_the_same(open_to_all, port):
-    """Where any host may be called, the origin is judged no less."""
+    """The origin is checked as strictly if every host is allowed."""
     for scheme in ("http", "https"):
         assert status_of_socket(open_to_all, f"Origin: {scheme}://localhost:{port}", host=f"localhost:{port}") in REFUSED
 
@@ -126,7 +126,7 @@ def test_pages_that_are_allowed(allowing, origin, allowed):
     assert statuses == [101, 200] if allowed else all(status in REFUSED for status in statuses)
 
 
-# --- Where a browser says that a request comes from (Fetch Metadata)
+# --- The site from which a request comes, according to the browser (Fetch Metadata)
 
 CROSS = "Sec-Fetch-Site: cross-site"
 IMAGE = ["Sec-Fetch-Mode: no-cors", "Sec-Fetch-Dest: image"]
@@ -145,7 +145,7 @@ def test_foreign_pages_cause_no_work(server, target, kind):
 
 
 def test_a_foreign_page_that_is_refused_costs_nothing(server):
-    """Nothing is drawn or made for it."""
+    """The server neither draws pictures nor creates files for it."""
     def work():
         return [server.metric('oval4d_picture_step_seconds_count{step="slice"}'), server.metric("oval4d_file_seconds_count")]
 
@@ -190,7 +190,7 @@ def test_sockets_of_foreign_pages(server, allowing):
     assert status_of_socket(server, "Sec-Fetch-Site: same-origin", *mode, "Origin: http://localhost") == 101
 
 
-# --- What every answer says to the browser
+# --- Security headers of all responses
 
 def answers_of_every_kind(server):
     tag = ask(server, "/").get("ETag")
@@ -249,7 +249,8 @@ WRONG = ["", "x", SECRET[:-1], SECRET + "x", "x" + SECRET, SECRET.upper(), SECRE
 
 @pytest.mark.parametrize("number", range(len(WRONG)), ids=lambda number: WRONG[number][:30])
 def test_wrong_tokens(guarded, number):
-    token, source = WRONG[number], f"127.0.1.{number + 1}"  # from an address of its own: wrong tokens are counted
+    # Each test has its own address, because wrong tokens are counted by address.
+    token, source = WRONG[number], f"127.0.1.{number + 1}"
     for target, lines in ((f"/api/v1/keymap?token={token}", []), ("/api/v1/keymap", [f"Authorization: Bearer {token}"]),
                           ("/api/v1/keymap", [f"Cookie: oval4d_token={token}"])):
         answer = ask(guarded, target, *lines, source=source)
@@ -278,10 +279,10 @@ def test_the_token_is_not_in_the_log(guarded):
     assert SECRET not in guarded.log().split("\n", 1)[1] and "wrong-guess" not in guarded.log()
 
 
-# --- Guessing
+# --- Guessing the server's token
 
 def guess(server, kind, token, source):
-    """The status that a token gets."""
+    """Returns the HTTP status of a request with this token."""
     if kind == "query":
         return ask(server, f"/api/v1/keymap?token={token}", source=source).status
     if kind == "socket":

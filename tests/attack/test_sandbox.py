@@ -1,4 +1,4 @@
-"""The processes that draw and that read files: what they may do, and that nothing is lost whatever becomes of them."""
+"""The drawing and reading processes: what the sandbox allows, and that no session is lost when they die or hang."""
 
 import asyncio
 import contextlib
@@ -26,7 +26,7 @@ def simplex():
 
 
 def moment_curve(count):
-    """Points whose hull has count · (count − 3) / 2 cells."""
+    """Returns points whose convex hull has count · (count − 3) / 2 cells, as text."""
     angles = [2 * math.pi * i / count for i in range(count)]
     return "".join(f"{math.cos(t)} {math.sin(t)} {math.cos(2 * t)} {math.sin(2 * t)}\n" for t in angles)
 
@@ -50,7 +50,7 @@ def readers(server):
 
 
 def waiting_reader(server):
-    """The process that waits for a file: the one that stays, since one that has read ends at once."""
+    """Waits until only one reading process is left, which waits for a file; returns its process ID."""
     found, since = [], time.monotonic()
 
     def stays():
@@ -65,13 +65,13 @@ def waiting_reader(server):
 
 @contextlib.asynccontextmanager
 async def with_both(*options, **variables):
-    """A server that has drawn and read: its processes by what they are for."""
+    """Yields a server that has drawn a picture and read a file, and its child processes with their subcommands."""
     with Server(*options, **variables) as server:
         async with Client(server, stream="none") as client:
             await client.frame(width=320, height=200)
             await load(client)
             waiting_reader(server)
-            await asyncio.sleep(0.3 * SLOW)  # until it has begun
+            await asyncio.sleep(0.3 * SLOW)  # until the waiting reader has set up its sandbox
             found = children(server)
             assert set(found.values()) == {"draw", "read"}
             yield server, found
@@ -102,7 +102,7 @@ async def test_they_hold_nothing_of_the_sessions(tmp_path):
         for pid, word in found.items():
             files = {int(file.name): os.readlink(file) for file in Path(f"/proc/{pid}/fd").iterdir()}
             assert files.pop(0) == files.pop(1) == "/dev/null"
-            files.pop(2)  # the log
+            files.pop(2)  # the server's log
             assert files.pop(3).startswith("socket:")
             assert all("memfd:oval4d-picture" in file for file in files.values()), files
             assert word == "draw" or not files
@@ -118,7 +118,7 @@ async def test_the_filters_refuse_all_but_work():
             for name in ["execve", "execveat", "socket", "connect", "bind", "ptrace", "process_vm_readv", "bpf", "fork",
                          "process_vm_writev", "io_uring_setup", "userfaultfd", "unshare", "mount", "pidfd_getfd"]:
                 assert made(name)[0] == KILL, (word, name)
-            assert made("read", arch=0x40000003)[0] == KILL  # by the numbers of 32 bits
+            assert made("read", arch=0x40000003)[0] == KILL  # as a 32-bit (i386) system call
             for name in ["open", "openat", "openat2", "creat", "unlink", "unlinkat", "rename", "mkdir", "chmod", "link",
                          "symlink", "ftruncate", "truncate", "ioctl", "dup", "dup2", "memfd_create", "pipe2", "getdents64",
                          "setrlimit", "sendto", "recvfrom", "shmget", "msgget", "inotify_init1", "fanotify_init",
@@ -202,7 +202,7 @@ async def test_a_server_that_is_to_stop_waits_for_no_file():
 
 @filtered
 async def test_what_takes_much_memory_to_read_is_refused_and_the_server_stays_small():
-    faces = 900_000  # eight bytes each, of which many times as much is made
+    faces = 900_000  # eight bytes each in the file, many times as much in memory
     text = f"4OFF\n5 {faces} 0 1\n{simplex()}" + "3 0 1 2\n" * faces + "4 0 1 2 3\n"
     with Server("--load-memory", "64M") as server:
         async with Client(server, stream="none") as client:
@@ -278,7 +278,7 @@ async def test_nothing_is_lost_whatever_befalls_readers():
                 except Refused as error:
                     assert error.code in ("internal", "too_large")
                 assert shown is None or await cells(client) == shown
-            # Those that were stopped as they waited are found out one by one.
+            # The server detects waiting readers that were stopped only when it uses them, one by one.
             while True:
                 with contextlib.suppress(Refused):
                     await load(client)
@@ -300,7 +300,7 @@ async def test_so_many_read_at_once_and_none_when_there_is_nothing_to_read():
                 most = max(most, len(readers(server)))
                 await asyncio.sleep(0.01)
             await loading
-            assert 1 <= most <= 4, most  # two at work, and two that wait
+            assert 1 <= most <= 4, most  # two are reading, and two wait
             for _ in range(20):
                 await asyncio.gather(*(load(each) for each in clients))
             await asyncio.sleep(SLOW)

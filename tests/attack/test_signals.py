@@ -1,4 +1,4 @@
-"""How the server ends, and where it listens."""
+"""How signals end the server, and on which addresses it listens."""
 
 import concurrent.futures
 import contextlib
@@ -11,11 +11,11 @@ import pytest
 from harness import SLOW, Server
 from raw import CLOSE, Ended, Socket, WebSocket, ask, request
 
-LONG_FILE = "/api/v1/file.stl?polytope=120-cell&of=oval&body=frame"  # seconds of work
+LONG_FILE = "/api/v1/file.stl?polytope=120-cell&of=oval&body=frame"  # takes seconds to export
 
 
 def close_code(peer):
-    """That of the server's close; None where it just hangs up."""
+    """Returns the server's close code, None if it ends the connection without a close frame."""
     try:
         while True:
             opcode, payload = peer.next_message()
@@ -58,7 +58,7 @@ def test_what_was_done_is_kept_when_a_signal_stops_the_server(number, tmp_path):
 
 
 def points_of_a_sphere(count):
-    """Whose hull takes a while."""
+    """Returns points whose convex hull takes some time to compute, as text."""
     numbers = random.Random(4)
     lines = []
     for _ in range(count):
@@ -108,10 +108,10 @@ def test_a_second_signal_ends_the_server_at_once():
         server.wait_for(lambda: "stopping" in server.log())
         server.process.send_signal(signal.SIGTERM)
         server.process.wait(20 * SLOW)
-        server.process.returncode = 0  # it was killed, as asked
+        server.process.returncode = 0  # the second signal killed the server, as intended
 
 
-# --- Both families of loopback addresses
+# --- Loopback addresses of IPv4 and IPv6
 
 def has_ipv6():
     with contextlib.suppress(OSError), socket.socket(socket.AF_INET6) as one:

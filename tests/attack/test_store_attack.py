@@ -1,4 +1,4 @@
-"""What is done to the store of a server: its files are read, replaced, damaged and filled, and the server is killed."""
+"""Attacks on a server's store: its files are read, replaced, damaged and filled, and the server is killed."""
 
 import asyncio
 import contextlib
@@ -22,7 +22,7 @@ from wire import Client, Refused, turned_away  # noqa: E402
 
 MIB = 1 << 20
 
-# Of version 1 of the file, whose tokens are plain text.
+# The tables of version 1 of the file, which stored tokens as plain text.
 TABLES_1 = """
     CREATE TABLE IF NOT EXISTS session (
         id TEXT PRIMARY KEY, token TEXT NOT NULL, fence INTEGER NOT NULL,
@@ -34,7 +34,7 @@ TABLES_1 = """
         PRIMARY KEY (session, key));
     PRAGMA user_version = 1;"""
 
-# With which servers of version 0.1.0 save, to the letter: a Redis knows it by its digest.
+# The exact script with which servers of version 0.1.0 save sessions: Redis identifies scripts by their digest.
 SAVE_1 = """
 local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
 local mine = tonumber(ARGV[3])
@@ -71,7 +71,8 @@ def opened_by(client):
 
 
 async def pressed(server, key="k", times=1, **keys):
-    """Opens a session, or a new one, and presses a key: what opens it, and its revision."""
+    """Opens the session of `keys`, or a new one, and presses a key; returns the session's ID and token, and the
+    revision."""
     async with Client(server, **keys) as client:
         for _ in range(times):
             done = await client.request("key", key=key)
@@ -79,7 +80,7 @@ async def pressed(server, key="k", times=1, **keys):
 
 
 async def many(server, count):
-    """Sessions, and the revision of each: number i has had i + 1 keys."""
+    """Creates sessions with different numbers of key presses; returns (ID and token, revision) of each."""
     made = []
     for i in range(count):
         keys, revision = await pressed(server, times=i % 7 + 1)
@@ -88,7 +89,7 @@ async def many(server, count):
 
 
 async def revision_of(server, keys):
-    """Of a session that can be opened; None if it is told that it cannot."""
+    """Returns the revision of a session, None if the server answers that there is no such session."""
     try:
         async with Client(server, **keys) as client:
             return (await client.request("get", what="state"))["revision"]
@@ -98,7 +99,7 @@ async def revision_of(server, keys):
 
 
 def sphere(count, seed):
-    """Points of the 3-sphere, as a list to be loaded."""
+    """Returns random points of the 3-sphere, as text."""
     chance = random.Random(seed)
     points = ([chance.gauss(0, 1) for _ in range(4)] for _ in range(count))
     return "\n".join(" ".join(f"{x / sum(y * y for y in point) ** 0.5:.6f}" for x in point) for point in points)
@@ -117,7 +118,7 @@ def holds(path, text):
 
 
 def as_version_1(path, tokens):
-    """Makes the file one of version 1, with tokens of sessions that were deleted in pages that are free."""
+    """Rewrites the file in version 1, with tokens of deleted sessions left in its free pages."""
     with contextlib.closing(sqlite3.connect(path)) as file:
         sessions = file.execute("SELECT id, fence, touched, whole, head FROM session").fetchall()
         polytopes = file.execute("SELECT session, key, bytes FROM polytope").fetchall()
@@ -145,7 +146,7 @@ def refused(path, *options):
     return ended.stderr
 
 
-# --- Who can read it
+# --- Permissions of the files
 
 
 @pytest.mark.parametrize("mask", [0o000, 0o022, 0o777])
@@ -157,7 +158,7 @@ async def test_no_file_of_the_store_is_open_to_others(path, mask):
         os.umask(before)
     try:
         keys, _ = await pressed(server)
-        await asyncio.sleep(1)  # a change is queued for the store within 0.25 s
+        await asyncio.sleep(1)  # changes are written after 0.25 s
         server.wait_for(lambda: server.metric("oval4d_unsaved_sessions") == 0)
         assert modes(path) == {0o600} and len(files_of(path)) > 1
         assert stat.S_IMODE(path.parent.stat().st_mode) == 0o700
@@ -219,7 +220,7 @@ async def test_sessions_of_version_1_open_and_their_tokens_go(path):
     tokens = {keys["session"]: keys["token"] for keys, _ in made}
     gone = as_version_1(path, tokens)
     assert all(holds(path, token) for token in tokens.values())
-    # Killed at any moment of it, that is begun anew.
+    # If the server is killed during the conversion, the next start repeats it.
     for wait in (0.01, 0.03, 0.06):
         copy = path.with_name("killed.sqlite")
         shutil.copy(path, copy)
@@ -268,7 +269,7 @@ class Redis:
         return self.ask("HKEYS", f"oval4d:{{{keys['session']}}}").split()
 
     def older(self, keys):
-        """Makes the session one that a server of version 0.1.0 has saved."""
+        """Rewrites a session as a server of version 0.1.0 would have saved it."""
         key = f"oval4d:{{{keys['session']}}}"
         self.ask("HDEL", key, "hash")
         self.ask("HSET", key, "token", keys["token"])
@@ -295,7 +296,7 @@ async def test_redis_has_no_tokens(tmp_path):
 
 
 async def test_redis_is_used_by_servers_of_version_0_1_0_too(tmp_path):
-    """They find sessions by the token as it is: it is there, for the time of an expiry."""
+    """Those servers find sessions by the plain-text token, which is therefore kept for the duration of the expiry."""
     with Redis(tmp_path) as redis:
         redis.ask("SCRIPT", "LOAD", SAVE_1)
         with redis.server("--session-expiry", 6) as server:
@@ -315,11 +316,11 @@ async def test_redis_is_used_by_servers_of_version_0_1_0_too(tmp_path):
             assert "token" not in redis.fields(other)
 
 
-# --- Damage
+# --- Damaged files
 
 
 async def test_bits_are_turned_and_ends_cut_off(path):
-    """Every session is as it was, or is told to be lost; the server serves, and keeps the damaged file."""
+    """Every session is unchanged or reported as lost; the server works, and keeps the damaged file."""
     with on_file(path) as server:
         made = await many(server, 24)
     whole = path.read_bytes()
@@ -366,7 +367,7 @@ async def test_damage_while_it_runs(path):
             made.append((opened_by(client), 1))
             await client.leave()
     mine = made.pop()[0]
-    assert path.stat().st_size > 2.2 * MIB  # more than SQLite keeps in memory
+    assert path.stat().st_size > 2.2 * MIB  # more than SQLite caches in memory
     server = on_file(path)
     try:
         async with Client(server, **mine) as client:
@@ -374,7 +375,7 @@ async def test_damage_while_it_runs(path):
                 for page in range(2, path.stat().st_size // 4096):
                     file.seek(4096 * page)
                     file.write(b"\xa5" * 4096)
-            for keys, _ in made:  # whether or not they can be opened
+            for keys, _ in made:  # opening them may fail
                 with contextlib.suppress(Refused):
                     await pressed(server, **keys)
             await client.request("key", key="k")
@@ -419,7 +420,7 @@ async def test_two_servers_begin_at_once_on_a_damaged_file(path):
         assert sum(revision is not None for revision in kept) > 0
 
 
-# --- Room
+# --- Quota and full disks
 
 
 def taken(path):
@@ -427,7 +428,7 @@ def taken(path):
 
 
 async def loaded(server, seed, **keys):
-    """A session with a polytope of some 70 kB."""
+    """Opens a session and loads a polytope of about 70 kB; returns the connected client."""
     client = Client(server, **keys)
     await client.__aenter__()
     await client.request("load", name="mine", format="points", data=sphere(250, seed))
@@ -489,7 +490,7 @@ async def test_sessions_that_are_open_are_never_given_up(path, place):
 
 
 async def test_the_disk_is_full(tmp_path):
-    """The limit of the size of a file is what a process sees of a disk that is full."""
+    """A limit on the file size simulates a full disk."""
     path = tmp_path / "sessions.sqlite"
     server = on_file(path)
     try:

@@ -1,5 +1,6 @@
-"""The case families of the Autobahn test suite, from RFC 6455: framing, pings, reserved bits and opcodes, fragments, UTF-8,
-closing, limits, and the handshake. Octets that a library would not send are the point."""
+"""WebSocket conformance (RFC 6455), with the groups of cases of the Autobahn test suite: framing, pings, reserved bits
+and opcodes, fragments, UTF-8, closing, limits, and the handshake. Many cases send bytes that no library would send.
+"""
 
 import base64
 import json
@@ -34,20 +35,20 @@ def a_bare_peer(server):
 
 
 def padded(size, number):
-    """A request of so many octets: blanks after JSON are JSON."""
+    """Returns a request of `size` bytes, padded with blanks, which are valid after JSON."""
     text = b'{"type":"get","what":"state","id":%d}' % number if size >= 50 else b'{"id":%d}' % number
     assert len(text) <= size
     return text.ljust(size)
 
 
 def load_of(size, number):
-    """A load of so many octets, which is answered (by an error)."""
+    """Returns a load message of `size` bytes; the server answers it with an error."""
     text = b'{"type":"load","id":%d,"name":"x","format":"off","data":"#' % number
     return text + b"x" * (size - len(text) - 2) + b'"}'
 
 
 def line(text, number):
-    """A command that is answered by an error that repeats it."""
+    """Returns a command that the server answers with an error that contains the text."""
     return json.dumps({"type": "command", "id": number, "line": "polytope " + text}, ensure_ascii=False).encode()
 
 
@@ -188,7 +189,7 @@ def test_reserved_opcodes_are_refused(peer, opcode, payload):
 # --- Fragments (Autobahn 5)
 
 def fragments(data, cuts, opcode=TEXT):
-    """Frames of a message that is cut there."""
+    """Returns the frames of a message that is split at these positions."""
     bounds = [0, *cuts, len(data)]
     pieces = [data[a:b] for a, b in zip(bounds, bounds[1:])]
     return [frame(opcode if i == 0 else CONTINUATION, piece, final=i == len(pieces) - 1) for i, piece in enumerate(pieces)]
@@ -305,7 +306,7 @@ def test_text_that_ends_within_a_code_point_is_refused(peer, sequence):
 
 @pytest.mark.parametrize("sequence", [b"\xf4\x90", b"\xed\xa0", b"\xc0", b"\xff", b"\xe0\x80", b"\x80"])
 def test_invalid_text_is_refused_before_the_message_ends(peer, sequence):
-    """RFC 6455, 8.1, does not wait for the end, and nor does Autobahn."""
+    """RFC 6455, 8.1, and Autobahn: the server refuses it without waiting for the end of the message."""
     peer.send(frame(TEXT, b'{"type":"' + sequence, final=False))
     assert peer.fails() == INVALID
 
@@ -386,7 +387,7 @@ def test_what_was_asked_before_a_close_harms_nobody(session):
 
 
 def test_the_server_ends_the_connection_though_its_close_is_not_answered():
-    """The other way round: it begins to close, and the client says nothing more."""
+    """The server begins to close, and the client sends no close frame."""
     with Server("--ping-interval", 0.5) as hasty, WebSocket(hasty) as peer:
         peer.send(frame(BINARY, b"x"))
         assert peer.closed(answers=False) == UNSUPPORTED
@@ -491,7 +492,7 @@ GOOD = [UPGRADE, CONNECTION, VERSION, KEY]
 
 
 def test_the_key_is_answered_as_in_the_rfc(server):
-    """Its own example, section 1.3."""
+    """The example of RFC 6455, section 1.3."""
     answer = shake(server, *GOOD)
     assert answer.status == 101
     assert answer.get("Sec-WebSocket-Accept") == "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=" == accept_for("dGhlIHNhbXBsZSBub25jZQ==")
@@ -603,7 +604,7 @@ def test_a_handshake_octet_by_octet(server):
 
 
 def test_the_socket_after_all_this(session):
-    """Nothing above was an error of the server's."""
+    """Comes last: none of the tests above has caused an internal error of the server."""
     with session.join() as peer:
         peer.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
         assert_alive(peer)

@@ -1,5 +1,5 @@
-// The global operator new, replaced by one that counts.
-// NOLINTBEGIN(cppcoreguidelines-no-malloc): it is made of malloc
+// Replaces the global operator new by one that counts its calls.
+// NOLINTBEGIN(cppcoreguidelines-no-malloc): the replacement calls malloc
 
 #include "allocations.hpp"
 

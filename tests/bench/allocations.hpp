@@ -4,7 +4,7 @@
 
 namespace oval4d::bench {
 
-/// How often this program has called operator new so far, libraries included.
+/// Returns the number of calls of operator new in this program so far, including those of libraries.
 std::size_t allocations();
 
 }  // namespace oval4d::bench

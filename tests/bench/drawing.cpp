@@ -1,8 +1,8 @@
-// How many pictures a second one process makes, from state to PNG file, as fast as it can.
-//   drawing POLYTOPE DRAWERS ENCODERS SECONDS
-// DRAWERS threads draw, each with a context of its own, and encode what they have drawn; with ENCODERS 1 another thread
-// for each encodes while the next picture is drawn. Says "ready" when all is warm, and begins at a line of input, so
-// that several processes can begin at once. llvmpipe's own threads: LP_NUM_THREADS.
+// Measures how many pictures per second one process produces, from state to PNG file.
+//   bench_drawing POLYTOPE DRAWERS ENCODERS SECONDS
+// DRAWERS threads draw, each with its own context, and encode their pictures; if ENCODERS is 1, each has another thread
+// that encodes while it draws the next picture. Prints "ready" after the warm-up and waits for a line of input, so that
+// several processes can begin at the same time. LP_NUM_THREADS sets the number of llvmpipe's threads.
 
 #include <algorithm>
 #include <atomic>
@@ -39,7 +39,7 @@ session::State stateOf(const std::string& polytope) {
     return made;
 }
 
-/// Passes images from a thread to another, two at most.
+/// Passes images from one thread to another; holds at most two.
 class Handover {
   public:
     void put(image::Image& image) {
@@ -97,7 +97,7 @@ class Drawer {
     std::vector<std::uint8_t> png_;
 };
 
-/// Latencies of the pictures made until `end`.
+/// Draws pictures for so many seconds after `begun` is set, and appends their latencies.
 void draw(const session::State& state, parallel::ForkJoin& forkJoin, bool pipelined, std::atomic<int>& cold,
           const std::atomic<bool>& begun, double seconds, std::vector<double>& latencies) {
     Drawer drawer(state, forkJoin);

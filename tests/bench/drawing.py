@@ -1,11 +1,11 @@
-"""The best use of cores: bench_drawing in one process or more, with and without threads of llvmpipe's own."""
+"""Compares ways to use several cores: bench_drawing in one or two processes, with and without llvmpipe's threads."""
 
 import json
 import os
 import statistics
 import subprocess
 
-# Processes at once, drawing threads in each, whether encoding is a thread's of its own, LP_NUM_THREADS.
+# Number of processes, drawing threads in each, whether separate threads encode, LP_NUM_THREADS (None: unset).
 WAYS = {
     "one, threads unset": (1, 1, 0, None), "one, 0 threads": (1, 1, 0, 0), "one, 1 thread": (1, 1, 0, 1),
     "one, 2 threads": (1, 1, 0, 2),
@@ -18,7 +18,7 @@ SECONDS = 0.4
 
 
 def run(program, polytope, processes, drawers, encoders, threads):
-    """Pictures a second, of all together, and the median of their milliseconds."""
+    """Returns the pictures per second of all processes together, and the median milliseconds per picture."""
     environment = {name: value for name, value in os.environ.items() if name != "LP_NUM_THREADS"}
     if threads is not None:
         environment["LP_NUM_THREADS"] = str(threads)
@@ -26,7 +26,7 @@ def run(program, polytope, processes, drawers, encoders, threads):
     running = [subprocess.Popen(words, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
                for _ in range(processes)]
     for process in running:
-        process.stdout.readline()  # it is warm
+        process.stdout.readline()  # the process has warmed up
     for process in running:
         process.stdin.write("\n")
         process.stdin.flush()
@@ -35,7 +35,7 @@ def run(program, polytope, processes, drawers, encoders, threads):
 
 
 def rows(program, polytope):
-    """Of each way its name, pictures a second, that as a multiple of the first way's, and a picture's milliseconds."""
+    """Returns for each way: its name, pictures per second, their ratio to the first way's, milliseconds per picture."""
     turns = [{name: run(program, polytope, *way) for name, way in WAYS.items()} for _ in range(TURNS)]
     first = next(iter(WAYS))
     return [[name, statistics.median(turn[name][0] for turn in turns),

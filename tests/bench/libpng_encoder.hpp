@@ -11,8 +11,8 @@ struct LibpngFile {
     std::size_t bytes;
 };
 
-/// Reads a PNG file of RGB pixels and writes them again by libpng at level 1 with its default filters; times the
-/// writing. Throws std::runtime_error for what is not such a file.
+/// Reads a PNG file of RGB pixels, encodes the pixels with libpng at level 1 and default filters, and measures the time
+/// of the encoding. Throws std::runtime_error if the file is not such a file.
 LibpngFile encodeByLibpng(std::span<const std::uint8_t> png);
 
 }  // namespace oval4d::bench

@@ -1,5 +1,5 @@
-// How a running server bears up: key-to-picture latency, many sessions, a flood of keys, a client that never reads.
-// Prints a line of JSON for each.
+// Measures a running server under load: the latency from key to picture, many sessions, a flood of keys, a client that
+// never reads. Prints a line of JSON for each measurement.
 //   oval4d --port 8080 --max-requests 1000000 --session-expiry 2 &  bench_load [port] [seconds]
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using load::Latencies;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Runs coroutines until all have ended; the first exception is passed on.
+/// Runs coroutines until all have ended; rethrows the first exception.
 class Stage {
   public:
     asio::io_context io;
@@ -73,7 +73,7 @@ void row(const std::string& what, Latencies latencies) {
 std::string helloFor(const std::string& stream) { return R"({"type":"hello","stream":")" + stream + "\"}"; }
 std::string setPolytope(const std::string& name) { return R"({"type":"set","polytope":")" + name + "\"}"; }
 
-/// One client presses a key, waits for the picture, and presses the next.
+/// A client that presses a key, waits for its picture, and then presses the next key.
 asio::awaitable<void> pressing(Stage& stage, Endpoint server, std::string hello, std::string polytope, double seconds,
                                Latencies& latencies) {
     Client client(stage.io, server);
@@ -82,7 +82,7 @@ asio::awaitable<void> pressing(Stage& stage, Endpoint server, std::string hello,
         co_await client.send(setPolytope(polytope));
         co_await client.picture(1);
     }
-    for (int i = 0; i < 20; ++i) co_await client.key('r');  // warm
+    for (int i = 0; i < 20; ++i) co_await client.key('r');  // warm-up
     for (const auto start = Clock::now(); since(start) < seconds;) {
         const auto pressed = Clock::now();
         co_await client.key(latencies.size() % 3 == 0 ? 'y' : latencies.size() % 3 == 1 ? 'r' : 't');
@@ -91,7 +91,8 @@ asio::awaitable<void> pressing(Stage& stage, Endpoint server, std::string hello,
     co_await client.close();
 }
 
-/// One of many clients, at ten keys a second by the clock: a late picture makes the next key late, and that counts.
+/// One of many clients with ten keys per second. Latencies count from the scheduled time of a key, even if a late
+/// picture delays the key.
 asio::awaitable<void> typing(Stage& stage, Endpoint server, int number, double seconds, Latencies& latencies) {
     Client client(stage.io, server);
     co_await client.open(helloFor("geometry"), true);
@@ -120,7 +121,7 @@ asio::awaitable<void> flooding(Stage& stage, Endpoint server, std::string stream
     co_await client.close();
 }
 
-/// Asks for much and never reads, until the server is through with it.
+/// Sends many requests and never reads, until the server drops the client.
 asio::awaitable<void> neverReading(Stage& stage, Endpoint server, double seconds) {
     Client client(stage.io, server);
     co_await client.open(helloFor("frames"), false);
@@ -175,7 +176,7 @@ void besideOneThatNeverReads(Endpoint server, double seconds) {
     row("slices of the 5-cell, beside a client that never reads", latencies);
 }
 
-/// A session with the 5-cell beside others with a large polytope, each as fast as it can.
+/// Runs a session with the 5-cell and other sessions with a large polytope, each as fast as possible.
 void besideLargeOnes(Endpoint server, const std::string& stream, int others, double seconds) {
     Stage stage;
     Latencies latencies;
@@ -190,7 +191,7 @@ void besideLargeOnes(Endpoint server, const std::string& stream, int others, dou
     row("those " + std::to_string(others) + ", " + stream, all);
 }
 
-/// Many sessions at once, each as fast as it can.
+/// Runs many sessions at the same time, each as fast as possible.
 void allAtOnce(Endpoint server, const std::string& polytope, int count, double seconds) {
     Stage stage;
     std::vector<Latencies> each(static_cast<std::size_t>(count));
@@ -226,7 +227,7 @@ int main(int argc, char** argv) {
     const Endpoint server(asio::ip::make_address("127.0.0.1"), port);
     const std::string cbor = R"({"type":"hello","stream":"geometry","encoding":"cbor"})";
     try {
-        // First, while the server's memory is that of a fresh one.
+        // Comes first, while the server has only its initial memory.
         idle(server, 1000);
         for (const char* polytope : {"5-cell", "600-cell"}) {
             const std::string name = polytope;
@@ -243,7 +244,7 @@ int main(int argc, char** argv) {
             stage.spawn(flooding(stage, server, stream, 1000));
             stage.run();
         }
-        // Until the sessions of clients that left are forgotten, and workers have let go of their memory.
+        // Waits until the sessions of departed clients have expired, and idle workers have freed their memory.
         std::this_thread::sleep_for(std::chrono::seconds(6));
         Stage stage;
         say("memory after all that", text(R"("after":%.1f)", memoryOf(stage, server)));

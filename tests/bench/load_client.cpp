@@ -13,7 +13,7 @@ using asio::use_awaitable;
 
 namespace {
 
-/// The number after `"revision":`, which stands near the beginning.
+/// Returns the number after `"revision":`, which is near the beginning.
 std::uint64_t revisionIn(std::string_view text) {
     constexpr std::string_view kName = "\"revision\":";
     const std::size_t at = text.find(kName);
@@ -52,7 +52,7 @@ asio::awaitable<void> Client::picture(std::uint64_t wanted) {
     for (std::uint64_t seen = 0;;) {
         const std::string_view message = co_await read();
         if (message.starts_with(R"({"type":"state")")) {
-            seen = revisionIn(message);  // its picture is the next message
+            seen = revisionIn(message);  // the next message is the picture of this state
             continue;
         }
         if (message.starts_with(R"({"type":"error")")) throw std::runtime_error(std::string(message));

@@ -1,5 +1,5 @@
 #pragma once
-// A client for load tests: a WebSocket, and how long its pictures took.
+// A WebSocket client for load tests, which measures how long its pictures take.
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
@@ -25,13 +25,13 @@ class Client {
   public:
     Client(boost::asio::io_context& io, Endpoint server) : stream_(io), server_(server) {}
 
-    /// Connects, says hello (a JSON text) and takes the first picture, if there is a stream.
+    /// Connects, sends hello (a JSON text), and reads the first picture if there is a stream.
     boost::asio::awaitable<void> open(std::string hello, bool streams);
     boost::asio::awaitable<void> send(std::string text);
-    /// Reads up to the picture of the wanted revision or a newer one, and says that it was shown. Pictures on the way
-    /// there are shown too, and counted.
+    /// Reads up to the picture of the wanted revision or a newer one. Acknowledges and counts this picture and all
+    /// earlier ones.
     boost::asio::awaitable<void> picture(std::uint64_t wanted);
-    /// One key and its picture.
+    /// Presses a key and waits for its picture.
     boost::asio::awaitable<void> key(char which);
     boost::asio::awaitable<void> close();
 
@@ -48,7 +48,7 @@ class Client {
     std::uint64_t revision_ = 0, pictures_ = 0, bytes_ = 0;
 };
 
-/// The body of an HTTP GET.
+/// Returns the body of the response to an HTTP GET request.
 boost::asio::awaitable<std::string> get(boost::asio::io_context& io, Endpoint server, std::string path);
 
 }  // namespace load

@@ -1,4 +1,4 @@
-"""The programs that oval4d is compared with: VTK from Python, and plain JavaScript. Each gives milliseconds."""
+"""Runs the programs with which oval4d is compared: VTK from Python, and JavaScript. Results are in milliseconds."""
 
 import json
 import os
@@ -15,7 +15,7 @@ VTK = {
 
 
 def why_no_vtk():
-    """Why VTK cannot be compared with, or None."""
+    """Returns why VTK cannot run here, None if it can."""
     if not (FOLDER / "vtk_oval.py").exists():
         return "vtk_oval.py is not in $OVAL4D_PEERS"
     if not shutil.which("xvfb-run"):
@@ -26,14 +26,14 @@ def why_no_vtk():
 
 
 def why_no_js():
-    """Why JavaScript cannot be compared with, or None."""
+    """Returns why the JavaScript program cannot run here, None if it can."""
     if not (FOLDER / "js_slice.mjs").exists():
         return "js_slice.mjs is not in $OVAL4D_PEERS"
     return None if shutil.which("node") else "node is missing"
 
 
 def vtk(polytope, way, frames=11):
-    """A whole frame of 21 slices at 1280 × 720: rotate, cut, draw, read back, PNG at level 1."""
+    """Returns the milliseconds per frame of 21 slices at 1280 × 720: rotate, cut, draw, read back, encode as PNG."""
     command = ["xvfb-run", "-a", "-s", "-screen 0 1280x720x24", "/usr/bin/python3", str(FOLDER / "vtk_oval.py"),
                "--poly", NAMES[polytope], "--slices", "21", "--frames", str(frames), *VTK[way]]
     done = subprocess.run(command, capture_output=True, text=True, check=True,
@@ -42,7 +42,8 @@ def vtk(polytope, way, frames=11):
 
 
 def js():
-    """Of each polytope: slicing by 21 hyperplanes, JSON.stringify, bytes of that, and the elements cut."""
+    """Returns for each polytope: the times of slicing by 21 hyperplanes and of JSON.stringify, the bytes of JSON, and
+    the number of elements cut."""
     done = subprocess.run(["node", str(FOLDER / "js_slice.mjs")], capture_output=True, text=True, check=True)
     runs = [json.loads(line) for line in done.stdout.splitlines()]
     ours = {theirs: name for name, theirs in NAMES.items()}

@@ -1,7 +1,7 @@
-// From a state to its picture, as the service makes it: medians of every step as one line of JSON.
-//   pictures POLYTOPE [SLICES] [WIDTH] [HEIGHT] [FRAMES]
-// The scene is that of the programs it is compared with: hyperplanes from w = −1 to 1 for a circumradius of 4/√10, and
-// double rotations. With FRAMES 0 nothing is drawn.
+// Measures every step from a state to its picture, as in the server; prints the medians as one line of JSON.
+//   bench_pictures POLYTOPE [SLICES] [WIDTH] [HEIGHT] [FRAMES]
+// The scene is the same as in the programs of comparison: hyperplanes from w = −1 to 1 for a circumradius of 4/√10, and
+// double rotations. If FRAMES is 0, nothing is drawn.
 
 #include <algorithm>
 #include <chrono>
@@ -44,7 +44,7 @@ double secondsOf(Work&& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Times of one thing, done again and again.
+/// The times of a repeated operation.
 class Samples {
   public:
     Samples() { seconds_.reserve(1U << 18U); }  // so that adding allocates nothing
@@ -91,7 +91,7 @@ class Bench {
         return rasterizer;
     }
 
-    // Calls step(i) after a warm-up, `least` times at least and for a while; notes what was allocated a step.
+    // Calls step(i) at least `least` times and for some time, after a warm-up; records the allocations per step.
     template <typename Step>
     void repeat(const char* name, int least, Step&& step) {
         const int warm = std::min(least, 24);

@@ -1,4 +1,4 @@
-// How long polytopes take to build, and files to read: 4OFF of growing size, and hulls of points.
+// Measures how long polytopes take to build, and files to read: 4OFF files and convex hulls of growing size.
 
 #include <benchmark/benchmark.h>
 
@@ -12,11 +12,11 @@
 namespace oval4d::bench {
 namespace {
 
-/// Polytopes from the smallest to the largest, each from its Coxeter diagram.
+/// A polytope, built from its Coxeter diagram.
 struct Subject {
     const char* name;
-    int p, q, r;                 ///< {p, q, r}
-    std::array<bool, 4> ringed;  ///< mirrors
+    int p, q, r;                 ///< the symbol {p, q, r}
+    std::array<bool, 4> ringed;  ///< the ringed nodes of the diagram
 
     polytopes::Diagram diagram() const { return polytopes::Diagram::linear({p, 1}, {q, 1}, {r, 1}, ringed); }
     polytopes::Polytope build() const { return polytopes::wythoff(name, diagram(), polytopes::mirrorsOf(diagram())); }
@@ -34,7 +34,7 @@ constexpr Subject kSubjects[] = {
     {"omnitruncated 120-cell", 5, 3, 3, {true, true, true, true}},
 };
 
-/// Built once and kept.
+/// Returns a polytope, which is built at the first call.
 std::shared_ptr<const polytopes::Polytope> subject(std::size_t number) {
     static std::array<std::shared_ptr<const polytopes::Polytope>, std::size(kSubjects)> built;
     auto& slot = built.at(number);
@@ -80,7 +80,7 @@ void importOff4(benchmark::State& state) {
     read(state, polytopes::FileFormat::off4, off4(*polytope));
 }
 
-// A duoprism of two n-gons: 2 n² edges.
+// Imports the duoprism of two n-gons, which has 2 n² edges.
 void importDuoprism(benchmark::State& state) {
     polytopes::Diagram diagram;
     const auto n = static_cast<int>(state.range(0));

@@ -1,6 +1,6 @@
-"""Tables of how fast oval4d is: report.py FOLDER-OF-THE-PROGRAMS [targets] [parts] [growth] [polytopes] [drawing] [load]
+"""Runs the benchmarks and prints tables: report.py FOLDER-OF-PROGRAMS [PARTS …]
 
-Whatever is compared is measured in turns, and what is reported of each turn's ratios is the median: the speed of a
+Programs that are compared are measured alternately, and the median of the ratios is reported, because the speed of a
 shared machine changes from minute to minute.
 """
 
@@ -26,12 +26,12 @@ BIN = Path(sys.argv[1])
 REGULAR = ("5-cell", "8-cell", "120-cell", "600-cell")
 GROWING = ("5-cell", "8-cell", "24-cell", "omnitruncated 5-cell", "120-cell", "600-cell", "omnitruncated 24-cell",
            "truncated 120-cell", "cantitruncated 120-cell", "omnitruncated 120-cell")
-TURNS = 5         # of frames
-QUICK_TURNS = 11  # of what takes less than a millisecond
+TURNS = 5         # for frames
+QUICK_TURNS = 11  # for operations of less than a millisecond
 
 
 def number(value):
-    """Three significant digits."""
+    """Formats a number with three significant digits, None as a dash."""
     if value is None:
         return "—"
     return f"{value:,.0f}" if abs(value) >= 100 else f"{value:.3g}"
@@ -46,7 +46,7 @@ def table(head, rows):
 
 
 def pictures(polytope, slices=21, width=1280, height=720, frames=40):
-    """What bench_pictures measures."""
+    """Runs bench_pictures; returns its measurements."""
     words = [polytope, slices, width, height, frames]
     done = subprocess.run([BIN / "bench_pictures", *map(str, words)], capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
@@ -60,7 +60,7 @@ def exponent(points):
 
 
 class Server:
-    """A running server that bench_load may press as hard as it can."""
+    """A running server whose limits are high enough for bench_load."""
 
     def __enter__(self):
         self.log = tempfile.NamedTemporaryFile(prefix="oval4d-", suffix=".log")
@@ -84,7 +84,7 @@ class Server:
 
 
 def load(seconds=5):
-    """What bench_load measures, by its name."""
+    """Runs bench_load; returns its measurements by name."""
     with Server() as server:
         done = subprocess.run([BIN / "bench_load", server.port, str(seconds)], stdout=subprocess.PIPE, text=True,
                               check=True)
@@ -92,7 +92,7 @@ def load(seconds=5):
 
 
 class Turns:
-    """Figures of ours and of others, taken in turns; of each kind a list, an entry a turn."""
+    """Alternate measurements of oval4d and of the other programs: lists with one entry per turn."""
 
     def __init__(self):
         self.quick, self.js, self.frames, self.vtk = [], [], [], []
@@ -102,7 +102,7 @@ class Turns:
         with_vtk = not peers.why_no_vtk()
         for _ in range(TURNS):
             ours, theirs = {}, {}
-            for name in REGULAR:  # what is compared follows at once
+            for name in REGULAR:  # the compared programs run one right after the other
                 ours[name] = pictures(name)
                 theirs.update({(name, way): peers.vtk(name, way) for way in peers.VTK if with_vtk})
             self.frames.append(ours)
@@ -110,7 +110,7 @@ class Turns:
 
     @staticmethod
     def compare(ours, theirs):
-        """Medians of ours and theirs, and of theirs ÷ ours in each turn; None where there is nothing to compare with."""
+        """Returns the medians of ours, theirs, and theirs ÷ ours of each turn; None if theirs were not measured."""
         if None in theirs:
             return statistics.median(ours), None, None
         return (statistics.median(ours), statistics.median(theirs),
@@ -134,7 +134,7 @@ class Turns:
 
 
 def targets(turns, loaded):
-    """Each target with figure, peer, ratio."""
+    """Prints each performance target with oval4d's figure, the other program's, and the ratio."""
     rows = []
 
     def row(what, target, figures, reached, unit=" ms"):
@@ -184,7 +184,7 @@ def targets(turns, loaded):
 
 
 def parts(turns):
-    """Where the time of a picture goes."""
+    """Prints the time of each step of a picture."""
     print("\n## Parts\n\n21 slices at 1280 × 720; milliseconds, JavaScript's and VTK's in brackets.")
     rows = []
     for name in REGULAR:
@@ -208,7 +208,7 @@ def parts(turns):
 
 
 def growth():
-    """How times grow with the polytope, the slices and the pixels."""
+    """Prints how times grow with the size of the polytope, the number of slices and the number of pixels."""
     steps = ("slice", "json", "cbor", "draw", "encode", "frame")
 
     def grow(title, runs, unit, size):
@@ -231,7 +231,7 @@ def growth():
 
 
 def polytopes():
-    """Building polytopes and reading files."""
+    """Prints the times to build polytopes and to read files."""
     done = subprocess.run([BIN / "bench_polytopes", "--benchmark_format=json", "--benchmark_min_time=0.1"],
                           capture_output=True, text=True, check=True)
     runs = json.loads(done.stdout)["benchmarks"]
@@ -244,7 +244,7 @@ def polytopes():
 
 
 def two_cores():
-    """Pictures a second by the ways to use cores."""
+    """Prints the pictures per second for each way to use several cores."""
     print("\n## Drawing: state to PNG, as fast as can be\n\nThreads are llvmpipe's own.")
     for polytope in ("5-cell", "600-cell"):
         table([polytope, "pictures a second", "of the first way's", "ms a picture"],
@@ -252,7 +252,7 @@ def two_cores():
 
 
 def under_load(loaded):
-    """Latencies and memory of a running server."""
+    """Prints the latencies and the memory of a running server."""
     print("\n## Load: a server and its clients on one machine\n\nMilliseconds from a key to its picture.")
     table(["", "pictures", "median", "99th percentile", "worst"],
           [[what, row["pictures"], row["median"], row["p99"], row["worst"]]

@@ -1,4 +1,4 @@
-// Runs all tests in one process: they share a browser, and do not compete for the processors.
+// Runs all tests in one process, so that they share a browser and do not compete for the processors.
 import "./picture.mjs";
 import "./keys.mjs";
 import "./buttons.mjs";

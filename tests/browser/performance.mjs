@@ -1,4 +1,4 @@
-// The cost of showing a stream, counted rather than timed, and the page's own latency measurements.
+// The cost of showing a stream, measured by counting operations instead of time, and the page's latency measurements.
 import assert from "node:assert/strict";
 
 import { common, openPage, openWithScript, presented, ready } from "./support/browser.mjs";

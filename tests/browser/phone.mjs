@@ -1,4 +1,4 @@
-// The page on a phone.
+// The page on the small touch screen of a phone.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 

@@ -1,5 +1,6 @@
-"""Runs what docker/compose.yaml says without a Docker engine: each container has a network namespace and an address of its
-own, and finds the others by a name server. The servers are of the image; HAProxy and Redis are this machine's.
+"""Runs the services of docker/compose.yaml without a Docker engine. Each container has its own network namespace and
+address, and finds the others through a name server. The servers come from the image; HAProxy and Redis are those of
+this machine.
 """
 
 import contextlib
@@ -22,7 +23,7 @@ TOOLS = ("ip", "dnsmasq", "haproxy", "redis-server", "unshare", "setpriv")
 
 
 def missing():
-    """Why there can be no such networks here, or nothing."""
+    """Returns why this machine cannot run the composition, None if it can."""
     absent = [tool for tool in TOOLS if shutil.which(tool) is None]
     if absent:
         return f"{' and '.join(absent)} cannot be installed"
@@ -36,7 +37,7 @@ def missing():
 
 
 class Container:
-    """A process with all below it in a namespace of its own for each of: network, mounts and processes."""
+    """A process and its children in their own network, mount and process namespaces."""
 
     def __init__(self, folder, number, service, script):
         self.host, self.service, self.name = f"{NET}.{number}", service, f"oval4d-{number}"
@@ -61,7 +62,7 @@ class Container:
         return self.log_path.read_text(encoding="utf-8", errors="replace")
 
     def stop(self, number=signal.SIGTERM):
-        """As `docker stop` does: the signal goes to the container's first process."""
+        """Sends a signal to the container's first process, as `docker stop` does; returns its exit status."""
         first = image.run("pgrep", "-P", self.process.pid)
         os.kill(int(first), number)
         return self.process.wait(DEADLINE)
@@ -72,7 +73,7 @@ class Container:
 
 
 def remove(name):
-    """Ends all that runs in a namespace, and it."""
+    """Kills all processes in a network namespace, and deletes the namespace."""
     def inside():
         return image.run("ip", "netns", "pids", name).split()
 
@@ -81,12 +82,12 @@ def remove(name):
             os.kill(int(process), signal.SIGKILL)
     until(lambda: not inside(), "the end of a container")
     image.run("ip", "netns", "delete", name)
-    with contextlib.suppress(AssertionError):  # it may be gone with the namespace
+    with contextlib.suppress(AssertionError):  # the link may have been deleted with the namespace
         image.run("ip", "link", "delete", name)
 
 
 def clear():
-    """Leaves nothing behind, of a run before that was killed either."""
+    """Removes all namespaces and the bridge, including those of an earlier run that was killed."""
     for line in image.run("ip", "netns", "list").splitlines():
         if line.startswith("oval4d-"):
             remove(line.split()[0])
@@ -95,7 +96,7 @@ def clear():
 
 
 class Composition:
-    """`docker compose up` and `down`. Its name server is at the bridge's own address."""
+    """Does what `docker compose up` and `down` do; the name server listens on the bridge's address."""
 
     def __init__(self, folder, image_files, image_variables):
         self.folder, self.files, self.image_variables = folder, image_files, image_variables
@@ -117,7 +118,7 @@ class Composition:
                 ["setpriv", "--pdeathsig=KILL", "dnsmasq", "--keep-in-foreground", "--conf-file=/dev/null", "--no-resolv", "--no-hosts", "--user=root",
                  f"--addn-hosts={self.hosts}", f"--listen-address={NET}.1", "--bind-interfaces", "--pid-file",
                  "--local-ttl=1"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
-            until(lambda: answers(f"{NET}.1", 53), "the name server")  # before, a signal would end it
+            until(lambda: answers(f"{NET}.1", 53), "the name server")  # before that, SIGHUP would end it
             self.up("redis", self.redis())
             for _ in range(self.services["oval4d"]["deploy"]["replicas"]):
                 self.up("oval4d", self.server())
@@ -141,7 +142,7 @@ class Composition:
         return [container for container in self.containers if container.service == "oval4d"]
 
     def up(self, service, script):
-        """Starts one more container of this service; its name leads to it, too, from then on."""
+        """Starts one more container of this service, and adds its address to the service's name."""
         self.number += 1
         container = Container(self.folder, self.number, service, script)
         self.containers.append(container)
@@ -149,11 +150,11 @@ class Composition:
         return container
 
     def scale(self):
-        """One more server."""
+        """Starts one more server."""
         return self.up("oval4d", self.server())
 
     def gone(self, container):
-        """Takes away a container that has ended."""
+        """Removes a container that has ended."""
         self.containers.remove(container)
         container.remove()
         self.tell()
@@ -161,10 +162,11 @@ class Composition:
     def tell(self):
         lines = [f"{container.host} {container.service}\n" for container in self.containers]
         self.hosts.write_text("".join(lines), encoding="ascii")
-        self.names.send_signal(signal.SIGHUP)  # reads it again
+        self.names.send_signal(signal.SIGHUP)  # makes dnsmasq read the file again
 
     def server(self):
-        """The image's files, which are read-only but for the volume; its user, without any rights."""
+        """Returns a script that runs the server with the image's files, read-only except for the volume, as the image's
+        user and without capabilities."""
         service = self.services["oval4d"]
         assert service["read_only"] and service["cap_drop"] == ["ALL"] and service["security_opt"] == ["no-new-privileges:true"]
         variables = self.image_variables | service["environment"]
@@ -182,7 +184,8 @@ class Composition:
         """
 
     def redis(self):
-        """The image of Redis protects nothing by itself either: nobody but the others gets at its network."""
+        """Returns a script that runs Redis without protected mode, as its Docker image does: only the other containers
+        can reach its network."""
         folder = self.folder / "redis"
         folder.mkdir()
         return f"cd {folder}; exec {self.services['redis']['command']} --protected-mode no"

@@ -1,4 +1,4 @@
-"""The image, built once for all tests."""
+"""Fixtures of the container tests; the image is built once for all of them."""
 
 import warnings
 

@@ -1,7 +1,6 @@
-"""Builds the image from docker/Dockerfile as it stands, without a Docker engine: by buildah, on a base made by debootstrap.
+"""Builds the image from docker/Dockerfile without a Docker engine: with buildah, on a base image made by debootstrap.
 
-What can be kept between runs is kept in build/container: the base, and the layers of the image up to what has changed.
-What was compiled before, ccache knows.
+The base image and unchanged layers are kept in build/container between runs, and ccache keeps compiled sources.
 """
 
 import json
@@ -17,13 +16,14 @@ IMAGE, BASE = "localhost/oval4d", "localhost/oval4d-base"
 
 
 def release():
-    """The distribution's name of this machine's release: the same libraries draw the same frames."""
+    """Returns the code name of this machine's Debian release. The image uses the same one, because frames are equal
+    only if they are drawn with the same libraries."""
     lines = Path("/etc/os-release").read_text(encoding="utf-8").splitlines()
     return dict(line.split("=", 1) for line in lines if "=" in line)["VERSION_CODENAME"].strip('"')
 
 
 def missing():
-    """Why no image can be built here, or nothing."""
+    """Returns why this machine cannot build the image, None if it can."""
     if os.geteuid() != 0:
         return "only root can make a base by debootstrap"
     absent = [tool for tool in ("buildah", "debootstrap") if shutil.which(tool) is None]
@@ -38,7 +38,7 @@ def run(*words, **keywords):
 
 
 class Builder:
-    """buildah with a store of its own. Where the system's overlay does not work inside a sandbox, files are copied."""
+    """buildah with its own storage. Where the overlay driver does not work, as in a sandbox, it copies files."""
 
     def __init__(self):
         faults = []
@@ -68,7 +68,7 @@ class Builder:
             return False
 
     def base(self):
-        """A minimal Debian, with this machine's way to the packages."""
+        """Returns the name of the base image, a minimal Debian with this machine's package sources; may create it."""
         name = f"{BASE}:{release()}"
         if self.has(name):
             return name
@@ -80,7 +80,7 @@ class Builder:
         authorities = list(Path("/usr/local/share/ca-certificates").glob("*.crt"))
         if "NODE_EXTRA_CA_CERTS" in os.environ:
             authorities.append(Path(os.environ["NODE_EXTRA_CA_CERTS"]))
-        if authorities:  # the packages come by a proxy of this machine's own
+        if authorities:  # this machine downloads packages through a proxy with its own certificate authority
             (files / "usr/local/share/ca-certificates").mkdir(parents=True, exist_ok=True)
             for file in authorities:
                 shutil.copy(file, files / "usr/local/share/ca-certificates")
@@ -95,20 +95,20 @@ class Builder:
         return name
 
     def build(self):
-        """The image. Nothing of it but the base is special to this machine."""
+        """Builds the image; only its base depends on this machine."""
         try:
             self.build_here()
         except AssertionError as fault:
             if "read-write layer" not in str(fault) and "layer not known" not in str(fault):
                 raise
-            # What was kept is damaged: a run before may have been killed.
+            # The kept layers are damaged, for example because an earlier run was killed.
             shutil.rmtree(KEPT / self.driver)
             self.build_here()
 
     def build_here(self):
         cache = Path(run("ccache", "--get-config", "cache_dir"))
         cache.mkdir(parents=True, exist_ok=True)
-        # Its own limits would be higher than what may be allowed here, or lower than what may be asked for.
+        # buildah's default limits may be higher than this machine allows, or lower than the build needs.
         limits = [f"--ulimit={name}={min(most, resource.getrlimit(kind)[1])}" for name, kind, most in
                   (("nofile", resource.RLIMIT_NOFILE, 20_000), ("nproc", resource.RLIMIT_NPROC, 32_768))]
         self("build", *limits, "--layers", "--format", "docker", "--isolation", "chroot", "--pull-never", "--build-arg", f"BASE={self.base()}",
@@ -117,7 +117,7 @@ class Builder:
 
 
 class Built:
-    """The image and its files."""
+    """The built image, with its files mounted."""
 
     def __init__(self, builder):
         self.builder = builder

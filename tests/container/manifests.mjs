@@ -1,4 +1,4 @@
-// Checks Kubernetes objects, a JSON array on standard input, by the schemas of Kubernetes' own API. Prints the faults.
+// Checks Kubernetes objects, a JSON array on standard input, against the schemas of the Kubernetes API. Prints errors.
 import { createRequire } from "node:module";
 import { text } from "node:stream/consumers";
 

@@ -1,4 +1,4 @@
-"""docker/compose.yaml as it stands, without a Docker engine: sessions through its proxy while servers come and go."""
+"""Runs docker/compose.yaml without a Docker engine: sessions continue while servers are added, stopped and killed."""
 
 import asyncio
 import signal
@@ -66,22 +66,23 @@ async def scene(composed):
         for _ in range(SESSIONS):
             begin()
         await all_press(sessions)
-        await begin_until_shared(servers)  # the proxy may have found one of them only when the first began
+        # The proxy may have found only one of the servers when the first sessions began.
+        await begin_until_shared(servers)
         assert sum(open_sessions(composed)) == len(sessions)
 
-        # More servers are found by their name, and have their share of what is new.
+        # The proxy finds an added server through the service's name, and sends it new sessions.
         added = composed.scale()
         await in_thread(None, until, lambda: added.answers(8080), "the server added")
         await begin_until_shared([added])
 
-        # One is stopped: its sessions go on at the others, at once, with what was acknowledged.
+        # One server is stopped: its sessions continue at once on the others, from the last acknowledged state.
         assert await in_thread(None, servers[0].stop) == 0
         composed.gone(servers[0])
         await all_press(sessions)
         moved = [session for session in sessions if session.away]
         assert moved and sum(open_sessions(composed)) == len(sessions)
 
-        # One dies, and nobody takes its name away.
+        # One server is killed, and its address remains in the name server.
         await in_thread(None, servers[1].stop, signal.SIGKILL)
         await all_press(sessions)
         for session in sessions:

@@ -1,4 +1,4 @@
-"""The image, built from docker/Dockerfile as it stands, and the server in it run as its user."""
+"""The image built from docker/Dockerfile, and the server in it, run as the image's user."""
 
 import asyncio
 import contextlib
@@ -59,7 +59,7 @@ def test_its_size_is_told(built):
 
 
 class Contained(harness.Server):
-    """The image's entry point without any options, as its user, in its files: all but the volume are read-only."""
+    """Runs the image's entry point without options, as the image's user, with all files read-only except the volume."""
 
     def __init__(self, files, variables):
         self.files = files
@@ -80,7 +80,7 @@ class Contained(harness.Server):
         return self.process.wait(harness.DEADLINE), 0
 
     def inside(self):
-        """The server's own process; the test's is that of unshare, which waits for it."""
+        """Returns the process ID of the server; the test's own child process is unshare, which waits for it."""
         return int(image.run("pgrep", "-P", self.process.pid))
 
 
@@ -107,4 +107,4 @@ def test_the_server_in_it_draws_what_the_one_outside_draws(built):
         done = subprocess.run(["chroot", "--userspec=999:999", files, *json.loads(healthcheck[1])], check=False,
                               env={**environment, "OVAL4D_PORT": str(inside.port)})
         assert done.returncode == 0
-        assert inside.metric("oval4d_sessions") == 1  # kept in the volume
+        assert inside.metric("oval4d_sessions") == 1  # the session is stored in the volume

@@ -1,4 +1,4 @@
-"""docker/kubernetes and docker/compose.yaml: whole, and as Kubernetes' API has it."""
+"""docker/kubernetes and docker/compose.yaml are valid, consistent with each other and with the server."""
 
 import json
 import re
@@ -54,7 +54,7 @@ def test_what_refers_to_another_finds_it():
 
 
 def test_the_metrics_are_those_of_the_server():
-    """The autoscaler's metric is made of these by the adapter."""
+    """The Prometheus adapter computes the autoscaler's metric from these metrics."""
     source = (ROOT / "server/net/metrics.cpp").read_text(encoding="utf-8")
     names = re.findall(r"oval4d_worker\w*", (FOLDER / "scaling.yaml").read_text(encoding="utf-8"))
     assert {"oval4d_worker_seconds_total", "oval4d_workers"} <= set(names) - {"oval4d_workers_busy"}

@@ -1,4 +1,4 @@
-"""Several servers, a Redis and an HAProxy on loopback: what docker/compose.yaml runs, without Docker."""
+"""Runs several servers, Redis and HAProxy on loopback: the services of docker/compose.yaml, without Docker."""
 
 import os
 import re
@@ -15,7 +15,7 @@ NOWHERE = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": 
 
 
 class Redis:
-    """A redis-server with its data in `folder`; it can be ended, paused and started again."""
+    """A redis-server with its data in `folder`; tests stop, pause and restart it."""
 
     def __init__(self, folder, *options, port=None):
         self.port = port or free_port()
@@ -47,7 +47,7 @@ class Redis:
 
 
 class Proxy:
-    """HAProxy with docker/haproxy.cfg, but for where the servers are."""
+    """HAProxy with docker/haproxy.cfg, except for the addresses of the servers."""
 
     def __init__(self, folder, servers):
         self.host, self.port = "127.0.0.1", free_port()

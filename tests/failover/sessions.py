@@ -1,4 +1,4 @@
-"""Sessions that press keys without end, and notice whatever is wrong when they come back from an interruption."""
+"""Clients that press keys continuously, and check their session after every interruption."""
 
 import asyncio
 import json
@@ -11,14 +11,14 @@ from wire import SUBPROTOCOL
 
 
 class Session:
-    """A client that presses keys and comes back by itself, at once and then with growing pauses."""
+    """A client that presses keys, and reconnects automatically: at once, then with growing pauses."""
 
     def __init__(self, number, proxy):
         self.number, self.proxy = number, proxy
         self.path, self.token = "/ws", None
         self.acknowledged = self.pressed = 0
-        self.start = None  # steps in the angles at revision 0
-        self.away = []  # seconds, of each interruption
+        self.start = None  # α at revision 0, in steps
+        self.away = []  # the duration of each interruption in seconds
         self.faults = []
         self.ended = False
 
@@ -54,12 +54,13 @@ class Session:
     async def enter(self, socket):
         welcome = await self.ask(socket, 1, type="hello", **({"token": self.token} if self.token else {}))
         if welcome["type"] != "welcome":
-            await asyncio.wait_for(socket.recv(), DEADLINE)  # the close that follows tells which error it was
+            await asyncio.wait_for(socket.recv(), DEADLINE)  # raises ConnectionClosed, whose code identifies the error
         state = await self.ask(socket, 2, type="get", what="state")
         if self.token is None:
             self.path, self.token = f"/ws/{welcome['session']}", welcome["token"]
             self.start = self.steps(state)
-            done = await self.ask(socket, 3, type="set", camera={"azimuth": (self.number + 1) / 1000})  # whose it is
+            # Identifies the session.
+            done = await self.ask(socket, 3, type="set", camera={"azimuth": (self.number + 1) / 1000})
             self.acknowledged = done["revision"]
             return
         if self.acknowledged and abs(state["camera"]["azimuth"] - (self.number + 1) / 1000) > 1e-9:
@@ -71,7 +72,7 @@ class Session:
 
     @staticmethod
     def steps(state):
-        """Each key adds one step to α: with the one that set the camera, so many revisions."""
+        """Returns α in steps. Each key adds one step, so it tells the revision (setting the camera is one more)."""
         return round(state["alpha"] / state["step"])
 
     async def press(self, socket):
@@ -84,7 +85,7 @@ class Session:
 
 
 async def all_press(sessions):
-    """Waits until every session has had a key acknowledged from now on."""
+    """Waits until every session has had one more key acknowledged."""
     before = [session.pressed for session in sessions]
     limit = time.monotonic() + 2 * DEADLINE
     while any(session.pressed <= count and not session.faults for session, count in zip(sessions, before)):

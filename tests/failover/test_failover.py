@@ -1,7 +1,7 @@
 """Servers are killed and drained, and Redis is restarted, while hundreds of sessions press keys.
 
-Every session goes on with the state that was last acknowledged to its client, none is lost or mixed up with another. How
-long they were away is printed, and written to build/results/failover/figures.txt.
+Every session must continue from the state that was last acknowledged to its client, and none may be lost or mixed up
+with another. The durations of the interruptions are printed, and written to build/results/failover/figures.txt.
 """
 
 import asyncio
@@ -18,7 +18,7 @@ FIGURES = cluster.ROOT / "build/results/failover/figures.txt"
 
 
 def figures(what, sessions, seen):
-    """The times of the interruptions since `seen`."""
+    """Reports the durations of the interruptions after the first `seen` ones of each session."""
     times = sorted(t for session, count in zip(sessions, seen) for t in session.away[count:])
     assert times, f"{what}: nobody noticed"
     p50, p99 = times[len(times) // 2], times[int(len(times) * 0.99)]

@@ -1,4 +1,4 @@
-"""Sessions in Redis, and a Redis that is not there, full, or does not answer."""
+"""Sessions in Redis, including a Redis that is unavailable, full, or does not answer."""
 
 import asyncio
 import signal
@@ -23,14 +23,15 @@ def opened_by(client):
 
 
 def says(server, text):
-    """Whether /readyz, which answers 200 all the same, says this."""
+    """Returns whether the text of /readyz contains this; its status must be 200 nevertheless."""
     answer = server.get("/readyz")
     assert answer.status == 200
     return text in answer.body.decode()
 
 
 async def pressed(server, times=1, **keys):
-    """Opens a session, or a new one, and presses a key so often: what opens it, and the revision reached."""
+    """Opens the session of `keys`, or a new one, and presses a key `times` times; returns the session's ID and token,
+    and the revision."""
     async with Client(server, **keys) as client:
         for _ in range(times):
             done = await client.request("key", key="k")
@@ -48,7 +49,8 @@ def test_another_server_goes_on_at_once(redis):
             before = await first.request("get", what="state")
             async with Client(two, **opened_by(first)) as second:
                 assert {**await second.request("get", what="state"), "id": 0} == {**before, "id": 0}
-                assert await first.closed() == 1012  # it is to come to the other server, too
+                # The code that tells this client to reconnect, and so to join the other server.
+                assert await first.closed() == 1012
                 await second.request("undo")
                 assert (await second.request("get", what="state"))["polytope"]["name"] == "5-cell"
                 await second.request("set", polytope="mine")
@@ -67,7 +69,8 @@ def test_redis_is_not_there_at_the_start(redis):
         with_redis.wait_for(lambda: says(with_redis, "Connection refused"))
         assert with_redis.metric("oval4d_store_up") == 0
         keys, revision = asyncio.run(pressed(with_redis, 3))
-        again, revision = asyncio.run(pressed(with_redis, 1, **keys))  # left and come back to, in memory
+        # Leaves the session and returns; it is in memory only.
+        again, revision = asyncio.run(pressed(with_redis, 1, **keys))
         assert (again, revision) == (keys, 4)
         assert with_redis.metric("oval4d_unsaved_sessions") == 1
         assert "store fails" in with_redis.log()
@@ -108,7 +111,8 @@ def test_redis_hangs(redis):
             for i in range(20):
                 assert (await client.request("key", key="k"))["revision"] == i + 2
             redis.kill(signal.SIGCONT)
-            assert time.monotonic() - start < DEADLINE / 2  # one wait for the time-out, not twenty
+            # The server waits for the timeout once, not for each of the twenty keys.
+            assert time.monotonic() - start < DEADLINE / 2
             return opened_by(client)
 
     redis.start()
@@ -125,7 +129,7 @@ def test_redis_hangs(redis):
 
 
 def test_a_session_elsewhere_is_not_called_lost(redis):
-    """Its client is told to try again, not that there is no such session."""
+    """The client is told to try again, not that the session does not exist."""
     redis.start()
     with cluster.server(redis, 0) as one:
         keys, _ = asyncio.run(pressed(one))

@@ -1,4 +1,5 @@
-// What a request over HTTP says of itself, one a line: its target, Host, Origin, Authorization and Cookie.
+// Fuzzes the access control and the targets of HTTP requests. The input has one line each for the target, Host, Origin,
+// Authorization and Cookie.
 
 #include "net/http/access.hpp"
 #include "net/http/target.hpp"
@@ -31,7 +32,7 @@ void requireReadsBack(const net::Target& target) {
     require(again->query == target.query, "a query survives being encoded");
 }
 
-/// The texts must say the same but for the case of letters.
+/// Returns whether `text` contains `part`, ignoring case.
 bool contains(std::string_view text, std::string_view part) {
     const auto same = [](char a, char b) { return (a | 0x20) == (b | 0x20); };
     return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();

@@ -1,5 +1,6 @@
-// A picture's width and height in a byte each, then the text of its state. The file that is made of them is walked
-// chunk by chunk: the text comes back, and so do the pixels. The text is then read as a state.
+// Fuzzes PNG files. The input has a byte each for the width and the height of a picture, then the text of its state.
+// The file encoded from them must have valid chunks, and give back the text and the pixels. The text is then parsed as
+// a state.
 
 #include <png.h>
 #include <zlib.h>
@@ -19,7 +20,7 @@ std::uint32_t load32(const Bytes& bytes, std::size_t at) {
            bytes[at + 3];
 }
 
-/// The text in the file's iTXt chunk; every chunk must be whole.
+/// Returns the text of the file's iTXt chunk; requires that every chunk is complete.
 std::string stateIn(const Bytes& png) {
     constexpr std::string_view kHeader("oval4d\0\0\0\0\0", 11);
     std::string state;
@@ -44,7 +45,7 @@ std::string stateIn(const Bytes& png) {
     return state;
 }
 
-/// The pixels by the reference library, without their alpha.
+/// Returns the pixels as decoded by libpng, without alpha.
 Bytes pixelsIn(const Bytes& png, png_image& header) {
     header = {};
     header.version = PNG_IMAGE_VERSION;
@@ -56,7 +57,8 @@ Bytes pixelsIn(const Bytes& png, png_image& header) {
     return pixels;
 }
 
-int lengthFrom(std::uint8_t byte) { return byte == 'L' ? 640 : 1 + byte % 64; }  // two L: in two bands
+// "LL" gives an image that is encoded in two bands.
+int lengthFrom(std::uint8_t byte) { return byte == 'L' ? 640 : 1 + byte % 64; }
 
 }  // namespace
 
@@ -77,7 +79,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             "the size comes back");
     for (std::size_t i = 0; i < pixels; ++i) {
         const std::size_t row = i / image.width, column = i % image.width;
-        const std::size_t from = 4 * ((image.height - 1 - row) * image.width + column);  // from the bottom up
+        // The image's rows are stored from the bottom up.
+        const std::size_t from = 4 * ((image.height - 1 - row) * image.width + column);
         require(std::equal(read.begin() + 3 * i, read.begin() + 3 * i + 3, image.pixels.begin() + from),
                 "the pixels come back");
     }

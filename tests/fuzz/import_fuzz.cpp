@@ -1,4 +1,4 @@
-// Whatever bytes a file holds: the importer refuses them with a reason, or makes a polytope that can be sliced.
+// Fuzzes the import of files: the importer refuses any bytes with a reason, or returns a polytope that can be sliced.
 
 #include <cstdint>
 #include <cstdlib>

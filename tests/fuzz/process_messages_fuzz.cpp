@@ -1,5 +1,5 @@
-// What one process reads that another has written: bytes that are no message are refused with an exception, and no
-// message takes more memory than its reader allows. The first letter says what is read.
+// Fuzzes the messages between processes: invalid bytes are refused with an exception, and no message takes more memory
+// than its reader allows. The first letter of the input selects the type of message.
 
 #include <sys/socket.h>
 #include <unistd.h>
@@ -29,7 +29,7 @@ void readObject(std::string_view bytes) {
     require(bytes.starts_with(again), "an object is written as it was read");
 }
 
-/// The bytes arrive through a socket whose other end is then closed.
+/// Receives the bytes through a socket whose other end is then closed.
 void receive(std::string_view bytes) {
     constexpr std::size_t kMost = 1000;
     int sockets[2];

@@ -1,5 +1,5 @@
-// A session as a store has it: the whole record, the head, and one object, each after its length in two bytes, the
-// low one first. Whatever the bytes are: Unreadable, or a sound session that can be sliced, sent and kept again.
+// Fuzzes stored sessions. The input has the full record, the head and one object, each after its length in two bytes
+// (little-endian). Decoding throws Unreadable, or returns a valid session that can be sliced, sent and stored again.
 
 #include "store/codec.hpp"
 #include "store/object_codec.hpp"
@@ -19,7 +19,7 @@ std::string_view takePart(std::string_view& rest) {
     return part;
 }
 
-/// Whether a record names a polytope that would take long to build.
+/// Returns whether a record names a polytope that would take long to build.
 bool namesLarge(std::string_view record) {
     try {
         const auto value = nlohmann::json::from_cbor(record);

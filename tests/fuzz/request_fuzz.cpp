@@ -1,5 +1,5 @@
-// Messages to the server, one a line: each is refused with a reason, or carried out on a session. An error leaves the
-// session as it was; after a success it is sound, and its state survives being written and read back.
+// Fuzzes messages to the server, one per line: each is refused with a reason, or executed on a session. An error does
+// not change the session; after a success it is valid, and its state survives encoding and decoding.
 
 #include "support.hpp"
 
@@ -8,7 +8,7 @@ using fuzz::require;
 
 namespace {
 
-/// The id that the answer must carry, by an independent reading of the text.
+/// Returns the id that the answer must have, found by independent parsing of the text.
 std::optional<double> idIn(std::string_view text) {
     const auto message = nlohmann::json::parse(text, nullptr, false);
     if (!message.is_object() || !message.contains("id") || !message["id"].is_number()) return {};

@@ -1,5 +1,5 @@
-// A viewport and command lines bring about a state, of which the `slices` message is written in JSON and in CBOR: both
-// must say the same. The CBOR is read back by a library, and its columns are made into rows here.
+// Fuzzes the `slices` message. The input is a viewport and command lines, which produce a state; its messages in JSON
+// and in CBOR must be equal. A library decodes the CBOR message, and its columns are converted to rows here.
 
 #include <cstring>
 #include <initializer_list>
@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-/// A typed array of RFC 8746 as an array of its numbers.
+/// Returns the numbers of a typed array (RFC 8746).
 template <typename T>
 json numbersOf(const json::binary_t& bytes) {
     require(bytes.size() % sizeof(T) == 0, "a typed array holds whole numbers");
@@ -24,7 +24,7 @@ json numbersOf(const json::binary_t& bytes) {
     return numbers;
 }
 
-/// `value` with every typed array in it as an array.
+/// Returns `value` with every typed array replaced by an array of numbers.
 json plain(const json& value) {
     if (value.is_binary()) {
         const json::binary_t& bytes = value.get_binary();
@@ -50,7 +50,7 @@ json plain(const json& value) {
     return out;
 }
 
-/// Takes from the front of a list, again and again; at the end nothing may be left.
+/// Takes elements from the front of a list; requires at the end that none is left.
 class Column {
   public:
     explicit Column(const json& list) : list_(list) {}
@@ -78,7 +78,7 @@ class Column {
     std::size_t at_ = 0;
 };
 
-/// One property for each of a slice's vertices, edges and faces.
+/// Three columns of the message: one property of the vertices, the edges and the faces.
 class Columns {
   public:
     explicit Columns(const json& of) : vertices_(of.at("vertices")), edges_(of.at("edges")), faces_(of.at("faces")) {}
@@ -141,7 +141,7 @@ json rowsOf(const json& columns) {
     return rows;
 }
 
-/// Coordinates are written as precisely as a float has them.
+/// Rounds all numbers to float, the precision of the coordinates in a message.
 void roundToFloats(json& value) {
     if (value.is_number()) value = static_cast<double>(value.get<float>());
     if (value.is_array()) {
@@ -149,7 +149,7 @@ void roundToFloats(json& value) {
     }
 }
 
-/// A list as rows of so many numbers, until it ends.
+/// Divides a list into rows of `width` numbers.
 json rows(const json& list, std::size_t width) { return Column(list).rows(list.size() / width, width); }
 
 json fromCbor(const std::string& text) {

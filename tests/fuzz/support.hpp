@@ -1,5 +1,5 @@
 #pragma once
-// What the fuzzers share: what must hold of a session, and carrying out a command without building large polytopes.
+// Helpers shared by the fuzzers: invariants of sessions, and the execution of commands without large polytopes.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@
 
 namespace oval4d::fuzz {
 
-/// Ends the process, which is how libFuzzer learns of a finding, unless `holds`.
+/// Aborts the process unless `holds`; libFuzzer reports this as a finding.
 inline void require(bool holds, std::string_view what, std::string_view detail = {}) {
     if (holds) return;
     std::fprintf(stderr, "broken: %.*s %.*s\n", static_cast<int>(what.size()), what.data(),
@@ -44,24 +44,24 @@ inline std::string_view takeUntil(std::string_view& text, char separator) {
     return head;
 }
 
-/// Small, so that an input takes milliseconds.
+/// Small limits, so that each input takes only milliseconds.
 inline const session::Limits kLimits{
     .maxSlices = 31, .maxUndo = 4, .maxLoaded = 2, .maxVertices = 120, .maxHullCells = 500};
 
-/// The one cache of the fuzzer.
+/// Returns the fuzzer's only cache.
 inline polytopes::PolytopeCache& cache() {
     static polytopes::PolytopeCache kCache;
     return kCache;
 }
 
-/// Whether the text names no polytope, or one that is built in no time.
+/// Returns whether the text names no polytope, or one that is built quickly.
 inline bool isSmall(std::string_view name) {
     const auto named = polytopes::designNamed(name, kLimits.maxVertices);
     const auto* design = std::get_if<polytopes::Design>(&named);
     return design == nullptr || polytopes::elementCounts(*design).vertices <= kLimits.maxVertices;
 }
 
-/// The name of the polytope that a command asks for, if it asks for one.
+/// Returns the name of the polytope that a command selects, "" if it selects none.
 inline std::string polytopeIn(const session::Command& command, const session::State& state) {
     if (const auto* line = std::get_if<session::CommandLine>(&command)) {
         const auto parsed = session::parseCommandLine(line->line, state);
@@ -71,7 +71,7 @@ inline std::string polytopeIn(const session::Command& command, const session::St
     return set ? set->object.value_or("") : "";
 }
 
-/// What must hold of every state that a client can bring about.
+/// Requires the invariants of every state that a client can produce.
 inline void requireSound(const session::State& state, const session::Limits& limits) {
     const auto within = [](double value, double most) { return std::abs(value) <= most; };
     require(slicing::identityOf(state.object) != nullptr, "a state has an object");
@@ -118,7 +118,7 @@ inline void requireSound(const session::Session& session, const session::Limits&
     require(session.loaded.size() <= limits.maxLoaded, "no more than maxLoaded objects are kept");
 }
 
-/// A message must be JSON, and so UTF-8; returns it.
+/// Requires that a message is a JSON object (and therefore UTF-8); returns it.
 inline nlohmann::json requireJson(const std::string& text) {
     auto message = nlohmann::json::parse(text, nullptr, false);
     require(!message.is_discarded() && message.is_object(), "a message is a JSON object:", text);
@@ -131,7 +131,7 @@ inline void requireSentence(const Error& error) {
     require(requireJson(wire::errorMessage(error, {})).at("message") == error.message, "an error travels whole");
 }
 
-/// Carries a command out as the server does. A large polytope is not built: then nothing happens.
+/// Executes a command as the server does, unless it would build a large polytope.
 inline void carryOut(session::Session& session, const session::Command& command) {
     const session::Session before = session;
     const bool small = isSmall(polytopeIn(command, session.now)) && !std::holds_alternative<session::Key>(command);
@@ -155,7 +155,7 @@ inline void carryOut(session::Session& session, const session::Command& command)
     }
 }
 
-/// Writes a state as a message, sets another session to it, and compares.
+/// Requires that a state survives encoding as a message and setting another session to it.
 inline void requireSurvives(const session::State& state, const session::Loaded& loaded) {
     const std::string text = wire::stateMessage(state, 7, 3);
     requireJson(text);
@@ -165,7 +165,7 @@ inline void requireSurvives(const session::State& state, const session::Loaded& 
     require(set->object == name, "an object's name travels whole");
     session::Session other;
     other.loaded = loaded;
-    // One that was replaced or came from another session is not found by its name.
+    // A loaded polytope that was replaced, or that belongs to another session, is not found by its name.
     const auto own = loaded.find(name);
     const bool named = own != loaded.end() ? own->second == state.object : isSmall(name);
     if (!named) return;
@@ -181,7 +181,7 @@ inline void requireSurvives(const session::State& state, const session::Loaded& 
     require(other.now == state, "a state survives:", text);
 }
 
-/// Slices it as a picture would be; all indices must be in range.
+/// Slices the state's object as for a picture; requires that all indices are in range.
 inline void requireSlices(const session::State& state) {
     static slicing::Slicer slicer;
     static slicing::SliceSet slices;

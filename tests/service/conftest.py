@@ -1,4 +1,4 @@
-"""Fixtures; and tests that are coroutines are run as such."""
+"""Fixtures of the service tests; also runs test functions that are coroutines."""
 
 import asyncio
 import inspect
@@ -9,7 +9,7 @@ from harness import DEADLINE, Server
 
 @pytest.fixture(scope="session", name="server")
 def shared_server():
-    """A server with its default options, shared by the tests: none of them may harm it."""
+    """A server with default options, shared by all tests, which must leave it usable."""
     with Server() as server:
         yield server
 

@@ -1,4 +1,4 @@
-"""Starts the real server for a test, and talks HTTP to it."""
+"""Starts a real server for a test, sends it HTTP requests, and inspects its processes."""
 
 import contextlib
 import http.client
@@ -20,7 +20,8 @@ def sanitized():
     return b"__tsan_init" in program or b"__asan_init" in program
 
 
-# Deadlines are multiplied by this: sanitizers and busy machines are slow, and no test waits longer than it must.
+# Deadlines are multiplied by this factor, because sanitizers and busy machines are slow. Tests stop waiting as soon as
+# their condition holds.
 SLOW = float(os.environ.get("OVAL4D_TEST_SLOW") or (6 if sanitized() else 1))
 DEADLINE = 20 * SLOW
 
@@ -32,14 +33,14 @@ def free_port():
 
 
 def answers(host, port):
-    """Whether anybody listens there."""
+    """Returns whether a program listens at this address and port."""
     with socket.socket() as one:
         one.settimeout(1)
         return one.connect_ex((host, port)) == 0
 
 
 def until(condition, what):
-    """Waits for it, which is called `what`."""
+    """Waits until the condition is true; fails after the deadline with a message that names `what`."""
     limit = time.monotonic() + DEADLINE
     while not condition():
         assert time.monotonic() < limit, f"{what} did not come about in time"
@@ -47,12 +48,12 @@ def until(condition, what):
 
 
 def wait_for_end(pids):
-    """Processes that were sent a signal: the system takes its time to end one that is stopped."""
+    """Waits for the end of processes that were sent a signal; the kernel may take a while to end a stopped process."""
     until(lambda: all(map(has_ended, pids)), "the end of the processes")
 
 
 def has_ended(pid):
-    """Also where nobody has asked for its status."""
+    """Returns whether the process has ended; a zombie counts as ended."""
     try:
         return Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rsplit(") ", 1)[1].startswith("Z")
     except FileNotFoundError:
@@ -60,7 +61,7 @@ def has_ended(pid):
 
 
 class Server:
-    """One running server on a port of its own. `options` are command-line words, `variables` its environment's."""
+    """A running server on its own port. `options` are command-line arguments, `variables` environment variables."""
 
     def __init__(self, *options, **variables):
         self.log_file = tempfile.NamedTemporaryFile(prefix="oval4d-", suffix=".log")
@@ -85,7 +86,7 @@ class Server:
         return Path(self.log_file.name).read_text(encoding="utf-8", errors="replace")
 
     def wait_for(self, condition):
-        """The condition's first true value; an error if the server ends before, or it does not come in time."""
+        """Returns the condition's first true value; fails if the server ends first, or after the deadline."""
         limit = time.monotonic() + DEADLINE
         while True:
             value = condition()
@@ -96,7 +97,8 @@ class Server:
             time.sleep(0.01)
 
     def get(self, path, method="GET", **headers):
-        """One request; headers with _ for -. The answer has `.body` beside what http.client gives it."""
+        """Sends one request and returns the http.client response, with the content as `.body`. In the names of headers,
+        _ stands for -."""
         connection = http.client.HTTPConnection(self.host, self.port, timeout=DEADLINE)
         with contextlib.closing(connection):
             connection.putrequest(method, path, skip_host="Host" in headers, skip_accept_encoding=True)
@@ -108,27 +110,27 @@ class Server:
             return answer
 
     def metric(self, name):
-        """A value of /metrics; `name` with its labels."""
+        """Returns a value of /metrics, 0 if it is absent; `name` includes the labels."""
         for line in self.get("/metrics").body.decode().splitlines():
             if line.rsplit(" ", 1)[0] == name:
                 return float(line.rsplit(" ", 1)[1])
         return 0.0
 
     def drawing(self):
-        """The numbers of its processes that draw, while they live."""
+        """Returns the process IDs of the server's live drawing processes."""
         children = []
         for file in Path("/proc").glob("[0-9]*/stat"):
             try:
                 parent = file.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()[1]
-                # One that ends, or is yet to begin, has other words or none.
+                # A process that is ending, or has not called exec yet, has another command line or none.
                 if int(parent) == self.process.pid and file.with_name("cmdline").read_bytes() == b"oval4d\0draw\0":
                     children.append(int(file.parent.name))
             except OSError:
-                continue  # it has ended meanwhile
+                continue  # the process has ended in the meantime
         return children
 
     def signal_drawing(self, number):
-        """To all of them; their numbers."""
+        """Sends a signal to all drawing processes; returns their process IDs."""
         pids = self.drawing()
         for pid in pids:
             with contextlib.suppress(ProcessLookupError):
@@ -136,21 +138,21 @@ class Server:
         return pids
 
     def files(self):
-        """What the server has open."""
+        """Returns the targets of the server's open file descriptors."""
         return [os.readlink(file) for file in Path(f"/proc/{self.process.pid}/fd").iterdir()]
 
     def memory(self):
-        """Resident bytes."""
+        """Returns the server's resident memory in bytes."""
         pages = Path(f"/proc/{self.process.pid}/statm").read_text(encoding="ascii").split()[1]
         return int(pages) * os.sysconf("SC_PAGE_SIZE")
 
     def own_memory(self):
-        """Of these, those that are in no file: neither code nor pictures that it shares with the processes that draw."""
+        """Returns the anonymous resident memory in bytes, without code and pixels shared with drawing processes."""
         status = Path(f"/proc/{self.process.pid}/status").read_text(encoding="ascii")
         return 1024 * int(re.search(r"RssAnon:\s+(\d+) kB", status).group(1))
 
     def stop(self, number=signal.SIGTERM):
-        """Asks it to end; the exit status and the seconds that it took."""
+        """Sends a signal that ends the server; returns the exit status and the seconds until the end."""
         start = time.monotonic()
         self.process.send_signal(number)
         try:
@@ -175,6 +177,6 @@ class Server:
 
 
 def run(*words, **keywords):
-    """Runs the program to its end."""
+    """Runs the program with these arguments until it ends."""
     return subprocess.run([str(PROGRAM), *map(str, words)], capture_output=True, timeout=DEADLINE, check=False,
                           **keywords)

@@ -1,4 +1,4 @@
-"""Reads exported files with other programs' eyes."""
+"""Reads exported files with other programs: admesh, assimp, and an independent 3MF reader."""
 
 import collections
 import io
@@ -15,9 +15,9 @@ CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 
 
 def admesh(path):
-    """What admesh says of an STL file."""
+    """Returns admesh's report on an STL file: numbers by name, and the bounding box."""
     done = subprocess.run(["admesh", str(path)], capture_output=True, text=True, timeout=120, check=True,
-                          errors="replace")  # 0.98.5 prints beyond the end of the header
+                          errors="replace")  # admesh 0.98.5 prints bytes beyond the end of the header
     number = {}
     for name, value in re.findall(r"^(.*?)\s+:\s+(-?[\d.]+)", done.stdout, re.MULTILINE):
         number[name.strip()] = float(value)
@@ -28,7 +28,7 @@ def admesh(path):
 
 
 def assert_closed(path, parts=None):
-    """admesh finds nothing to repair."""
+    """Asserts that admesh finds nothing to repair; returns its report."""
     report = admesh(path)
     for fault in ("Total disconnected facets", "Degenerate facets", "Edges fixed", "Facets removed", "Facets added",
                   "Facets reversed", "Backwards edges", "Normals fixed"):
@@ -46,13 +46,13 @@ def stl_triangles(data):
 
 
 def assimp(path, to):
-    """Has assimp read a file and write it again, its equal points as one."""
+    """Converts a file to STL with assimp, which joins equal points."""
     subprocess.run(["assimp", "export", str(path), str(to), "-fstlb", "-jiv"], capture_output=True, timeout=120, check=True)
     return to
 
 
 def three_mf(data):
-    """The objects of a 3MF file: name, points, triangles. All of them are built, in millimeters."""
+    """Returns (name, points, triangles) of each object of a 3MF file; asserts that all objects are printed, in mm."""
     archive = zipfile.ZipFile(io.BytesIO(data))
     assert archive.testzip() is None
     assert {"[Content_Types].xml", "_rels/.rels"} <= set(archive.namelist())
@@ -69,7 +69,7 @@ def three_mf(data):
 
 
 def assert_manifold(triangles):
-    """Every edge in two triangles, once each way."""
+    """Asserts that every edge is in two triangles, once in each direction."""
     edges = collections.Counter()
     for a, b, c in triangles:
         edges.update([(a, b), (b, c), (c, a)])

@@ -1,4 +1,4 @@
-"""PNG files: their chunks, their text, their pixels."""
+"""Reads the chunks, the state and the pixels of PNG files."""
 
 import io
 import json
@@ -11,7 +11,7 @@ SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 def chunks(png):
-    """(name, data) of each chunk, with its checksum checked."""
+    """Returns (name, data) of each chunk; asserts that its checksum is correct."""
     assert png.startswith(SIGNATURE)
     at = len(SIGNATURE)
     found = []
@@ -26,7 +26,7 @@ def chunks(png):
 
 
 def state_in(png):
-    """The state that the file carries: in an uncompressed iTXt chunk keyed oval4d, first after IHDR."""
+    """Returns the state in the file: an uncompressed iTXt chunk with the keyword oval4d, right after IHDR."""
     name, data = chunks(png)[1]
     assert name == "iTXt"
     keyword, rest = data.split(b"\0", 1)
@@ -35,7 +35,7 @@ def state_in(png):
 
 
 def pixels(png):
-    """(size, RGB bytes)"""
+    """Returns ((width, height), RGB bytes)."""
     image = Image.open(io.BytesIO(png))
     assert image.mode == "RGB"
     return image.size, image.tobytes()

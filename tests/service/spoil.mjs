@@ -1,4 +1,4 @@
-// node spoil.mjs <folder> <seed>: reads messages, pictures and links that were spoilt at random with the TypeScript
+// node spoil.mjs <folder> <seed>: reads randomly damaged messages, pictures and links with the TypeScript
 // client's readers, bundled as <folder>/readers.mjs. Prints how many were read and how many refused.
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -6,13 +6,13 @@ import { pathToFileURL } from "node:url";
 
 const [folder, seed] = process.argv.slice(2);
 const kRounds = 400;
-const kMost = 256 * 1024 * 1024; // bytes in typed arrays, garbage of earlier rounds among them
-const kLongest = 2000; // milliseconds for one
+const kMost = 256 * 1024 * 1024; // bytes in typed arrays, including garbage of earlier inputs
+const kLongest = 2000; // milliseconds for one input
 
 globalThis.location = { pathname: "/", search: "", hash: "", href: "http://localhost/" };
 const { Arena, commandLines, decodeCbor, decodeText, pngText } = await import(pathToFileURL(join(folder, "readers.mjs")));
 
-// Mulberry32: the same numbers for the same seed.
+// Mulberry32, a pseudorandom generator with a seed.
 let state = Number(seed);
 function random(below) {
     state = (state + 0x6d2b79f5) | 0;
@@ -21,7 +21,7 @@ function random(below) {
     return ((t ^ (t >>> 14)) >>> 0) % below;
 }
 
-/** A copy with some bytes changed, cut out, put twice, or made large. */
+/** Returns a copy with some bytes changed, removed, repeated, or set to large values. */
 function spoilt(bytes) {
     let out = Uint8Array.from(bytes);
     for (let changes = 1 + random(4); changes > 0; --changes) {
@@ -59,7 +59,7 @@ const readers = {
         return text ?? null;
     },
     link: (bytes) => {
-        const lines = commandLines(asText(bytes)); // throws nothing: the page would not begin
+        const lines = commandLines(asText(bytes)); // must not throw: otherwise the page would not start
         if (lines.some((line) => typeof line !== "string")) throw "no line";
         return lines;
     },

@@ -1,4 +1,4 @@
-"""Whatever is wrong with a message, its sender is told what, and nobody else notices."""
+"""Invalid messages: the error tells the sender what is wrong, and other sessions are not affected."""
 
 import json
 
@@ -61,7 +61,7 @@ async def test_a_bad_message_is_explained(server, message, code, says):
 
 @pytest.mark.parametrize("angle", ["NaN", "Infinity", "-Infinity", "1e999"])
 async def test_angles_that_are_no_numbers(server, angle):
-    """NaN and Infinity are not JSON at all; 1e999 is, and is out of range."""
+    """NaN and Infinity are not JSON; 1e999 is valid JSON, but out of range."""
     async with Client(server) as client:
         await client.socket.send('{"type":"rotate","id":4711,"planes":["xw"],"angles":[%s]}' % angle)
         error = await client.until(lambda: next((m for m in client.messages if m["type"] == "error"), None))
@@ -83,7 +83,7 @@ async def test_what_is_no_message_at_all_ends_the_connection(server, data, error
             await socket.send(data)
             async for answer in socket:
                 assert json.loads(answer)["code"] == error
-        except Exception as end:  # the library's versions differ in whether a close is raised
+        except Exception as end:  # versions of the library differ in whether a close raises an exception
             assert type(end).__name__.startswith("ConnectionClosed"), end
         assert socket.close_code == close
         await bystander.request("key", key="y")

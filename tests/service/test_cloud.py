@@ -1,4 +1,4 @@
-"""Finite sets of points in R⁴, loaded, sliced, drawn and kept."""
+"""Finite sets of points in R⁴: loading, slicing, drawing and storing them."""
 
 import math
 import random
@@ -12,7 +12,7 @@ SIZE = {"width": 480, "height": 270}
 
 
 def points(count, seed=1):
-    """Points on the Clifford torus, as text, and as numbers."""
+    """Returns random points on the Clifford torus, as text and as numbers."""
     source = random.Random(seed)
     numbers = []
     for _ in range(count):

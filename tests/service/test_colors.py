@@ -1,4 +1,4 @@
-"""Colors of faces, kinds of cells hidden and faded: as messages, as commands, as queries, in both streams."""
+"""Coloring of faces, and hidden and faded kinds of cells: by message, command and query, in both streams."""
 
 import json
 import urllib.parse
@@ -7,7 +7,7 @@ import pytest
 from png import pixels, state_in
 from wire import Client, Refused
 
-TESSERACT = "truncated tesseract"  # of two kinds: 0 is eight truncated cubes, 1 is sixteen tetrahedra
+TESSERACT = "truncated tesseract"  # two kinds of cells: 0, eight truncated cubes; 1, sixteen tetrahedra
 
 
 def query(server, **members):

@@ -1,4 +1,4 @@
-"""The wire, message by message."""
+"""The WebSocket protocol, message by message."""
 
 import math
 from unittest.mock import ANY
@@ -124,7 +124,7 @@ async def test_get_answers_with_what_was_asked_for(server):
 async def test_every_request_with_an_id_is_answered_once(server):
     async with Client(server, stream="geometry") as client:
         await client.request("shown", revision=0)
-        await client.request("key", key="g")  # the first of two: nothing happens yet
+        await client.request("key", key="g")  # the first key of "gg": no effect yet
         await client.request("key", key="G")
         await client.request("key", key="0")
         for number in range(1, 6):
@@ -177,7 +177,7 @@ IDS = ["0", "1", "1000000", "100000", "123456789012", "9007199254740992", "-1", 
 async def test_ids_come_back_as_they_were_sent(server, encoding):
     async with connect(server) as socket:
         async def answer(request, id_):
-            """The one message with the id, as bytes or text."""
+            """Sends the request with this id; returns the answer as received (bytes or text) and decoded."""
             await socket.send(request.replace("}", f',"id":{id_}}}'))
             while True:
                 data = await socket.recv()

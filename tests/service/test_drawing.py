@@ -1,4 +1,4 @@
-"""The processes that draw for a server: whatever becomes of one, no session is lost."""
+"""The server's drawing processes: when one dies, no session is lost."""
 
 import asyncio
 import os
@@ -17,13 +17,13 @@ from wire import Client, Refused
 
 SIZE = {"width": 480, "height": 270}
 DEATHS = 'oval4d_drawing_losses_total{cause="died"}'
-# A picture that takes long enough to be met in the making.
+# A picture that takes so long to draw that a test can interrupt it.
 LONG = {"polytope": "omnitruncated 120-cell", "slices": {"count": 101}}
 LARGE = {"width": 2400, "height": 1350}
 
 
 class Ignoring(Server):
-    """Begun by a program that ignores the ends of its own processes, which is inherited."""
+    """A server started by a program that ignores SIGCHLD, a setting that child processes inherit."""
 
     def start(self, words, environment):
         before = signal.signal(signal.SIGCHLD, signal.SIG_IGN)
@@ -34,13 +34,13 @@ class Ignoring(Server):
 
 
 def seconds_of(pid):
-    """Of a processor."""
+    """Returns the CPU time of a process in seconds."""
     fields = Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 async def signal_the_one_at_work(server, number):
-    """To the process that draws now; which that is. It may have drawn by then."""
+    """Sends a signal to the process that is drawing, and returns its ID. It may have finished by then."""
     started = {pid: seconds_of(pid) for pid in server.drawing()}
     while True:
         for pid, seconds in started.items():
@@ -100,7 +100,7 @@ async def test_they_end_with_the_server_and_not_before():
     try:
         pids = server.drawing()
         assert len(pids) >= 2
-        server.signal_drawing(signal.SIGTERM)  # as a terminal or a container sends it to all
+        server.signal_drawing(signal.SIGTERM)  # a terminal or a container sends these to all processes
         server.signal_drawing(signal.SIGINT)
         async with Client(server, stream="none", **SIZE) as client:
             await client.frame()
@@ -130,7 +130,7 @@ async def test_sizes_in_turns(server):
 
 
 async def test_no_connection_is_kept_open_by_them():
-    """A process that is started anew has none of the server's files."""
+    """A restarted drawing process inherits none of the server's file descriptors."""
     with Server() as server:
         async with Client(server, stream="frames", **SIZE) as client:
             await client.frame_of(0)
@@ -143,14 +143,15 @@ async def test_no_connection_is_kept_open_by_them():
 
 
 async def test_one_that_has_no_room_for_a_picture_draws_none(tmp_path):
-    """The system drops a file that is sent to a process which may open no more."""
+    """The kernel drops a file descriptor that is sent to a process whose limit on open files is reached; the process
+    then ends with an error."""
     ours, theirs = socket.socketpair()
     with ours, theirs, open(tmp_path / "log", "wb") as log:
         drawing = subprocess.Popen([PROGRAM, "draw"], stderr=log, preexec_fn=lambda: os.dup2(theirs.fileno(), 3),
                                    pass_fds=[3])
         ours.settimeout(DEADLINE)
-        assert struct.unpack("=I4xQ", ours.recv(16)) == (0, 0)  # it is ready
-        ours.sendall(struct.pack("=I4xQ", 1, 0))  # an order, as yet without anything
+        assert struct.unpack("=I4xQ", ours.recv(16)) == (0, 0)  # the process reports that it is ready
+        ours.sendall(struct.pack("=I4xQ", 1, 0))  # an order without its contents and without the shared memory
         assert drawing.wait(DEADLINE) == 1
     assert b"a drawing order arrived without the memory to draw into" in (tmp_path / "log").read_bytes()
 

@@ -1,4 +1,4 @@
-"""Slices as files, read back with other programs."""
+"""Exported files, read back with other programs."""
 
 import asyncio
 import csv
@@ -40,7 +40,7 @@ def refusal(server, format_, query, status=400):
 
 
 def rows(data):
-    """The two tables of a CSV file."""
+    """Returns the two tables of a CSV file: slices and critical levels of w."""
     slices, levels = data.decode().split("\n\n")
     return list(csv.DictReader(io.StringIO(slices))), list(csv.DictReader(io.StringIO(levels)))
 
@@ -60,7 +60,7 @@ async def test_the_same_file_by_socket_by_http_and_by_command(server, tmp_path, 
     path = tmp_path / f"slices.{format_}"
     done = run("export", "-o", path, "--polytope", "24-cell", "--rotate", "xw,yz:0.39,1.42", "--of", "oval", "--size=40")
     assert done.returncode == 0, done.stderr
-    if format_ == "3mf":  # has the time of its making in it
+    if format_ == "3mf":  # a 3MF file contains its time of creation
         assert meshes.three_mf(by_socket) == meshes.three_mf(by_http) == meshes.three_mf(path.read_bytes())
     else:
         assert by_socket == by_http == path.read_bytes()
@@ -76,8 +76,7 @@ def test_admesh_finds_nothing_to_repair_however_turned(server, tmp_path, polytop
         query = f"polytope={polytope}{turn}&focus={chance.randint(-4, 4)}"
         report = meshes.assert_closed(fetch_to(server, tmp_path / "solid.stl", query), parts=1)
         (row,), levels = rows(fetch(server, "csv", query))
-        # The circumscribed sphere is 60 mm across; its radius in the polytope's units is the largest level that any
-        # turn can bring about, so take it from the polytope itself.
+        # The circumscribed sphere has a diameter of 60 mm; the 4OFF file gives its radius in the polytope's units.
         points = off_points(fetch(server, "off", query))
         scale = 30 / max(sum(c * c for c in p) ** 0.5 for p in points)
         assert report["volume"] == pytest.approx(float(row["volume"]) * scale**3, rel=1e-3)
@@ -98,14 +97,14 @@ def test_every_body_of_the_oval_stands_on_the_plate_by_itself(server, tmp_path, 
     slices, _ = rows(fetch(server, "csv", query))
     full = [row for row in slices if float(row["volume"]) > 1e-6]
     path = fetch_to(server, tmp_path / "oval.stl", query + f"&body={body}")
-    # Frames stand for flat slices too.
+    # Balls and bars are also exported for flat slices, which have no solid.
     parts = len(full) if body == "solid" else sum(1 for row in slices if int(row["vertices"]) > 0)
     report = meshes.assert_closed(path, parts)
     assert all(low == pytest.approx(0, abs=1e-3) for low, _ in report["box"])
     assert report["box"][2][1] < 60
     if body == "frame" and polytope != "5-cell":
-        return  # too many triangles for Python
-    # In 3MF each is an object, and their boxes are apart.
+        return  # too many triangles to check in Python
+    # In 3MF each part is an object, and the bounding boxes are disjoint.
     objects = meshes.three_mf(fetch(server, "3mf", query + f"&body={body}"))
     assert len(objects) == parts
     boxes = []
@@ -148,7 +147,7 @@ def test_cells_have_their_colors(server):
     records = body[12 * vertices:]
     assert len(records) == 16 * faces
     colors = {records[16 * i + 13:16 * i + 16] for i in range(faces)}
-    assert len(colors) == 14  # the faces of the slice, each cut from a cell of its own
+    assert len(colors) == 14  # each of the 14 faces of the slice comes from another cell
 
 
 def test_a_label_is_cut_in_or_stands_beside(server, tmp_path):
@@ -222,7 +221,7 @@ def test_svg_of_many_vertices_is_their_density(server, tmp_path):
             for place in range(int(row), int(row) + int(height)):
                 assert drawn.setdefault((int(column), place), float(tone.get("fill-opacity"))) > 0
     assert {column for column, _ in drawn} == set(range(193)) and max(drawn.values()) == 1
-    for (column, row), opacity in drawn.items():  # with each vertex the 120-cell has the opposite one
+    for (column, row), opacity in drawn.items():  # the 120-cell is symmetric under point reflection
         assert abs(drawn.get((column, 64 - row), 0) - opacity) < 0.1
 
 
@@ -320,7 +319,8 @@ def test_a_slow_reader_gets_the_whole_of_a_long_file():
         server.wait_for(lambda: server.metric("oval4d_file_seconds_count") == 2)
         start = time.monotonic()
         found = data = b""
-        while len(data) < len(whole):  # longer than the time for one write, never longer without a byte
+        # Takes longer in total than the time limit of one write, but never pauses that long.
+        while len(data) < len(whole):
             found = raw.recv(1 << 20)
             assert found, "dropped"
             data += found

@@ -1,4 +1,4 @@
-"""Frames: complete PNG files that carry their state, the same by every way."""
+"""Frames are complete PNG files that contain the state; all ways to request one give the same pixels."""
 
 import png
 import pytest

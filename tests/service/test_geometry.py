@@ -1,4 +1,4 @@
-"""What the slices say, against mathematics that the server had no part in."""
+"""Compares the `slices` message with independently computed geometry."""
 
 import itertools
 import math
@@ -21,7 +21,7 @@ def turned(points, plane, angle):
 
 
 def cuts_of_a_simplex(vertices, w):
-    """The 3-D points in which the edges (all pairs) of a 5-cell meet a hyperplane."""
+    """Returns the 3-D points in which the edges of a 5-cell (all pairs of vertices) meet a hyperplane."""
     points = []
     for p, q in itertools.combinations(vertices, 2):
         if (p[3] - w) * (q[3] - w) < 0:
@@ -31,7 +31,7 @@ def cuts_of_a_simplex(vertices, w):
 
 
 def volume(piece):
-    """By the divergence theorem: positive if the faces run counter-clockwise seen from outside."""
+    """Returns the volume by the divergence theorem, positive if the faces are counterclockwise seen from outside."""
     total = 0
     for face in piece["faces"]:
         a, *others = (piece["vertices"][v] for v in face)
@@ -42,7 +42,7 @@ def volume(piece):
 
 
 def check_closed(piece):
-    """Euler's formula, and each edge run through once in either direction."""
+    """Asserts Euler's formula, and that the faces traverse each edge once in each direction."""
     if not piece["faces"]:
         return
     assert len(piece["vertices"]) - len(piece["edges"]) + len(piece["faces"]) == 2
@@ -72,7 +72,7 @@ async def test_the_cuts_of_the_5_cell_after_each_key(server):
                 assert piece["w"] == pytest.approx(piece["index"] * spacing)
                 check_closed(piece)
                 if min(abs(p[3] - piece["w"]) for p in expected) < 1e-5:
-                    continue  # through a vertex: another test's subject
+                    continue  # the hyperplane contains a vertex: other tests cover this
                 points = cuts_of_a_simplex(expected, piece["w"])
                 assert len(points) == len(piece["vertices"])
                 for point in points:
@@ -115,7 +115,8 @@ async def test_the_layout_travels_with_the_slices(server):
         places = [piece["position"] for piece in slices["slices"]]
         assert places[10] == [0, 0, 0] and slices["slices"][10]["focus"] is True
         assert all(a[0] < b[0] for a, b in zip(places, places[1:]))  # w rises to the right
-        assert places[0][2] == pytest.approx(100 * places[9][2])     # a parabola
+        # z grows with the square of the distance from the focus.
+        assert places[0][2] == pytest.approx(100 * places[9][2])
         done = await client.request("key", key="o")
         single = await client.slices(done["revision"])
         assert [p["index"] for p in single["slices"] if p["drawn"]] == [0]

@@ -1,4 +1,4 @@
-"""HTTP: the page, the API, the probes, and who may call."""
+"""HTTP: the page, the API, the health probes, and access control."""
 
 import gzip
 import json
@@ -31,7 +31,7 @@ def a_packed_site(tmp_path_factory):
     (root / "index.html").write_text("<!doctype html><title>page</title>")
     (root / "app.js").write_bytes(SCRIPT)
     (root / "app.js.gz").write_bytes(gzip.compress(SCRIPT, mtime=0))
-    (root / "app.js.br").write_bytes(b"brotli")  # the server does not look inside
+    (root / "app.js.br").write_bytes(b"brotli")  # the server does not decompress it
     (root / "lone.gz").write_bytes(b"as it is")
     with Server("--web-root", root) as server:
         yield server

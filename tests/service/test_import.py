@@ -1,4 +1,4 @@
-"""Files brought into a session: what is read, what is repaired, what is refused, and that nobody waits for it."""
+"""Loading of files: what is read, repaired and refused; a load does not delay other clients."""
 
 import asyncio
 import itertools
@@ -20,7 +20,7 @@ def tesseract():
 
 
 def tesseract_file(edges=32):
-    """4OFF, every 2-face found as the four vertices that share two coordinates."""
+    """Returns a tesseract as 4OFF; a 2-face consists of the four vertices that share two coordinates."""
     points = tesseract()
     faces, faces_of = [], {}
     for fixed in itertools.combinations(range(4), 2):
@@ -131,7 +131,8 @@ async def test_the_hull_is_limited():
 
 
 async def test_nobody_waits_for_another_ones_file(server):
-    """While one client's hull is made, another's keys are answered; the first one's messages keep their order."""
+    """While a convex hull is computed for one client, another client's keys are answered, and the first client's
+    messages keep their order."""
     async with Client(server) as busy, Client(server) as other:
         started = time.monotonic()
         loading = asyncio.ensure_future(load(busy, "points", moment_curve(250)))

@@ -1,4 +1,4 @@
-"""Each limit, from outside, set to something that a test can reach."""
+"""Each limit, set so low that a test can reach it."""
 
 import asyncio
 import json
@@ -36,7 +36,7 @@ async def test_the_welcome_tells_the_limits():
 
 
 async def fills_of(server, **settings):
-    """The triangles of each slice's fill, as corners."""
+    """Returns the triangles of each slice's fill, each as its three points."""
     async with Client(server) as client:
         await client.request("set", **settings)
         await client.frame(width=160, height=90)
@@ -77,7 +77,7 @@ async def test_sessions():
 
 
 async def connected(server):
-    """A connection, as soon as there is a place for it: those of earlier requests take a moment to end."""
+    """Connects as soon as the limit allows it: connections of earlier requests take a moment to end."""
     limit = time.monotonic() + DEADLINE
     while True:
         try:
@@ -89,7 +89,7 @@ async def connected(server):
 async def test_connections():
     with Server("--max-connections", 3) as server:
         sockets = [await connected(server) for _ in range(3)]
-        for socket in sockets:  # in use: they keep their places
+        for socket in sockets:  # a connection that has said hello is not replaced by a new one
             await socket.send('{"type":"hello"}')
             await socket.recv()
         with pytest.raises(websockets.InvalidHandshake) as full:
@@ -146,7 +146,7 @@ async def test_loaded_polytopes_and_their_vertices():
             assert (await refused(client, "load", name="one", format="off", data=simplex)).code == "too_large"
             error = await refused(client, "set", polytope="7,9-duoprism")
             assert error.code == "too_large" and "63 vertices" in error.text
-            await client.request("set", polytope="5,7-duoprism")  # in the catalogue
+            await client.request("set", polytope="5,7-duoprism")  # polytopes of the catalogue are exempt from the limit
             await client.request("set", polytope="600-cell")
 
 
@@ -166,7 +166,7 @@ async def test_a_silent_client_is_pinged_and_one_that_is_gone_is_dropped():
     with Server("--ping-interval", 0.3) as server:
         async with connect(server) as alive:
             await alive.send('{"type":"hello"}')
-            # One that answers no ping: its kernel keeps the connection, nobody reads.
+            # A client that answers no ping: its kernel keeps the connection open, but no program reads from it.
             from test_pacing import deaf_socket
 
             gone = deaf_socket(server, '{"type":"hello"}')

@@ -1,4 +1,4 @@
-"""Memory comes back when those are gone who needed it."""
+"""Memory that clients needed is freed after they have left."""
 
 import asyncio
 
@@ -7,11 +7,11 @@ from harness import Server, sanitized
 from wire import Client, connect
 
 LARGEST = "omnitruncated 120-cell"
-NOISE = 8_000_000  # bytes; a burst that stays is several times this
+NOISE = 8_000_000  # bytes; memory that a burst did not free would be several times as much
 
 
 async def stream(server, polytope, pictures, **hello):
-    """Shows a session as it turns, until so many pictures have come; the newest."""
+    """Turns a polytope until `pictures` pictures have arrived; returns those that follow."""
     async with Client(server, **hello) as client:
         await client.request("set", polytope=polytope)
         for count in range(pictures):
@@ -45,9 +45,9 @@ async def test_memory_comes_back_after_a_burst():
         await asyncio.gather(*(stream(server, LARGEST, 12, **hello) for hello in 2 * streams))
         assert server.own_memory() > warm + theirs + 2 * NOISE
         await falls_below(server, warm + theirs + NOISE)
-        await asyncio.sleep(1)  # also the worker that was the last
+        await asyncio.sleep(1)  # the last busy worker frees its memory a little later
 
-        # No picture is asked for any more, and yet what connections had is given back.
+        # The memory of connections is freed, too, even if no picture is requested afterwards.
         rest = server.own_memory()
         await asyncio.gather(*(onlooker.close() for onlooker in onlookers))
         await falls_below(server, rest - theirs / 4)

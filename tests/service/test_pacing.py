@@ -1,4 +1,4 @@
-"""Pictures come as fast as they are shown, always the newest, and nobody waits for anybody else."""
+"""Pacing: pictures of the newest state arrive as fast as they are acknowledged, and no client delays another."""
 
 import asyncio
 import base64
@@ -25,7 +25,7 @@ async def test_at_most_two_pictures_are_in_flight():
             await client.slices(0)
             for _ in range(20):
                 last = await client.request("key", key="r")
-            # Each answer came after what was sent before it: two pictures, and no third without a `shown`.
+            # Answers are in order, so all pictures have arrived: two, and no third one without a `shown`.
             await client.until(lambda: len(client.pictures()) == 2)
             for _ in range(20):
                 last = await client.request("key", key="r")
@@ -62,7 +62,7 @@ async def test_a_flood_of_keys_is_all_applied_and_the_newest_is_seen(server, str
             assert png.state_in(await client.frame_of(count))["revision"] == count
         seen = [m["revision"] for m in client.states()]
         assert seen == sorted(set(seen))
-        # 250 steps of α were taken, and clamped at 2π only if all counted.
+        # α increases by 250 steps and is limited to 2π: the result shows that no key was lost.
         step, start = state["step"], 5 * state["step"]
         assert state["alpha"] == pytest.approx(min(start + 250 * step, 6.283185307179586))
     assert server.metric("oval4d_slow_readers_total") == 0
@@ -107,7 +107,7 @@ async def test_turning_waits_for_those_who_look():
 
 
 def deaf_socket(server, *messages, buffer=4096):
-    """A client that asks and never reads: raw, with a small receive buffer."""
+    """Returns a raw socket with a small receive buffer that has sent messages and will never read."""
     raw = socket.socket()
     raw.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, buffer)
     raw.settimeout(DEADLINE)
@@ -116,18 +116,18 @@ def deaf_socket(server, *messages, buffer=4096):
                 "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                 f"Sec-WebSocket-Key: {base64.b64encode(os.urandom(16)).decode()}\r\n\r\n".encode())
     answer = b""
-    while not answer.endswith(b"\r\n\r\n"):  # RFC 6455, 4.1: nothing is sent before the handshake is answered
+    while not answer.endswith(b"\r\n\r\n"):  # RFC 6455, 4.1: a client sends no frame before the handshake is answered
         answer += raw.recv(1)
     try:
         for message in messages:
             raw.sendall(masked(message))
-    except ConnectionError:  # dropped already
+    except ConnectionError:  # the server has dropped the connection already
         pass
     return raw
 
 
 def masked(text, opcode=1, final=True):
-    """One WebSocket frame as a client must send it."""
+    """Returns a WebSocket frame, masked as a client must send it."""
     data, mask = text.encode() if isinstance(text, str) else text, os.urandom(4)
     size = len(data)
     header = bytes([(0x80 if final else 0) | opcode])
@@ -150,7 +150,7 @@ async def test_a_client_that_never_reads_is_dropped_and_harms_nobody():
                 await client.slices(done["revision"])
             await dropped
         await loop.run_in_executor(None, lambda: server.wait_for(lambda: server.metric("oval4d_websockets") == 0))
-        # 200 answers of 200 kB to each of five would be 200 MB.
+        # Buffering 200 answers of 200 kB for each of five clients would take 200 MB.
         assert server.memory() - before < 100e6 * SLOW
         for raw in deaf:
             raw.close()

@@ -26,7 +26,7 @@ async def test_names_and_notations(server, text, name, counts):
             assert polytope["name"] == name
             assert tuple(polytope[part] for part in ("vertices", "edges", "faces", "cells")) == counts
             assert sum(kind["cells"] for kind in polytope["kinds"]) == counts[3]
-            # What a state says brings the polytope back.
+            # The polytope of a state message can be set again.
             await client.request("set", polytope="5-cell")
             done = await client.request("set", polytope=polytope)
             assert (await client.state(done["revision"]))["polytope"] == polytope

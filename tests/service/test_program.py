@@ -1,4 +1,4 @@
-"""The program as a program: its help, its end, and pictures without a server."""
+"""The command line: help, how the server stops, and pictures without a server."""
 
 import signal
 import socket
@@ -23,7 +23,7 @@ async def test_a_stop_tells_every_client_to_come_back(number):
     with Server() as server:
         async with Client(server, stream="geometry") as one, Client(server, stream="frames") as two:
             await one.request("key", key="r")
-            await one.request("key", key=" ")  # while it turns
+            await one.request("key", key=" ")  # starts continuous turning
             await two.frame_of(0)
             import asyncio
 

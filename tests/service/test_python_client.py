@@ -1,4 +1,4 @@
-"""The client of protocol/python, as a script uses it."""
+"""The client in protocol/python, used as in a script."""
 
 import array
 import os
@@ -84,7 +84,7 @@ def test_waits_for_what_another_client_does(server, stream):
 
 
 def plain(value):
-    """Typed arrays as lists."""
+    """Converts typed arrays to lists."""
     if isinstance(value, array.array):
         return value.tolist()
     if isinstance(value, dict):
@@ -93,7 +93,7 @@ def plain(value):
 
 
 def nested(message):
-    """A slices message that was CBOR, as JSON has it."""
+    """Converts a decoded CBOR `slices` message to the form of the JSON message."""
     def groups(flat, size):
         return [list(group) for group in zip(*[iter(flat)] * size)]
 
@@ -113,7 +113,7 @@ def nested(message):
 
 
 def expect_alike(got, expected):
-    """Equal, but for what float32 cannot tell apart."""
+    """Asserts that the values are equal to the precision of float32."""
     if isinstance(expected, dict):
         assert got.keys() == expected.keys()
         for name, member in expected.items():
@@ -130,11 +130,11 @@ def expect_alike(got, expected):
 
 @pytest.mark.parametrize("lines", [
     ["polytope 5-cell"],
-    ["polytope 8-cell"],                                              # whole cells in hyperplanes: tints
+    ["polytope 8-cell"],                                              # whole cells in hyperplanes: `tints`
     ["polytope 120-cell", "rotate xw,yz 0.3 0.4"],                    # a density strip
-    ["polytope truncated tesseract", "hide 1", "rotate xw 0.2"],      # not all is seen
-    ["polytope grand 600-cell", "set slices=3", "rotate xw 0.2"],     # filled
-    ["polytope 5-cell", "focus 100"],                                 # nothing
+    ["polytope truncated tesseract", "hide 1", "rotate xw 0.2"],      # hidden cells: `seen`
+    ["polytope grand 600-cell", "set slices=3", "rotate xw 0.2"],     # crossing faces: `fill`
+    ["polytope 5-cell", "focus 100"],                                 # no slice
 ])
 def test_cbor_says_the_same_as_json(server, lines):
     with connect(server.url, timeout=DEADLINE) as oval:

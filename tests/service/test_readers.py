@@ -1,4 +1,4 @@
-"""The clients' readers, given what a server never sends: they refuse it as their documents say, at no great cost."""
+"""The Python and TypeScript clients refuse damaged messages as documented, without much time or memory."""
 
 import json
 import random
@@ -16,13 +16,13 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "protocol/python"))
 from oval4d_client import from_cbor, png_state  # noqa: E402
 
-# States whose messages have all members: tints, hidden and faded cells, crossing faces, a density strip.
+# States whose messages together have all members: tints, hidden and faded cells, crossing faces, a density strip.
 STATES = [[], ["polytope 8-cell"], ["polytope 5,7-duoprism", "rotate xw 0.5", "hide 0", "fade 1"],
           ["polytope 5/2,5-duoprism", "rotate xw,yz 0.3 0.1", "fade 0"], ["polytope 120-cell", "set slices=1"]]
 
 
 async def answers_of(server, lines, encoding):
-    """What a session answers in this state: a slices message and a frame, as they come."""
+    """Returns a `slices` message and a frame of the state that these commands produce, as received."""
     async with connect(server) as socket:
         await socket.send(json.dumps({"type": "hello", "encoding": encoding}))
         for line in lines:
@@ -41,7 +41,7 @@ async def answers_of(server, lines, encoding):
 
 @pytest.fixture(scope="module")
 def messages(tmp_path_factory):
-    """A folder for what the server says in each state, by its kind; the tests fill it once."""
+    """Returns a folder for messages in each state and format; the first test fills it."""
     return tmp_path_factory.mktemp("messages")
 
 
@@ -57,7 +57,7 @@ async def fill(server, folder):
 
 
 def spoilt(data, chance):
-    """A copy with some bytes changed, cut out, put twice, or made large."""
+    """Returns a copy with some bytes changed, removed, repeated, or set to large values."""
     out = bytearray(data)
     for _ in range(1 + chance.randrange(4)):
         at, some = chance.randrange(len(out) + 1), 1 + chance.randrange(16)
@@ -108,7 +108,7 @@ def test_python_refuses_by_one_exception(data):
         with pytest.raises(ValueError):
             read(data)
     text = b"[" * 50_000
-    with pytest.raises(ValueError):  # deeper than a reader's stack
+    with pytest.raises(ValueError):  # nested more deeply than a recursive reader's stack allows
         png_state(b"\x89PNG\r\n\x1a\n" + len(text + b"oval4d" + bytes(5)).to_bytes(4, "big") + b"iTXtoval4d" + bytes(5) + text + bytes(4))
 
 

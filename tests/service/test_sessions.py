@@ -1,4 +1,4 @@
-"""Sessions: shared, left, and come back to."""
+"""Sessions: sharing, leaving and returning."""
 
 import asyncio
 
@@ -37,7 +37,7 @@ async def test_a_session_survives_a_reload(server):
         after = await client.request("get", what="state")
         assert {**after, "id": 0} == {**before, "id": 0}
         assert (await client.slices(before["revision"]))["revision"] == before["revision"]
-        await client.request("undo")  # its history too
+        await client.request("undo")  # the history is kept, too
         await client.request("undo")
         assert (await client.request("get", what="state"))["polytope"]["name"] == "5-cell"
 

@@ -1,4 +1,4 @@
-"""Sessions that outlive their server: in a file of SQLite, and whatever happens to it."""
+"""Sessions in a SQLite file survive restarts and crashes of the server, and damage to the file."""
 
 import asyncio
 import contextlib
@@ -23,7 +23,7 @@ def file_path(tmp_path):
 
 
 def on_file(path, statement, *values):
-    """What the statement finds in the file, while no server has it."""
+    """Executes an SQL statement on the file while no server uses it; returns the rows."""
     with contextlib.closing(sqlite3.connect(path, isolation_level=None)) as file:
         return file.execute(statement, values).fetchall()
 
@@ -84,7 +84,7 @@ async def test_a_record_that_cannot_be_read_is_told_and_left(path):
     try:
         assert await turned_away(server, **keys) == ("not_found", 4404)
         assert "session cannot be read" in server.log() and "version 7" in server.log()
-        async with Client(server) as client:  # it serves on
+        async with Client(server) as client:  # the server still works
             await client.request("key", key="t")
         server.stop()
     finally:
@@ -93,15 +93,15 @@ async def test_a_record_that_cannot_be_read_is_told_and_left(path):
 
 
 class Presser:
-    """Presses k and K, each of which adds a step to α or β: so a state's angles tell its revision."""
+    """Presses k and K, each of which adds a step to α or β; so the angles of a state determine its revision."""
 
     def __init__(self):
         self.keys = {}
-        self.start = None  # steps in the angles of revision 0
+        self.start = None  # α and β at revision 0, in steps
         self.pressed = 0
-        self.done = [(0.0, 0)]  # when which revision was acknowledged
+        self.done = [(0.0, 0)]  # (time, revision) of each acknowledgment
         self.ending = False
-        self.killed = None  # when the server was
+        self.killed = None  # time at which the server was killed
 
     async def press(self, server):
         try:
@@ -112,7 +112,7 @@ class Presser:
                     done = await client.request("key", key="k" if self.pressed % 2 == 0 else "K")
                     self.pressed += 1
                     self.done.append((time.monotonic(), done["revision"]))
-                    # In all, too few for the angles to come to their bounds, 710 steps away.
+                    # Slow enough that the angles never reach their limits, which are 710 steps away.
                     await asyncio.sleep(random.random() / 16 * SLOW)
         except (AssertionError, OSError, websockets.ConnectionClosed):
             if server.process.poll() is None and not self.ending:
@@ -131,7 +131,7 @@ class Presser:
 
 
 async def test_killed_many_times_under_load(path):
-    """Nothing acknowledged more than a second before is lost, and the file is whole."""
+    """No change acknowledged more than a second before the kill is lost, and the file stays valid."""
     pressers = [Presser() for _ in range(12)]
     for round_ in range(10 if SLOW == 1 else 4):
         server = Server("--store", f"sqlite:{path}")

@@ -1,4 +1,4 @@
-// node validate_glb.mjs <file>: the report of Khronos' glTF validator as JSON.
+// node validate_glb.mjs <file>: prints the report of the Khronos glTF validator as JSON.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 

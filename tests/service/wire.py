@@ -1,4 +1,4 @@
-"""A client that hides nothing: every message received is kept, in order."""
+"""A WebSocket client that keeps every received message, in order."""
 
 import asyncio
 import itertools
@@ -12,19 +12,19 @@ SUBPROTOCOL = "oval4d.v1"
 
 
 def connect(server, session="", **keywords):
-    """A bare WebSocket. Pings are the server's business, and sizes are not limited here."""
+    """Opens a WebSocket without hello; the client sends no pings and does not limit the size of messages."""
     url = f"ws://{server.host}:{server.port}/ws" + (f"/{session}" if session else "")
     keywords.setdefault("subprotocols", [SUBPROTOCOL])
     return websockets.connect(url, max_size=None, max_queue=None, ping_interval=None, compression=None, **keywords)
 
 
 def status_of(refusal):
-    """The HTTP status of a refused handshake, whatever the library's version calls it."""
+    """Returns the HTTP status of a refused handshake, with any version of the library."""
     return refusal.status_code if hasattr(refusal, "status_code") else refusal.response.status_code
 
 
 class Refused(Exception):
-    """An error message that answered a request."""
+    """Raised if a request is answered by an error message."""
 
     def __init__(self, message):
         super().__init__(f"{message['code']}: {message['message']}")
@@ -32,14 +32,15 @@ class Refused(Exception):
 
 
 class Client:
-    """`async with Client(server, stream="geometry") as client:` has said hello and been welcomed.
+    """A session's client: `async with Client(server, stream="geometry") as client:` sends hello and awaits welcome.
 
-    `messages` is all that came: dictionaries, and bytes for frames and files. With `shows`, each picture is acknowledged.
+    `messages` holds everything received: dictionaries, and bytes for frames and files. If `shows`, the client
+    acknowledges each picture.
     """
 
     def __init__(self, server, session="", shows=True, address=None, **hello):
         self.server, self.session, self.shows = server, session, shows
-        self.connecting = {} if address is None else {"local_addr": (address, 0)}  # from this one of its addresses
+        self.connecting = {} if address is None else {"local_addr": (address, 0)}  # the local address
         self.hello = hello
         self.messages = []
         self.close_code = None
@@ -82,7 +83,7 @@ class Client:
     def decode(data):
         if isinstance(data, str):
             return json.loads(data)
-        return cbor2.loads(data) if 0xa0 <= data[0] < 0xc0 else data  # a map; else a frame or a file
+        return cbor2.loads(data) if 0xa0 <= data[0] < 0xc0 else data  # a CBOR map; other bytes are a frame or a file
 
     @staticmethod
     def is_picture(message):
@@ -92,7 +93,7 @@ class Client:
         await self.socket.send(json.dumps({"type": type_, **members}))
 
     async def request(self, type_, **members):
-        """Sends with an id, and returns what answers it; an error is raised."""
+        """Sends a request with an id and returns its answer; raises Refused for an error."""
         number = next(self._ids)
         await self.send(type_, id=number, **members)
         answer = await self.until(lambda: self.answer(number))
@@ -106,12 +107,12 @@ class Client:
         return found[0] if found else None
 
     async def frame(self, **members):
-        """Asks for a frame: the PNG file that came right before its `done`."""
+        """Requests a frame; returns the PNG file, which arrives right before `done`."""
         done = await self.request("get", what="frame", **members)
         return self.messages[self.messages.index(done) - 1]
 
     async def until(self, condition, deadline=DEADLINE):
-        """The condition's first true value; it is looked at whenever a message came."""
+        """Returns the condition's first true value; checks it after every message."""
         async with self._news:
             while True:
                 value = condition()
@@ -121,14 +122,14 @@ class Client:
                 await asyncio.wait_for(self._news.wait(), deadline)
 
     async def closed(self):
-        """The code with which the server closed."""
+        """Waits for the server to close; returns the close code."""
         async with self._news:
             while self.close_code is None:
                 await asyncio.wait_for(self._news.wait(), DEADLINE)
         return self.close_code
 
     def of_type(self, type_):
-        """Messages of the stream: those that answer a request are left out."""
+        """Returns the messages of this type in the stream, without the answers to requests."""
         return [m for m in self.messages if isinstance(m, dict) and m["type"] == type_ and "id" not in m]
 
     def states(self):
@@ -138,14 +139,14 @@ class Client:
         return [m for m in self.messages if self.is_picture(m) and not (isinstance(m, dict) and "id" in m)]
 
     async def state(self, revision):
-        """The streamed state of this revision, or the first newer one."""
+        """Waits for the streamed state of this revision, or the first newer one."""
         return await self.until(lambda: next((m for m in self.states() if m["revision"] >= revision), None))
 
     async def slices(self, revision):
         return await self.until(lambda: next((m for m in self.of_type("slices") if m["revision"] >= revision), None))
 
     async def frame_of(self, revision):
-        """The streamed frame that followed the state of this revision or a newer one."""
+        """Waits for the streamed frame that follows the state of this revision or a newer one."""
         def found():
             for at, message in enumerate(self.messages[:-1]):
                 if isinstance(message, dict) and message["type"] == "state" and message["revision"] >= revision:
@@ -156,7 +157,7 @@ class Client:
 
 
 async def turned_away(server, session="", **hello):
-    """Says hello where it is not welcome: the error's code, and the code of the close that follows."""
+    """Sends a hello that is refused; returns the error code, and the code of the close that follows."""
     async with connect(server, session) as socket:
         await socket.send(json.dumps({"type": "hello", **hello}))
         error = json.loads(await socket.recv())

@@ -1,6 +1,5 @@
-// A module that clang-tidy loads: the other checks then walk through our declarations alone, not through those of the
-// system's headers, about which they say nothing and in which they spend most of their time. From version 22 on
-// clang-tidy does so by itself.
+// A clang-tidy plug-in that restricts all checks to the project's declarations. By default, checks also traverse system
+// headers, where they report nothing but spend most of their time. clang-tidy 22 and later skips them itself.
 
 #include <vector>
 
@@ -16,7 +15,7 @@ namespace {
 
 using clang::ast_matchers::MatchFinder;
 
-// Is asked about the translation unit before the walk goes into it.
+// Matches the translation unit, before its declarations are traversed, and sets the scope of the traversal.
 class OursOnly : public clang::tidy::ClangTidyCheck {
   public:
     using ClangTidyCheck::ClangTidyCheck;

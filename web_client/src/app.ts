@@ -1,4 +1,4 @@
-// The application: connects the session with the picture, the keys, the buttons and the display of the state.
+// The page: connects the session to the picture, the keys, the buttons and the display of the state.
 
 import { Client, RequestError, type KeyBinding, type Keymap, type Request, type State } from "@oval4d/protocol";
 

@@ -1,4 +1,4 @@
-// The coloring of the faces, and the list of the kinds of cells, each of which can be shown, faded or hidden.
+// The controls for colors: how the faces are colored, and which kinds of cells are shown, faded or hidden.
 
 import type { CellKind, Coloring, Settings, State } from "@oval4d/protocol";
 

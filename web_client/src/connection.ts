@@ -1,4 +1,4 @@
-// The display of the connection's status.
+// Shows the status of the connection.
 
 import type { Status } from "@oval4d/protocol";
 

@@ -113,7 +113,7 @@ export class ExportDialog {
         const { format } = this;
         this.error.textContent = "";
         this.submit.disabled = true;
-        this.submit.textContent = "Making the file…";
+        this.submit.textContent = "Creating the file…";
         try {
             const bytes = await this.bytes(format);
             if (turn !== this.request) return;

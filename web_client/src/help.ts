@@ -36,7 +36,7 @@ export class Help {
                     "table",
                     {},
                     ...lines.map((key) => line(key.name, key.text)),
-                    ...(inverse ? [line("Shift +", "The inverse of any of these")] : []),
+                    ...(inverse ? [line("Shift +", "Apply the inverse rotation")] : []),
                 ),
             );
         });

@@ -1,5 +1,5 @@
-// The time from each request to the presentation of its picture: shown by `:set latency`, saved as a table by
-// `:export latency`, and available to scripts as performance measures.
+// Measures the time from each request to the presentation of its picture. `:set latency` shows the times,
+// `:export latency` saves them as a CSV file, and scripts find them among the page's performance measures.
 
 import { download } from "./download";
 import { byId } from "./element";

@@ -99,7 +99,7 @@ export class Loading {
         this.finish("done");
         if (warnings.length === 0) return this.hide();
         const list = element("ul", {}, ...warnings.map((warning) => element("li", {}, sentence(warning))));
-        this.say("Loaded, with these corrections:", list);
+        this.say("Loaded, with these warnings:", list);
         return undefined;
     }
 

@@ -1,5 +1,5 @@
-// Limits the repetition of a held key: it repeats only after the previous picture has been presented. Nothing is
-// queued.
+// Limits the repetition of a held key: the key repeats only after the picture of its previous press has been presented.
+// Repetitions that come too early are dropped, not queued.
 
 export class Pace {
     private unanswered = 0;

@@ -1,4 +1,4 @@
-// The display of the state, which is also announced to screen readers when it changes.
+// Shows the state's main values, and announces changes of the state to screen readers.
 
 import type { State } from "@oval4d/protocol";
 
@@ -9,6 +9,8 @@ import { degrees, focusW, length, rotation } from "./format";
 interface Reading {
     name: string;
     symbol: string;
+    /** What the value is, as the beginning of the button's tooltip. */
+    meaning: string;
     /** The beginning of the command that changes the value. */
     command: string;
     value(state: State): string;
@@ -16,13 +18,15 @@ interface Reading {
 }
 
 const kReadings: Reading[] = [
-    reading("alpha", "α", "set alpha=", (state) => degrees(state.alpha)),
-    reading("beta", "β", "set beta=", (state) => degrees(state.beta)),
-    reading("w", "w", "set focus=", (state) => length(focusW(state))),
-    reading("spacing", "δ", "set spacing=", (state) => length(state.slices.spacing)),
-    reading("slices", "Slices", "set slices=", (state) => String(state.slices.count)),
+    reading("alpha", "α", "Angle of the rotation keys", "set alpha=", ({ alpha }) => degrees(alpha)),
+    reading("beta", "β", "Angle in the second plane", "set beta=", ({ beta }) => degrees(beta)),
+    reading("w", "w", "Position of the focus slice", "set focus=", (state) => length(focusW(state))),
+    reading("spacing", "δ", "Distance between slices", "set spacing=", ({ slices }) => length(slices.spacing)),
+    reading("slices", "Slices", "Number of slices", "set slices=", ({ slices }) => String(slices.count)),
     {
-        ...reading("last", "Last rotation", "rotate ", (state) => (state.last ? rotation(state.last) : "none")),
+        ...reading("last", "Last rotation", "Planes and angles of the last rotation", "rotate ", ({ last }) =>
+            last ? rotation(last) : "none",
+        ),
         spoken: ({ last }) => (last ? `turned ${rotation(last)}` : ""),
     },
 ];
@@ -39,10 +43,11 @@ export class Readings {
 
     /** `edit` is called to open the command line with the beginning of a command. */
     constructor(edit: (command: string) => void) {
-        for (const { name, symbol, command } of kReadings) {
+        for (const { name, symbol, meaning, command } of kReadings) {
             const value = element("output", { "data-reading": name }, "\u2013");
             const label = element("span", { class: symbol.length === 1 ? "symbol" : "word" }, symbol);
-            const button = element("button", { type: "button", title: `Change with :${command}…` }, label, " ", value);
+            const title = `${meaning}. Change with :${command}…`;
+            const button = element("button", { type: "button", title }, label, " ", value);
             button.addEventListener("click", () => edit(command));
             this.root.append(button);
             this.values.set(name, value);
@@ -83,6 +88,12 @@ export class Readings {
     }
 }
 
-function reading(name: string, symbol: string, command: string, value: (state: State) => string): Reading {
-    return { name, symbol, command, value, spoken: (state) => `${symbol} ${value(state)}` };
+function reading(
+    name: string,
+    symbol: string,
+    meaning: string,
+    command: string,
+    value: (state: State) => string,
+): Reading {
+    return { name, symbol, meaning, command, value, spoken: (state) => `${symbol} ${value(state)}` };
 }

@@ -10,7 +10,7 @@ export interface ToolEvents {
     press(binding: KeyBinding, inverse: boolean, held: boolean): void;
 }
 
-/** A section of the page's own, shown among the groups of the key table; merged with a group of the same title. */
+/** A section that does not come from the key table. It is merged with a group of the table that has the same title. */
 export interface Section {
     title: string;
     /** The group of the key table after which the section is placed; by default it is the last. */
@@ -41,7 +41,7 @@ const kSwitches: Record<string, (state: State) => boolean> = {
     ),
 };
 /** Button labels for actions whose label in the key table is not clear enough on a button. */
-const kLabels: Record<string, string> = { view: "Single", command_line: "Command" };
+const kLabels: Record<string, string> = { view: "One slice", command_line: "Command" };
 const kFocusOrder = ["focus_first", "focus_left", "focus_zero", "focus_right", "focus_last"];
 
 /** Pairs of actions that are combined in one stepper: decrease, increase, and the name of the quantity. */

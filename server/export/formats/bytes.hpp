@@ -1,5 +1,5 @@
 #pragma once
-// Appends little-endian numbers to the bytes of a file.
+// Appends numbers in little-endian byte order to the bytes of a file.
 
 #include <bit>
 #include <cstdint>
@@ -14,6 +14,7 @@ void put(std::string& out, Number number) {
     for (std::size_t i = 0; i < sizeof number; ++i) out += static_cast<char>(number >> (8 * i) & 0xffU);
 }
 inline void put(std::string& out, float number) { put(out, std::bit_cast<std::uint32_t>(number)); }
+/// Appends x, y and z as float32.
 inline void put(std::string& out, const glm::dvec3& point) {
     for (int i = 0; i < 3; ++i) put(out, static_cast<float>(point[i]));
 }

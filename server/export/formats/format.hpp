@@ -1,5 +1,5 @@
 #pragma once
-// The input and the description of file formats.
+// The description of a file format, and the input of the functions that write files.
 
 #include <span>
 #include <string>
@@ -12,21 +12,21 @@
 
 namespace oval4d::exports {
 
-/// The bodies of a file, already arranged.
+/// The input of formats with bodies: the bodies, already arranged.
 struct Bodies {
     std::span<const Solid> solids;
-    std::span<const scene::Color> cellColors;
+    std::span<const scene::Color> cellColors;  ///< one per cell
     const std::string& title;
     const Budget& budget;
 
-    /// The color of a triangle of `solid`: that of its cell, or that of the solid if it has no cell.
+    /// Returns the color of a triangle of `solid`: that of its cell, or that of the solid if it has no cell.
     scene::Color colorOf(const Solid& solid, std::size_t triangle) const {
         const std::uint32_t cell = solid.mesh.cells[triangle];
         return cell < cellColors.size() ? cellColors[cell] : solid.color;
     }
 };
 
-/// The input of formats without bodies.
+/// The input of formats without bodies: a scene, and the object whose slices it contains.
 struct Source {
     const scene::Scene& scene;
     const slicing::Object& object;
@@ -34,10 +34,11 @@ struct Source {
 
 /// A file format of protocol/export_formats.json. Exactly one of the two writers is set.
 struct Format {
-    enum class Arrangement { none, plate, oval };  ///< of the bodies
+    /// How the bodies are arranged: the format has no bodies, in rows for a 3-D printer, or as in the oval view.
+    enum class Arrangement { none, plate, oval };
 
-    std::string name;       ///< in messages, and as the file name extension: "stl"
-    std::string mediaType;  ///< for the Content-Type header
+    std::string name;       ///< the name in messages, which is also the file name extension: "stl"
+    std::string mediaType;  ///< the value of the Content-Type header
     Arrangement arrangement = Arrangement::none;
     std::string (*writeBodies)(const Bodies&) = nullptr;
     std::string (*writeSource)(const Source&) = nullptr;

@@ -21,6 +21,7 @@ namespace oval4d::exports {
 
 namespace {
 
+/// The function that writes a format; the other pointer is null.
 struct Writer {
     std::string_view name;
     std::string (*ofBodies)(const Bodies&);

@@ -9,14 +9,14 @@
 
 namespace oval4d::exports {
 
-/// All formats: each row of protocol/export_formats.json with its writer. Throws std::logic_error if a row has no
-/// writer, or a writer has no row.
+/// Returns all formats: the rows of protocol/export_formats.json, each with its writer. Throws std::logic_error if a
+/// row has no writer, or a writer has no row.
 std::span<const Format> formats();
 
-/// The format of this name, or nullptr.
+/// Returns the format with this name, or nullptr.
 const Format* formatNamed(std::string_view name);
 
-/// The names of all formats.
+/// Returns the names of all formats.
 std::vector<std::string_view> formatNames();
 
 }  // namespace oval4d::exports

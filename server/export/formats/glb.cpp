@@ -32,8 +32,8 @@ class VertexAttribute {
         most_ = glm::max(most_, value);
         ++count_;
     }
-    /// Appends the attribute to the model's only buffer. `bounded`: whether to store its minimum and maximum. Returns
-    /// the index of its accessor.
+    /// Appends the attribute to the model's only buffer, and returns the index of its accessor. `bounded`: whether the
+    /// accessor has the minimum and maximum of the values.
     int store(tinygltf::Model& model, bool bounded) const {
         std::vector<unsigned char>& data = model.buffers.front().data;
         tinygltf::BufferView view;
@@ -64,7 +64,7 @@ class VertexAttribute {
     glm::vec3 least_{3e38F}, most_{-3e38F};
 };
 
-/// Adds a solid. Triangles do not share vertices, so that each has one normal and one color.
+/// Adds a solid to the model. Triangles do not share vertices, so that each triangle has one normal and one color.
 void addSolid(const Solid& solid, const Bodies& bodies, tinygltf::Model& model) {
     VertexAttribute positions;
     VertexAttribute normals;
@@ -72,7 +72,7 @@ void addSolid(const Solid& solid, const Bodies& bodies, tinygltf::Model& model) 
     for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) {
         const glm::dvec3 across = normalOf(solid.mesh, solid.mesh.triangles[t]);
         const double length = glm::length(across);
-        if (!(length > 0)) continue;  // invisible, and without a normal
+        if (!(length > 0)) continue;  // a degenerate triangle is invisible and has no normal
         const scene::Color color = bodies.colorOf(solid, t);
         for (const std::uint32_t corner : solid.mesh.triangles[t]) {
             positions.add(glm::vec3(solid.mesh.points[corner] * kMetersPerMillimeter));

@@ -6,7 +6,8 @@
 
 namespace oval4d::exports {
 
-/// Binary glTF 2.0, in meters, with a node for each body and vertex colors.
+/// Returns a binary glTF 2.0 file in meters, with a node for each body and with vertex colors. Throws
+/// std::runtime_error if tinygltf fails.
 std::string glb(const Bodies& bodies);
 
 }  // namespace oval4d::exports

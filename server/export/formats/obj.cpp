@@ -6,7 +6,7 @@ namespace oval4d::exports {
 
 namespace {
 
-// Object names must not contain white space.
+// Returns a name without white space, which object names must not contain.
 std::string wordOf(std::string name) {
     for (char& c : name) {
         if (c == ' ' || c == '\n') c = '_';

@@ -6,7 +6,7 @@
 
 namespace oval4d::exports {
 
-/// Wavefront OBJ, with an object for each body that contains a group for each cell.
+/// Returns a Wavefront OBJ file in millimeters, with an object for each body and, in it, a group for each cell.
 std::string obj(const Bodies& bodies);
 
 }  // namespace oval4d::exports

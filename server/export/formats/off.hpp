@@ -6,7 +6,8 @@
 
 namespace oval4d::exports {
 
-/// The rotated object in 4OFF, in its own units. Reading the file gives the same object.
+/// Returns the rotated object as a 4OFF file, in the object's own units. Reading the file of a polytope gives the same
+/// polytope; the file of a point cloud lists its points.
 std::string off(const Source& source);
 
 }  // namespace oval4d::exports

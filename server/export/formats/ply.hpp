@@ -6,7 +6,7 @@
 
 namespace oval4d::exports {
 
-/// Binary little-endian PLY, with all bodies in one mesh and a color for each triangle.
+/// Returns a binary little-endian PLY file in millimeters, with all bodies in one mesh and a color for each triangle.
 std::string ply(const Bodies& bodies);
 
 }  // namespace oval4d::exports

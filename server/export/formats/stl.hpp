@@ -6,7 +6,7 @@
 
 namespace oval4d::exports {
 
-/// Binary STL, with all bodies in one mesh.
+/// Returns a binary STL file in millimeters, with all bodies in one mesh.
 std::string stl(const Bodies& bodies);
 
 }  // namespace oval4d::exports

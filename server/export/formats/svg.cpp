@@ -12,11 +12,11 @@ namespace oval4d::exports {
 
 namespace {
 
-// Lengths are in units of 1/72 inch; the drawing is as wide as the text of a paper.
+// Lengths are in units of 1/72 inch. The drawing is as wide as a text column of a printed page.
 constexpr double kWidth = 480;
 constexpr double kMargin = 12;
-constexpr double kAmplitude = 40;  // of one circumradius
-constexpr double kMaxColumn = 48;  // column widths
+constexpr double kAmplitude = 40;  // length of a line whose value is the circumradius
+constexpr double kMaxColumn = 48;  // bounds of the width of a vertex's column
 constexpr double kMinColumn = 5;
 constexpr double kText = 7;  // font size
 
@@ -32,10 +32,11 @@ std::string color(scene::Color rgb) {
     return text.data();
 }
 
+/// The layout of the vertices' columns in rows.
 struct Columns {
     std::size_t count, perRow, rows;
     double step, rowStep;
-    bool named;
+    bool named;  ///< whether there is room for the labels P0, P1, …
 
     explicit Columns(std::size_t vertices) : count(vertices) {
         const double width = kWidth - 2 * kMargin;
@@ -61,7 +62,8 @@ std::array<scene::Color, 4> axisColors() {
     return {style.axisX, style.axisY, style.axisZ, style.axisW};
 }
 
-/// The density as paths: one path for each of a few tones, with the outlines of all pixels that have this tone.
+/// Returns the density as SVG paths. It is rounded to kTones tones; the path of a tone has the outlines of all pixels
+/// of this tone.
 std::string densityPaths(const scene::Density& density) {
     using scene::Density;
     constexpr int kTones = 32;

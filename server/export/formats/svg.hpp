@@ -6,7 +6,8 @@
 
 namespace oval4d::exports {
 
-/// An SVG drawing of the parallel coordinates of the rotated vertices.
+/// Returns an SVG drawing of the parallel coordinates of the rotated vertices; if there are more than scene::kMostLines
+/// vertices, a density plot.
 std::string svg(const Source& source);
 
 }  // namespace oval4d::exports

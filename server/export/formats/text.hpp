@@ -14,10 +14,12 @@ void append(std::string& out, float number);
 /// Appends three numbers separated by spaces.
 void append(std::string& out, const glm::dvec3& point);
 
-/// A label such as "w = −0.25", with enough decimals to distinguish neighboring slices.
+/// Returns a label such as "w = −0.25", with enough decimals to distinguish neighboring slices. `spacing` is the
+/// distance between neighboring hyperplanes.
 std::string labelOfW(double w, double spacing);
 
-/// Escapes text for XML content and attributes: & < > and quotes become entities, and control characters are dropped.
+/// Returns the text escaped for XML content and attributes: & < > and quotes become entities, and control characters
+/// are removed.
 std::string xmlEscaped(std::string_view text);
 
 }  // namespace oval4d::exports

@@ -27,7 +27,7 @@ Owned<Thing> owned(const char* what, Make&& make) {
     return {made, &lib3mf_release};
 }
 
-// The output of the library: a seekable buffer.
+// The seekable buffer that lib3mf writes to.
 struct Sink {
     std::string bytes;
     std::size_t at = 0;
@@ -44,7 +44,7 @@ struct Sink {
     }
 };
 
-// A progress callback: returns false to cancel writing.
+// The progress callback of lib3mf. Returns false to cancel writing.
 bool mayContinue(int /*progress*/, ProgressIdentifier /*step*/, void* budget) {
     return !static_cast<const Budget*>(budget)->isOver();
 }

@@ -6,7 +6,7 @@ namespace oval4d::exports {
 
 namespace {
 
-constexpr double kMeter = 1e-3;  // millimeters
+constexpr double kMeter = 1e-3;  // meters per millimeter
 
 void appendColor(std::string& out, scene::Color color) {
     for (const unsigned shift : {16U, 8U, 0U}) {

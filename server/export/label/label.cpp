@@ -15,19 +15,20 @@ namespace oval4d::exports {
 
 namespace {
 
-constexpr double kMinHeight = 1;    // of a capital letter in millimeters
-constexpr double kMargin = 0.6;     // around the text, in heights of a capital letter
-constexpr double kMinDepth = 0.25;  // of the letters in millimeters
-constexpr double kMaxDepth = 0.8;
+constexpr double kMinHeight = 1;    // minimum height of a capital letter in millimeters
+constexpr double kMargin = 0.6;     // margin around the text, in heights of a capital letter
+constexpr double kMinDepth = 0.25;  // minimum depth of the letters in millimeters
+constexpr double kMaxDepth = 0.8;   // maximum depth
 
 /// The face formed by the triangles of one cell.
 struct Face {
-    std::vector<std::uint32_t> loop;  // counterclockwise
+    std::vector<std::uint32_t> loop;  // mesh points, counterclockwise
     glm::dvec3 normal{0};
-    glm::dvec3 middle{0};  // centroid of the area
+    glm::dvec3 middle{0};  // centroid
 };
 
-/// A placement of the text on a face. `right` is the reading direction; a unit of the text is `height` millimeters.
+/// A placement of the text on a face. `middle` is the center of the text, `right` the reading direction, and `height`
+/// the height of a capital letter in millimeters.
 struct TextPlacement {
     std::uint32_t cell = kNoCell;
     const Lettering* text = nullptr;
@@ -35,7 +36,7 @@ struct TextPlacement {
     double height = 0, depth = 0;
 };
 
-/// The faces by cell, without those that have more than one boundary loop.
+/// Returns the faces of the mesh by cell, without those that have more than one boundary loop.
 std::map<std::uint32_t, Face> facesOf(const Mesh& mesh) {
     std::map<std::uint32_t, Face> faces;
     std::map<std::uint32_t, std::map<std::pair<std::uint32_t, std::uint32_t>, int>> edges;
@@ -66,8 +67,8 @@ std::map<std::uint32_t, Face> facesOf(const Mesh& mesh) {
     return faces;
 }
 
-/// The placement with the largest letters that leave the margin on this face, read along `right` or, so that the text
-/// is not upside down, along its opposite.
+/// Returns the placement with the largest letters that leave the margin free on this face. The text runs along `right`
+/// or, if it would then be upside down, in the opposite direction.
 TextPlacement fit(const Mesh& mesh, const Face& face, const glm::dvec3& right, const Lettering& text) {
     TextPlacement placement{kNoCell, &text, face.middle, right, glm::cross(face.normal, right), face.normal, 1e300, 0};
     if (placement.up.z < -1e-9 || (std::abs(placement.up.z) < 1e-9 && placement.up.y < 0)) {
@@ -87,8 +88,8 @@ TextPlacement fit(const Mesh& mesh, const Face& face, const glm::dvec3& right, c
     return placement;
 }
 
-/// The depth of the letters: at most half the distance from the box under the text to the next face, and at most a
-/// quarter of the height.
+/// Returns the depth of the letters: at most kMaxDepth, a quarter of the letters' height, and half the depth at which
+/// the rectangle around the text, moved into the body, meets another face.
 double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, Face>& faces, const Mesh& mesh) {
     double depth = kMaxDepth;
     const glm::dvec2 half = (placement.text->size / 2.0 + kMargin / 2) * placement.height;
@@ -103,6 +104,7 @@ double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, Fac
     return std::min(depth, placement.height / 4);
 }
 
+/// Returns whether the mesh is convex and consists of these faces, without holes.
 bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, Face>& faces, const Grid& grid) {
     std::size_t corners = 0;
     for (const auto& [cell, face] : faces) {
@@ -114,8 +116,8 @@ bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, Face>& faces, cons
     return corners == mesh.triangles.size();
 }
 
-/// Engraves the text: replaces the face by one with holes for the letters, and adds their walls and floors. Returns
-/// false and leaves the mesh unchanged if the result would not be a closed manifold.
+/// Engraves the text: replaces the face by a face with holes for the letters, and adds the letters' walls and floors.
+/// Returns false and leaves the mesh unchanged if the result would not be a closed manifold.
 bool engraveText(Mesh& mesh, const Face& face, const TextPlacement& placement, const Grid& grid) {
     const auto flat = [&](const glm::dvec3& p) {
         return glm::dvec2(glm::dot(p - placement.middle, placement.right),

@@ -10,19 +10,22 @@
 
 namespace oval4d::exports {
 
-/// A text set in one line and in two lines; engraving uses whichever fits with larger letters.
+/// The text of a label, laid out both in one line and in two lines. Engraving uses the layout that allows larger
+/// letters.
 class Caption {
   public:
-    /// `name`: the title of the object. `w`: the hyperplane, as text.
+    /// `name`: the object's name. `w`: the hyperplane as text, such as "w = −0.25".
     Caption(const std::string& name, const std::string& w);
 
-    /// Engraves the text in the flat face of a convex body that allows the largest letters; `mesh.cells` identifies the
-    /// faces. Letters are at most size / 10 high and at most 0.8 mm deep. Returns false and leaves the mesh unchanged
-    /// if letters would be less than 1 mm high, or the body is not convex or too thin.
+    /// Engraves the text into the face of a convex body that allows the largest letters. Triangles with the same entry
+    /// in `mesh.cells` form a face. Letters are at most size / 10 high (`size`: ExportRequest::size) and at most 0.8 mm
+    /// deep. Returns false and leaves the mesh unchanged if the letters would be less than 1 mm high, or if the body is
+    /// not convex or too thin.
     bool engrave(Mesh& mesh, double size, const Grid& grid) const;
 
-    /// A plate with the text engraved in its top side, for bodies of this size. Its bottom lies in the plane z = 0; it
-    /// is centered in x and extends from y = 0 toward negative y.
+    /// Returns a plate with the text engraved into its top side. The letters are as large as suits bodies of this size
+    /// (ExportRequest::size). The bottom of the plate lies in the plane z = 0; the plate is centered in x and extends
+    /// from y = 0 toward negative y.
     Mesh plate(double size, const Grid& grid) const;
 
   private:

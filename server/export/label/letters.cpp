@@ -18,6 +18,7 @@ namespace {
 constexpr double kLineStep = 1.7;  // distance between baselines, in heights of a capital letter
 constexpr int kPieces = 4;         // line segments per curve
 
+// Converts lines of text to contours, with FreeType. The unit is the height of a capital letter.
 class Pen {
   public:
     Pen() {
@@ -38,7 +39,7 @@ class Pen {
     Pen(const Pen&) = delete;
     Pen& operator=(const Pen&) = delete;
 
-    /// Appends the contours of a line of text that starts at (0, y), and returns its length.
+    /// Appends the contours of a line of text whose baseline starts at (0, y), and returns the length of the line.
     double write(const std::string& text, double y, std::vector<Contour>& out) {
         origin_ = {0, y};
         out_ = &out;
@@ -87,7 +88,8 @@ class Pen {
     int curve(const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, int degree) {
         const glm::dvec2 a = out_->back().back();
         const glm::dvec2 d = place(to);
-        // A quadratic curve equals a cubic one whose control points lie two thirds of the way to its own.
+        // A quadratic Bézier curve equals the cubic one whose control points lie two thirds of the way from its ends to
+        // its own control point.
         const glm::dvec2 b = degree == 3 ? place(first) : glm::mix(a, place(first), 2.0 / 3);
         const glm::dvec2 c = degree == 3 ? place(second) : glm::mix(d, place(second), 2.0 / 3);
         for (int i = 1; i <= kPieces; ++i) {
@@ -105,7 +107,7 @@ class Pen {
     std::vector<Contour>* out_ = nullptr;
 };
 
-/// Removes consecutive equal points of a closed contour.
+/// Removes repetitions of a point in a closed contour.
 void removeDuplicates(Contour& contour) {
     contour.erase(std::unique(contour.begin(), contour.end()), contour.end());
     while (contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();

@@ -1,5 +1,5 @@
 #pragma once
-// Converts text to outlines.
+// Converts text to the outlines of its letters.
 
 #include <string>
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace oval4d::exports {
 
-/// A block of text, centered at the origin. The unit is the height of a capital letter.
+/// The outlines of a block of text, centered at the origin. The unit is the height of a capital letter.
 struct Lettering {
     std::vector<Contour> contours;  ///< counterclockwise around the letters' area
-    glm::dvec2 size{0};             ///< of the bounding box
+    glm::dvec2 size{0};             ///< width and height of the bounding box
 };
 
-/// Sets lines of UTF-8 text, each centered below the previous one. Throws std::runtime_error if the font cannot be
-/// read.
+/// Returns the outlines of lines of UTF-8 text, each line centered below the previous one. Empty if the text has no
+/// visible letter. Throws std::runtime_error if the font cannot be read.
 Lettering letteringOf(const std::vector<std::string>& lines);
 
 }  // namespace oval4d::exports

@@ -29,7 +29,7 @@ class Hull {
     }
 
   private:
-    /// Six times the signed volume of the tetrahedron of triangle t and point p: positive if p is outside.
+    /// Returns six times the signed volume of the tetrahedron of triangle t and point p: positive if p is outside.
     std::int64_t sixVolume(const Triangle& t, std::uint32_t p) const {
         const GridPoint& o = points_[t[0]];
         const auto from = [&](std::uint32_t i) {
@@ -66,7 +66,7 @@ class Hull {
     }
 
     void add(std::uint32_t p) {
-        std::set<std::pair<std::uint32_t, std::uint32_t>> seen;  // edges of the removed triangles
+        std::set<std::pair<std::uint32_t, std::uint32_t>> seen;  // directed edges of the removed triangles
         const auto removed = std::erase_if(triangles_, [&](const Triangle& t) {
             if (sixVolume(t, p) <= 0) return false;
             for (int i = 0; i < 3; ++i) seen.emplace(t[i], t[(i + 1) % 3]);

@@ -25,15 +25,17 @@ std::uint64_t keyOf(const glm::ivec3& point) {
     return part(block.z) << 40U | part(block.y) << 20U | part(block.x);
 }
 
-// A corner of a cube, or the direction of an edge, has one bit per axis.
+// Returns the position of a cube's corner relative to the cube's lowest corner, or the direction of an edge. `bits` has
+// one bit per axis: 1 for x, 2 for y, 4 for z.
 glm::ivec3 offset(unsigned bits) { return {bits & 1U, bits >> 1U & 1U, bits >> 2U & 1U}; }
 
-// The six tetrahedra of a cube, positively oriented: from corner 0 to corner 7 along the axes in each order.
+// The six tetrahedra of a cube, positively oriented. The corners of each lie on a path from corner 0 to corner 7 that
+// takes one step along each axis; there is one tetrahedron for each order of the axes.
 constexpr std::array<std::array<unsigned, 4>, 6> kTetrahedra{
     {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}};
 
-// For each set of inside corners, as bits: an even permutation that puts the inside corners first or, if only one
-// corner is outside, that one.
+// For each set of inside corners of a tetrahedron (bit c stands for corner c): an even permutation of the corners. It
+// puts the inside corners first, except that it puts the outside corner first if there is only one.
 constexpr std::array<std::array<unsigned, 4>, 16> kOrder{{{0, 1, 2, 3},
                                                           {0, 1, 2, 3},
                                                           {1, 0, 3, 2},
@@ -68,7 +70,8 @@ class MarchingTetrahedra {
     }
 
   private:
-    // Determines which corners of the cubes whose lowest corners are in this block are inside.
+    // Sets `inside_` for the block at `corner`: which corners of its cubes are inside. The cubes of a block are those
+    // whose lowest corner is in the block, so they also have corners in adjacent blocks.
     void load(const glm::ivec3& corner) {
         inside_.fill(false);
         for (unsigned c = 0; c < 8; ++c) {
@@ -116,14 +119,15 @@ class MarchingTetrahedra {
         }
     }
 
-    // Returns the mesh point on an edge. The bits of one corner are a subset of the other's.
+    // Returns the mesh point on the edge between two corners of the cube at `at`; creates it on first use. The bits of
+    // one corner are a subset of those of the other.
     std::uint32_t vertex(const glm::ivec3& at, unsigned inside, unsigned outside) {
         const glm::ivec3 lower = at + offset(inside & outside);
         auto& ids = idsOf(lower);
         std::uint32_t& id = ids[static_cast<std::size_t>(indexIn(lower)) * 7 + (inside ^ outside) - 1];
         if (id == kNone) {
             id = static_cast<std::uint32_t>(mesh_.points.size());
-            // Crossings near the same grid point stay several grid steps apart.
+            // Crossings near a common end of their edges stay several grid steps apart.
             const double off = std::min(1.0 / 12, 6 * grid_.step() / field_.step());
             const glm::ivec3 from = at + offset(inside);
             const glm::ivec3 to = at + offset(outside);
@@ -135,7 +139,8 @@ class MarchingTetrahedra {
         return id;
     }
 
-    // Assigns a triangle to the cell of at least two of its corners, or else to that of the first corner.
+    // Assigns each triangle to the cell of at least two of its corners; if all three cells differ, to that of the first
+    // corner.
     void assignCells() {
         for (const auto& [a, b, c] : mesh_.triangles) {
             mesh_.cells.push_back(pointCells_[b] == pointCells_[c] ? pointCells_[b] : pointCells_[a]);

@@ -2,9 +2,9 @@
 // Marching tetrahedra (A. Doi, A. Koide, IEICE Transactions E74, 1991): extracts the surface where a field sampled on a
 // cubic grid changes sign. Each cube is divided into six tetrahedra around one diagonal (H. Freudenthal, Annals of
 // Mathematics 43, 1942), in the same way in all cubes, so that adjacent cubes share whole faces. The surface in a
-// tetrahedron is a triangle or a quadrilateral with one corner on each edge whose ends differ in sign. Around each
-// corner these polygons form one ring, as do the tetrahedra around the edge. So the surface is closed and 2-manifold
-// and does not intersect itself, whatever the field is.
+// tetrahedron is a triangle or a quadrilateral with one corner on each edge whose ends differ in sign. The polygons
+// around such a corner form one ring, because the tetrahedra around the corner's edge do. Therefore the surface is
+// closed and 2-manifold and does not intersect itself, whatever the field is.
 
 #include <array>
 #include <cstdint>
@@ -20,32 +20,34 @@
 
 namespace oval4d::exports {
 
-/// A sparse field: values at the points origin + step · (i, j, k), stored in blocks where they were set and infinite
-/// elsewhere. Negative values are inside.
+/// A scalar field that is sampled at the points origin + step · (i, j, k). Points with negative values are inside. Only
+/// blocks of points in which a value was set are stored; all other values are +infinity.
 class SampledField {
   public:
-    static constexpr int kSide = 8;  ///< points along a block
-    /// Indices lie in ±kFarthest.
+    static constexpr int kSide = 8;  ///< points along each edge of a block
+    /// The indices i, j and k must be from −kFarthest to kFarthest.
     static constexpr int kFarthest = 1 << 19;
 
     SampledField(const glm::dvec3& origin, double step) : origin_(origin), step_(step) {}
 
     double step() const { return step_; }
+    /// Returns the position of the point with these indices.
     glm::dvec3 place(const glm::ivec3& at) const { return origin_ + step_ * glm::dvec3(at); }
-    /// Rounds a position down to a grid point.
+    /// Returns the indices of the last point that is not above `place` in any coordinate.
     glm::ivec3 below(const glm::dvec3& place) const;
 
-    /// The value at a point, for writing; creates the block if needed.
+    /// Returns the value at a point, for writing. Creates the point's block if it does not exist.
     float& at(const glm::ivec3& point);
+    /// Returns the value at a point.
     float value(const glm::ivec3& point) const;
 
     struct Block {
-        glm::ivec3 corner;
-        std::array<float, kSide * kSide * kSide> values;
+        glm::ivec3 corner;                                ///< the lowest point
+        std::array<float, kSide * kSide * kSide> values;  ///< x varies fastest, z slowest
     };
-    /// All blocks, in an order that depends only on their positions.
+    /// Returns all blocks, in an order that depends only on their positions.
     std::vector<const Block*> blocks() const;
-    /// The block that contains the point, or nullptr.
+    /// Returns the block that contains the point, or nullptr.
     const Block* find(const glm::ivec3& point) const;
 
   private:
@@ -55,20 +57,23 @@ class SampledField {
     Block* last_ = nullptr;  // the block last written to
 };
 
-/// The intersection of the surface with the edge from grid point `inside` to its neighbor `outside`: `part` is its
-/// position as a fraction of the edge, and `cell` the cell whose face it belongs to.
+/// The point where the surface crosses an edge of a tetrahedron. `part` is its position on the edge, from 0 at the
+/// inside end to 1 at the outside end. `cell` is the cell whose face is crossed, or kNoCell.
 struct EdgeCrossing {
     double part = 0.5;
     std::uint32_t cell = kNoCell;
 };
+/// Finds the crossing on the edge between a point that is inside and a neighboring point that is outside.
 using FindCrossing = std::function<EdgeCrossing(const glm::ivec3& inside, const glm::ivec3& outside)>;
 
-/// Meshes the surface around the inside points. All corners of every cube with an inside corner must be set. The
-/// field's step must be at least 64 grid steps; crossings are kept away from the ends of their edges, so that no two
-/// coincide.
+/// Returns a mesh of the surface that separates inside points from outside points. For every cube with an inside
+/// corner, the field must have the block of the cube's lowest corner and all values that `crossing` reads. The field's
+/// step must be at least 64 grid steps: crossings are kept away from the ends of their edges, so that no two coincide
+/// on the grid.
 Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const Grid& grid, const Budget& budget);
 
-/// Finds crossings in a distance field by linear interpolation.
+/// Returns a function that finds crossings by linear interpolation of the values. It refers to `field`, which must
+/// outlive it.
 FindCrossing linearCrossing(const SampledField& field);
 
 }  // namespace oval4d::exports

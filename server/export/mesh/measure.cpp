@@ -9,7 +9,8 @@ namespace oval4d::exports {
 
 namespace {
 
-// Volumes and areas up to this fraction of the third or second power of the slice's extent are rounding errors.
+// A volume up to this fraction of the cube of the slice's extent, or an area up to this fraction of its square, is a
+// rounding error.
 constexpr double kRoundingError = 1e-12;
 
 struct Mean {
@@ -51,7 +52,8 @@ Measures measure(const slicing::SliceSet& slices, int i) {
                 const glm::dvec3 r = at(c + 1);
                 const glm::dvec3 part = glm::cross(q - p, r - p) / 2.0;
                 ofVolume.add((p + q + r) / 4.0, glm::dot(p, glm::cross(q, r)) / 6);
-                // The sign is relative to the area so far: the area vectors of a planar face are parallel.
+                // The area vectors of a planar face are parallel. A triangle whose vector is opposite to the sum so far
+                // counts as negative.
                 const double size = std::copysign(glm::length(part), glm::dot(part, area) < 0 ? -1.0 : 1.0);
                 area += part;
                 moment += size * (p + q + r) / 3.0;

@@ -9,18 +9,19 @@
 
 namespace oval4d::exports {
 
-/// Measurements in the polytope's units. Regions that a star covers several times count several times, as usual for the
-/// content of star polytopes.
+/// The measurements of a slice, in the polytope's units. A region that a star covers several times counts as many
+/// times, as usual for the content of star polytopes.
 struct Measures {
-    std::size_t faces = 0;  ///< all loops of one cell count as one face
-    double volume = 0;
+    std::size_t faces = 0;     ///< the number of faces; all loops of one cell count as one face
+    double volume = 0;         ///< 0 for a flat slice
     double area = 0;           ///< surface area; for a flat slice, that of both sides
     bool hasCentroid = false;  ///< false for an empty slice
-    /// The centroid of the volume, or else, if that is zero, of the area, the edges or the points.
+    /// The centroid of the volume. If the volume is zero, that of the area; if both are zero, that of the edges or of
+    /// the points.
     glm::dvec3 centroid{0};
 };
 
-/// Measures slice i.
+/// Returns the measurements of slice i.
 Measures measure(const slicing::SliceSet& slices, int i);
 
 }  // namespace oval4d::exports

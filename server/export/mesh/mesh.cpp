@@ -9,7 +9,8 @@
 namespace oval4d::exports {
 
 Grid::Grid(double size, double extent) {
-    // A float32 has 24 binary digits, so extent / 2^23 is exact. size / 131,072 is half a micrometer for 60 mm.
+    // A float32 has 24 significant bits, so it represents multiples of extent / 2^23 exactly. size / 131,072 is half a
+    // micrometer for a size of 60 mm.
     const double needed = std::max(size / 131'072, extent / 8'388'608);
     step_ = std::exp2(std::ceil(std::log2(needed)));
 }
@@ -20,8 +21,9 @@ glm::dvec3 Grid::snap(const glm::dvec3& point) const {
 }
 
 bool isClosedManifold(const Mesh& mesh) {
-    // For each point, the corners of the triangles around it. The ring continues from the previous corner of one
-    // triangle to the triangle that has it as its next corner.
+    // `fans` has, for each point, the other two corners of each triangle around the point: the next and the previous
+    // one. In the ring around the point, a triangle with the previous corner c is followed by the triangle with the
+    // next corner c.
     std::vector<std::uint32_t> begin(mesh.points.size() + 1, 0);
     for (const auto& triangle : mesh.triangles) {
         for (const std::uint32_t corner : triangle) ++begin[corner + 1];

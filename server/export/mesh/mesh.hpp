@@ -14,13 +14,14 @@
 
 namespace oval4d::exports {
 
+/// The entry of Mesh::cells for a triangle that belongs to no cell.
 inline constexpr std::uint32_t kNoCell = 0xffffffffU;
 
-/// A mesh of triangles, which are counterclockwise seen from outside.
+/// A triangle mesh. Its triangles are counterclockwise seen from outside.
 struct Mesh {
-    std::vector<glm::dvec3> points;  ///< millimeters
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::vector<std::uint32_t> cells;  ///< for each triangle, the cell that it was cut from, or kNoCell
+    std::vector<glm::dvec3> points;                       ///< millimeters
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `points`
+    std::vector<std::uint32_t> cells;                     ///< the cell that each triangle was cut from, or kNoCell
 
     void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t cell) {
         triangles.push_back({a, b, c});
@@ -32,41 +33,44 @@ struct Mesh {
 struct Solid {
     std::string name;
     Mesh mesh;
-    scene::Color color;  ///< of triangles without a cell
+    scene::Color color;  ///< the color of triangles without a cell
     glm::dvec3 at{0};    ///< position of the mesh's origin in millimeters; a multiple of the grid step
 };
 
-/// Rounds coordinates to multiples of a power of two, which float32 and decimal formats represent exactly. So points
-/// are equal in a file if and only if they are equal here, and meshes remain closed for programs that compare
-/// coordinates.
+/// Rounds coordinates to multiples of a power of two, which float32 and decimal formats represent exactly. Therefore
+/// two points are equal in a file if and only if they are equal here, and a mesh remains closed for a program that
+/// identifies points by their coordinates.
 class Grid {
   public:
     /// `size`: the diameter of the polytope in mm. `extent`: the largest coordinate in the file in mm.
     Grid(double size, double extent);
 
+    /// Returns the distance between neighboring grid points in millimeters, a power of two.
     double step() const { return step_; }
+    /// Returns the nearest grid point.
     glm::dvec3 snap(const glm::dvec3& point) const;
 
   private:
     double step_;
 };
 
-/// Whether every edge belongs to exactly two triangles, which traverse it in opposite directions, and the triangles
-/// around every point form one ring.
+/// Returns whether every edge belongs to exactly two triangles that traverse it in opposite directions, and the
+/// triangles around every point form one ring.
 bool isClosedManifold(const Mesh& mesh);
 
-/// The signed volume that the mesh encloses.
+/// Returns the volume that the mesh encloses; negative if its triangles face inward.
 double volumeOf(const Mesh& mesh);
 
-/// The triangle's normal, whose length is twice the area.
+/// Returns the normal of a triangle of the mesh; its length is twice the triangle's area.
 glm::dvec3 normalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle);
 
-/// An axis-aligned bounding box.
+/// An axis-aligned bounding box. It is empty until it includes a point.
 struct Box {
     glm::dvec3 min{1e300}, max{-1e300};
     void include(const glm::dvec3& point);
     glm::dvec3 size() const { return max - min; }
 };
+/// Returns the bounding box of the mesh's points.
 Box boxOf(const Mesh& mesh);
 
 }  // namespace oval4d::exports

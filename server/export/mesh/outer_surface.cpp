@@ -16,10 +16,10 @@ namespace oval4d::exports {
 
 namespace {
 
-constexpr double kCubes = 128;  // along the slice's largest dimension
+constexpr double kCubes = 128;  // number of cubes along the slice's largest dimension
 
-/// A triangle of the fan that decomposes a face. The winding number of a loop, also of a star, around a point of its
-/// plane is the sum of those of the triangles.
+/// A triangle of the fan into which a face is decomposed. Even if the loop of the face is a star, its winding number
+/// around a point of its plane is the sum of the winding numbers of the triangles.
 struct FanTriangle {
     std::array<std::uint32_t, 3> corners;
     std::uint32_t cell;
@@ -45,7 +45,7 @@ class OuterSurface {
         const glm::dvec3 size = box_.size();
         const double cube = std::max({size.x, size.y, size.z}) / kCubes;
         if (!(cube > 64 * grid.step())) return {};
-        // An offset away from symmetric positions of polytopes.
+        // The offset keeps the points of the field off the symmetry planes of the slice, where they might lie on faces.
         SampledField field(box_.min - glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
         fill(field);
         sortIntoBoxes(4 * cube);
@@ -58,15 +58,16 @@ class OuterSurface {
     }
 
   private:
+    // A crossing of a line with a triangle: its position on the line, the change of the winding number, and the cell.
     struct Hit {
         double at;
         int turns;
         std::uint32_t cell;
     };
 
-    // The signed number of crossings of the edge from a to b with the ray y = row.y, z > row.z in the yz-plane. The
-    // edge from b to a gives exactly the negative. So, despite rounding, a closed surface crosses every line along x
-    // equally often in both directions.
+    // Returns −1 or 1 if the edge from a to b, projected onto the yz-plane, crosses the ray y = row.y, z > row.z; else
+    // 0. The edge from b to a gives exactly the negative. Therefore, despite rounding, a closed surface crosses every
+    // line along x equally often in both directions.
     int crossings(std::uint32_t a, std::uint32_t b, const glm::dvec3& row) const {
         if (a > b) return -crossings(b, a, row);
         const glm::dvec3& p = points_[a];
@@ -77,7 +78,7 @@ class OuterSurface {
         return p.y <= row.y ? -1 : 1;
     }
 
-    /// Marks the inside points of the field, line by line along x.
+    /// Sets the inside points of the field to −1, line by line along x.
     void fill(SampledField& field) const {
         std::unordered_map<std::uint64_t, std::vector<Hit>> lines;
         for (const FanTriangle& triangle : triangles_) {
@@ -121,7 +122,7 @@ class OuterSurface {
         }
     }
 
-    /// Sorts the triangles into boxes of this width.
+    /// Lists, for each box of a cubic grid of this width, the triangles that may intersect the box.
     void sortIntoBoxes(double width) {
         width_ = width;
         for (std::uint32_t p = 0; p < triangles_.size(); ++p) {
@@ -145,7 +146,7 @@ class OuterSurface {
         }
     }
 
-    /// The crossing, on the way from `outside` to `inside`, at which the winding number first becomes nonzero.
+    /// Returns the crossing at which the winding number first becomes nonzero on the way from `outside` to `inside`.
     EdgeCrossing cross(const glm::dvec3& inside, const glm::dvec3& outside) const {
         std::vector<std::uint32_t> near;
         const glm::ivec3 least = boxAt(glm::min(inside, outside));

@@ -18,6 +18,7 @@ struct Capsule {
     glm::dvec3 from, to;
     double radius;
 
+    /// Returns the distance from the capsule's surface; negative inside.
     double distance(const glm::dvec3& place) const {
         const glm::dvec3 along = to - from;
         const double squared = glm::dot(along, along);
@@ -26,13 +27,13 @@ struct Capsule {
     }
 };
 
-/// Takes the minimum of the field and the capsule's distance at all points that are inside the capsule or share a cube
-/// with such a point.
+/// Adds a capsule to a field of distances. At each point that is inside the capsule or in one cube with such a point,
+/// replaces the value by the distance from the capsule if that is smaller.
 void include(const Capsule& capsule, SampledField& field) {
     const double reach = capsule.radius + 1.01 * std::sqrt(3) * field.step();
     const glm::ivec3 least = field.below(glm::min(capsule.from, capsule.to) - reach);
     const glm::ivec3 most = field.below(glm::max(capsule.from, capsule.to) + reach) + 1;
-    // Visits the grid lines along x; on each, only the points near the capsule.
+    // Visits the lines of points along x; on each line, only the points near the capsule.
     const glm::dvec3 along = capsule.to - capsule.from;
     for (int k = least.z; k <= most.z; ++k) {
         for (int j = least.y; j <= most.y; ++j) {
@@ -92,13 +93,13 @@ double coarseTriangles(const slicing::SliceSet& slices, double scale, const Thic
             area += 2 * std::numbers::pi * thickness.bar * std::max(0.0, length - 2 * thickness.ball);
         }
     }
-    constexpr double kPerSquare = 9;  // measured
+    constexpr double kPerSquare = 9;  // triangles per square of the bar radius, as measured
     return kPerSquare * area / (thickness.bar * thickness.bar);
 }
 
 Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const Thickness& thickness, double cube,
                 const Grid& grid, const Budget& budget) {
-    // An offset away from symmetric positions of polytopes, where many values would be equal.
+    // The offset keeps the points of the field off the symmetry planes of polytopes, where many values would be equal.
     SampledField field(glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
     for (const Capsule& capsule : capsulesOf(slices, i, scale, thickness)) {
         budget.checkTime();

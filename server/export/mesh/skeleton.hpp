@@ -7,20 +7,20 @@
 
 namespace oval4d::exports {
 
-/// The thickness of balls and bars in millimeters.
+/// The radii of balls and bars in millimeters.
 struct Thickness {
-    double ball = 0, bar = 0;  ///< radii
+    double ball = 0, bar = 0;
 };
 
-/// The same thickness as in the picture. `scale`: millimeters per unit of the polytope.
+/// Returns the radii that balls and bars have in the picture. `scale`: millimeters per unit of the polytope.
 Thickness thicknessFor(const scene::Scene& scene, double scale);
 
-/// The approximate number of triangles of the skeletons of all slices if the meshing cubes are as wide as the bars'
-/// radius. Cubes of half the width give four times as many.
+/// Returns the approximate number of triangles of the skeletons of all slices, if the cubes of the mesh are as wide as
+/// the radius of a bar. Cubes of half the width give four times as many triangles.
 double coarseTriangles(const slicing::SliceSet& slices, double scale, const Thickness& thickness);
 
-/// The skeleton of slice i, meshed by marching tetrahedra in cubes of width `cube`. `scale`: millimeters per unit of
-/// the polytope.
+/// Returns the skeleton of slice i, meshed by marching tetrahedra in cubes that are `cube` millimeters wide. `scale`:
+/// millimeters per unit of the polytope.
 Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const Thickness& thickness, double cube,
                 const Grid& grid, const Budget& budget);
 

@@ -22,7 +22,7 @@ std::span<const std::uint32_t> cornersOf(const slicing::SliceSet& slices, std::u
     return {slices.corners.data() + slices.cornerBegin[face], slices.cornerBegin[face + 1] - slices.cornerBegin[face]};
 }
 
-/// The face's normal, whose length is twice the area.
+/// Returns the normal of a face; its length is twice the face's area.
 glm::dvec3 crossOf(const slicing::SliceSet& slices, int i, std::uint32_t face) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
     const auto corners = cornersOf(slices, face);
@@ -33,13 +33,14 @@ glm::dvec3 crossOf(const slicing::SliceSet& slices, int i, std::uint32_t face) {
     return normal;
 }
 
+/// Returns the unit normal of a face; zero if the face has no area.
 glm::dvec3 directionOf(const slicing::SliceSet& slices, int i, std::uint32_t face) {
     const glm::dvec3 normal = crossOf(slices, i, face);
     const double length = glm::length(normal);
     return length > 0 ? normal / length : glm::dvec3(0);
 }
 
-/// Whether the whole slice is on the inner side of every face.
+/// Returns whether the whole slice is on the inner side of every face.
 bool isConvex(const slicing::SliceSet& slices, int i) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
     const std::size_t count = slices.vertexCount(i);
@@ -49,7 +50,7 @@ bool isConvex(const slicing::SliceSet& slices, int i) {
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
         const glm::dvec3 base = points[cornersOf(slices, f)[0]];
         glm::dvec3 normal = crossOf(slices, i, f);
-        // The height above a sliver is unreliable; its neighbors are sufficient.
+        // The normal of a sliver is unreliable. The tests of its neighboring faces are sufficient.
         if (glm::length(normal) < kFlat * extent * extent) continue;
         normal = glm::normalize(normal);
         for (std::size_t v = 0; v < count; ++v) {
@@ -59,7 +60,7 @@ bool isConvex(const slicing::SliceSet& slices, int i) {
     return true;
 }
 
-/// The slice's vertices snapped to the grid and welded: equal points are merged.
+/// The vertices of a slice, snapped to the grid; equal points are merged.
 class Welded {
   public:
     Welded(const slicing::SliceSet& slices, int i, double scale, const Grid& grid) {
@@ -71,7 +72,7 @@ class Welded {
             index_.push_back(at->second);
         }
     }
-    /// The loop in welded indices, without edges of length zero.
+    /// Returns a loop of the slice as indices into points(), without edges of length zero.
     Loop loop(std::span<const std::uint32_t> corners) const {
         Loop out;
         for (const std::uint32_t corner : corners) {
@@ -106,7 +107,8 @@ void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh) {
     for (std::size_t c = 1; c + 1 < n; ++c) mesh.add(loop[best], loop[(best + c) % n], loop[(best + c + 1) % n], cell);
 }
 
-/// Whether the mesh has a volume: its mean thickness must exceed 4 grid steps.
+/// Returns whether the mesh has a volume: its mean thickness, which is the volume divided by half the surface area,
+/// must exceed 4 grid steps.
 bool hasVolume(const Mesh& mesh, const Grid& grid) {
     double twiceArea = 0;
     for (const auto& triangle : mesh.triangles) twiceArea += glm::length(normalOf(mesh, triangle));
@@ -125,8 +127,9 @@ Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const Gri
     return mesh;
 }
 
-/// Where points of a convex slice coincide on the grid, two faces may share more than an edge. Then the convex hull of
-/// the points replaces them. Each triangle is assigned to the cell of the face with the most similar normal.
+/// Returns the convex hull of the points of `faces`, and assigns each triangle to the cell of the face with the most
+/// similar normal. It replaces `faces` where points of a convex slice coincide on the grid, because two faces may then
+/// share more than an edge.
 Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const Grid& grid) {
     Mesh hull = hullOf(faces.points, grid);
     std::vector<std::pair<glm::dvec3, std::uint32_t>> normals;

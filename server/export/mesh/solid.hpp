@@ -7,9 +7,10 @@
 
 namespace oval4d::exports {
 
-/// The body bounded by slice i. A convex slice keeps its faces, up to rounding to the grid; any other slice, whose
-/// faces may intersect, gives its outer surface (see skin.hpp). Empty if the slice has no volume on the grid. `scale`:
-/// millimeters per unit of the polytope.
+/// Returns the body that the faces of slice i enclose. The body of a convex slice has the same faces, up to rounding to
+/// the grid. The body of any other slice, whose faces may intersect, is bounded by its outer surface (see
+/// outer_surface.hpp). Returns an empty mesh if the slice has no volume on the grid. `scale`: millimeters per unit of
+/// the polytope.
 Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const Grid& grid, const Budget& budget);
 
 }  // namespace oval4d::exports

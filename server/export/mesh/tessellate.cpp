@@ -9,8 +9,8 @@ namespace oval4d::exports {
 
 namespace {
 
-// GLU's tessellator passes to its callbacks the vertex pointers that it was given, and those that `combine` creates
-// where contours cross. It needs no OpenGL context.
+// The data of the callbacks of GLU's tessellator. The tessellator passes to them the vertex pointers that it was given,
+// and those that `combine` creates where contours cross. It needs no OpenGL context.
 struct Tessellation {
     // A deque, because pointers to elements must remain valid.
     std::deque<std::pair<std::array<double, 3>, std::uint32_t>> corners;
@@ -31,7 +31,7 @@ void vertex(void* data, void* to) {
     tessellation->contours.back().emplace_back(corner->first[0], corner->first[1]);
 }
 
-// Registering this callback makes GLU output only independent triangles, no strips or fans.
+// Does nothing, but its registration makes GLU output only independent triangles, no strips or fans.
 void edgeFlag(GLboolean /*flag*/, void* /*to*/) {}
 
 void combine(GLdouble* at, void** /*joined*/, GLfloat* /*weights*/, void** made, void* to) {

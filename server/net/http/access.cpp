@@ -23,7 +23,7 @@ bool isHostNameCharacter(char c) {
     return isDigit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '.' || c == '_';
 }
 
-/// The port of an authority, or the default port of the scheme, which browsers omit.
+/// Returns the port of an authority, or the default port of the scheme, which browsers omit.
 std::string_view portOrDefault(const Authority& authority, std::string_view defaultPort) {
     return authority.port.empty() ? defaultPort : authority.port;
 }
@@ -33,7 +33,7 @@ bool listed(const std::vector<std::string>& list, std::string_view text) {
         list, [text](const std::string& entry) { return entry == "*" || equalsIgnoringCase(entry, text); });
 }
 
-/// The value of the token cookie in a Cookie header; empty if it is absent.
+/// Returns the value of the token cookie in a Cookie header; an empty text if there is none.
 std::string_view cookieIn(std::string_view header) {
     while (!header.empty()) {
         const std::size_t end = std::min(header.find(';'), header.size());
@@ -47,7 +47,7 @@ std::string_view cookieIn(std::string_view header) {
     return {};
 }
 
-/// The token after "Bearer " in an Authorization header, or the whole header if it has no such prefix.
+/// Returns the token after "Bearer " in an Authorization header, or the whole header if it has no such prefix.
 std::string_view bearerIn(std::string_view authorization) {
     constexpr std::string_view kBearer = "Bearer ";
     if (equalsIgnoringCase(authorization.substr(0, kBearer.size()), kBearer))
@@ -97,7 +97,8 @@ Access::Verdict Access::judge(const Credentials& credentials) const {
 
 std::string Access::cookieFor(const Credentials& credentials) const {
     if (token_.empty() || !store::equalInConstantTime(credentials.token, token_)) return {};
-    // Without a Path the cookie applies to the page's own folder, and so works behind any path prefix.
+    // Without a Path attribute, the cookie applies to the page's own folder. It therefore works behind any path prefix
+    // that a proxy adds.
     return std::string(kCookie) + "=" + token_ + "; HttpOnly; SameSite=Strict";
 }
 
@@ -108,8 +109,9 @@ bool Access::isAllowedHost(std::string_view host) const {
 
 bool Access::isListedOrigin(std::string_view origin) const { return !origin.empty() && listed(origins_, origin); }
 
-/// Requests without an Origin come from scripts and are allowed. A page of this server has the origin of the host that
-/// it calls; the scheme may differ, since a proxy may terminate TLS.
+/// Requests without an Origin come from programs other than browsers, or from the server's own pages, and are allowed.
+/// The origin of the server's own page has the host and port that the request addresses; the scheme may differ, because
+/// a proxy may terminate TLS.
 bool Access::isAllowedOrigin(std::string_view origin, std::string_view host) const {
     if (origin.empty() || isListedOrigin(origin)) return true;
     for (const auto& [scheme, port] : {std::pair("http://", "80"), std::pair("https://", "443")}) {

@@ -9,7 +9,7 @@ namespace oval4d::net {
 
 namespace {
 
-/// Counts a file as being made while this exists, and records the time that a successful one took.
+/// Counts a file as being made as long as this object exists; then records how long it took, if it succeeded.
 class ScopedFileMetrics {
   public:
     explicit ScopedFileMetrics(Metrics& metrics) : metrics_(metrics) { metrics_.filesUnderWay.Increment(); }

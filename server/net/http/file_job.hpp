@@ -1,5 +1,5 @@
 #pragma once
-// The job that makes a file on a worker.
+// The job that makes a file for export on a worker.
 
 #include <functional>
 #include <optional>
@@ -10,11 +10,11 @@
 
 namespace oval4d::net {
 
-/// The file or an error; empty only until the job is done.
+/// The file, or an error; empty only until the job is done.
 using FileResult = std::optional<Result<Bytes>>;
 
-/// A job that makes the requested file. Its bytes are reserved on the client's account until the last reference to them
-/// is destroyed. The error is `too_many` if the account has no room for them.
+/// Returns a job that makes the requested file. The bytes of the file are reserved on the client's byte account until
+/// the last reference to them is destroyed. The error is `too_many` if the account has no room for them.
 std::function<FileResult(std::size_t worker)> fileJob(Services services, const session::State& state,
                                                       const exports::ExportRequest& request, const ClientPtr& client);
 

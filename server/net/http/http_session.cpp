@@ -27,16 +27,16 @@ namespace {
 constexpr std::uint32_t kMaxHeaderBytes = 16U << 10U;
 constexpr std::size_t kReadBufferBytes = 64U << 10U;
 
-// After a refusal the server reads on, up to these limits, so that the client receives the reply: closing a socket with
-// unread bytes resets the connection.
+// After a refusal, the server continues to read up to these limits: closing a socket with unread bytes would reset the
+// connection, and the client might not receive the reply.
 constexpr std::size_t kMaxLingerBytes = 256U << 10U;
 constexpr auto kLingerTime = std::chrono::seconds(1);
 
 constexpr unsigned kUpgradeRequired = 426;
 
-constexpr int kNotSentLowat = 256 << 10;  // bytes
+constexpr int kNotSentLowat = 256 << 10;  // bytes of unsent data that the kernel buffers, about
 
-/// Serves the HTTP requests of one connection, one after the other.
+/// Serves the HTTP requests of one connection, one after another.
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
   public:
     HttpSession(asio::ip::tcp::socket socket, ServerContext context, ClientPtr client,
@@ -114,24 +114,25 @@ Reply tooMany(std::string text) {
     return reply;
 }
 
-/// The session id in a WebSocket path: "" for "/ws", "abc" for "/ws/abc", nothing for other paths.
+/// Returns the session id in a WebSocket path: "" for "/ws", "abc" for "/ws/abc", nothing for other paths.
 std::optional<std::string> sessionIn(const std::string& path) {
     if (path == "/ws" || path == "/ws/") return "";
     if (path.starts_with("/ws/")) return path.substr(4);
     return {};
 }
 
-/// Whether the offered subprotocols include that of the server, or none is offered. Names are case-sensitive (RFC 6455,
-/// section 11.5).
+/// Returns whether the offered subprotocols include that of the server, or none is offered. Names are case-sensitive
+/// (RFC 6455, section 11.5).
 bool offersSubprotocol(const std::string& offered) {
     const http::token_list names(offered);
     return offered.empty() || std::ranges::any_of(names, [](beast::string_view name) { return name == kSubprotocol; });
 }
 
-/// Whether a target is closed to pages of other sites: the API and WebSockets, which cost work or reveal data.
+/// Returns whether pages of other sites must not request this target: the API and WebSockets, which cause work or
+/// reveal data.
 bool isRestricted(const Target& target) { return target.path.starts_with("/api/") || target.path.starts_with("/ws"); }
 
-/// The reply to a request that could not be parsed; nothing if the client has disconnected.
+/// Returns the reply to a request that could not be parsed; nothing if the client has disconnected.
 std::optional<Reply> parseErrorReply(boost::system::error_code fault) {
     if (fault == http::error::header_limit || fault == http::error::buffer_overflow)
         return plainReply(431, "the header is too long; at most 16 KiB are allowed\n");
@@ -154,12 +155,12 @@ asio::awaitable<void> HttpSession::run() {
         slot_.setInUse(false);
         first_ = false;
     }
-    if (!stream_.socket().is_open()) co_return;  // it became a WebSocket or was closed
+    if (!stream_.socket().is_open()) co_return;  // a WebSocket has taken it over, or it was closed
     boost::system::error_code ignored;
     (void)stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
 }
 
-/// Serves one request. Returns whether another one may follow on this connection.
+/// Serves one request. Returns whether another request may follow on this connection.
 asio::awaitable<bool> HttpSession::serve(Request request) {
     if (auto fault = validateHeader(request)) {
         co_await refuse(request, plainReply(*fault));
@@ -187,7 +188,7 @@ asio::awaitable<bool> HttpSession::serve(Request request) {
 asio::awaitable<std::optional<Request>> HttpSession::read() {
     http::request_parser<http::empty_body> parser;
     parser.header_limit(kMaxHeaderBytes);
-    parser.body_limit(boost::none);  // bodies are never read
+    parser.body_limit(boost::none);  // no limit is needed: bodies are never read
     // The timeout applies to the whole header.
     stream_.expires_after(steady(first_ ? options().helloTimeout : options().idleTimeout));
     reading_ = true;
@@ -212,7 +213,8 @@ void HttpSession::identifyClient(const Request& request) {
     admission_ = context_.connections.admit(*client_, 1);
 }
 
-/// Checks the access rules: returns the reply if the request is refused; otherwise sets `cookie` if one is to be set.
+/// Checks the access rules. If the request is refused, returns the reply; otherwise returns nothing, and sets `cookie`
+/// if the reply is to set a cookie.
 std::optional<Reply> HttpSession::checkAccess(const Request& request, const Target& target, std::string& cookie) const {
     const Credentials credentials = credentialsOf(request, target);
     const auto now = Client::Clock::now();
@@ -233,7 +235,7 @@ std::optional<Reply> HttpSession::checkAccess(const Request& request, const Targ
         case Access::Verdict::allowed:
             break;
     }
-    // Refuse correct tokens too, so that guessing reveals nothing.
+    // Refuse correct tokens, too, so that a client that guesses tokens learns nothing.
     if (context_.access.requiresToken() && !client_->mayTryToken(now))
         return tooMany("too many wrong tokens; try again in a minute\n");
     if (isRestricted(target) && context_.access.isCrossSite(credentials))
@@ -242,7 +244,8 @@ std::optional<Reply> HttpSession::checkAccess(const Request& request, const Targ
     return {};
 }
 
-/// Checks a WebSocket handshake: returns the reply if it is refused; otherwise sets `session` to the requested id.
+/// Checks a WebSocket handshake. If it is refused, returns the reply; otherwise returns nothing, and sets `session` to
+/// the session id in the path.
 std::optional<Reply> HttpSession::checkHandshake(const Request& request, std::string& session) const {
     const auto target = targetOf(request);
     const auto wanted = target ? sessionIn(target->path) : std::nullopt;
@@ -265,7 +268,7 @@ asio::awaitable<Reply> HttpSession::answer(const Request& request) {
     auto target = targetOf(request);
     if (!target) co_return plainReply(400, "the request target is malformed\n");
     std::string cookie;
-    // Health probes may use any host name and need no token; they reveal nothing else.
+    // Health probes may use any host name and need no token, because they reveal only whether the server works.
     const bool probe = target->path == "/healthz" || target->path == "/readyz";
     if (!probe) {
         if (auto refusal = checkAccess(request, *target, cookie)) co_return std::move(*refusal);
@@ -286,13 +289,13 @@ asio::awaitable<Reply> HttpSession::answer(const Request& request) {
     co_return reply;
 }
 
-/// The Cross-Origin-Resource-Policy of a reply. If foreign origins are allowed, any page may embed replies of the API:
-/// browsers do not tell which page embeds a picture.
+/// Returns the Cross-Origin-Resource-Policy of a reply. If any foreign origin is allowed, pages of all origins may
+/// embed replies of the API, because browsers do not tell which page embeds a picture.
 std::string HttpSession::resourcePolicy(const Target& target) const {
     return isRestricted(target) && context_.access.allowsForeignOrigins() ? "cross-origin" : "same-origin";
 }
 
-/// Replies to a request and closes the connection, since the start of a next request is not certain.
+/// Replies to a request and closes the connection, because it is uncertain where a further request would begin.
 asio::awaitable<void> HttpSession::refuse(const Request& request, Reply reply) {
     resourcePolicy_ = "same-origin";
     Request last(request);
@@ -301,7 +304,7 @@ asio::awaitable<void> HttpSession::refuse(const Request& request, Reply reply) {
     co_await linger();
 }
 
-/// Reads and discards input for a moment before it closes, so that the client receives the reply.
+/// Reads and discards input for a short time and then closes the socket, so that the client receives the reply.
 asio::awaitable<void> HttpSession::linger() {
     boost::system::error_code ignored;
     (void)stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
@@ -363,7 +366,7 @@ asio::awaitable<void> HttpSession::upgrade(Request request, std::string session)
             self->drop();
         }
     });
-    // Beast looks only at the first of repeated fields; their combined value has been checked.
+    // Beast checks only the first of several fields with the same name; their combined value has already been checked.
     request.set(http::field::connection, "upgrade");
     request.set(http::field::upgrade, "websocket");
     co_await connection->run(std::move(request));
@@ -379,7 +382,7 @@ void HttpSession::end(ConnectionRegistry::EndReason reason) {
 asio::awaitable<void> serve(asio::ip::tcp::socket socket, ServerContext context) {
     boost::system::error_code fault;
     (void)socket.set_option(asio::ip::tcp::no_delay(true), fault);
-    // Limit what the kernel buffers, so that the progress of a slow reader is visible here.
+    // Limit the bytes that the kernel buffers, so that the server can see how fast a client reads.
     using NotSentLimit = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
     (void)socket.set_option(NotSentLimit(kNotSentLowat), fault);
     const auto peer = socket.remote_endpoint(fault);
@@ -388,7 +391,7 @@ asio::awaitable<void> serve(asio::ip::tcp::socket socket, ServerContext context)
     auto& connections = context.services.metrics.connections;
     try {
         ClientPtr client = context.services.clients.at(peer.address());
-        // A trusted proxy stands for many clients, which its requests identify.
+        // Behind a trusted proxy are many clients; its requests name them (X-Forwarded-For).
         const bool isProxy = context.services.clients.isTrustedProxy(peer.address());
         const auto admission = context.connections.admit(*client, 0, isProxy);
         co_await std::make_shared<HttpSession>(std::move(socket), std::move(context), std::move(client), admission)

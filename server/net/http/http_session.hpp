@@ -1,5 +1,5 @@
 #pragma once
-// One accepted socket: serves HTTP requests until the connection ends or becomes a WebSocket.
+// Serves the HTTP requests of an accepted socket until the connection ends or becomes a WebSocket.
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -23,7 +23,8 @@ struct ServerContext {
     ConnectionRegistry& connections;
 };
 
-/// Serves a socket until it closes. Beyond the connection limits, requests get status 503 or 429.
+/// Serves a socket until it closes. Beyond a connection limit, replies to requests with status 503 (limit of the
+/// server) or 429 (limit of the client).
 boost::asio::awaitable<void> serve(boost::asio::ip::tcp::socket socket, ServerContext context);
 
 }  // namespace oval4d::net

@@ -9,7 +9,8 @@ namespace oval4d::net {
 
 namespace {
 
-/// Parses a number of bytes; values beyond the type saturate. Returns nothing for anything but digits.
+/// Parses a number of bytes; returns the maximum of std::size_t for a larger one. Returns nothing unless the text
+/// consists of digits.
 std::optional<std::size_t> bytesIn(std::string_view digits) {
     std::size_t value = 0;
     const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
@@ -23,7 +24,7 @@ std::optional<std::size_t> bytesIn(std::string_view digits) {
 
 bool matchesEntityTag(std::string_view ifNoneMatch, std::string_view tag) {
     if (text::trimmed(ifNoneMatch) == "*") return true;
-    // An entity tag may contain commas, but never quotes.
+    // Search for quotes, not commas: an entity tag may contain commas, but never quotes.
     for (std::size_t open = ifNoneMatch.find('"'); open != std::string_view::npos; open = ifNoneMatch.find('"', open)) {
         const std::size_t close = ifNoneMatch.find('"', open + 1);
         if (close == std::string_view::npos) return false;

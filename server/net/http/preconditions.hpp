@@ -7,18 +7,20 @@
 
 namespace oval4d::net {
 
-/// Whether an If-None-Match field matches an entity tag by weak comparison. `tag` includes its quotes; `*` matches any
-/// tag.
+/// Returns whether an If-None-Match field matches an entity tag by weak comparison. `tag` includes its quotes. The
+/// field `*` matches any tag.
 bool matchesEntityTag(std::string_view ifNoneMatch, std::string_view tag);
 
-/// The byte range of a representation that a Range field requests.
+/// The range of bytes that a Range field requests: `size` bytes from offset `first`. If `satisfiable` is false, the
+/// range contains no byte of the representation.
 struct ByteRange {
     std::size_t first = 0, size = 0;
     bool satisfiable = true;
 };
 
-/// Parses a Range field for a representation of `size` bytes. Returns nothing if the whole is to be sent: for units
-/// other than bytes, several ranges, and malformed fields, all of which a server may ignore (RFC 9110, section 14.2).
+/// Parses a Range field for a representation of `size` bytes. Returns nothing if the whole representation is to be
+/// sent: for units other than bytes, several ranges, and malformed fields, all of which a server may ignore (RFC 9110,
+/// section 14.2).
 std::optional<ByteRange> parseRange(std::string_view range, std::size_t size);
 
 }  // namespace oval4d::net

@@ -16,7 +16,7 @@ namespace {
 
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
-/// Whether the key is 16 bytes in base64: 22 digits, the last of which carries only two bits, and two padding
+/// Returns whether the key is 16 bytes in base64: 22 digits, the last of which encodes only two bits, and two padding
 /// characters.
 bool isWebSocketKey(std::string_view key) {
     constexpr std::size_t kLength = 24, kDigits = 22;

@@ -1,5 +1,5 @@
 #pragma once
-// Checks of request headers that RFC 9110, 9112 and 6455 require and that Beast's parser does not make.
+// Checks of request headers that RFC 9110, RFC 9112 and RFC 6455 require and that Beast's parser does not make.
 
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/message.hpp>
@@ -9,7 +9,7 @@
 
 namespace oval4d::net {
 
-/// A request without a body: no route accepts one.
+/// A request without a body, because no route accepts a body.
 using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 
 /// The reason why a request is refused: an HTTP status and a message for the client.
@@ -19,18 +19,19 @@ struct Refusal {
 };
 
 /// Validates a request header; returns nothing if it is valid. A valid header announces no body, so the next request
-/// begins right after it, and has at most one Host, Origin and Content-Length field. After a refusal the connection
-/// must be closed, since a proxy may see the end of the request elsewhere (request smuggling).
+/// begins directly after it. A valid header has at most one Host, Origin and Content-Length field. After a refusal, the
+/// connection must be closed, because a proxy may disagree about where the request ends (request smuggling).
 std::optional<Refusal> validateHeader(const Request& request);
 
-/// Whether the request asks for an upgrade to WebSocket.
+/// Returns whether the request asks for an upgrade to WebSocket.
 bool isWebSocketUpgrade(const Request& request);
 
-/// Validates a WebSocket handshake except for its path (RFC 6455, section 4.2.1); returns nothing if it is valid.
+/// Validates a WebSocket handshake (RFC 6455, section 4.2.1), but not its path or subprotocol; returns nothing if it is
+/// valid.
 std::optional<Refusal> validateHandshake(const Request& request);
 
-/// The combined value of all fields with this name, in any case, joined by commas (RFC 9110, section 5.3); empty if
-/// there is none.
+/// Returns the values of all fields with this name, joined by commas (RFC 9110, section 5.3); an empty text if there is
+/// no such field. The name is not case-sensitive.
 std::string combinedFieldValue(const Request& request, std::string_view name);
 
 }  // namespace oval4d::net

@@ -56,7 +56,7 @@ unsigned statusFor(ErrorCode code) {
     }
 }
 
-/// Parses a number of pixels; `name` is the parameter, for the error.
+/// Parses a number of pixels. `name`: the name of the query parameter, for the error message.
 Result<int> pixels(const std::string& name, const std::string& text) {
     int value = 0;
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -66,14 +66,15 @@ Result<int> pixels(const std::string& name, const std::string& text) {
     return value;
 }
 
-/// The resident memory of this process in bytes; 0 without /proc.
+/// Returns the resident memory of this process in bytes; 0 if /proc is not available.
 double residentBytes() {
     double whole = 0, resident = 0;
     std::ifstream("/proc/self/statm") >> whole >> resident;
     return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-/// Removes width and height from a query and returns the viewport that they describe, checked against the limits.
+/// Removes `width` and `height` from a query, and returns the viewport that they describe after checking it against the
+/// limits.
 Result<scene::Viewport> takeViewport(session::Query& query, const pipeline::FrameLimits& limits) {
     scene::Viewport viewport;
     session::Query rest;
@@ -90,13 +91,14 @@ Result<scene::Viewport> takeViewport(session::Query& query, const pipeline::Fram
     return pipeline::checked(viewport, limits);
 }
 
-/// The file format that a path requests: stl for "/api/v1/file.stl"; null for other paths.
+/// Returns the file format that a path requests, such as stl for "/api/v1/file.stl"; null for other paths.
 const exports::Format* formatIn(std::string_view path) {
     constexpr std::string_view kFile = "/api/v1/file.";
     return path.starts_with(kFile) ? exports::formatNamed(path.substr(kFile.size())) : nullptr;
 }
 
-/// A job that draws a picture as PNG. Its result is empty if the client's byte account has no room for it.
+/// Returns a job that draws a picture as a PNG file. The result of the job is empty if the client's byte account has no
+/// room for the picture.
 std::function<std::optional<Bytes>(pipeline::Pipeline&)> frameJob(const session::State& state, scene::Viewport viewport,
                                                                   const ClientPtr& client, Metrics& metrics) {
     return [state, viewport, client, &metrics](pipeline::Pipeline& pipeline) -> std::optional<Bytes> {
@@ -110,12 +112,13 @@ std::function<std::optional<Bytes>(pipeline::Pipeline&)> frameJob(const session:
     };
 }
 
-/// The page loads only its own files and connects only to its own server; pictures for download are blobs.
+/// The content security policy of the web client: a page loads only files of its own server and connects only to that
+/// server. Pictures that the page offers for download are blobs.
 constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
 
-/// The reply to a request for a file of the web client, with content negotiation, If-None-Match and ranges.
+/// Returns the reply to a request for a file of the web client. Supports content negotiation, If-None-Match and ranges.
 Reply fileReply(const WebFile& file, const Routes::ParsedRequest& request) {
     const Representation& representation = file.negotiate(request.acceptEncoding);
     Reply reply{200,
@@ -170,7 +173,7 @@ asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
     co_return errorReply(notFound(path));
 }
 
-/// The state that a query describes. Builds the polytope on a worker if necessary. Throws what onPool() throws.
+/// Returns the state that a query describes. Builds the polytope on a worker if necessary. Throws what onPool() throws.
 asio::awaitable<Result<session::State>> Routes::state(session::Query query, ClientPtr client) {
     std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
     const session::Limits& limits = services_.options.session;
@@ -235,7 +238,7 @@ asio::awaitable<Reply> Routes::file(session::Query query, const exports::Format&
 Reply Routes::readiness() const {
     if (readiness_.stopping()) return textReply("text/plain", "stopping\n", 503);
     if (readiness_.ready()) {
-        // Stay ready if the store fails: it fails on the other servers too.
+        // The server stays ready if the store fails, because a shared store then fails for the other servers, too.
         const std::string error = hub_.writeBehind().lastError();
         return textReply("text/plain", error.empty() ? "ready\n"
                                                      : "ready, but the store fails, so sessions are kept in memory "

@@ -21,13 +21,13 @@ namespace oval4d::net {
 /// An HTTP response, independent of the HTTP library.
 struct Reply {
     unsigned status = 200;
-    std::string type;
+    std::string type;  ///< the Content-Type; empty: none is sent
     Bytes body;
     std::vector<std::pair<std::string, std::string>> headers;
 };
 
-/// A reply with the body `{"type":"error", …}`. Its HTTP status is `status`, or derived from the error code if that is
-/// 0.
+/// Returns a reply with the body `{"type":"error", …}` and the HTTP status `status`. If `status` is 0, the status is
+/// derived from the error code.
 Reply errorReply(const Error& error, unsigned status = 0);
 
 /// Answers HTTP requests. Every function may be called from any thread.
@@ -43,6 +43,8 @@ class Routes {
         std::string ifNoneMatch, acceptEncoding, range, ifRange;
         ClientPtr client;
     };
+    /// Returns the reply to a request; its status is 405 for methods other than GET and HEAD, and 404 for unknown
+    /// paths.
     boost::asio::awaitable<Reply> answer(ParsedRequest request);
 
   private:

@@ -16,12 +16,13 @@ namespace {
 
 constexpr std::size_t kSpoolThreshold = 1U << 20U;
 
-/// Opens an unnamed file, which is deleted with its last descriptor. Returns -1 and sets errno if that fails.
+/// Opens an unnamed file, which the system deletes when nothing refers to it anymore. Returns -1 and sets errno if that
+/// fails.
 int openUnnamedFile(const std::filesystem::path& folder) {
     constexpr mode_t kOwnersOnly = 0600;
     const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kOwnersOnly);
     if (file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT)) return file;
-    std::string name = folder / "oval4d-XXXXXX";  // for file systems without O_TMPFILE
+    std::string name = folder / "oval4d-XXXXXX";  // the file system does not support O_TMPFILE
     const int named = mkostemp(name.data(), O_CLOEXEC);
     if (named >= 0) unlink(name.c_str());
     return named;

@@ -1,5 +1,5 @@
 #pragma once
-// Spools large replies to disk until clients have read them.
+// Keeps large replies on disk until clients have read them.
 
 #include <string>
 
@@ -7,9 +7,9 @@
 
 namespace oval4d::net {
 
-/// Moves large data to an unnamed temporary file and returns a memory mapping of it, so that the system can evict its
-/// pages under memory pressure. The file is in `folder`, or in the system's temporary folder if that is empty. Data
-/// below 1 MiB, and all data if no file can be created, stays in memory.
+/// Writes `bytes` to an unnamed temporary file and returns a memory mapping of that file, so that the system can evict
+/// its pages when memory is scarce. The file is in `folder`, or in the system's temporary folder if `folder` is empty.
+/// Less than 1 MiB of data stays in memory, as does all data if the file cannot be created or written.
 Bytes spool(std::string bytes, const std::string& folder);
 
 }  // namespace oval4d::net

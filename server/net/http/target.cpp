@@ -9,7 +9,7 @@ namespace oval4d::net {
 
 namespace {
 
-/// Decodes percent escapes; returns nothing if one is not followed by two hexadecimal digits.
+/// Decodes percent escapes; returns nothing if a "%" is not followed by two hexadecimal digits.
 std::optional<std::string> percentDecoded(std::string_view text) {
     std::string out;
     out.reserve(text.size());
@@ -28,7 +28,8 @@ std::optional<std::string> percentDecoded(std::string_view text) {
     return out;
 }
 
-/// The length of a leading "http://" or "https://", in any case; 0 if there is neither.
+/// Returns the length of "http://" or "https://", in upper or lower case, at the beginning of the text; 0 if there is
+/// neither.
 std::size_t schemeLength(std::string_view text) {
     for (const std::string_view scheme : {"http://", "https://"}) {
         const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 'a' - 'A') : c; };
@@ -37,7 +38,8 @@ std::size_t schemeLength(std::string_view text) {
     return 0;
 }
 
-/// Removes the text up to and including the first separator, or all of it, and returns it without the separator.
+/// Removes the text up to and including the first separator, and returns the removed text without the separator.
+/// Without a separator, removes and returns all of the text.
 std::string_view takeUntil(std::string_view& text, char separator) {
     const std::size_t at = text.find(separator);
     const std::string_view head = text.substr(0, at);

@@ -12,13 +12,13 @@ namespace oval4d::net {
 /// A request target (RFC 9112, section 3.2).
 struct Target {
     std::string path;       ///< percent-decoded
-    std::string authority;  ///< of a target in absolute form, such as "localhost:8080"; empty in origin form
+    std::string authority;  ///< host and port of a target in absolute form, "localhost:8080"; empty in origin form
     session::Query query;   ///< names and values, percent-decoded
 };
 
 /// Parses "/path?name=value&…" (origin form) or "http://host:port/path?…" (absolute form; RFC 9112, section 3.2).
-/// Decodes percent escapes, but leaves "+" as it is, since queries contain arithmetic. Returns nothing if an escape is
-/// malformed, the authority is invalid, or the path does not begin with a slash.
+/// Decodes percent escapes, but does not decode "+" as a space, because queries contain arithmetic. Returns nothing if
+/// an escape is malformed, the authority is invalid, or the path does not begin with a slash.
 std::optional<Target> parseTarget(std::string_view text);
 
 }  // namespace oval4d::net

@@ -46,7 +46,7 @@ std::string etagOf(const std::string& content) {
     return fmt::format("\"{:016x}\"", crc.checksum());
 }
 
-/// The content coding that the file name extension stands for; empty for an uncompressed file.
+/// Returns the content coding for a file name extension; an empty text for an uncompressed file.
 std::string_view codingOf(const std::filesystem::path& path) {
     const std::string extension = path.extension().string();
     return extension == ".br" ? "br" : extension == ".gz" ? "gzip" : "";
@@ -59,11 +59,11 @@ Representation readRepresentation(const std::filesystem::path& path, std::string
     return {Bytes(std::move(content)), std::string(coding), std::move(etag)};
 }
 
-/// The weight, from 0 to 1, that an Accept-Encoding field gives to a content coding (RFC 9110, section 12.4.2).
+/// Returns the weight, from 0 to 1, that an Accept-Encoding field gives to a content coding (RFC 9110, section 12.4.2).
 double weightOf(std::string_view coding, std::string_view acceptEncoding) {
     namespace http = boost::beast::http;
     const bool identity = coding == kIdentity;
-    double any = identity ? 0.0005 : 0;  // unlisted codings are refused, except identity
+    double any = identity ? 0.0005 : 0;  // without being listed, only identity is acceptable, as the last choice
     for (const auto& [name, parameters] : http::ext_list({acceptEncoding.data(), acceptEncoding.size()})) {
         double weight = 1;
         for (const auto& [key, value] : parameters)

@@ -11,11 +11,11 @@
 
 namespace oval4d::net {
 
-/// One representation of a file, plain or compressed.
+/// A representation of a file, uncompressed or compressed (RFC 9110, section 3.2).
 struct Representation {
     Bytes bytes;
     std::string coding;  ///< the content coding (Content-Encoding); "identity" if uncompressed
-    std::string etag;
+    std::string etag;    ///< the entity tag, including its quotes
 };
 
 /// A file with all its representations, the smallest first.
@@ -23,19 +23,19 @@ struct WebFile {
     std::string type;  ///< the Content-Type
     std::vector<Representation> representations;
 
-    /// The representation that an Accept-Encoding field prefers (RFC 9110, section 12.5.3); the smallest of equals. The
-    /// uncompressed one if the field accepts none.
+    /// Returns the representation that an Accept-Encoding field prefers (RFC 9110, section 12.5.3), or the smallest of
+    /// several equally preferred ones. Returns the uncompressed one if the field accepts none.
     const Representation& negotiate(std::string_view acceptEncoding) const;
 };
 
-/// The files of a folder, read once at startup: later changes have no effect. `app.js.br` and `app.js.gz` are
-/// compressed representations of `app.js`.
+/// The files of a folder, which the constructor reads: later changes to the folder have no effect. The files
+/// `app.js.br` and `app.js.gz` are compressed representations of `app.js`.
 class WebFiles {
   public:
     /// Reads all files below `root`. Logs a warning if there is no index.html; a missing folder counts as empty.
     explicit WebFiles(const std::filesystem::path& root);
 
-    /// The file at this URL path; "/" is index.html. Returns nullptr if there is none.
+    /// Returns the file at this URL path, index.html for "/"; nullptr if there is none.
     const WebFile* find(std::string_view path) const;
 
   private:

@@ -17,7 +17,8 @@ store::WriteBehindStore::Settings settingsFrom(const Options& options) {
             options.storeQuota};
 }
 
-/// Decodes the objects of a stored record on demand, as store::decode() requires, and collects their keys.
+/// A store::ObjectLookup that decodes the objects of a stored record when they are first requested. keys() returns the
+/// keys of the decoded objects.
 class RecordObjects {
   public:
     explicit RecordObjects(const store::Record& record) {
@@ -41,7 +42,7 @@ class RecordObjects {
     std::map<std::string, std::optional<slicing::Object>> decoded_;
 };
 
-/// The estimated time to decode a record.
+/// Returns the estimated time to decode a record.
 Seconds decodingCost(const store::Record& record) {
     constexpr double kByte = 1e-7;
     std::size_t bytes = record.whole.size() + record.head.size();
@@ -67,8 +68,8 @@ WriteBehindStore::Listener Hub::listener() {
             }};
 }
 
-/// Checks whether a client may open one more session; evicts one if necessary. Returns the error if it may not. Call
-/// with mutex_ held.
+/// Checks whether a client may create one more session, and returns the error if it may not. At a limit, evicts an
+/// unmodified closed session to make room. Requires that mutex_ is held.
 std::optional<Error> Hub::admitSession(Client& client) {
     const auto now = SessionLedger::Clock::now();
     const Options& options = services_.options;
@@ -96,7 +97,7 @@ std::optional<Error> Hub::admitSession(Client& client) {
     return std::nullopt;
 }
 
-/// Deletes a session to make room for a new one. Call with mutex_ held.
+/// Deletes a session to make room for a new one. Requires that mutex_ is held.
 void Hub::evict(const std::string& id) {
     spdlog::debug("session evicted for a new one session={}", id);
     writeBehind_.remove(id);
@@ -115,7 +116,7 @@ void Hub::create(const ClientPtr& client, const JoinHandler& done) {
     lock.unlock();
     spdlog::info("session created session={}", credentials.id);
     if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
-        // Every server must know the session before its client is told about it.
+        // The session must be in the shared store before its client learns its id, so that every server can open it.
         writeBehind_.save(credentials.id, session::Session{}, WriteBehindStore::SaveScope::whole,
                           [done, session](bool) { done(session); });
     } else {
@@ -146,7 +147,7 @@ void Hub::join(const store::SessionCredentials& credentials, const ClientPtr& cl
                            WriteBehindStore::FetchResult fetch) { self->onFetched(pending, std::move(fetch)); });
 }
 
-/// Runs on the store's thread, so a worker decodes the record.
+/// Runs on the thread of the write-behind store, which must not be blocked: a worker decodes the record.
 void Hub::onFetched(const PendingJoin& pending, WriteBehindStore::FetchResult fetch) {
     if (!fetch) {
         finishOpening(pending, fetch.error());
@@ -182,7 +183,8 @@ void Hub::decode(const PendingJoin& pending, const store::Record& record) {
     }
 }
 
-/// Passes the session to the first client that asked for it, then joins the others that waited.
+/// Passes the session, or the error, to the client that asked for the session first; then joins the other clients that
+/// waited for it.
 void Hub::finishOpening(const PendingJoin& pending, Result<session::Session> value) {
     const std::string& id = pending.credentials.id;
     std::vector<PendingJoin> others;

@@ -1,5 +1,5 @@
 #pragma once
-// The hub of all sessions: sessions with clients are held here, the others are in the store.
+// The hub of all sessions: it holds the sessions that have clients; the others are in the store.
 
 #include <map>
 #include <memory>
@@ -22,31 +22,35 @@ class Hub : public std::enable_shared_from_this<Hub> {
     using JoinResult = Result<std::shared_ptr<LiveSession>>;
     using JoinHandler = std::function<void(JoinResult)>;
 
-    /// Creates a session and passes it, or the error `too_many`, to `done`. At a limit, deletes a closed session that
-    /// was never changed.
+    /// Creates a session and passes it, or the error `too_many`, to `done`. At a limit on the number of sessions,
+    /// deletes a closed session that was never changed, if there is one.
     void create(const ClientPtr& client, const JoinHandler& done);
-    /// Opens the session with these credentials and passes it to `done`, or an error: `not_found`, `bad_token`,
-    /// `too_many` if too many jobs are queued, or `internal` if the store does not answer.
+    /// Adds a client to the session with these credentials, which is loaded from the store if necessary. Passes the
+    /// session to `done`, or an error: `not_found`, `bad_token`, `too_many` if too many jobs are queued, or `internal`
+    /// if the store does not answer.
     void join(const store::SessionCredentials& credentials, const ClientPtr& client, const JoinHandler& done);
-    /// Removes a client from a session. Must be called once for each successful `create` and `join`.
+    /// Removes a client from a session, and closes the session if that was its last client. Must be called once for
+    /// each successful create() and join().
     void leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer);
 
-    /// Writes all sessions to the store in their current state. Releases `completion` once they are written or the
-    /// store has failed.
+    /// Writes all open sessions to the store, unless sessions are written only when they are closed
+    /// (WritePolicy::at_close). Releases its references to `completion` once the sessions are written or the store has
+    /// failed.
     void saveAll(const std::shared_ptr<void>& completion = {});
     const store::WriteBehindStore& writeBehind() const { return writeBehind_; }
-    /// Writes all pending changes to the store, for at most this time. No function may be called afterwards.
+    /// Writes all pending changes to the store, which takes at most about `limit`. No function may be called afterward.
     void stop(Seconds limit);
 
-    /// The number of sessions with at least one client.
+    /// Returns the number of sessions with at least one client.
     std::size_t openCount() const;
 
   private:
+    /// A session with clients.
     struct LiveEntry {
         std::shared_ptr<LiveSession> session;
-        int clients = 0;
+        int clients = 0;  ///< number of clients; the session is closed when it reaches 0
     };
-    /// A join that waits for the session to be fetched from the store.
+    /// A call of join() that waits for the session to be fetched from the store.
     struct PendingJoin {
         store::SessionCredentials credentials;
         ClientPtr client;
@@ -68,9 +72,10 @@ class Hub : public std::enable_shared_from_this<Hub> {
     mutable std::mutex mutex_;
     std::map<std::string, LiveEntry, std::less<>> live_;  // guarded by mutex_
     SessionLedger ledger_;                                // guarded by mutex_
-    // Guarded by mutex_: the sessions being fetched, with further joins that wait for them.
+    // The sessions that are being fetched from the store, by id, with the further joins that wait for each. Guarded by
+    // mutex_.
     std::map<std::string, std::vector<PendingJoin>, std::less<>> opening_;
-    store::WriteBehindStore writeBehind_;  // declared last: its thread calls the listener
+    store::WriteBehindStore writeBehind_;  // declared last, because its thread uses the other members
 };
 
 }  // namespace oval4d::net

@@ -26,12 +26,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Delay from a change until the session is saved. The store must be at most a second behind, even on a busy machine.
+// Delay from a change until the session is saved. The store must be at most a second behind the session, even on a busy
+// machine.
 constexpr std::chrono::milliseconds kSaveDelay{250};
 
 Message doneMessage(LiveSession::Id id, std::uint64_t revision) { return textMessage(wire::doneMessage(id, revision)); }
 
-/// A file reader that runs in a reader process.
+/// Returns a function that reads a file in a file reader process.
 session::FileReader fileReader(const Services& services) {
     return [&readers = services.readers, stop = services.loadWorkers.stopToken()](
                std::string_view format, std::string_view text, const std::string& name, const session::Limits& limits) {
@@ -39,11 +40,13 @@ session::FileReader fileReader(const Services& services) {
     };
 }
 
+// Minimum time between two steps of a continuous turn.
 constexpr auto kTurnInterval = std::chrono::duration_cast<Pacing::Clock::duration>(1s) / 60;
-// The longest time that one step of a continuous turn covers: after a pause, or with a client that shows one picture
-// per second, the turn continues without a jump.
+// Maximum time that one step of a continuous turn covers. After a pause, or for a client that shows one picture per
+// second, the turn then continues without a large jump.
 constexpr auto kMaxTurnStep = 250ms;
 
+// Time until the next attempt after the job queue was full.
 constexpr auto kRetryInterval = 100ms;
 
 const Error kNoPicture{ErrorCode::internal, "this picture could not be made; the session continues"};
@@ -98,8 +101,8 @@ void LiveSession::dismiss() {
     });
 }
 
-/// Adjusts the client's byte account to what the session holds after a command. If the limit is exceeded, forgets the
-/// older half of the history.
+/// Adjusts the bytes reserved on the client's account to the memory of the session after a command. If that would
+/// exceed the limit, forgets the older half of the undo steps.
 void LiveSession::updateReservation(bool polytopesChanged) {
     assertOnStrand();
     if (polytopesChanged) objectBytes_ = session::objectBytes(session_);
@@ -117,14 +120,15 @@ void LiveSession::saveNow(store::WriteBehindStore::Written written) {
         writeBehind_.save(credentials_.id, session_, store::WriteBehindStore::SaveScope::whole, std::move(written));
 }
 
-/// Schedules a save. Call after each change.
+/// Schedules a save. Must be called after each change.
 void LiveSession::scheduleSave() {
     assertOnStrand();
     if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
     saveTimer_.start(weak_from_this(), Clock::now() + kSaveDelay, [](LiveSession& session) { session.saveNow(); });
 }
 
-/// Returns a function that writes the session, or only its head, to the store and calls back when that is done.
+/// Returns a function that writes the session, or only its head, to the store and calls its argument when that is done:
+/// see WriteBehindStore::save().
 std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::WriteBehindStore::SaveScope scope) {
     session::Session value;
     if (scope == store::WriteBehindStore::SaveScope::whole) {
@@ -148,8 +152,8 @@ asio::awaitable<void> LiveSession::welcomeOnStrand(std::shared_ptr<Peer> peer, w
     co_return;
 }
 
-/// The lanes of this client in this session. All connections of a client to a session share them, so that several
-/// connections get no larger share of the workers.
+/// Returns the lanes of the peer's client in this session. All connections of a client to a session share these lanes,
+/// so that a client with several connections gets no larger share of the workers.
 LiveSession::Lanes LiveSession::lanesOf(const Peer& peer) const {
     const ClientPtr& own = peer.client();
     for (const auto& [key, client] : clients_) {
@@ -174,8 +178,8 @@ asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, w
     }
 }
 
-/// Applies a command. Slow work runs on a worker: later messages of this client wait for it, those of other clients do
-/// not. With a store shared by several servers, the command is acknowledged only once its result is in the store.
+/// Applies a command. Slow work runs on a worker: later messages of this client wait for it, but not those of other
+/// clients. With a store that several servers share, the command is acknowledged only once its result is in the store.
 asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, const session::Command& command, Id id) {
     const auto loader = std::make_shared<session::ObjectLoader>(
         services_.options.session, services_.polytopes, session::ObjectLoader::Mode::deferred, fileReader(services_));
@@ -217,13 +221,13 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
         changed_ = Clock::now();
         scheduleSave();
         if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
-            // The head of a record does not contain polytopes, so a new one requires the whole.
+            // The head of a record is saved without objects, so a new object requires a save of the whole session.
             const bool whole = session_.now.object != shown;
             auto write = storeWriter(whole ? store::WriteBehindStore::SaveScope::whole
                                            : store::WriteBehindStore::SaveScope::head);
             if (id) {
                 const bool written = co_await awaitCallback<bool>(std::move(write));
-                if (!written) co_return;  // another server owns the session; the client is being sent there
+                if (!written) co_return;  // another server owns the session, and this client is being disconnected
             } else {
                 write([](bool) {});
             }
@@ -306,7 +310,7 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
     if (failed) sendError(*peer, *failed, id);
 }
 
-/// A job that makes a picture of the current state.
+/// Returns a job that makes a picture of the current state.
 std::function<Message(pipeline::Pipeline&)> LiveSession::requestedPictureJob(const StreamKey& key, Id id) const {
     const SnapshotPtr known = snapshot_ && snapshot_->revision == revision() ? snapshot_ : nullptr;
     return [known, state = session_.now, askedRevision = revision(), changed = changed_, key, id,
@@ -324,8 +328,9 @@ void LiveSession::sendError(Peer& peer, const Error& error, Id id) {
     peer.send(textMessage(wire::errorMessage(error, id)));
 }
 
-/// Sends every client the newest state or picture that is ready and requests missing pictures. Call after anything that
-/// may have changed the session, or made a client or a worker available.
+/// Sends every client the newest state or picture that is ready and that it can receive, and requests missing pictures.
+/// Must be called whenever the session may have changed, a client may have become able to receive a picture, or a
+/// worker may have become available.
 void LiveSession::update() {
     assertOnStrand();
     advanceTurn();
@@ -354,7 +359,8 @@ void LiveSession::update() {
     }
 }
 
-/// Advances a continuous turn when the next step is due and a client that has the current revision can receive another.
+/// Advances a continuous turn if the next step is due and a client that has the current revision can receive the next
+/// one.
 void LiveSession::advanceTurn() {
     assertOnStrand();
     if (!session_.now.turning) {
@@ -391,8 +397,8 @@ bool LiveSession::isEncoding(const StreamKey& key, std::uint64_t ofRevision) con
         encoding_, [&](const EncodingPicture& each) { return each.streamKey == key && each.revision == ofRevision; });
 }
 
-/// Replaces the queued job, or posts a new one. Does nothing while a job is being drawn: update() runs again
-/// afterwards.
+/// Posts a job that makes these pictures, or replaces the job that is queued. Does nothing while the pictures of a job
+/// are being drawn, because update() is called again afterward.
 void LiveSession::requestPictures(std::vector<StreamKey> wanted) {
     assertOnStrand();
     const SnapshotPtr known = snapshot_ && snapshot_->revision == revision() ? snapshot_ : nullptr;
@@ -416,7 +422,7 @@ void LiveSession::requestPictures(std::vector<StreamKey> wanted) {
     }
 }
 
-/// The client to which a job is charged: the clients that want its pictures take turns.
+/// Returns the client to whose lane a job is charged. The clients that receive the pictures of a job take turns.
 const LiveSession::Client& LiveSession::nextPayer(const std::vector<StreamKey>& wanted) const {
     std::vector<const Client*> payers;
     for (const auto& [peer, client] : clients_) {
@@ -425,7 +431,7 @@ const LiveSession::Client& LiveSession::nextPayer(const std::vector<StreamKey>& 
     return *payers[jobs_ % payers.size()];
 }
 
-/// Schedules another attempt after the pool has refused a job because its queue is full.
+/// Schedules another attempt after the pool has rejected a job because its queue is full.
 void LiveSession::scheduleRetry() {
     retryTimer_.start(weak_from_this(), Clock::now() + kRetryInterval, &LiveSession::update);
 }
@@ -457,7 +463,8 @@ void LiveSession::runJob(pipeline::Pipeline& pipeline) {
     });
 }
 
-/// Called on a worker when the last picture of a job is drawn but not yet encoded: the next job may be queued.
+/// Called on a worker when the last picture of a job is drawn, but not yet encoded. From then on, the next job may be
+/// queued.
 void LiveSession::onDrawn(const PictureJob& job, const StreamKey& key) {
     asio::post(strand_, [self = shared_from_this(), drawn = EncodingPicture{job.number, job.revision, key}] {
         if (self->drawing_ == drawn.job) self->drawing_ = 0;
@@ -466,8 +473,9 @@ void LiveSession::onDrawn(const PictureJob& job, const StreamKey& key) {
     });
 }
 
-/// Sends the pictures that a worker has made. The session may have changed since, but the pictures are newer than what
-/// the clients have: under a flood of changes they see every picture that there is time to make.
+/// Sends the pictures that a worker has made. The session may have changed in the meantime, but the pictures are still
+/// newer than those that the clients have: if changes are very frequent, clients see all pictures that the workers have
+/// time to make.
 void LiveSession::onJobDone(JobResult result) {
     assertOnStrand();
     if (drawing_ == result.job) drawing_ = 0;
@@ -519,8 +527,8 @@ void LiveSession::sendPicture(Client& client, const Message& picture) {
                });
 }
 
-/// Sends the newest state to a client without a stream, one at a time: states that change faster than its socket
-/// accepts them are skipped.
+/// Sends the newest state to a client without a stream, one message at a time: if the state changes faster than the
+/// client's socket accepts messages, states in between are skipped.
 void LiveSession::sendState(Client& client) {
     const auto peer = client.peer.lock();
     if (!peer) return;
@@ -542,7 +550,7 @@ void LiveSession::sendState(Client& client) {
     });
 }
 
-/// Starts a timer after which pictures that a client does not acknowledge count as shown.
+/// Starts a timer, after which pictures that a client has not acknowledged count as shown.
 void LiveSession::schedulePacing() {
     std::optional<Clock::time_point> first;
     for (const auto& [key, client] : clients_) {

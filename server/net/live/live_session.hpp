@@ -24,33 +24,36 @@
 
 namespace oval4d::net {
 
-/// Holds the value of a session and its clients on a strand. Every command is applied when it arrives. Pictures follow
-/// as fast as workers make them and clients show them, always of the newest state: a session has at most one picture
-/// job running, or one queued whose state is replaced by each newer one; while a picture is encoded, the next one may
-/// be drawn. The picture of a revision is made once and shared by all clients with the same stream, encoding and
-/// viewport. Public functions may be called from any thread.
+/// A session in use: holds the session's value and its clients, applies commands, and sends states and pictures to the
+/// clients. It uses its data only on a strand. Every command is applied when it arrives. Pictures follow as fast as
+/// workers make them and clients show them, always of the newest state. To this end, a session has at most one picture
+/// job that is queued or being drawn; each newer state replaces that of a queued job. While a picture is encoded, the
+/// next one may be drawn. The picture of a revision is made once and shared by all clients with the same stream,
+/// encoding and viewport. Public functions may be called from any thread.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
-    using Id = std::optional<double>;  ///< the id of a request
+    using Id = std::optional<double>;  ///< the id of a request; empty if the request has none
 
-    /// `client`: the client that opened the session and pays for the memory that it holds.
+    /// `client`: the client that opened the session, on whose byte account the session's memory is reserved.
     LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
                 ClientPtr client, session::Session value);
 
     const store::SessionCredentials& credentials() const { return credentials_; }
 
-    /// Adds a client, or changes its stream, and sends `welcome`; the state and a picture follow.
+    /// Adds a client, or changes its stream if it was added before, and sends `welcome`; the state and a picture
+    /// follow.
     boost::asio::awaitable<void> welcome(std::shared_ptr<Peer> peer, wire::Hello hello, Id id);
 
-    /// Executes a request of a client that was welcomed, and returns once it is answered.
+    /// Executes a request of a client that was added with welcome(), and returns once the request is answered.
     boost::asio::awaitable<void> execute(std::shared_ptr<Peer> peer, wire::Request request);
 
-    /// Removes a client, then calls `left` with the session's value on the session's strand. If `left` returns true,
-    /// that was the last client, and this object no longer writes the session.
+    /// Removes a client, then calls `left` with the session's value on the session's strand. `left` must return whether
+    /// that was the last client; if so, this object no longer writes the session to the store.
     void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
 
-    /// Writes the whole session to the store. Releases `completion` once it is written or the store has failed.
+    /// Writes the whole session to the store. Releases its reference to `completion` once the session is written or the
+    /// store has failed.
     void save(std::shared_ptr<void> completion = {});
 
     /// Closes all connections because another server has taken over the session.
@@ -59,11 +62,12 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   private:
     using Clock = Pacing::Clock;
 
-    /// The job queues of one client in this session.
+    /// A client's lanes in the worker pools for its jobs in this session.
     struct Lanes {
         ClientPtr client;
         parallel::WorkerPool::LanePtr pictures, files;
     };
+    /// A connection to this session.
     struct Client {
         std::weak_ptr<Peer> peer;
         Lanes lanes;
@@ -77,21 +81,22 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
         std::uint64_t number = 0;
         session::State state;
         std::uint64_t revision = 0;
-        Clock::time_point changed;
-        SnapshotPtr snapshot;  ///< if there is one of this revision already
-        std::vector<StreamKey> wanted;
+        Clock::time_point changed;      ///< the time at which the session reached this revision
+        SnapshotPtr snapshot;           ///< the snapshot of this revision if it has already been made, else null
+        std::vector<StreamKey> wanted;  ///< the pictures to make
     };
     /// A picture that has been drawn and is being encoded.
     struct EncodingPicture {
         std::uint64_t job = 0, revision = 0;
         StreamKey streamKey;
     };
+    /// The result of a PictureJob.
     struct JobResult {
-        std::uint64_t job = 0;
+        std::uint64_t job = 0;  ///< number of the job
         std::uint64_t revision = 0;
         SnapshotPtr snapshot;
         EncodedPictures pictures;
-        std::vector<StreamKey> failed;
+        std::vector<StreamKey> failed;  ///< the pictures that could not be made
     };
 
     // These run on the strand.
@@ -138,28 +143,28 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     store::WriteBehindStore& writeBehind_;
     const store::SessionCredentials credentials_;
     const ClientPtr client_;
-    Strand strand_;
+    Strand strand_;  // runs all code that uses the members of the next group
 
     // Used only on the strand.
     session::Session session_;
-    std::size_t objectBytes_ = 0;   ///< bytes of the polytopes of session_ that are not in the catalogue
-    ByteBudget::Reservation held_;  ///< objectBytes_ and the history
+    std::size_t objectBytes_ = 0;   ///< session::objectBytes() of session_
+    ByteBudget::Reservation held_;  ///< reserves objectBytes_ and the bytes of the history
     std::map<const Peer*, Client> clients_;
     Clock::time_point changed_;  ///< the time at which the session reached its revision
-    SnapshotPtr snapshot_;       ///< the newest, kept while a client waits for it
-    EncodedPictures pictures_;   ///< of snapshot_
+    SnapshotPtr snapshot_;       ///< the newest snapshot, kept while a client waits for a picture; else null
+    EncodedPictures pictures_;   ///< pictures of snapshot_
     Bytes stateText_;            ///< the `state` message of stateRevision_, for clients without a stream
     std::optional<std::uint64_t> stateRevision_;
-    std::uint64_t jobs_ = 0;     ///< the number of jobs so far
-    std::uint64_t drawing_ = 0;  ///< the number of the job that is queued or being drawn; 0: none
+    std::uint64_t jobs_ = 0;     ///< how many jobs have been posted; jobs are numbered from 1
+    std::uint64_t drawing_ = 0;  ///< the number of the job that is queued or being drawn; 0 if there is none
     std::vector<EncodingPicture> encoding_;
-    std::optional<Clock::time_point> lastTurn_;
+    std::optional<Clock::time_point> lastTurn_;  ///< time of the last step of a continuous turn; empty if there is none
     OneShotTimer turnTimer_, paceTimer_, saveTimer_, retryTimer_;
     bool detached_ = false;  ///< this object must no longer write the session
 
     // Shared by the strand and a worker.
     std::mutex queuedJobMutex_;
-    std::optional<PictureJob> queuedJob_;  ///< guarded by queuedJobMutex_
+    std::optional<PictureJob> queuedJob_;  ///< guarded by queuedJobMutex_; empty once a worker has started the job
 };
 
 }  // namespace oval4d::net

@@ -1,5 +1,5 @@
 #pragma once
-// The sessions of each client, so that one client cannot use up the limit of all.
+// Records the sessions of each client, so that one client cannot use up the number of sessions allowed for all clients.
 
 #include <chrono>
 #include <cstddef>
@@ -10,9 +10,9 @@
 
 namespace oval4d::net {
 
-/// Records which client opened each session of this process, both open sessions and closed ones that have not expired.
-/// Finds the sessions to evict when a limit is reached: unmodified closed ones, the longest closed first. Not
-/// thread-safe.
+/// Records which client opened each session of this process: open sessions, and closed ones that have not expired.
+/// Finds the session to evict when a limit is reached: of the unmodified closed sessions, the one that was closed
+/// first. Not thread-safe.
 class SessionLedger {
   public:
     using Clock = std::chrono::steady_clock;
@@ -23,29 +23,29 @@ class SessionLedger {
     /// Records that a client has opened a session. A known session stays assigned to the client that opened it first.
     void open(const std::string& id, const std::string& client);
 
-    /// Records that a session has no client any more. `unmodified`: it was never changed.
+    /// Records that a session has no client anymore. `unmodified`: whether the session was never changed.
     void close(const std::string& id, bool unmodified, Clock::time_point now);
 
     /// Removes a session that was deleted or was taken over by another server.
     void remove(const std::string& id);
 
-    /// The number of sessions of a client, open and closed.
+    /// Returns the number of sessions that a client has opened, both open ones and closed ones that have not expired.
     std::size_t count(const std::string& client, Clock::time_point now);
 
-    /// The unmodified closed session that was closed first, of one client or, without `client`, of all. Nothing if
-    /// there is none.
+    /// Returns the id of the unmodified closed session that was closed first, of those of `client` or, if that is null,
+    /// of all clients; nothing if there is none.
     std::optional<std::string> oldestUnmodified(Clock::time_point now, const std::string* client = nullptr);
 
   private:
     struct Entry {
         std::string client;
-        std::uint64_t closed = 0;  // sequence number of closing; 0 while open
+        std::uint64_t closed = 0;  // sequence number that increases with each closed session; 0 while open
         bool unmodified = false;
         Clock::time_point expires;
     };
     struct ClientSessions {
         std::size_t sessions = 0;
-        std::map<std::uint64_t, std::string> unmodified;  // ids by sequence number
+        std::map<std::uint64_t, std::string> unmodified;  // unmodified closed sessions: ids by Entry::closed
     };
     using Sessions = std::map<std::string, Entry, std::less<>>;
 
@@ -56,9 +56,9 @@ class SessionLedger {
     const Clock::duration expiry_;
     Sessions sessions_;
     std::map<std::string, ClientSessions, std::less<>> clients_;  // by client name
-    std::map<std::uint64_t, std::string> closed_;                 // ids by sequence number
-    std::map<std::uint64_t, std::string> unmodified_;             // the unmodified ones among these
-    std::uint64_t last_ = 0;
+    std::map<std::uint64_t, std::string> closed_;                 // closed sessions: ids by Entry::closed
+    std::map<std::uint64_t, std::string> unmodified_;             // unmodified closed sessions: ids by Entry::closed
+    std::uint64_t last_ = 0;                                      // the last value given to Entry::closed
 };
 
 }  // namespace oval4d::net

@@ -16,7 +16,7 @@
 
 namespace oval4d::net {
 
-/// The kind of picture that a client receives for each revision.
+/// The kind of picture that a client receives for each revision; identifies pictures that clients can share.
 struct StreamKey {
     wire::Stream stream = wire::Stream::none;
     wire::Encoding encoding = wire::Encoding::json;
@@ -24,30 +24,31 @@ struct StreamKey {
     bool operator==(const StreamKey&) const = default;
 };
 
-/// One revision, with its slices if a client needs them. Immutable once made.
+/// The state of one revision, with its slices if a client needs them. Immutable once made.
 struct Snapshot {
     session::State state;
     std::uint64_t revision = 0;
     std::chrono::steady_clock::time_point changed;  ///< the time at which the session reached this revision
-    Bytes stateText;                                ///< its `state` message
-    bool sliced = false;
+    Bytes stateText;                                ///< the `state` message of this revision
+    bool sliced = false;                            ///< whether `slices` is set
     slicing::SliceSet slices;
 };
 using SnapshotPtr = std::shared_ptr<const Snapshot>;
 
-/// Makes the snapshot of a revision, with slices if pictures of this kind need them. Runs on a worker.
+/// Makes the snapshot of a revision, with slices if pictures of this kind need them. Must be called on a worker.
 SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
                          std::chrono::steady_clock::time_point changed, const StreamKey& key);
 
-/// Whether the snapshot has what pictures of this kind need; false for a null pointer.
+/// Returns whether the snapshot contains all that pictures of this kind need; false for a null pointer.
 bool suffices(const SnapshotPtr& snapshot, const StreamKey& key);
 
-/// Makes a picture: a `slices` message with this id, or a PNG file, for which `whenDrawn` is called when only encoding
-/// is left. Runs on a worker. Throws std::runtime_error.
+/// Makes a picture: a PNG file for the stream of frames, else a `slices` message with this request id. For a PNG file,
+/// calls `whenDrawn` when the picture is drawn, but not yet encoded. Must be called on a worker. Throws
+/// std::runtime_error.
 Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
                     std::optional<double> id, const std::function<void()>& whenDrawn = {});
 
-/// The estimated time that a picture of this kind takes.
+/// Returns the estimated time to make a picture of this kind.
 Seconds pictureCost(const session::State& state, const StreamKey& key);
 
 }  // namespace oval4d::net

@@ -19,11 +19,11 @@ namespace websocket = beast::websocket;
 
 namespace {
 
-constexpr std::size_t kMaxIdleBuffer = 64U << 10U;   // bytes; a larger read buffer is freed after its message
-constexpr std::size_t kWriteFragment = 256U << 10U;  // bytes of a message per write
-constexpr std::size_t kReadChunk = 64U << 10U;       // bytes of a message per read
+constexpr std::size_t kMaxIdleBuffer = 64U << 10U;   // bytes; a larger read buffer is shrunk after each message
+constexpr std::size_t kWriteFragment = 256U << 10U;  // maximum number of bytes per write
+constexpr std::size_t kReadChunk = 64U << 10U;       // maximum number of bytes per read
 
-// Bytes that may always be queued for a client, even if its byte account is full.
+// The number of bytes that may be queued for a connection even if the client's byte account is full.
 constexpr std::size_t kMinQueue = 64U << 10U;
 
 constexpr double kParseSecondsPerByte = 1e-8;  // a rough estimate
@@ -36,7 +36,8 @@ Error tooLong(const Options& options) {
                                       std::to_string(options.maxMessage)};
 }
 
-/// A job that parses a long message; only a load may be long. `text` must outlive the job.
+/// Returns a job that parses a long message. The result is an error unless it is a `load` message: no other one may be
+/// long. `text` must outlive the job.
 std::function<Parsed(std::size_t worker)> parseJob(std::string_view text, const Options& options) {
     return [text, &options](std::size_t /*worker*/) -> Parsed {
         const auto seen = wire::peekRequest(text);
@@ -77,7 +78,7 @@ asio::awaitable<void> Connection::run(Request upgrade) {
 }
 
 void Connection::configureStream(bool offersSubprotocol) {
-    // The WebSocket stream has its own timeouts; those of the TCP stream must be off.
+    // The WebSocket stream has its own timeouts, so Beast requires that those of the TCP stream are off.
     beast::get_lowest_layer(stream_).expires_never();
     const auto ping = steady(services_.options.pingInterval);
     stream_.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), 2 * ping, true});
@@ -85,7 +86,7 @@ void Connection::configureStream(bool offersSubprotocol) {
         response.set(beast::http::field::server, "oval4d");
         if (offersSubprotocol) response.set(beast::http::field::sec_websocket_protocol, kSubprotocol);
     }));
-    stream_.read_message_max(services_.options.maxRequestBytes);  // until the hello
+    stream_.read_message_max(services_.options.maxRequestBytes);  // until the hello; then maxMessage
     stream_.auto_fragment(false);
 }
 
@@ -112,7 +113,7 @@ asio::awaitable<void> Connection::readLoop() {
         services_.metrics.messagesReceived.Increment();
         co_await pause(client_->countMessage(buffer_.size(), Client::Clock::now()));
         if (closing_) {
-            // Ignore all messages until the close frame.
+            // Ignore all messages that arrive before the client's close frame.
         } else if (!stream_.got_text()) {
             sendError({ErrorCode::bad_message, "messages to the server must be JSON text, not binary"}, {});
             close(close_code::kNotText, "text expected");
@@ -126,7 +127,8 @@ asio::awaitable<void> Connection::readLoop() {
     }
 }
 
-/// Reads one message into `buffer_`. A message that is too long is read to its end and discarded.
+/// Reads one message into `buffer_`. If the message is refused because of its length, reads it to its end and discards
+/// it.
 asio::awaitable<Connection::Incoming> Connection::read() {
     Incoming incoming;
     bool checked = false;
@@ -146,10 +148,10 @@ asio::awaitable<Connection::Incoming> Connection::read() {
     co_return incoming;
 }
 
-/// Decides by its beginning whether a long message is kept: if it is a load, or may be one, and its memory can be
-/// reserved.
+/// Decides from the beginning of a long message whether to keep it: the message must be a `load`, or may be one as far
+/// as can be seen, and its memory must fit in the client's byte account. Sets `incoming.refusal` if not.
 void Connection::checkLongMessage(Incoming& incoming) {
-    constexpr std::size_t kCopies = 3;  // the message, its parsed members, and one of them while it is reallocated
+    constexpr std::size_t kCopies = 3;  // the message, its parsed members, and a member while it is reallocated
     const auto seen =
         wire::peekRequest({static_cast<const char*>(buffer_.cdata().data()), services_.options.maxRequestBytes});
     incoming.id = seen.id;
@@ -203,7 +205,7 @@ asio::awaitable<void> Connection::handle(std::string_view text) {
     }
 }
 
-/// Parses a message; long ones on a worker.
+/// Parses a message; a long one on a worker.
 asio::awaitable<Parsed> Connection::parse(std::string_view text) {
     if (text.size() <= services_.options.maxRequestBytes)
         co_return wire::parseRequest(text, services_.options.maxDepth);
@@ -252,7 +254,8 @@ asio::awaitable<void> Connection::handleHello(wire::Hello hello, Id id) {
     co_await session_->welcome(shared_from_this(), std::move(hello), id);
 }
 
-/// Joins or creates the session that a hello asks for; a later hello stays in the same session.
+/// Joins or creates the session that a hello requests. If the connection has joined a session already, returns that
+/// one.
 asio::awaitable<Hub::JoinResult> Connection::joinSession(wire::Hello hello) {
     const std::string token = hello.token.value_or("");
     if (session_) {
@@ -264,7 +267,7 @@ asio::awaitable<Hub::JoinResult> Connection::joinSession(wire::Hello hello) {
     if (requestedId_.empty() && hello.token) {
         co_return Error{ErrorCode::bad_token, "a token requires a session in the path: /ws/{session}"};
     }
-    // Refuse correct tokens too, so that guessing reveals nothing.
+    // Refuse correct tokens, too, so that a client that guesses tokens learns nothing.
     if (hello.token && !client_->mayTryToken(Client::Clock::now()))
         co_return Error{ErrorCode::too_many, "this address has sent too many wrong tokens; try again in a minute"};
     auto open = sessionOpener(token);
@@ -273,7 +276,8 @@ asio::awaitable<Hub::JoinResult> Connection::joinSession(wire::Hello hello) {
     co_return joined;
 }
 
-/// Returns a function that opens the requested session, or creates a new one, and passes the result to its callback.
+/// Returns a function that joins the requested session, or creates one if none is requested, and passes the result to
+/// its argument.
 std::function<void(Hub::JoinHandler)> Connection::sessionOpener(const std::string& token) {
     return [hub = hub_, client = client_,
             credentials = store::SessionCredentials{requestedId_, token}](const Hub::JoinHandler& done) {
@@ -305,7 +309,7 @@ void Connection::send(Message message, std::function<void()> written) {
                });
 }
 
-/// Closes the connection because the unread messages exceed the byte limits.
+/// Closes the connection because the messages that the client has not read exceed the byte limits.
 void Connection::dropSlowReader() {
     services_.metrics.slowReaders.Increment();
     spdlog::warn("client dropped: too many unread bytes client={}", client_->name());
@@ -329,7 +333,8 @@ void Connection::drop() {
     asio::post(stream_.get_executor(), [self = shared_from_this()] { beast::get_lowest_layer(self->stream_).close(); });
 }
 
-/// Sends a close frame after the queued messages. The pending read receives the reply to it and ends the read loop.
+/// Sends a close frame after the queued messages. The pending read receives the client's close frame and ends the read
+/// loop.
 void Connection::startClosing(std::uint16_t code, std::string reason) {
     if (closing_) return;
     closing_.emplace(static_cast<websocket::close_code>(code), reason);
@@ -347,8 +352,8 @@ void Connection::writeNext() {
     }
 }
 
-/// Writes the current message from this offset in fragments. Each has its own deadline, so a slow client is not dropped
-/// while it makes progress.
+/// Writes the rest of the first message in the queue, from this offset, in fragments. Each fragment has a deadline of
+/// its own, so that a slow client is not dropped as long as it reads fast enough (see ReadingRate).
 void Connection::writeFragment(std::size_t from) {
     const std::string_view rest = outbox_.front().message.bytes.view().substr(from);
     const std::string_view fragment = rest.substr(0, kWriteFragment);
@@ -387,7 +392,7 @@ void Connection::onWritten(boost::system::error_code fault) {
     writeNext();
 }
 
-/// Starts the deadline of the current write, after which the client is dropped.
+/// Starts the deadline of the current write. If the write is not complete by then, the client is dropped.
 void Connection::startWriteDeadline() {
     deadline_.expires_after(readingRate_->timeout());
     deadline_.async_wait([self = shared_from_this(), watched = writes_](boost::system::error_code canceled) {

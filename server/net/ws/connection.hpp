@@ -24,26 +24,28 @@
 
 namespace oval4d::net {
 
-/// The WebSocket subprotocol of the server.
+/// The WebSocket subprotocol that the server supports.
 inline constexpr std::string_view kSubprotocol = "oval4d.v1";
 
-/// Handles the requests of one client over a WebSocket. Each request is answered before the next one is read, so TCP
-/// back-pressure slows down a client that sends too fast. Writes one message at a time and drops a client that reads
-/// too slowly. `send`, `close`, `stop` and `drop` may be called from any thread; all else runs on the stream's strand.
+/// Handles the requests of one client over a WebSocket. It answers each request before it reads the next one, so TCP
+/// back-pressure slows down a client that sends too fast. It writes one message at a time, and drops a client that
+/// reads too slowly. send(), close(), stop() and drop() may be called from any thread; all other functions run on the
+/// stream's strand.
 class Connection final : public Peer, public std::enable_shared_from_this<Connection> {
   public:
-    /// `session`: the session id in the request path, or empty for a new session. `joined` is called once the client
-    /// has sent hello and has joined a session.
+    /// `session`: the session id in the request path; empty for a new session. `joined`: called when the client has
+    /// sent its first hello and has joined a session; may be empty.
     Connection(boost::beast::tcp_stream stream, Services services, std::shared_ptr<Hub> hub, ClientPtr client,
                std::string session, std::function<void()> joined);
 
-    /// Serves the connection from the handshake until it ends.
+    /// Serves the connection, from the handshake until the connection ends. `upgrade`: the client's handshake request.
     boost::asio::awaitable<void> run(Request upgrade);
 
     void send(Message message, std::function<void()> written = {}) override;
     const ClientPtr& client() const override { return client_; }
     void close(std::uint16_t code, std::string reason) override;
-    /// Discards the queued messages, except one being written, and closes the connection with code kStopping.
+    /// Discards the queued messages, except the one that is being written, and closes the connection with code
+    /// kStopping.
     void stop();
     /// Closes the socket without a close frame.
     void drop();
@@ -53,15 +55,15 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
     /// A message in the send queue.
     struct Outgoing {
         Message message;
-        std::function<void()> written;
-        ByteBudget::Reservation held;
+        std::function<void()> written;  ///< called once the message is written; may be empty
+        ByteBudget::Reservation held;   ///< reserves the bytes of the message
     };
     /// The result of reading a message.
     struct Incoming {
         boost::system::error_code fault;
         std::optional<Error> refusal;  ///< set if the message was discarded because of its length
         Id id;                         ///< the request id of a discarded message, if it was found
-        ByteBudget::Reservation held;  ///< the memory of a long message
+        ByteBudget::Reservation held;  ///< reserves the memory of a long message
     };
 
     void configureStream(bool offersSubprotocol);
@@ -90,18 +92,18 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
     const Services services_;
     const std::shared_ptr<Hub> hub_;
     const ClientPtr client_;
-    const std::string requestedId_;  // the session id in the path
+    const std::string requestedId_;  // the session id in the request path; empty for a new session
     std::function<void()> joined_;
-    std::shared_ptr<LiveSession> session_;
+    std::shared_ptr<LiveSession> session_;  // null until the client has joined a session
     RateLimit rate_;
     boost::beast::flat_buffer buffer_;
 
     std::deque<Outgoing> outbox_;
-    std::size_t unsent_ = 0;  // bytes in outbox_
+    std::size_t unsent_ = 0;  // total size of the messages in outbox_, in bytes
     bool writing_ = false, ended_ = false;
-    std::uint64_t writes_ = 0;  // completed writes, by which deadline_ recognizes the write that it watches
-    std::optional<boost::beast::websocket::close_reason> closing_;
-    std::optional<ReadingRate> readingRate_;  // of the message being written
+    std::uint64_t writes_ = 0;  // number of completed writes, by which deadline_ recognizes the write that it watches
+    std::optional<boost::beast::websocket::close_reason> closing_;  // set once the connection is to be closed
+    std::optional<ReadingRate> readingRate_;                        // for the message that is being written
     boost::asio::steady_timer deadline_, drained_, helloDeadline_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The flow control of pictures to one client.
+// Flow control for the pictures that are sent to one client.
 
 #include <chrono>
 #include <cstdint>
@@ -8,39 +8,42 @@
 
 namespace oval4d::net {
 
-/// Tracks the pictures on their way to one client: sent, then written to its socket, then shown. At most kInFlight may
-/// be sent but not yet shown: two keep the client busy, and no queue of outdated pictures can form.
+/// Tracks the pictures on their way to one client: each is sent (queued), then written to the socket, then shown by the
+/// client. At most kInFlight pictures may be sent but not yet shown: two keep the client busy, and no queue of outdated
+/// pictures can form.
 class Pacing {
   public:
     using Clock = std::chrono::steady_clock;
     static constexpr std::size_t kInFlight = 2;
 
-    /// Whether one more picture may be sent, in addition to `pending` pictures that are still being made.
+    /// Returns whether one more picture may be sent, in addition to `pending` pictures that are still being made.
     bool hasRoom(std::size_t pending = 0) const { return unshown_.size() + pending < kInFlight; }
-    /// The newest revision sent or skipped, if any.
+    /// Returns the newest revision that was sent or skipped; nothing if there is none.
     std::optional<std::uint64_t> newest() const { return newest_; }
 
     /// Records that the picture of this revision was queued for the client.
     void sent(std::uint64_t revision);
-    /// Records that the client gets no picture of this revision.
+    /// Records that the client receives no picture of this revision.
     void skipped(std::uint64_t revision) { newest_ = revision; }
     /// Records that the picture of this revision was written to the socket.
     void written(std::uint64_t revision, Clock::time_point now);
     /// Records that the client has shown this revision, and hence all earlier ones.
     void shown(std::uint64_t revision);
 
-    /// Counts pictures as shown that were written at least `timeout` ago, for clients that do not acknowledge them.
+    /// Marks the pictures that were written at least `timeout` ago as shown, because some clients do not acknowledge
+    /// pictures.
     void expire(Clock::time_point now, Clock::duration timeout);
-    /// The time at which the oldest picture expires; nothing if it is not yet written or there is none.
+    /// Returns the time at which the oldest picture that is not shown expires; nothing if there is no such picture or
+    /// it is not yet written.
     std::optional<Clock::time_point> deadline(Clock::duration timeout) const;
 
   private:
     struct Picture {
         std::uint64_t revision;
-        std::optional<Clock::time_point> written;
+        std::optional<Clock::time_point> written;  // empty until the picture is written to the socket
     };
     std::optional<std::uint64_t> newest_;
-    std::deque<Picture> unshown_;  // oldest first
+    std::deque<Picture> unshown_;  // pictures sent but not shown, the oldest first
 };
 
 }  // namespace oval4d::net

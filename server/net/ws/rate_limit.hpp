@@ -5,13 +5,14 @@
 
 namespace oval4d::net {
 
-/// Allows bursts of up to two seconds' worth of requests, then refuses requests. A client that sends another two
-/// seconds' worth of refused requests is abusive and should be disconnected. Not thread-safe.
+/// Limits the rate of requests. Allows bursts of as many requests as are allowed in two seconds, then refuses requests.
+/// A client that goes on to send as many requests again is abusive and should be disconnected. Not thread-safe.
 class RateLimit {
   public:
     using Clock = TokenBucket::Clock;
     enum class Verdict { allowed, refused, abusive };
 
+    /// `perSecond`: the number of requests allowed per second.
     RateLimit(double perSecond, Clock::time_point now)
         : bucket_(perSecond, 2 * perSecond, now), abusive_(-2 * perSecond) {}
 
@@ -23,7 +24,7 @@ class RateLimit {
 
   private:
     TokenBucket bucket_;
-    double abusive_;
+    double abusive_;  // the level of bucket_ below which a client is abusive
 };
 
 }  // namespace oval4d::net

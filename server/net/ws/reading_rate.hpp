@@ -9,9 +9,9 @@
 
 namespace oval4d::net {
 
-/// Enforces the minimum reading rate while one message is written. Each fragment must be written within the write
-/// timeout, and the whole at the minimum rate on average, with two write timeouts of grace. Otherwise a client could
-/// make the server hold a message for hours.
+/// Enforces the minimum reading rate while one message is written, because a very slow client could make the server
+/// hold the message for hours. Each fragment must be written within the write timeout. The whole message must be
+/// written at the minimum rate on average, with an additional two write timeouts of grace.
 class ReadingRate {
   public:
     using Clock = std::chrono::steady_clock;
@@ -22,7 +22,7 @@ class ReadingRate {
     /// Counts bytes that the client has accepted.
     void count(std::size_t bytes) { taken_ += static_cast<double>(bytes); }
 
-    /// The time within which the next fragment must be written; 1 ms if the client is too slow already.
+    /// Returns the time within which the next fragment must be written; 1 ms if the client is already too slow.
     Clock::duration timeout() const {
         const Seconds lived = Clock::now() - start_;
         const Seconds left = perSecond_ > 0 ? 2 * grace_ + Seconds(taken_ / perSecond_) - lived : grace_;

@@ -1,8 +1,9 @@
 #pragma once
-// The close codes that a client may send. Beast 1.81 rejects 1014, which IANA has registered, and accepts codes from
-// 5000, which RFC 6455, section 7.4.2, does not allow; there is no option for this. Hence this header specializes the
-// function template with which Beast reads a close frame, for the buffer type that Beast uses. Include it wherever a
-// WebSocket stream is used: all translation units must see the specialization.
+// Corrects which close codes Beast accepts from clients. Beast 1.81 rejects 1014, which IANA has registered, and
+// accepts codes from 5000 on, which RFC 6455, section 7.4.2, does not allow; it has no option to change this. This
+// header therefore specializes the function template with which Beast reads a close frame, for the buffer type that
+// Beast uses. Every source file that uses a WebSocket stream must include this header, because all of them must see the
+// specialization.
 
 #include <array>
 #include <boost/beast/core/buffers_prefix.hpp>
@@ -13,9 +14,9 @@
 
 namespace oval4d::net {
 
-/// Whether a close code may be sent (RFC 6455, section 7.4, and IANA's "WebSocket Close Code Number Registry"): 1000 to
-/// 1003, 1007 to 1014, and 3000 to 4999, which belong to libraries and applications. 1004 is reserved; 1005, 1006 and
-/// 1015 are never sent.
+/// Returns whether a close code may be sent (RFC 6455, section 7.4, and IANA's "WebSocket Close Code Number Registry").
+/// Allowed are 1000 to 1003, 1007 to 1014, and 3000 to 4999, which are for libraries and applications. 1004 is
+/// reserved; 1005, 1006 and 1015 must never be sent.
 constexpr bool isSendableCloseCode(std::uint16_t code) {
     return (code >= 1000 && code <= 1003) || (code >= 1007 && code <= 1014) || (code >= 3000 && code <= 4999);
 }

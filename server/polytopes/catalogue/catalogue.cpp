@@ -48,7 +48,7 @@ CatalogueEntry entryOf(const UniformPolychoron& row) {
     return entryOf(designOf(std::get<Diagram>(parseDiagram(row.symbol))), std::string(row.family), std::move(aliases));
 }
 
-// The catalogued members of the infinite families, with Bowers' short names.
+// The duoprisms and antiprism prisms in the catalogue, with Bowers' short names, or empty.
 struct Duoprism {
     int p, q;
     std::string_view bowers;
@@ -75,7 +75,7 @@ std::vector<CatalogueEntry> allEntries() {
     entries.push_back(entryOf(snub24Cell(), "other", {"sadi", "snub icositetrachoron", "snub disicositetrachoron"}));
     entries.push_back(entryOf(grandAntiprism(), "other", {"gap", "pentagonal double antiprismoid"}));
     for (const NamedPolyhedron& base : namedPolyhedra()) {
-        // The prism over the cube is the 8-cell; prisms over stars are built on request only.
+        // The prism over the cube is the 8-cell; prisms over stars are not in the catalogue.
         if (base.prism.empty()) continue;
         entries.push_back(
             entryOf(prismOf(base), "prism", {std::string(base.prism), std::string(base.name) + " prism"}));
@@ -95,7 +95,7 @@ const std::vector<CatalogueEntry>& entries() {
     return kEntries;
 }
 
-// The entries by folded name, alias, diagram and Schläfli symbol.
+// Returns the entries by name, alias, diagram and Schläfli symbol, each converted by text::folded.
 const std::unordered_map<std::string, const CatalogueEntry*>& index() {
     static const auto kIndex = [] {
         std::unordered_map<std::string, const CatalogueEntry*> byName;
@@ -116,8 +116,8 @@ struct Near {
     const CatalogueEntry* entry;
 };
 
-// The names at the least edit distance. Of equally near names, those of the length nearest to that of `text`: a
-// substituted letter is likelier than a missing one.
+// Returns the names with the least edit distance from `text`. If several have the same distance, keeps only those whose
+// length is nearest to that of `text`, because a wrong letter is likelier than a missing one.
 std::vector<Near> nearest(std::string_view text) {
     const std::size_t wanted = text::folded(text).size();
     std::vector<Near> best;

@@ -141,7 +141,7 @@ bool looksLikeDiagram(std::string_view text) {
     return begins && text.size() > 2 && text.find_first_not_of("xo0123456789/ *abcd") == std::string_view::npos;
 }
 
-/// All notations. The first that applies decides.
+/// All notations, in the order in which they are tried. The first one that the text is written in gives the result.
 constexpr auto kNotations = std::to_array<Notation>({
     // A dual: "dual of rectified 5-cell", "dual 3,5-duoprism".
     dualNamed,
@@ -190,7 +190,8 @@ std::vector<std::string> operationNames(const Diagram& diagram) {
     for (const UniformPolychoron& row : uniformPolychora()) {
         if (row.family != "regular") continue;
         for (const Operation& operation : kOperations) {
-            // Other operations without a ring on the first node are operations on the dual.
+            // The other operations that leave the first node without a ring are named as operations on the dual
+            // instead.
             if (operation.rings < Rings{true} && operation.name != "rectified" && operation.name != "bitruncated")
                 continue;
             Diagram regular = diagramOf(row);

@@ -10,12 +10,13 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the design that a text describes in one of the notations that names.cpp lists with examples. Ignores case;
-/// blanks and hyphens between words are equivalent. `lookup` finds polytopes whose names are part of other names.
+/// Returns the design that a text describes in one of the notations; kNotations in names.cpp lists these with examples.
+/// Ignores case; blanks and hyphens between words are equivalent. `lookup` finds the design for a name within the text,
+/// as in "dual of" a name.
 DesignOrError describedBy(std::string_view text, const DesignLookup& lookup);
 
-/// Returns the names of a diagram as operations on convex regular polychora, such as "truncated tesseract",
-/// "truncated 8-cell" or "bitruncated 16-cell"; empty if there are none.
+/// Returns the names that describe the polytope of a diagram as an operation on a convex regular polychoron, such as
+/// "truncated tesseract", "truncated 8-cell" or "bitruncated 16-cell"; empty if there are none.
 std::vector<std::string> operationNames(const Diagram& diagram);
 
 }  // namespace oval4d::polytopes

@@ -12,28 +12,28 @@
 
 namespace oval4d::polytopes {
 
-/// The 5-cell, which new sessions show: the same object for all callers and all caches.
+/// Returns the 5-cell, which new sessions show. All callers and all caches share the same object. Thread-safe.
 const std::shared_ptr<const Polytope>& fiveCell();
 
-/// A cache keyed by name. It refers weakly to every polytope that is in use elsewhere, and owns the most recently used
-/// ones up to a memory limit. Thread-safe.
+/// A cache of polytopes by name. Finds every polytope that is still in use elsewhere, through a weak pointer; in
+/// addition, owns the most recently used polytopes up to a memory limit. Thread-safe.
 class PolytopeCache {
   public:
     using Shared = std::shared_ptr<const Polytope>;
 
     static constexpr std::size_t kDefaultBytes = std::size_t{64} << 20U;
 
-    /// `bytes`: the limit on the memory of the polytopes that the cache owns.
+    /// `bytes` is the limit on the memory of the polytopes that the cache owns.
     explicit PolytopeCache(std::size_t bytes = kDefaultBytes) : maxBytes_(bytes) {}
 
-    /// The polytope of this design, built on first use; concurrent calls for one design build it once. Throws
-    /// std::invalid_argument as `build` does.
+    /// Returns the polytope of this design, and builds it if necessary. Concurrent calls for the same design build it
+    /// only once; the other calls wait. Throws std::invalid_argument as `build` does.
     Shared get(const Design& design);
 
-    /// The polytope of this design if it is built, else nullptr. Never waits for a build.
+    /// Returns the polytope of this design if it exists, else nullptr. Never waits for a polytope to be built.
     Shared find(const Design& design);
 
-    /// The memory in bytes of the polytopes that the cache owns; never more than the limit.
+    /// Returns the memory in bytes of the polytopes that the cache owns, which never exceeds the limit.
     std::size_t bytes() const;
 
   private:
@@ -50,7 +50,7 @@ class PolytopeCache {
     mutable std::mutex mutex_;  // guards the members below; not held while a polytope is being built
     std::map<std::string, std::shared_ptr<Slot>> slots_;
     std::list<Shared> recent_;  // the most recently used first
-    std::size_t bytes_ = 0;     // of `recent_`
+    std::size_t bytes_ = 0;     // the memory of the polytopes in `recent_`
 };
 
 }  // namespace oval4d::polytopes

@@ -13,19 +13,21 @@ namespace oval4d::polytopes {
 /// The unit normals of four mirrors (hyperplanes through the origin).
 using Mirrors = std::array<glm::dvec4, 4>;
 
-/// Returns mirrors whose reflections generate the diagram's Coxeter group. Those of the regular polychora's groups are
-/// placed such that the polytopes have the coordinates in common use (Coxeter, Regular Polytopes, §8.7, §14.9; the
-/// simplex as in Kageyama's paper), those of any other group by their Gram matrix. Throws std::invalid_argument if the
-/// group is not finite.
+/// Returns mirrors whose reflections generate the diagram's Coxeter group. For the symmetry groups of regular
+/// polychora, the mirrors are placed such that the polytopes have the coordinates in common use (Coxeter, Regular
+/// Polytopes, §8.7, §14.9; the simplex as in Kageyama's paper). For other groups, they are computed from the Gram
+/// matrix of their normals. Throws std::invalid_argument if the group is not finite.
 Mirrors mirrorsOf(const Diagram& diagram);
 
-/// Returns the point that lies at distance 1 from the ringed mirrors and on the others.
+/// Returns the point that lies at distance 1 from each ringed mirror and on all others.
 glm::dvec4 generatingVertex(const Mirrors& mirrors, const std::array<bool, 4>& ringed);
 
-/// Builds the uniform polytope of the diagram. Its vertices are the orbit of the generating vertex; each set of mirrors
-/// whose connected components all contain a ringed mirror generates one orbit of elements. A cell type is such an orbit
-/// of cells, or several that a symmetry of the diagram maps to each other. Throws std::invalid_argument if the polytope
-/// would not be four-dimensional, would have coinciding 2-faces, or would have more than `maxVertices` vertices.
+/// Builds the uniform polytope of the diagram. Its vertices are the orbit of the generating vertex under the group of
+/// the mirrors. Each set of mirrors whose connected components all contain a ringed mirror generates an edge, a 2-face
+/// or a cell at the generating vertex; the orbit of this element gives elements of the polytope. Each orbit of cells is
+/// a cell type, except that orbits which a symmetry of the diagram maps to each other form one type. Throws
+/// std::invalid_argument if the polytope would not be four-dimensional, if 2-faces would coincide, or if it would have
+/// more than `maxVertices` vertices.
 Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirrors, std::size_t maxVertices = 100'000);
 
 }  // namespace oval4d::polytopes

@@ -36,7 +36,7 @@ class Wythoffian : public Recipe {
 
     Polytope build(const std::string& name) const override {
         Mirrors mirrors = mirrorsOf(diagram_);
-        // The usual coordinates of the 120-cell, the even permutations, are those of the mirror image.
+        // The coordinates in common use for the 120-cell (even permutations) are those of its mirror image.
         if (name == "120-cell") {
             for (auto& mirror : mirrors) std::swap(mirror.x, mirror.y);
         }
@@ -65,7 +65,8 @@ class SnubPrism : public Recipe {
         }
         return {2 * vertices, 2 * edges + vertices, 2 * faces + edges, faces + 2};
     }
-    // Twice the number of rotations of the base; for an antiprism, four times.
+    // Twice rotations(), because the prism has a mirror between its bases; four times for an antiprism, because it also
+    // has symmetries that are not rotations.
     std::uint64_t symmetryOrder() const override { return rotations() * (q_.numerator == 2 ? 4 : 2); }
     std::string symbol() const override {
         // The chain of mirrors of an antiprism begins with the right angle (branch 2).
@@ -79,7 +80,7 @@ class SnubPrism : public Recipe {
     Polytope build(const std::string& name) const override { return prismOver(name, snubOf(p_, q_)); }
 
   private:
-    // The number of rotations of the base. The snub polyhedron has as many vertices.
+    // The order of the rotation group of {p, q}, which is also the number of vertices of the snub polyhedron.
     std::uint64_t rotations() const { return groupOrder(Diagram::linear(p_, q_, {}, {true, true, true, true})) / 4; }
 
     Branch p_, q_;
@@ -87,7 +88,8 @@ class SnubPrism : public Recipe {
 
 std::shared_ptr<const Recipe> wythoffian(const Diagram& diagram) { return std::make_shared<Wythoffian>(diagram); }
 
-// All designs with an individual name, by canonical diagram; a design has an entry for each of its diagrams.
+// Returns the designs that have a name of their own, by canonical diagram. A design has an entry for each of its
+// diagrams.
 const std::map<Diagram, Design>& namedDesigns() {
     static const std::map<Diagram, Design> kDesigns = [] {
         std::map<Diagram, Design> designs;
@@ -104,7 +106,8 @@ const std::map<Diagram, Design>& namedDesigns() {
                             base.name == "cube" ? designs.at(canonical(known("x4o3o3o")))
                                                 : Design{std::string(base.adjective) + " prism", wythoffian(diagram)});
         }
-        // The tetrahedral group has index 2 in the octahedral group.
+        // The tetrahedral group is contained in the octahedral group: these diagrams describe polytopes that also have
+        // an octahedral diagram.
         for (const auto& [half, whole] :
              {std::pair{"o3x3o x", "o4o3x x"}, {"x3o3x x", "o4x3o x"}, {"x3x3x x", "o4x3x x"}})
             designs.emplace(canonical(known(half)), designs.at(canonical(known(whole))));
@@ -118,8 +121,8 @@ const std::map<Diagram, Design>& namedDesigns() {
 Design designOf(const Diagram& diagram) {
     const auto& named = namedDesigns();
     if (const auto found = named.find(canonical(diagram)); found != named.end()) return found->second;
-    // If every connected component has at most two mirrors, the polytope is a duoprism; two single mirrors generate a
-    // square.
+    // If every connected component has at most two mirrors, the polytope is a duoprism. Two components of a single
+    // mirror together generate a square.
     std::vector<Branch> polygons;
     int single = 0;
     for (const MirrorSet component : componentsOf(diagram)) {

@@ -1,5 +1,5 @@
 #pragma once
-// The designs of uniform polychora.
+// The designs of uniform polychora (4-D polytopes): how to build them, and their properties. See recipe.hpp.
 
 #include <cstdint>
 #include <string>
@@ -12,25 +12,27 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the design of a diagram that parseDiagram accepts. Diagrams of the same polytope have the same design, that
-/// of the largest symmetry group: x3o3o *b3o has the design of x3o3o4o.
+/// Returns the design of a diagram, which must be one that parseDiagram accepts. If several diagrams describe the same
+/// polytope, they have the same design, that of the diagram with the largest symmetry group: x3o3o *b3o has the design
+/// of x3o3o4o.
 Design designOf(const Diagram& diagram);
 
-/// Returns the p,q-duoprism, named with the smaller number first; the 8-cell for p = q = 4. p and q are polygons of at
-/// least 3 sides and may be stars.
+/// Returns the design of the duoprism of the regular polygons p and q, which may be stars and must have at least 3
+/// sides. The name has the smaller number first. For p = q = 4, this is the 8-cell.
 Design duoprism(Branch p, Branch q);
 
-/// Returns the prism over an antiprism, such as "pentagonal antiprism prism"; the octahedral prism for 3 sides.
-/// `sides` must be at least 3.
+/// Returns the design of the prism over the antiprism of a regular polygon, such as "pentagonal antiprism prism".
+/// `sides` is the number of sides of the polygon, at least 3. For 3, this is the octahedral prism.
 Design antiprismPrism(int sides);
 
-/// Returns the prism over a polyhedron, such as "truncated cubic prism"; the 8-cell for the cube.
+/// Returns the design of the prism over a polyhedron, such as "truncated cubic prism". For the cube, this is the
+/// 8-cell.
 Design prismOf(const NamedPolyhedron& base);
 
-/// Returns the numbers of elements, from theory.
+/// Returns the numbers of elements, computed without building the polytope.
 ElementCounts elementCounts(const Design& design);
 
-/// Returns the order of the full symmetry group, reflections included.
+/// Returns the order of the full symmetry group, which includes reflections.
 std::uint64_t symmetryOrder(const Design& design);
 
 /// Returns the diagram in linear notation, or empty if there is none.
@@ -39,8 +41,9 @@ std::string symbolOf(const Design& design);
 /// Returns the Schläfli symbol, or empty if there is none.
 std::string schlaefliOf(const Design& design);
 
-/// Builds the polytope, centered at the origin; polytopes other than duals have edge length 2. Throws
-/// std::invalid_argument if elements of a star diagram coincide.
+/// Builds the polytope, centered at the origin. All edges have length 2, except in duals. Throws std::invalid_argument
+/// if elements of the polytope would coincide, which happens for some star diagrams, or in the cases listed in
+/// dual.hpp.
 Polytope build(const Design& design);
 
 }  // namespace oval4d::polytopes

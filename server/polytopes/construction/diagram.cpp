@@ -10,7 +10,8 @@ namespace {
 
 MirrorSet bit(int mirror) { return 1U << static_cast<unsigned>(mirror); }
 
-// The mirrors of `set` that are connected within `set` to those of `start`, which are included.
+// Returns the mirrors of `set` that are connected, within `set`, to mirrors of `start`; includes those of `start` in
+// `set`.
 MirrorSet connectedTo(const Diagram& diagram, MirrorSet start, MirrorSet set) {
     MirrorSet reached = start & set;
     for (int sweep = 0; sweep < kMirrors; ++sweep) {
@@ -30,8 +31,8 @@ MirrorSet ringsOf(const Diagram& diagram) {
     return rings;
 }
 
-// The branches of a connected component that is a chain, in order from the end with the smaller mirror number; empty
-// if the component is a single mirror or not a chain.
+// Returns the branches of a connected component that is a chain, in order from the end with the smaller mirror number.
+// Returns an empty list if the component is a single mirror or not a chain.
 std::vector<Branch> branchesAlong(const Diagram& diagram, MirrorSet component) {
     const auto neighbors = [&](int i, MirrorSet among) {
         std::vector<int> found;
@@ -55,7 +56,7 @@ std::vector<Branch> branchesAlong(const Diagram& diagram, MirrorSet component) {
     return {};
 }
 
-// The finite groups of three and four connected mirrors with linear diagrams, by the branches of the diagrams.
+// A finite group of three or four mirrors whose diagram is a chain, with the branches of the diagram.
 struct FiniteGroup {
     std::vector<Branch> chain;
     std::uint64_t order;

@@ -12,13 +12,13 @@ namespace {
 
 using Reason = NameError::Reason;
 
-constexpr int kMaxNumber = 1'000'000;  // of sides of a polygon; exceeds any limit on vertices
+constexpr int kMaxNumber = 1'000'000;  // the maximum number in a text; exceeds any limit on vertices
 
 NameError impossible(std::string message) { return {Reason::impossible, std::move(message)}; }
 
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-// Consumes a text from the left.
+// Reads a text from left to right; `rest` is the part not read yet.
 struct Reader {
     std::string_view rest;
 
@@ -62,7 +62,8 @@ NameError badBranch() {
         "5/2");
 }
 
-// Collects the nodes of a diagram in order, each with its branches to earlier nodes.
+// Builds a diagram from its nodes in order, each with its branches to earlier nodes. Counts nodes beyond the fourth,
+// too.
 class Builder {
   public:
     int nodes = 0;
@@ -102,8 +103,8 @@ class Builder {
     }
 };
 
-// The mirrors of a connected component that is a chain, in order from the end with the smaller number; empty if the
-// component is not a chain.
+// Returns the mirrors of a connected component that is a chain, in order from the end with the smaller number; empty if
+// the component is not a chain.
 std::vector<int> chainOf(const Diagram& diagram, MirrorSet component) {
     std::vector<int> mirrors;
     for (int i = 0; i < kMirrors; ++i) {
@@ -120,7 +121,7 @@ std::vector<int> chainOf(const Diagram& diagram, MirrorSet component) {
     return {};
 }
 
-// Parses the operation before the opening brace of a Schläfli symbol; returns the ringed mirrors.
+// Parses the operation before the opening brace of a Schläfli symbol, such as "t0,1". Returns the ringed mirrors.
 std::optional<MirrorSet> truncation(std::string_view text) {
     constexpr std::pair<std::string_view, MirrorSet> kNamed[] = {
         {"", 1}, {"r", 2}, {"t", 3}, {"2r", 4}, {"rr", 5}, {"2t", 6}, {"tr", 7}, {"2rr", 10}, {"2tr", 14}};

@@ -1,5 +1,5 @@
 #pragma once
-// The notations of Coxeter–Dynkin diagrams.
+// Parses and writes Coxeter–Dynkin diagrams in linear notation and as Schläfli symbols.
 
 #include <cstdint>
 #include <optional>
@@ -14,7 +14,7 @@ namespace oval4d::polytopes {
 /// The reason why a text names no polytope.
 struct NameError {
     enum class Reason : std::uint8_t {
-        unknown,     ///< neither a known name nor a known notation; `message` is empty
+        unknown,     ///< neither a known name nor a known notation; `message` may be empty
         impossible,  ///< a known notation that describes no polytope, such as "2,5-duoprism"
         too_large,   ///< the polytope has more vertices than allowed
     };
@@ -22,9 +22,10 @@ struct NameError {
     std::string message;  ///< says what is wrong and what is allowed
 };
 
-/// Parses linear notation (after Krieger and Klitzing): nodes x (ringed) and o with branch numbers between them, as in
-/// "x5o3o3x" and "x5/2o5o3o". A blank separates connected components, "x5o x7o"; "*b" continues from the second node,
-/// "x3o3o *b3o". Returns an error unless the group is finite and every component has a ringed node.
+/// Parses a diagram in linear notation (after Krieger and Klitzing): nodes x (ringed) and o with branch numbers between
+/// them, as in "x5o3o3x" and "x5/2o5o3o". A blank separates connected components, as in "x5o x7o"; "*b" continues from
+/// the second node, as in "x3o3o *b3o". Returns an error unless there are four nodes, the group is finite, every
+/// component has a ringed node, and no polygon would be covered twice.
 std::variant<Diagram, NameError> parseDiagram(std::string_view text);
 
 /// Parses Schläfli symbols of regular and truncated polytopes and of their products: "{3,3,5}", "t0,1{4,3,3}",

@@ -25,7 +25,7 @@ Polytope sixHundredCell() {
     return wythoff("600-cell", diagram, mirrorsOf(diagram));
 }
 
-// The vertex loop formed by a cycle of edges given in any order.
+// Returns the vertex loop of a polygon whose edges are given in any order.
 std::vector<std::uint32_t> loopOf(const std::vector<std::array<std::uint32_t, 2>>& edges) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> beside;
     for (const auto& [a, b] : edges) {
@@ -43,9 +43,9 @@ std::vector<std::uint32_t> loopOf(const std::vector<std::array<std::uint32_t, 2>
     return loop;
 }
 
-// Diminishes a polytope of triangles and tetrahedra: each removed vertex is replaced by a cell, the convex hull of its
-// remaining neighbors. The cells that replace two neighboring vertices share a polygon whose corners are the common
-// neighbors of the two.
+// Cuts off vertices of a polytope whose cells are tetrahedra. A cell takes the place of each removed vertex: the convex
+// hull of its remaining neighbors. If two neighboring vertices are removed, their cells share a polygon, whose corners
+// are the common neighbors of the two.
 Polytope diminished(std::string name, const Polytope& whole, const std::vector<bool>& removed) {
     std::vector<glm::dvec4> vertices;
     std::vector<std::uint32_t> newVertex(whole.vertices.size(), kRemoved);

@@ -1,5 +1,5 @@
 #pragma once
-// Uniform polychora without a Wythoff construction.
+// Uniform polychora (4-D polytopes) that Wythoff's construction does not give.
 
 #include <string>
 
@@ -9,15 +9,16 @@
 
 namespace oval4d::polytopes {
 
-/// The snub 24-cell: the 600-cell diminished at the vertices of an inscribed 24-cell, with 24 icosahedra in their place
-/// and the 120 remaining tetrahedra (Coxeter, Regular Polytopes, §8.5).
+/// Returns the design of the snub 24-cell: the 600-cell with the vertices of an inscribed 24-cell cut off. Its cells
+/// are 24 icosahedra in place of these vertices, and the 120 remaining tetrahedra (Coxeter, Regular Polytopes, §8.5).
 Design snub24Cell();
 
-/// The grand antiprism: the 600-cell diminished at the vertices of two decagons in completely orthogonal planes, with
-/// 20 pentagonal antiprisms in their place and the 300 remaining tetrahedra (Conway and Guy, 1965).
+/// Returns the design of the grand antiprism: the 600-cell with the vertices of two decagons in completely orthogonal
+/// planes cut off. Its cells are 20 pentagonal antiprisms in place of these vertices, and the 300 remaining tetrahedra
+/// (Conway and Guy, 1965).
 Design grandAntiprism();
 
-/// Builds the prism over a snub polyhedron, with its height along w.
+/// Builds the prism of height 2 over a snub polyhedron, with its two bases in the hyperplanes w = ±1.
 Polytope prismOver(std::string name, const SnubPolyhedron& base);
 
 }  // namespace oval4d::polytopes

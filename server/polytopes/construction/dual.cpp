@@ -16,10 +16,10 @@ namespace oval4d::polytopes {
 
 namespace {
 
-/// The point p of the hyperplane of a cell that is nearest to the origin.
+/// Returns the point nearest to the origin in the hyperplane of a cell.
 glm::dvec4 footOf(const Polytope& polytope, std::uint32_t cell) {
-    // The normal is orthogonal to three independent edges at the first vertex: Gram–Schmidt on differences of vertices,
-    // each time the longest remainder.
+    // Starts at a vertex and removes the components along three orthonormal directions in the hyperplane. Gram–Schmidt
+    // finds these from the differences of vertices; it takes the longest remainder each time.
     std::vector<glm::dvec4> points;
     for (const std::uint32_t f : polytope.cells[cell]) {
         for (const std::uint32_t v : polytope.faces[f]) points.push_back(polytope.vertices[v]);
@@ -80,7 +80,8 @@ class Dual : public Recipe {
     Design base_;
 };
 
-/// The dual of a regular polytope by its diagram, which is read from the other end; nothing for other polytopes.
+/// Returns the dual of a regular polytope: its diagram has the ring at the other end. Returns std::nullopt for other
+/// polytopes.
 std::optional<Design> dualOfRegular(const Design& base) {
     const auto read = parseDiagram(base.recipe->symbol());
     const auto* diagram = std::get_if<Diagram>(&read);

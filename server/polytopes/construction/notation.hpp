@@ -1,5 +1,5 @@
 #pragma once
-// The interface of a notation for polytopes.
+// The interface of parsers for notations, that is, systems of names and symbols for polytopes.
 
 #include <functional>
 #include <optional>
@@ -17,20 +17,21 @@ namespace oval4d::polytopes {
 /// The design that a text denotes, or the reason why it denotes none.
 using DesignOrError = std::variant<Design, NameError>;
 
-/// Finds the design for any text; for notations that contain the name of another polytope.
+/// Returns the design that any text denotes. Used by notations in which a text contains the name of another polytope.
 using DesignLookup = std::function<DesignOrError(std::string_view text)>;
 
-/// A text that may name a polytope, in lower case and split into words, of which there is at least one.
+/// A text that may name a polytope: in lower case and split into words (at least one), with a lookup for names in it.
 struct NamedText {
     const std::vector<std::string>& words;
     const DesignLookup& lookup;
 
-    /// The words from index `first` on, joined by spaces.
+    /// Returns the words from index `first` on, joined by spaces.
     std::string from(std::size_t first) const { return text::joined(words, first, words.size()); }
+    /// Returns all words except the last one.
     std::vector<std::string> withoutLast() const { return {words.begin(), words.end() - 1}; }
 };
 
-/// A parser for one notation. Returns nothing if the text is not in this notation.
+/// A parser for one notation. Returns std::nullopt if the text is not in this notation.
 using Notation = std::optional<DesignOrError> (*)(const NamedText& text);
 
 }  // namespace oval4d::polytopes

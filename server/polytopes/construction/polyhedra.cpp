@@ -59,8 +59,8 @@ constexpr auto kPolygons = std::to_array<NamedPolygon>({
     {{5, 2}, "pentagrammic", "pentagram"},
 });
 
-// The shape of the base of a prism, from the prism's diagram: faces are counted as elements of the base's diagram, and
-// the circumradius is the distance of the generating vertex.
+// Returns the shape of the base of a prism. In the prism's diagram, the first three mirrors are those of the base: its
+// faces are counted as the elements that they generate, and its circumradius is the distance of the generating vertex.
 Shape shapeOf(const Diagram& prism) {
     Shape shape;
     const MirrorSet solid = 0x7;

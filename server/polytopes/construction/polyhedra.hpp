@@ -16,26 +16,27 @@
 
 namespace oval4d::polytopes {
 
-/// A uniform polyhedron that has a name of its own: the Platonic, Archimedean and Kepler–Poinsot solids.
+/// A uniform polyhedron with a name of its own: a Platonic, Archimedean or Kepler–Poinsot solid.
 struct NamedPolyhedron {
     std::string_view name;       ///< "truncated cube"
     std::string_view adjective;  ///< used in the name of its prism: "truncated cubic"
-    std::string_view symbol;     ///< its diagram, "x4x3o"; the nodes of a snub polyhedron are s
-    std::string_view prism;      ///< Bowers' short name of its prism, or empty
+    std::string_view symbol;     ///< its diagram, "x4x3o"; a snub polyhedron has nodes s: "s4s3s"
+    std::string_view prism;      ///< Bowers' short name of its prism; empty: no catalogue entry of its own
 };
 
-/// Returns all named polyhedra: Platonic and Archimedean, then Kepler–Poinsot.
+/// Returns all named polyhedra: the Platonic and Archimedean solids, then the Kepler–Poinsot solids.
 std::span<const NamedPolyhedron> namedPolyhedra();
 
 /// Returns the adjective of a polygon: "pentagonal", "pentagrammic", "17-gonal", "7/2-gonal".
 std::string adjectiveOf(Branch polygon);
 
-/// Returns the polygon named by a word: "5", "5-gonal", "pentagonal", "pentagon", "5/2", "pentagrammic".
+/// Returns the polygon that a word names, such as "5", "5-gonal", "pentagonal", "pentagon", "5/2" or "pentagrammic";
+/// std::nullopt if it names none.
 std::optional<Branch> polygonNamed(std::string_view word);
 
-/// The properties by which a uniform polyhedron of edge length 2 is recognized.
+/// The properties by which nameOf recognizes a uniform polyhedron, scaled to edge length 2.
 struct Shape {
-    std::map<Branch, std::uint32_t> faces;  ///< number of faces by polygon
+    std::map<Branch, std::uint32_t> faces;  ///< the number of faces of each polygon
     std::uint32_t vertices = 0;
     double circumradius = 0;
 };

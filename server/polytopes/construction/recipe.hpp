@@ -10,30 +10,31 @@ namespace oval4d::polytopes {
 
 struct Polytope;
 
-/// Builds a polytope, and knows from theory the properties that it will have. Each family of polytopes has a derived
-/// class.
+/// Builds one polytope, and computes its properties without building it. There is a derived class for each family of
+/// polytopes.
 class Recipe {
   public:
     virtual ~Recipe() = default;
 
-    /// The numbers of elements.
+    /// Returns the numbers of elements.
     virtual ElementCounts counts() const = 0;
 
-    /// The order of the full symmetry group, reflections included.
+    /// Returns the order of the full symmetry group, which includes reflections.
     virtual std::uint64_t symmetryOrder() const = 0;
 
-    /// The Coxeter–Dynkin diagram in linear notation; empty if there is none.
+    /// Returns the Coxeter–Dynkin diagram in linear notation; empty if there is none.
     virtual std::string symbol() const { return {}; }
 
-    /// The Schläfli symbol; empty if there is none.
+    /// Returns the Schläfli symbol; empty if there is none.
     virtual std::string schlaefli() const { return {}; }
 
-    /// Builds the polytope, centered at the origin. Throws std::invalid_argument if elements coincide.
+    /// Builds the polytope and gives it this name. It is centered at the origin. Throws std::invalid_argument if it
+    /// cannot be built, for example because elements would coincide.
     virtual Polytope build(const std::string& name) const = 0;
 };
 
-/// The canonical name of a polytope and the recipe for building it. Texts that denote the same polytope give the same
-/// design.
+/// A polytope that can be built: its canonical name and its recipe. All texts that denote the same polytope give a
+/// design with the same name.
 struct Design {
     std::string name;  ///< "truncated tesseract", "5,7-duoprism"
     std::shared_ptr<const Recipe> recipe;

@@ -15,8 +15,8 @@ namespace oval4d::polytopes {
 
 namespace {
 
-// Three mirrors at angles π/p, π/q and π/2, and the rotations a and b about the axes of p and q, which are products of
-// neighboring reflections.
+// Three mirrors that meet at the angles π/p, π/q and π/2, and the rotations a and b of order p and q: the products of
+// the reflections in the first two and in the last two mirrors.
 struct Group {
     std::array<glm::dvec3, 3> mirrors;
     glm::dmat3 a, b;
@@ -31,8 +31,8 @@ Group groupOf(Branch p, Branch q) {
     return {m, mirror(m[0]) * mirror(m[1]), mirror(m[1]) * mirror(m[2])};
 }
 
-// The point between the mirrors that a, b and ab all move by 2, so that all edges of the snub have length 2. Found by
-// Newton's method on the squared distances |x − g x|².
+// Returns the point x between the mirrors that is moved by a distance of 2 by each of the rotations a, b and ab, so
+// that all edges of the snub polyhedron have length 2. Solves |x − g x|² = 4 for g = a, b and ab by Newton's method.
 glm::dvec3 equidistantPoint(const Group& group, Branch p) {
     const std::array<glm::dmat3, 3> moves{glm::dmat3(1) - group.a, glm::dmat3(1) - group.b,
                                           glm::dmat3(1) - group.a * group.b};
@@ -64,7 +64,8 @@ glm::dvec3 equidistantPoint(const Group& group, Branch p) {
 SnubPolyhedron snubOf(Branch p, Branch q) {
     const Group group = groupOf(p, q);
     const glm::dvec3 seed = equidistantPoint(group, p);
-    // Each rotation g has one vertex, g · seed; next[i] holds the vertices of g·a and g·b for the g of vertex i.
+    // The vertices are g · seed for all rotations g of the group. If g is the rotation of vertex i, next[i] holds the
+    // vertices of the rotations g·a and g·b.
     std::vector<glm::dmat3> rotations{glm::dmat3(1)};
     std::vector<glm::dvec4> points;
     std::vector<std::array<std::uint32_t, 2>> next;

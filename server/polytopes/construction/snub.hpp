@@ -15,13 +15,13 @@ namespace oval4d::polytopes {
 struct SnubPolyhedron {
     std::vector<glm::dvec3> vertices;
     geometry::JaggedArray faces;
-    std::vector<std::uint32_t> orbits;  ///< the number of each face's orbit under the group
+    std::vector<std::uint32_t> orbits;  ///< by face: its orbit: 0: p-gons, 1: q-gons, 2: other triangles
 };
 
 /// Builds the snub of {p, q}: the snub cube for {4, 3}, the snub dodecahedron for {5, 3}, the n-antiprism for {n, 2}.
-/// The vertices are the images of one point under the rotations of {p, q}; the faces are the p-gons and q-gons about
-/// the axes and the triangles between them (Coxeter, Regular Polytopes, §8.6). p and q must be integers with
-/// 1/p + 1/q > 1/2.
+/// The vertices are the images of one point under the rotations of {p, q}. The faces are the p-gons and q-gons around
+/// the rotation axes (none for p or q = 2), and the triangles between them (Coxeter, Regular Polytopes, §8.6). p and q
+/// must be integers with 1/p + 1/q > 1/2.
 SnubPolyhedron snubOf(Branch p, Branch q);
 
 }  // namespace oval4d::polytopes

@@ -13,10 +13,11 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kNoise = 2;    // the noise of the point plus that of the hull
-constexpr int kMaxRounds = 64;  // the method is finite and usually takes a few
+constexpr double kNoise = 2;    // as a multiple of HullFrame::noise: that of the point plus that of the hull
+constexpr int kMaxRounds = 64;  // the method always ends, usually after a few rounds
 
-// A corner of the simplex that contains the nearest point found so far, and its barycentric weight in that point.
+// A corner of the current simplex, which contains the nearest point found so far, and the barycentric weight of the
+// corner in this point.
 struct Corner {
     glm::dvec4 place;
     double weight;

@@ -16,12 +16,13 @@ namespace oval4d::polytopes {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr double kMaxGrowth = 16;       // the limit on how much extrapolation amplifies a flat's noise
+constexpr double kMaxGrowth = 16;       // the maximum factor by which extrapolation is taken to amplify a flat's noise
 constexpr double kAmbiguityFactor = 3;  // deviations up to this many times the expected noise are ambiguous
 constexpr int kMaxRefits = 4;
 constexpr int kMaxCorrections = 32;
 
-// Greedily chooses points that span a large simplex: each is the farthest from the flat through the previous ones.
+// Greedily chooses points that span a large simplex: each is the farthest from the flat through the points chosen
+// before.
 template <std::size_t Count>
 std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> from, std::span<const glm::dvec4> points) {
     glm::dvec4 middle(0);
@@ -43,7 +44,8 @@ std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> fro
     return chosen;
 }
 
-// The plane or hyperplane through the corners of a simplex, with the uncertainty due to the corners' noise.
+// A flat: the plane or hyperplane through the corners of a simplex. Its position is uncertain due to the corners'
+// noise.
 template <std::size_t Dimension>
 class Flat {
   public:
@@ -64,11 +66,11 @@ class Flat {
     }
 
     const Corners& corners() const { return corners_; }
-    /// The volume of the simplex times the factorial of its dimension.
+    /// Returns the volume of the simplex times the factorial of its dimension.
     double volume() const { return volume_; }
     const glm::dvec4& axis(std::size_t i) const { return axes_.at(i); }
 
-    /// The coordinates, in the flat, of the point of the flat nearest to p.
+    /// Returns the coordinates, along the axes of the flat, of the point of the flat nearest to p.
     std::array<double, Dimension> project(const glm::dvec4& p) const {
         glm::dvec4 rest = p - origin_;
         std::array<double, Dimension> along;
@@ -79,8 +81,8 @@ class Flat {
         return along;
     }
 
-    /// The sum of the absolute barycentric coordinates of p: the factor by which an error of the corners is amplified
-    /// at p.
+    /// Returns the factor by which errors of the corners are amplified at p: the sum of the absolute values of its
+    /// barycentric coordinates.
     double growth(const glm::dvec4& p) const {
         std::array<double, Dimension> weights = project(p);
         double sum = 0, first = 1;
@@ -94,7 +96,8 @@ class Flat {
         return sum + std::abs(first);
     }
 
-    /// Whether p lies in the flat, within `factor` times its own noise plus that of the corners.
+    /// Returns whether p lies in the flat, within a tolerance: `factor` times the sum of the noise of p and that of the
+    /// flat at p.
     bool contains(const glm::dvec4& p, const HullFrame& frame, double factor = 1) const {
         glm::dvec4 rest = p - origin_;
         for (const glm::dvec4& axis : axes_) rest -= glm::dot(rest, axis) * axis;
@@ -107,7 +110,7 @@ class Flat {
     Corners corners_;
     glm::dvec4 origin_;
     std::array<glm::dvec4, Dimension> axes_{};
-    std::array<std::array<double, Dimension>, Dimension> edges_{};  // from the first corner, along the axes
+    std::array<std::array<double, Dimension>, Dimension> edges_{};  // from the first corner, along axes_
     double volume_ = 1;
 };
 
@@ -116,7 +119,7 @@ using Hyperplane = Flat<3>;
 using Triangle = std::array<std::uint32_t, 3>;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-// The triangle opposite a vertex of the simplex.
+// Returns the triangle opposite a vertex of the simplex.
 Triangle oppositeTo(std::size_t vertex, const Simplex& simplex) {
     Triangle triangle{};
     std::size_t at = 0;
@@ -126,7 +129,7 @@ Triangle oppositeTo(std::size_t vertex, const Simplex& simplex) {
     return triangle;
 }
 
-// The corner of the triangle that does not lie on its edge `edge`.
+// Returns the corner of the triangle that does not lie on its edge `edge`.
 std::uint32_t cornerBeside(const Edge& edge, const Triangle& triangle) {
     return *std::find_if(triangle.begin(), triangle.end(),
                          [&](std::uint32_t v) { return v != edge.first && v != edge.second; });
@@ -137,7 +140,7 @@ struct Side {
     std::uint32_t triangle;
 };
 
-// The sides of triangles, sorted by edge; `corners` maps an element of `triangles` to its corners.
+// Returns the sides of all triangles, sorted by edge. `corners` maps an element of `triangles` to its corners.
 template <typename Triangles, typename Corners>
 std::vector<Side> sidesOf(const Triangles& triangles, Corners corners) {
     std::vector<Side> sides;
@@ -182,13 +185,14 @@ class Merger {
         std::uint32_t simplex;
         double sign;  // +1 if its normal, by the right-hand rule, points outward, else −1
     };
-    // A triangle between cells a < b.
+    // A triangle between two cells, the one with the smaller index first.
     struct Border {
         std::array<std::uint32_t, 2> cells;
         Triangle corners;
     };
 
-    // Finds signs that orient the simplices coherently; +1 is the orientation by the ascending order of vertices.
+    // Finds a sign for each simplex such that all are oriented coherently. The sign +1 means the orientation given by
+    // the ascending order of the vertices.
     void orient() {
         std::vector<std::uint32_t> waiting{0};
         signs_[0] = 1;
@@ -206,7 +210,7 @@ class Merger {
         }
     }
 
-    // Grows cells around seeds, from the largest simplex to the smallest, so that nearly flat simplices, whose
+    // Grows cells from seed simplices. The largest simplices are the first seeds, so that nearly flat simplices, whose
     // hyperplanes are uncertain, join larger ones.
     void mergeSimplices() {
         std::vector<std::uint32_t> order(simplices_.size());
@@ -237,8 +241,9 @@ class Merger {
         }
     }
 
-    // The simplices that can be reached from `seed` through accepted neighbors, which `mark_` also marks with
-    // `latestMark_`. `accepts` gets a neighbor and its vertex that the current simplex does not have.
+    // Returns the simplices that can be reached from `seed` through accepted neighbors, and sets their mark_ to
+    // latestMark_. The arguments of `accepts` are a neighbor and the one vertex that it does not share with the current
+    // simplex.
     template <typename Accepts>
     std::vector<std::uint32_t> grow(std::uint32_t seed, Accepts accepts) {
         ++latestMark_;
@@ -281,8 +286,8 @@ class Merger {
         if (group.size() > 1) group = {seed};
     }
 
-    // The simplices, in ascending order, whose removal may make the group convex; none if it is convex. Sorts the
-    // group.
+    // Returns the simplices, in ascending order, whose removal may make the group convex; none if the group is convex.
+    // Sorts the group.
     std::vector<std::uint32_t> faultsOf(std::uint32_t seed, const Hyperplane& hyperplane,
                                         std::vector<std::uint32_t>& group) const {
         std::sort(group.begin(), group.end());
@@ -323,7 +328,7 @@ class Merger {
             for (const Facet& facet : facets) corners.insert(corners.end(), facet.corners.begin(), facet.corners.end());
             std::sort(corners.begin(), corners.end());
             corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-            // The boundary is not a sphere: V − E + F ≠ 2.
+            // The boundary is not a sphere if V − E + F ≠ 2; for triangles, 2 E = 3 F.
             if (2 * corners.size() != facets.size() + 4) {
                 faults = group;
                 std::erase(faults, seed);
@@ -334,7 +339,7 @@ class Merger {
         return faults;
     }
 
-    // Whether two triangles of a boundary meet at a convex edge, within their noise.
+    // Returns whether two triangles of a boundary meet at a convex edge, within the noise of their corners.
     bool isConvexEdge(const Facet& one, const Facet& other, const Edge& edge, const Hyperplane& hyperplane) const {
         const auto place = [&](std::uint32_t v) {
             const auto along = hyperplane.project(points_[v]);
@@ -344,8 +349,8 @@ class Merger {
         const glm::dvec3 along = place(edge.second) - a;
         struct Seen {
             glm::dvec3 normal;
-            // Of the other triangle's third corner: its height above this one, the uncertainty of the height, and its
-            // distance from the edge.
+            // For the third corner of the other triangle: its height above this triangle, the uncertainty of the
+            // height, and its distance from the common edge.
             double height = 0, uncertain = 0, reach = 0;
         };
         const auto see = [&](const Facet& from, const Facet& to) {
@@ -475,7 +480,7 @@ class Merger {
         }
     }
 
-    // The boundary loop of triangles that form a disk; empty if they do not.
+    // Returns the boundary loop of triangles that form a disk; empty if they do not form one.
     static std::vector<std::uint32_t> boundaryOf(std::span<const std::uint32_t> group,
                                                  std::span<const Border> borders) {
         std::vector<Triangle> triangles;
@@ -517,7 +522,7 @@ class Merger {
         return loop;
     }
 
-    // Whether a loop in a plane always turns the same way, within the noise of its corners.
+    // Returns whether a loop in a plane turns the same way at all corners, within their noise.
     bool isConvex(std::span<const std::uint32_t> loop, const Plane& plane) const {
         std::vector<glm::dvec2> places;
         for (const std::uint32_t v : loop) {
@@ -541,7 +546,8 @@ class Merger {
         return true;
     }
 
-    // Makes cells with fewer than four 2-faces keep their triangles. Returns false if there are no such cells.
+    // Marks cells with fewer than four 2-faces, so that the next mergeTriangles() keeps their triangles. Returns false
+    // if there are no such cells.
     bool splitDegenerateCells(const MergedHull& hull) {
         bool any = false;
         for (std::size_t c = 0; c < hull.cells.size(); ++c) {

@@ -1,5 +1,5 @@
 #pragma once
-// Merging of a hull's coplanar simplices into cells.
+// Merges simplices of a convex hull that lie in one hyperplane into cells.
 
 #include <array>
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace oval4d::polytopes {
 
-/// A facet of a simplicial hull in four dimensions: a tetrahedron.
+/// A facet of a four-dimensional convex hull whose facets are all simplices: a tetrahedron.
 struct Simplex {
     std::array<std::uint32_t, 4> vertices;
     std::array<std::uint32_t, 4> neighbors;  ///< neighbor i shares the 2-face opposite vertex i
@@ -22,13 +22,13 @@ struct Simplex {
 
 struct MergedHull {
     geometry::JaggedArray faces, cells;  ///< in the form that makePolytope expects
-    std::size_t ambiguousRidges = 0;     ///< ridges whose two cells may lie in one hyperplane
+    std::size_t ambiguousRidges = 0;     ///< the number of pairs of neighboring cells that may lie in one hyperplane
 };
 
 /// Merges neighboring simplices into one cell if their hyperplanes agree within the noise of the points, and likewise
-/// the triangles between two cells into one 2-face. Cells are kept convex by merging fewer simplices where necessary,
-/// so the result is a closed complex, as the simplices are. `points` are given in the coordinates of `frame`, which
-/// also knows their noise.
+/// merges the triangles between two cells into one 2-face. Merges fewer simplices where this is necessary to keep a
+/// cell convex; therefore the cells form a closed boundary, as the simplices do. `points` are in the coordinates of
+/// `frame`, which also gives their noise (HullFrame::noise).
 MergedHull mergeCoplanar(std::span<const Simplex> simplices, std::span<const glm::dvec4> points,
                          const HullFrame& frame);
 

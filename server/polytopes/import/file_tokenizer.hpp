@@ -1,5 +1,5 @@
 #pragma once
-// Tokenizer for text files of numbers.
+// Splits text files of numbers into words, and parses the numbers.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace oval4d::polytopes {
 
-/// The largest absolute value of a coordinate.
+/// The largest absolute value of a coordinate that is accepted.
 inline constexpr double kMaxCoordinate = 1e14;
 
-/// Throws an ImportError for line `line`; 0 if the error is not in a single line.
+/// Throws an ImportError with this line and reason. `line` is 0 if the error is not in a single line.
 [[noreturn]] void refuse(std::size_t line, std::string reason);
 
-/// Splits a text into words separated by blanks. A comment extends from # to the end of its line. With `commas`, commas
-/// and semicolons count as blanks.
+/// Splits a text into words separated by white space. Skips comments, which extend from # to the end of the line. With
+/// `commas`, commas and semicolons also separate words. The text must outlive the tokenizer and the words.
 class FileTokenizer {
   public:
     explicit FileTokenizer(std::string_view text, bool commas = false);
 
-    /// The line of the word read last, counted from 1.
+    /// Returns the line of the word read last, counted from 1.
     std::size_t line() const { return line_; }
 
     /// Returns the next word, on this or a later line; empty at the end of the text.
@@ -45,16 +45,18 @@ class FileTokenizer {
     std::size_t at_ = 0, line_ = 1;
 };
 
-/// Returns the word in quotes for a message: truncated to 24 bytes, non-ASCII and control characters replaced by ?.
+/// Returns the word in quotes, for a message: truncated to 24 bytes, with non-ASCII and control characters replaced by
+/// ?.
 std::string inQuotes(std::string_view word);
 
-/// Parses a nonnegative integer. Throws an ImportError that says that the word is not `what`: "a number of vertices".
+/// Parses a nonnegative integer. Throws an ImportError if the word is not one, or is empty (the end of the file). The
+/// error message describes the expected word as `what`, such as "a number of vertices".
 std::uint32_t parseCount(std::string_view word, std::size_t line, const std::string& what);
 
 /// Parses a coordinate into `value`. Returns false unless the word is a number within ±kMaxCoordinate.
 bool tryParseCoordinate(std::string_view word, double& value);
 
-/// Parses a coordinate. Throws an ImportError unless the word is a number within ±kMaxCoordinate.
+/// Parses and returns a coordinate. Throws an ImportError unless the word is a number within ±kMaxCoordinate.
 double parseCoordinate(std::string_view word, std::size_t line);
 
 }  // namespace oval4d::polytopes

@@ -25,19 +25,20 @@ namespace oval4d::polytopes {
 namespace {
 
 constexpr int kDimensions = 4;
-constexpr std::size_t kFirstSample = 256;        // points
+constexpr std::size_t kFirstSample = 256;        // the number of points in the first sample
 constexpr double kPerturbation = 1e-11;          // relative to the extent of the points
-constexpr std::size_t kMaxSimplicesPerCell = 4;  // the limit on simplices, for each cell allowed
-constexpr int kMaxRounds = 4;                    // of removing points that are not vertices
-constexpr std::size_t kMessageBytes = 4096;      // of the memory stream that discards Qhull's messages
+constexpr std::size_t kMaxSimplicesPerCell = 4;  // the maximum number of simplices is this times that of cells
+constexpr int kMaxRounds = 4;                    // the maximum; each round removes points that are not vertices
+constexpr std::size_t kMessageBytes = 4096;      // the size of the stream that takes and discards Qhull's messages
 
 using Points = std::vector<glm::dvec4>;
 
-// A run of Qhull on randomly perturbed ("joggled") points. The perturbation makes the hull simplicial, so that Qhull
-// need not merge facets; in four dimensions, Qhull does not guarantee that a hull with merged facets is closed.
+// A run of Qhull on randomly perturbed ("joggled") points. The perturbation makes all facets of the hull simplices, so
+// that Qhull need not merge facets. In four dimensions, Qhull does not guarantee that a hull with merged facets is
+// closed.
 class QhullRun {
   public:
-    /// Qhull increases the perturbation if it is too small.
+    /// Runs Qhull. `perturbation` is the initial one; Qhull increases it if it is too small (see perturbation()).
     QhullRun(std::span<const glm::dvec4> points, double perturbation) {
         for (const glm::dvec4& p : points) {
             for (int k = 0; k < kDimensions; ++k) coordinates_.push_back(p[k]);
@@ -61,7 +62,7 @@ class QhullRun {
     std::size_t size() const { return static_cast<std::size_t>(state_.num_facets); }
     double perturbation() const { return state_.JOGGLEmax; }
 
-    /// The facets of the hull, the vertices of each in ascending order.
+    /// Returns the facets of the hull, each with its vertices in ascending order.
     std::vector<Simplex> simplices() {
         qhT* const qh = &state_;
         facetT* facet = nullptr;
@@ -108,8 +109,9 @@ class QhullRun {
     throw ImportError{0, "the hull has more than " + std::to_string(maxCells) + " cells, the maximum allowed", true};
 }
 
-// The simplices of the hull. Their number can grow with the square of the number of points; the hulls of samples of
-// increasing size reveal a hull that is too large before it exhausts memory.
+// Returns the simplices of the hull, and sets the perturbation of `frame`. The number of simplices can grow with the
+// square of the number of points. Therefore first computes the hulls of samples of increasing size, which reveal a hull
+// that is too large before it exhausts memory.
 std::vector<Simplex> simplicialHull(const Points& points, HullFrame& frame, std::size_t maxCells) {
     double perturbation = kPerturbation;
     for (std::size_t count = std::min(kFirstSample, points.size());; count = std::min(2 * count, points.size())) {
@@ -135,7 +137,8 @@ std::vector<Simplex> simplicialHull(const Points& points, HullFrame& frame, std:
     }
 }
 
-// By point: the points that share an edge of the simplicial hull with it; empty for points that are not on the hull.
+// Returns, for each point, the points that share an edge of a simplex with it; none for a point that is not on the
+// hull.
 std::vector<std::vector<std::uint32_t>> linksOf(std::span<const Simplex> simplices, std::size_t points) {
     std::vector<std::vector<std::uint32_t>> links(points);
     for (const Simplex& simplex : simplices) {
@@ -159,8 +162,9 @@ Points placesOf(std::span<const std::uint32_t> which, const Points& points) {
     return places;
 }
 
-// For each point, whether it is a vertex of the hull: whether it lies outside the hull of the others by more than the
-// noise. Points inside an edge, a 2-face or a cell that rounding and perturbation move outward are not vertices.
+// Returns, for each point, whether it is a vertex of the hull: whether it lies outside the hull of the others by more
+// than the noise. Points inside an edge, a 2-face or a cell are not vertices, even if rounding and perturbation have
+// moved them outward so that they are vertices of simplices.
 std::vector<bool> verticesOf(std::span<const Simplex> simplices, const Points& points, const HullFrame& frame) {
     const auto links = linksOf(simplices, points.size());
     std::vector<bool> vertex(points.size(), false), doubtful(points.size(), false), reached(points.size(), false);
@@ -169,8 +173,9 @@ std::vector<bool> verticesOf(std::span<const Simplex> simplices, const Points& p
         vertex[v] = !liesInHull(points[v], placesOf(links[v], points), frame);
         doubtful[v] = !vertex[v];
     }
-    // A doubtful point lies in the hull of its neighbors, but these may be removed, too. So each point of a connected
-    // component of doubtful points is tested against the hull of the vertices around the component.
+    // A doubtful point lies in the hull of its neighbors, but some of the neighbors may be doubtful, too, and be
+    // removed. Therefore each point of a connected component of doubtful points is tested against the hull of the
+    // vertices around the component.
     for (std::uint32_t first = 0; first < points.size(); ++first) {
         if (!doubtful[first] || reached[first]) continue;
         std::vector<std::uint32_t> together{first}, around;
@@ -199,7 +204,7 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
     }
     HullFrame frame(points, rounding);
     frame.setPerturbation(kPerturbation);
-    // Shuffle the points, so that the first ones are a sample of all.
+    // Shuffle the points, so that the first ones are a random sample.
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
     std::shuffle(order.begin(), order.end(), std::mt19937(1));

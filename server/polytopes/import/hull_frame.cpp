@@ -16,7 +16,7 @@ namespace oval4d::polytopes {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// The factor by which the rounding of points is amplified in the hyperplane through them, far from the points.
+// The factor by which the rounding errors of points are amplified in the hyperplane through them, far from the points.
 constexpr double kTilt = 8;
 
 bool shorter(const glm::dvec4& a, const glm::dvec4& b) { return glm::dot(a, a) < glm::dot(b, b); }

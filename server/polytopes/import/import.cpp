@@ -14,9 +14,9 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kMergeDistance = 1e-7;  // relative to the size: closer vertices are merged
+constexpr double kMergeDistance = 1e-7;  // relative to the size of the polytope: vertices that are closer are merged
 
-// The minimum lengths of records: "0 0 0 0\n", "3 0 1 2\n", "4 0 1 2 3\n".
+// The lengths of the shortest records: "0 0 0 0\n", "3 0 1 2\n", "4 0 1 2 3\n".
 constexpr std::size_t kVertexBytes = 8, kFaceBytes = 8, kCellBytes = 10;
 
 void checkCount(std::size_t count, const char* what, std::size_t most, std::size_t line) {
@@ -55,12 +55,13 @@ Counts readCounts(FileTokenizer& file) {
     return counts;
 }
 
-// The names of a type of elements, in the singular and the plural.
+// The name of a type of elements, in the singular and the plural.
 struct Noun {
     std::string one, many;
 };
 
-// Reads records "n i …", each a list of n ≥ `least` members: indices less than `below`.
+// Reads `records` records into `lists`, and their lines into `origins`. A record is a number n ≥ `least`, followed by n
+// indices that are less than `below`.
 void readLists(FileTokenizer& file, std::uint32_t records, std::size_t below, std::size_t least,
                const std::string& what, const Noun& member, geometry::JaggedArray& lists,
                std::vector<PolygonSoup::Origin>& origins) {
@@ -140,7 +141,7 @@ Imported readOff4(std::string_view text, const std::string& name, const ImportLi
         try {
             return finish(soup, kMergeDistance * sizeOf(soup.vertices), name);
         } catch (const ImportError&) {
-            // Coinciding vertices of a compound may belong to different components: try again without merging them.
+            // Coinciding vertices may belong to different components of a compound: try again without merging them.
             try {
                 return finish(soup, -1, name);
             } catch (const ImportError&) {
@@ -155,9 +156,9 @@ Imported readOff4(std::string_view text, const std::string& name, const ImportLi
     return result;
 }
 
-// The convex hull of points at the precision at which they are written. Whole numbers are treated as exact, unless
-// treating them as rounded leaves no ambiguous ridge and at most half of the cells, as for a polytope that was scaled
-// and rounded.
+// Returns the convex hull of points, to the precision with which their coordinates are written. Whole numbers are
+// treated as exact, unless treating them as rounded gives a hull without ambiguous ridges that has at most half as many
+// cells, as for a polytope that was scaled and then rounded to whole numbers.
 Hull hullOf(std::span<const glm::dvec4> points, const WrittenPrecision& precision, std::size_t maxCells,
             std::vector<std::string>& warnings) {
     const glm::dvec4 rounding = precision.rounding(sizeOf(points));

@@ -12,13 +12,14 @@
 
 namespace oval4d::polytopes {
 
+/// The formats of files; see importPolytope.
 enum class FileFormat : std::uint8_t {
-    off4,    ///< 4OFF
+    off4,    ///< 4OFF, which lists the elements of a polytope
     points,  ///< a point x y z w on each line; the polytope is their convex hull
 };
 
 struct ImportLimits {
-    std::size_t maxVertices = 100'000;   ///< of a polytope; also the maximum number of points in a list
+    std::size_t maxVertices = 100'000;   ///< of a polytope; also limits the points in a list
     std::size_t maxHullCells = 100'000;  ///< of the convex hull of a list of points
 };
 
@@ -29,6 +30,7 @@ struct ImportError {
     bool tooLarge = false;  ///< the file exceeds a limit
 };
 
+/// A polytope read from a file.
 struct Imported {
     Polytope polytope;
     std::vector<std::string> warnings;  ///< repairs, points left out, and uncertainties due to rounding
@@ -37,19 +39,20 @@ struct Imported {
 /// Reads a polytope from the text of a file.
 ///
 /// A 4OFF file consists of "4OFF"; the numbers of vertices, 2-faces, edges and cells; a line x y z w for each vertex; a
-/// line "n i …" with n vertices for each 2-face; and such a line with n 2-faces for each cell. Indices start at 0.
-/// Comments (#) and anything after a record on its line, such as colors, are ignored. The 2-faces must be flat and each
-/// cell must lie in a hyperplane, within the rounding of a file with three decimals; the conditions of makePolytope
-/// apply. The following are repaired, with a warning: a wrong number of edges, vertices on no 2-face, duplicate
-/// vertices, 2-faces in no cell or given once for each of their cells, 2-faces that pass through a vertex twice, and
-/// cells that consist of several pieces.
+/// line for each 2-face, with the number of its vertices followed by their indices; and a line for each cell, with the
+/// number of its 2-faces followed by their indices. Indices start at 0. Comments (#) and anything after a record on its
+/// line, such as colors, are ignored. The 2-faces must be flat and each cell must lie in a hyperplane, both within a
+/// tolerance that allows for three decimals; the conditions of makePolytope apply. The following faults are repaired,
+/// with a warning: a wrong number of edges, vertices on no 2-face, duplicate vertices, 2-faces in no cell, 2-faces that
+/// are given once for each of their cells, 2-faces that pass through a vertex twice, and cells that consist of several
+/// pieces.
 ///
 /// A list of points has four coordinates on each line, separated by blanks, commas or semicolons; a first line that
-/// does not begin with a number is ignored as a header. Simplices of the hull that lie in one hyperplane, to the
-/// precision of the file, are merged into one cell.
+/// does not begin with a number is ignored as a header. The polytope is the convex hull of the points. Parts of the
+/// hull that lie in one hyperplane, to the precision of the coordinates in the file, become one cell.
 ///
-/// Coordinates are not changed. Memory use is bounded by the length of the text, whatever counts it claims, and by the
-/// limits.
+/// Coordinates are not changed. Memory use is bounded by the length of the text and by the limits; a small text that
+/// states large numbers of elements does not increase it.
 std::variant<Imported, ImportError> importPolytope(FileFormat format, std::string_view text, std::string name,
                                                    const ImportLimits& limits);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Polygon soup: the elements that a file lists, not yet checked to form a polytope.
+// A polygon soup: the elements that a file lists, before it is known whether they form a polytope.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,15 +22,16 @@ struct PolygonSoup {
     };
 
     std::vector<glm::dvec4> vertices;
-    geometry::JaggedArray faces, cells;  ///< vertex loops and lists of 2-faces, as in Polytope
-    std::vector<Origin> faceOrigins, cellOrigins;
+    geometry::JaggedArray faces, cells;            ///< vertex loops and lists of 2-faces, as in Polytope
+    std::vector<Origin> faceOrigins, cellOrigins;  ///< parallel to `faces` and `cells`
 };
 
-/// Returns half the diagonal of the bounding box of the points, which the tolerances of the import are relative to.
+/// Returns the size of a set of points: half the diagonal of its bounding box; 0 for no points. The tolerances of the
+/// import are relative to this size.
 double sizeOf(std::span<const glm::dvec4> points);
 
-/// Throws an ImportError with the line of the element unless every 2-face is flat and every cell lies in a hyperplane,
-/// within 5/1000 of the size. Also throws one if all vertices lie in one hyperplane.
+/// Throws an ImportError, with the line of the element, if a 2-face is not flat or a cell does not lie in a hyperplane,
+/// within 5/1000 of the size of the polytope. Also throws an ImportError if all vertices lie in one hyperplane.
 void checkFlat(const PolygonSoup& soup);
 
 /// Calls makePolytope and converts InvalidPolytope to an ImportError with the line of the element.

@@ -20,12 +20,12 @@ std::string counted(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + ' ' + (count == 1 ? one : many);
 }
 
-// For each point, the first point of its group, which is formed by points within `distance` of each other. Sorts the
-// points by their projections onto a line, so that only points that are close there are compared.
+// Groups the points that lie within `distance` of each other, and returns, for each point, the first point of its
+// group. Sorts the points by their projections onto a line, so that only points with close projections are compared.
 std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, double distance) {
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
-    // A direction in general position separates points that have a coordinate in common.
+    // A line in general position, on which points that have a coordinate in common have different projections.
     const glm::dvec4 along(0.5477, 0.4472, 0.5099, 0.4899);
     std::vector<double> place;
     for (const auto& p : points) place.push_back(glm::dot(p, along));
@@ -70,7 +70,7 @@ class Repairer {
   public:
     Repairer(PolygonSoup& soup, std::vector<std::string>& warnings) : soup_(soup), warnings_(warnings) {}
 
-    // Replaces vertices within `distance` of another one by the first of them.
+    // Merges vertices within `distance` of each other: replaces all of them by the first one.
     void mergeVertices(double distance) {
         const auto first = firstOfGroup(soup_.vertices, distance);
         std::size_t doubled = 0;
@@ -82,7 +82,7 @@ class Repairer {
         doubled_ = doubled;
     }
 
-    // Splits the 2-faces into simple loops and removes those without area.
+    // Splits 2-faces into simple loops and removes 2-faces without area.
     void simplifyFaces() {
         geometry::JaggedArray faces;
         std::vector<PolygonSoup::Origin> origins;
@@ -113,7 +113,7 @@ class Repairer {
         renumberFaces(becomes);
     }
 
-    // Merges the two copies of each 2-face that is given once for each of its cells.
+    // Merges the two copies of a 2-face that the file gives once for each of its cells.
     void mergeCopies() {
         std::vector<std::uint32_t> uses(soup_.faces.size(), 0);
         for (const std::uint32_t f : soup_.cells.items) ++uses[f];
@@ -183,7 +183,7 @@ class Repairer {
   private:
     void warn(std::string text) { warnings_.push_back(std::move(text)); }
 
-    // Replaces each 2-face f of the cells by the 2-faces becomes[f].
+    // Replaces each 2-face f in the cells by the 2-faces becomes[f], of which there may be none or several.
     void renumberFaces(const std::vector<std::vector<std::uint32_t>>& becomes) {
         geometry::JaggedArray cells;
         std::vector<std::uint32_t> list;
@@ -195,7 +195,7 @@ class Repairer {
         soup_.cells = std::move(cells);
     }
 
-    // The connected components of a cell, as lists of 2-faces.
+    // Returns the connected components of a cell, each as a list of 2-faces.
     std::vector<std::vector<std::uint32_t>> piecesOf(std::span<const std::uint32_t> faces) const {
         std::vector<std::uint32_t> piece(faces.size());
         std::iota(piece.begin(), piece.end(), 0U);
@@ -210,7 +210,7 @@ class Repairer {
                 sides.emplace_back(std::minmax(loop[k], loop[(k + 1) % loop.size()]), i);
         }
         std::sort(sides.begin(), sides.end());
-        // At an edge that several pieces share, more than two 2-faces meet; such an edge does not connect them.
+        // If more than two 2-faces meet at an edge, several pieces share it, so it does not connect 2-faces.
         for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
             while (end < sides.size() && sides[end].first == sides[i].first) ++end;
             if (end - i == 2) piece[root(sides[i].second)] = root(sides[i + 1].second);

@@ -7,8 +7,9 @@
 
 namespace oval4d::polytopes {
 
-/// Repairs faults that have only one sensible correction (see importPolytope) and appends a warning for each type of
-/// repair. Vertices within `mergeDistance` of each other are merged; a negative distance merges none.
+/// Repairs faults of a file that have only one sensible correction (see importPolytope). Appends a warning to
+/// `warnings` for each type of repair. Merges vertices within `mergeDistance` of each other; a negative distance merges
+/// none.
 void repair(PolygonSoup& soup, double mergeDistance, std::vector<std::string>& warnings);
 
 }  // namespace oval4d::polytopes

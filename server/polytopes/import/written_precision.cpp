@@ -10,11 +10,11 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kMaxExactUnits = 400;  // a size of at most this many units of the last digit means exact coordinates
+constexpr double kMaxExactUnits = 400;  // coordinates are exact if their size is at most this many last-digit units
 
 // The precision of a single number.
 struct Digits {
-    int significant = 0;  // number of digits from the first nonzero one to the last one written
+    int significant = 0;  // the number of digits from the first nonzero digit to the last digit written
     int last = 0;         // the exponent of ten of the last digit written
     bool whole = true;
 };
@@ -46,7 +46,7 @@ void WrittenPrecision::add(std::string_view word, int axis, double value) {
     const Digits digits = digitsOf(word);
     largest_[axis] = std::max(largest_[axis], std::abs(value));
     whole_ = whole_ && digits.whole;
-    if (digits.significant == 0) return;  // zero gives no evidence
+    if (digits.significant == 0) return;  // a zero does not show how it was rounded
     digits_ = std::max(digits_, digits.significant);
     lastPlace_ = std::min(lastPlace_, digits.last);
 }

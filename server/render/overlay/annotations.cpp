@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kFocusReach = 0.009;  // half the width of the focus mark, as a fraction of the picture's height
 
-/// A fraction of the picture's height in whole pixels, at least one.
+/// Returns a fraction of the picture's height in whole pixels, at least one.
 int wholePixels(double fraction, const scene::Scene& scene) {
     return std::max(1, static_cast<int>(std::lround(fraction * scene.viewport.height)));
 }
@@ -73,8 +73,8 @@ void paintStripAxes(const scene::Scene& scene, Overlay& overlay) {
 }  // namespace
 
 void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
-    // The axes have a projection of their own, centered on their origin and from so far away that it is nearly
-    // parallel.
+    // The axes have their own projection. Its view axis meets the axes' origin, and its eye is so far away that the
+    // projection is nearly parallel.
     constexpr float kFar = 16, kBar = 0.045f, kBall = 0.10f, kTip = 0.065f, kName = 1.28f;
     const scene::Style& style = scene::style();
     const auto width = static_cast<float>(scene.viewport.width), height = static_cast<float>(scene.viewport.height);

@@ -1,5 +1,5 @@
 #pragma once
-// Annotations of the picture: axes, labels and parallel coordinates.
+// Draws the annotations of the picture: axes, labels and parallel coordinates.
 
 #include "render/overlay/overlay.hpp"
 #include "render/slices/shape_batch.hpp"
@@ -7,14 +7,15 @@
 
 namespace oval4d::render {
 
-/// Draws the labeled x, y and z axes in the upper left corner, as oriented by the camera.
+/// Draws the labeled x, y and z axes in the upper left corner, as the camera sees them.
 void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay);
 
-/// Draws the value of w under each slice, from far to near, and that of the focus last and highlighted.
+/// Draws the w of each slice under the slice, in the order of the slices. The focus slice's label is drawn last and
+/// highlighted.
 void paintLabels(const scene::Scene& scene, Overlay& overlay);
 
-/// Draws the parallel coordinates of the rotated vertices along the bottom; if there are very many vertices, only the
-/// axes of the density strip.
+/// Draws the parallel coordinates of the rotated vertices along the bottom. If they are shown as a density strip, draws
+/// only the strip's axes (DensityStrip draws the rest).
 void paintCoordinates(const scene::Scene& scene, Overlay& overlay);
 
 }  // namespace oval4d::render

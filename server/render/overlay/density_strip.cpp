@@ -13,8 +13,8 @@ namespace oval4d::render {
 namespace {
 
 struct Corner {
-    glm::vec2 at{0};     ///< −1 … 1
-    glm::vec2 texel{0};  ///< 0 … 1, from the upper left corner of the density
+    glm::vec2 at{0};     ///< clip coordinates, −1 … 1
+    glm::vec2 texel{0};  ///< texture coordinates, 0 … 1 from the upper left corner of the density
     std::uint32_t color = 0;
 };
 
@@ -76,7 +76,7 @@ void DensityStrip::draw(const scene::Scene& scene) {
         for (const std::size_t above : {0u, 1u}) {
             const double x = layout.left + static_cast<double>(k) * layout.lineStep + layout.lineWidth / 2;
             const double y = layout.zero + (above != 0 ? 1 : -1) * layout.amplitude;
-            // Texel centers: the first and the last row are at the ends of the axes.
+            // Coordinates of texel centers: the first and the last row are at the ends of the axes.
             const double column = static_cast<double>(k) * Density::kGap + 0.5;
             const double row = above != 0 ? 0.5 : Density::kRows - 0.5;
             corners[2 * k + above] = {{2 * x / aspect - 1, 2 * y - 1},

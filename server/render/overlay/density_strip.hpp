@@ -1,13 +1,13 @@
 #pragma once
-// The density strip of the parallel coordinates.
+// Draws the density strip of the parallel coordinates.
 
 #include "render/program.hpp"
 #include "scene/scene.hpp"
 
 namespace oval4d::render {
 
-/// Draws the scene's density, if it has one, as a texture whose color is interpolated between the colors of adjacent
-/// axes. Requires a current GL context throughout its lifetime.
+/// Draws the density strip of a scene as a texture, whose color is interpolated between the colors of adjacent axes.
+/// Requires a current GL context throughout its lifetime.
 class DensityStrip {
   public:
     DensityStrip();
@@ -15,6 +15,7 @@ class DensityStrip {
     DensityStrip(const DensityStrip&) = delete;
     DensityStrip& operator=(const DensityStrip&) = delete;
 
+    /// Draws the strip; does nothing if the scene shows none.
     void draw(const scene::Scene& scene);
 
   private:

@@ -48,7 +48,7 @@ constexpr Attribute kAttributes[] = {{2, GL_FLOAT, offsetof(OverlayVertex, at)},
                                      {2, GL_FLOAT, offsetof(OverlayVertex, texel)},
                                      {4, GL_UNSIGNED_BYTE, offsetof(OverlayVertex, color)}};
 
-// Larger than any glyph, so that a box does not clip text.
+// The half width of the box of a glyph: larger than any glyph, so that the box does not clip the glyph.
 constexpr float kWide = 1e5f;
 
 }  // namespace
@@ -79,7 +79,7 @@ void Overlay::quad(const Box& place, const OverlayVertex& vertex, const Box& fro
 
 void Overlay::box(const Box& box, scene::Color color, float opacity, float cornerRadius) {
     const glm::vec2 half{0.5f * (box.right - box.left), 0.5f * (box.top - box.bottom)};
-    const float x = half.x + 0.5f, y = half.y + 0.5f;  // half a pixel more, for antialiasing the edge
+    const float x = half.x + 0.5f, y = half.y + 0.5f;  // half a pixel of margin for the antialiased edge
     const OverlayVertex vertex{.box = {half, std::min({cornerRadius, half.x, half.y})}, .color = rgba(color, opacity)};
     quad({box.left - 0.5f, box.bottom - 0.5f, box.right + 0.5f, box.top + 0.5f}, vertex, {-x, -y, x, y},
          {0.5f, 0.5f, 0.5f, 0.5f});

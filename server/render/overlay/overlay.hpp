@@ -1,5 +1,5 @@
 #pragma once
-// Boxes and text drawn over the picture, in pixel coordinates.
+// Draws boxes and text over the picture, in pixel coordinates.
 
 #include <cstdint>
 #include <string_view>
@@ -14,23 +14,26 @@
 
 namespace oval4d::render {
 
-/// A corner of a box or of a glyph. The coverage of a pixel is that of a rounded box times that of the texture.
+/// A corner of a box or of a glyph. The coverage of a pixel is its coverage by a rounded box, times the value of a
+/// texel.
 struct OverlayVertex {
-    glm::vec2 at{0};          ///< −1 … 1
-    glm::vec2 fromCenter{0};  ///< in pixels
-    glm::vec3 box{0};         ///< half width, half height and corner radius
-    glm::vec2 texel{0.5f};
-    std::uint32_t color = 0;
+    glm::vec2 at{0};          ///< clip coordinates, −1 … 1
+    glm::vec2 fromCenter{0};  ///< position relative to the center of the box, in pixels
+    glm::vec3 box{0};         ///< half width, half height and corner radius, in pixels
+    glm::vec2 texel{0.5f};    ///< position in the glyph texture; the default is its solid texel
+    std::uint32_t color = 0;  ///< as returned by rgba()
 };
 
+/// A rectangle in pixel coordinates.
 struct Box {
     float left, bottom, right, top;
 };
 
-/// A list of boxes and lines of text; later ones cover earlier ones. Pixel coordinates are from the lower left corner.
-/// Requires a current GL context throughout its lifetime.
+/// Collects boxes and lines of text, and draws them; later ones cover earlier ones. Pixel coordinates count from the
+/// lower left corner. Requires a current GL context throughout its lifetime.
 class Overlay {
   public:
+    /// `font` is the path of a font file. Throws std::runtime_error if it cannot be read.
     explicit Overlay(const std::string& font);
 
     /// Starts an empty list for a picture of this size.
@@ -39,12 +42,13 @@ class Overlay {
     /// Adds a box. Its edges are antialiased unless they lie on pixel boundaries.
     void box(const Box& box, scene::Color color, float opacity = 1, float cornerRadius = 0);
 
-    /// Adds a line of text, centered at x and with its baseline at y. It is moved to whole pixels, where it is
-    /// sharpest.
+    /// Adds a line of text, centered at x and with its baseline at y. `size` is that of Font::glyph. The text is moved
+    /// to whole pixels, where it is sharpest.
     void text(float x, float y, int size, std::string_view text, scene::Color color, float opacity = 1);
 
     Font& font() { return font_; }
 
+    /// Draws all boxes and lines of text that were added since begin().
     void draw();
 
   private:

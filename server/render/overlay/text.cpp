@@ -10,7 +10,7 @@ namespace oval4d::render {
 
 namespace {
 
-constexpr int kWidth = 1024;  // of the texture
+constexpr int kWidth = 1024;  // width of the texture
 constexpr int kStartHeight = 256;
 constexpr int kMaxKeptHeight = 1024;  // above this, clearIfLarge() removes all glyphs
 constexpr int kMaxHeight = 8192;

@@ -16,12 +16,12 @@ namespace oval4d::render {
 /// The bitmap of a glyph in the texture, in texels, and its metrics in pixels.
 struct Glyph {
     int x = 0, y = 0, width = 0, height = 0;
-    int left = 0, top = 0;  ///< from the pen to the left edge of the bitmap, and up to its top edge
-    int advance = 0;
+    int left = 0, top = 0;  ///< distances from the pen right to the bitmap's left edge, and up to its top edge
+    int advance = 0;        ///< distance to the pen position of the next glyph
 };
 
-/// A font with its glyph atlas, which grows on demand. The texture has one channel (coverage), and one solid texel at
-/// (0, 0) for shapes without a texture. Requires a current GL context throughout its lifetime.
+/// A font and its glyph atlas, which grows on demand. The texture has one channel, the coverage. Its texel (0, 0) is
+/// solid, for shapes that are not glyphs. Requires a current GL context throughout its lifetime.
 class Font {
   public:
     /// Throws std::runtime_error if `file` is not a readable font.
@@ -34,17 +34,17 @@ class Font {
     /// Characters missing from the font give its replacement glyph.
     const Glyph& glyph(int size, char32_t character);
 
-    /// The width of a line of UTF-8 text in pixels.
+    /// Returns the width of a line of UTF-8 text in pixels.
     int width(int size, std::string_view text);
 
-    /// The height of a digit above the baseline in pixels.
+    /// Returns the height of a digit above the baseline in pixels.
     int digitHeight(int size) { return glyph(size, U'0').top; }
 
-    /// Removes all glyphs if the texture has become large, since many of their sizes may be out of use. Call between
-    /// pictures only.
+    /// Removes all glyphs if the texture has become large, because many glyphs may have sizes that are no longer used.
+    /// Must be called only between pictures.
     void clearIfLarge();
 
-    /// Binds the texture, and uploads new glyphs first.
+    /// Binds the texture, and uploads it if there are new glyphs.
     void bind();
 
     /// Calls `each(glyph, pen)` for every character of `text`; `pen` is the x position from the start of the line.
@@ -68,8 +68,8 @@ class Font {
     std::unique_ptr<Face> face_;
     std::map<std::pair<int, char32_t>, Glyph> glyphs_;
     std::vector<std::uint8_t> texels_;
-    int height_ = 0, shelfX_ = 0, shelfY_ = 0, shelfHeight_ = 0;
-    bool changed_ = true;
+    int height_ = 0, shelfX_ = 0, shelfY_ = 0, shelfHeight_ = 0;  // of the texture; the shelf being filled
+    bool changed_ = true;                                         // whether `texels_` has glyphs to upload
     GLuint texture_ = 0;
 };
 

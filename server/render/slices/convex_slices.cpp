@@ -47,7 +47,7 @@ void ConvexSlicePainter::place(const SliceView& slice) {
         points_[i] = transform(slice.set.vertices[slice.firstVertex() + i]);
 }
 
-/// A vertex or an edge faces the eye if any of its faces does.
+/// Determines which faces, edges and vertices are turned toward the eye. An edge or a vertex is if any of its faces is.
 void ConvexSlicePainter::classify(const SliceView& slice) {
     vertexSide_.assign(slice.vertices(), Side::away);
     edgeSide_.assign(slice.edges(), Side::away);
@@ -70,8 +70,8 @@ void ConvexSlicePainter::classify(const SliceView& slice) {
     }
 }
 
-/// Sorts vertices from far to near, and groups edges by their farther vertex. So a bar covers the ball at its far end
-/// and is covered by the ball at its near end.
+/// Sorts vertices from far to near, and groups edges by their farther vertex. Drawn in this order, a bar covers the
+/// ball at its far end, and the ball at its near end covers the bar.
 void ConvexSlicePainter::sortByDepth(const SliceView& slice) {
     order_.resize(slice.vertices());
     std::iota(order_.begin(), order_.end(), 0u);

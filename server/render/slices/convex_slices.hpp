@@ -1,5 +1,5 @@
 #pragma once
-// Drawing of convex slices with the painter's algorithm.
+// Draws convex slices with the painter's algorithm.
 
 #include <cstdint>
 #include <functional>
@@ -14,13 +14,13 @@
 
 namespace oval4d::render {
 
-/// Adds the shapes of convex slices in back-to-front order: slices from far to near and, in each slice, back faces, the
-/// bars and balls between them, front faces, and the remaining bars and balls. The order is exact if slices do not
-/// overlap in space. Reuses its memory for the next picture.
+/// Adds the shapes of convex slices to a batch in back-to-front order: slices from far to near and, in each slice, back
+/// faces, the bars and balls that belong only to back faces, front faces, and the other bars and balls. The order is
+/// correct if slices do not overlap in space. Reuses its memory for the next picture.
 class ConvexSlicePainter {
   public:
-    /// Adds all visible slices, as seen through the scene's camera. Calls `painted` after each slice; it may draw the
-    /// shapes so far and clear `out`.
+    /// Adds all visible slices to `out`, as the scene's camera sees them. Calls `painted` after each slice; `painted`
+    /// may draw the shapes in `out` and clear it.
     void paint(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted);
 
   private:
@@ -33,7 +33,7 @@ class ConvexSlicePainter {
     void paintFaces(const SliceView& slice, Side side, ShapeBatch& out);
     void paintSkeleton(const SliceView& slice, Side side, ShapeBatch& out);
 
-    std::vector<std::uint32_t> placementOrder_;
+    std::vector<std::uint32_t> placementOrder_;          // visible slices from far to near
     std::vector<glm::vec3> points_, corners_, normals_;  // in view coordinates
     std::vector<Side> faceSide_, edgeSide_, vertexSide_;
     std::vector<std::uint32_t> order_, rank_;           // vertices from far to near; the inverse permutation

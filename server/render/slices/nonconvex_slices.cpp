@@ -64,7 +64,7 @@ void NonconvexSlicePainter::collect(const SliceView& slice, DepthRange& depths) 
     }
     for (std::uint32_t e = 0; skeleton.bars && e < slice.edges(); ++e) {
         const auto& [a, b] = slice.edge(e);
-        // Drawn after everything that is farther away than its far end.
+        // The depth of the far end, so that a bar is drawn after everything that is farther away than this end.
         add({-std::min(points[a].z, points[b].z), Kind::bar, number, e}, slice.edgeVisibility(e));
     }
     const slicing::Fill& fill = scene.fill;

@@ -1,5 +1,5 @@
 #pragma once
-// Drawing of slices whose shapes may intersect, with a depth buffer.
+// Draws slices whose shapes may intersect, with a depth buffer.
 
 #include <cstdint>
 #include <vector>
@@ -11,25 +11,27 @@
 
 namespace oval4d::render {
 
-/// Prepares layers of shapes for slices that need not be convex. Reuses its memory for the next picture.
+/// Prepares the shapes of slices that need not be convex, in layers. Reuses its memory for the next picture.
 class NonconvexSlicePainter {
   public:
-    /// Layers in drawing order: opaque faces from near to far; opaque balls and bars from far to near, so that their
-    /// antialiased edges blend with what is behind them; faded shapes from far to near, which hide nothing.
+    /// The layers in drawing order: opaque faces from near to far; opaque balls and bars from far to near, so that
+    /// their antialiased edges blend with the shapes behind them; faded shapes from far to near, which do not hide
+    /// other shapes.
     struct Layers {
         ShapeBatch faces, skeleton, faded;
-        DepthRange depths;  ///< the range that contains all shapes
+        DepthRange depths;  ///< contains the depths of all shapes
     };
 
-    /// Adds all visible slices, with the scene's fill, as seen through the scene's camera. Overwrites `out`.
+    /// Overwrites `out` with all visible slices, as the scene's camera sees them. Faces are drawn from the scene's
+    /// fill.
     void paint(const scene::Scene& scene, Layers& out);
 
   private:
     enum class Kind : std::uint8_t { ball, bar, patch };
     struct Item {
-        float depth;
+        float depth;  // distance from the eye along the view axis
         Kind kind;
-        std::uint32_t slice, number;  // number: the patch in the fill, or the vertex or edge in the slice
+        std::uint32_t slice, number;  // number: index of the patch in the fill, or of the vertex or edge in the slice
     };
 
     void collect(const SliceView& slice, DepthRange& depths);
@@ -37,7 +39,7 @@ class NonconvexSlicePainter {
     void paintItem(const SliceView& slice, const Item& item, const Skeleton& skeleton, ShapeBatch& out);
     void paintPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out);
 
-    std::vector<SliceTransform> transforms_;   // of the slices
+    std::vector<SliceTransform> transforms_;   // one per slice
     std::vector<glm::vec3> points_, corners_;  // in view coordinates
     std::vector<Item> faces_, skeleton_, faded_;
 };

@@ -14,20 +14,21 @@ namespace oval4d::render {
 namespace {
 
 // The minimum radius of a shape in pixels. A thinner shape could miss all pixel centers, so it is drawn with this
-// radius but more transparent.
+// radius, but more transparent.
 constexpr float kMinRadius = 0.6f;
 constexpr float kMinAlpha = 0.02f;      // shapes that are more transparent are not drawn
 constexpr float kMinFootRadius = 1.8f;  // in pixels; thinner bars are drawn without a foot
 
+/// How a shape of a given radius is drawn.
 struct Thickness {
     float scale;  ///< factor for the radius
-    float alpha;
+    float alpha;  ///< factor for the opacity
     float half;   ///< half the radius in pixels
     float reach;  ///< the u at which the antialiased silhouette ends
 };
 
-/// `pixels`: the radius. `dimensions`: the number of directions in which the shape is thin, 1 for a bar and 2 for a
-/// ball.
+/// `pixels`: the radius of the shape in pixels. `dimensions`: the number of directions in which the shape is thin, 1
+/// for a bar and 2 for a ball.
 Thickness thickness(float pixels, int dimensions) {
     Thickness t{1, 1, 0.5f * pixels, 0};
     if (pixels < kMinRadius) {
@@ -72,7 +73,7 @@ void ShapeBatch::ball(const glm::vec3& center, float radius, scene::Color color,
     const glm::vec3 x = glm::normalize(glm::vec3(z.z, 0, -z.x));
     const glm::vec3 y = glm::cross(z, x);
 
-    // The radius, at the depth of the center, of the cone from the eye tangent to the sphere.
+    // The radius, at the depth of the center, of the cone with its apex at the eye that is tangent to the sphere.
     const float silhouette = radius * size.scale * std::sqrt(distance2 / inside2) * size.reach;
     const glm::vec3 c = projection_.clip(center), dx = projection_.clip(x) * silhouette,
                     dy = projection_.clip(y) * silhouette;
@@ -90,7 +91,7 @@ void ShapeBatch::bar(const glm::vec3& from, const glm::vec3& to, float radius, s
     const glm::vec3 axis = to - from;
     const glm::vec3 n = glm::cross(from, to);
     const float n2 = glm::dot(n, n), axis2 = glm::dot(axis, axis), inside2 = n2 - radius * radius * axis2;
-    if (inside2 <= 0) return;  // seen along its axis: the ball at its end hides it
+    if (inside2 <= 0) return;  // the view is along the axis: the ball at the near end hides the bar
     const Thickness size = thickness(radius * projection_.pixelsPerUnit() / (-0.5f * (from.z + to.z)), 1);
     if (size.alpha * opacity < kMinAlpha) return;
     const glm::vec3 x = n / std::sqrt(n2);
@@ -107,7 +108,7 @@ void ShapeBatch::bar(const glm::vec3& from, const glm::vec3& to, float radius, s
     const auto first = static_cast<std::uint32_t>(vertices_.size());
     quad({a - dx, a + dx, b - dx, b + dx}, size.reach, 0, vertex);
     if (2 * size.half < kMinFootRadius) return;
-    // The foot: the near half of the circle at the bar's end, beyond the flat end.
+    // The foot covers the half of the circle at the far end that is turned to the eye and extends beyond the flat end.
     const glm::vec3 foot = a + projection_.clip(z) * (radius * size.reach);
     const auto last = static_cast<std::uint32_t>(vertices_.size());
     for (const float side : {-1.0f, 1.0f}) {
@@ -133,7 +134,8 @@ void ShapeBatch::face(std::span<const glm::vec3> corners, const glm::vec3& norma
         for (const std::uint32_t k : {0u, i - 1, i}) indices_.push_back(first + k);
 }
 
-/// Antialiases the face: moves its edges half a pixel inward, and adds a rim that fades to zero half a pixel outward.
+/// Antialiases a face: moves its edges half a pixel inward, and adds a rim whose coverage falls to zero half a pixel
+/// outside the original edges.
 void ShapeBatch::soften(std::uint32_t first, std::uint32_t count) {
     const glm::vec2 halfSize{0.5f * projection_.width, 0.5f * projection_.height};
     pixels_.clear();
@@ -190,8 +192,8 @@ void main() {
 }
 )";
 
-/// Shader code for pow(h, shininess). Uses repeated squaring if shininess is a power of two, because pow would take
-/// longer than the rest of the shader.
+/// Returns shader code that replaces h by pow(h, shininess). It squares repeatedly if shininess is a power of two,
+/// because pow would take longer than the rest of the shader.
 std::string highlight(double shininess) {
     int squarings = 0;
     while (std::exp2(squarings) < shininess) ++squarings;
@@ -201,7 +203,7 @@ std::string highlight(double shininess) {
     return code;
 }
 
-// A shape rises from its patch toward the eye by n.z times its radius, which is 2 place.z pixels.
+// A ball or bar is closer to the eye than its flat patch by n.z times its radius, and the radius is 2 place.z pixels.
 constexpr std::string_view kRoundDepth = R"(
     gl_FragDepth = 0.5 + 0.5 * (toDepth.x + toDepth.y * gl_FragCoord.w / (1.0 - toDepth.z * place.z * n.z));
 )";
@@ -240,7 +242,7 @@ ShapeProgram::ShapeProgram(const scene::Style& style, Depth depth)
 
 void ShapeProgram::draw(const ShapeBatch& shapes) { draw(shapes, 0, 0); }
 
-// The depth −1 … 1 is linear in 1 / distance, so that it is linear in screen space on a plane.
+// The depth (−1 … 1) is a linear function of 1 / distance, so that the depths of a plane are linear in screen space.
 void ShapeProgram::drawWithDepth(DepthRange range, const ShapeBatch& shapes) {
     const float offset = 2 / (1 / range.to - 1 / range.from);
     draw(shapes, 1 - offset / range.to, offset);

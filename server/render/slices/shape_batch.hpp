@@ -1,5 +1,6 @@
 #pragma once
-// Balls, bars and faces as triangles in one vertex format, so that one shader draws them in one call and in any order.
+// Converts balls, bars and faces to triangles in one vertex format, so that one shader draws them in one call and in
+// any order.
 
 #include <array>
 #include <cstdint>
@@ -15,37 +16,40 @@
 
 namespace oval4d::render {
 
-/// Every shape is drawn as a flat patch (an impostor) with coordinates (u, v); the normal of the shape is X·u + Y·v +
-/// Z·sqrt(1 − u² − v²). A ball fills the unit disk, and its Z points to the eye; on a bar, v is 0 and u runs across the
-/// bar; on a face, u = v = 0. The vertices hold the dot products of X, Y and Z with the light direction L and the half
-/// vector H, so normals need not be computed.
+/// A vertex of a shape. Every shape is drawn as a flat patch (an impostor) with coordinates (u, v). Its normal is
+/// X·u + Y·v + Z·sqrt(1 − u² − v²) for three unit vectors X, Y and Z. A ball is the unit disk in (u, v), and its Z
+/// points to the eye. On a bar, v is 0 and u runs across the bar. On a face, u = v = 0. The vertices hold the dot
+/// products of X, Y and Z with the light direction L and the half vector H, so the shader need not compute normals.
 struct ShapeVertex {
-    glm::vec3 clip;      ///< x, y, w
-    glm::vec3 place;     ///< u, v and half the radius r in pixels; coverage = (1 − u² − v²) · r/2 + ½
-    glm::vec3 diffuse;   ///< X·L, Y·L, Z·L, times the diffuse intensity
-    glm::vec3 specular;  ///< X·H, Y·H, Z·H
-    std::uint32_t color;
+    glm::vec3 clip;       ///< clip coordinates x, y, w
+    glm::vec3 place;      ///< u, v and r/2, for the radius r in pixels; coverage = (1 − u² − v²) · r/2 + ½
+    glm::vec3 diffuse;    ///< X·L, Y·L, Z·L, times the diffuse intensity
+    glm::vec3 specular;   ///< X·H, Y·H, Z·H
+    std::uint32_t color;  ///< as returned by rgba()
 };
 
-/// A list of shapes in view coordinates. The caller adds them in drawing order.
+/// A list of shapes, converted to triangles. The caller adds them in drawing order. Positions and radii are in view
+/// coordinates (see Projection); opacities are from 0 to 1.
 class ShapeBatch {
   public:
     /// Starts an empty list of shapes, lit as `style` specifies.
     void begin(const scene::Style& style);
 
+    /// Removes all shapes.
     void clear();
 
-    /// Sets the projection for shapes added from now on.
+    /// Sets the projection for the shapes that are added from now on.
     void setProjection(const Projection& projection) { projection_ = projection; }
 
+    /// Adds a ball. Does nothing if it contains the eye, is behind the eye, or is almost transparent.
     void ball(const glm::vec3& center, float radius, scene::Color color, float opacity = 1);
 
-    /// Adds a cylinder. `from` is the end farther from the eye, where a round foot joins it to a ball; `to` has a flat
-    /// end.
+    /// Adds a cylinder. `from` is the end that is farther from the eye; a round foot joins the cylinder to the ball
+    /// there. The end at `to` is flat.
     void bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity = 1);
 
-    /// Adds a flat convex polygon with this unit normal or its negative. With `soft`, edges are antialiased over one
-    /// pixel, for use where no bars cover them.
+    /// Adds a flat convex polygon. `normal` is its unit normal, with either sign. `soft`: whether its edges are
+    /// antialiased over one pixel, as is necessary if no bars cover them.
     void face(std::span<const glm::vec3> corners, const glm::vec3& normal, scene::Color color, float opacity,
               bool soft);
 
@@ -65,7 +69,7 @@ class ShapeBatch {
     std::vector<glm::vec2> pixels_;
 };
 
-/// A range of depths along the view axis.
+/// A range of distances from the eye along the view axis, in view coordinates.
 struct DepthRange {
     float from = 1, to = 2;
 };
@@ -73,12 +77,12 @@ struct DepthRange {
 /// The shader program that draws a ShapeBatch, lit as `style` specifies.
 class ShapeProgram {
   public:
-    /// The depth of a pixel: that of the flat patch, or that of the ball or bar that the patch represents (faces are
-    /// then closer by one pixel).
+    /// The depth of a pixel: that of the flat patch, or that of the ball or bar that the patch represents. With
+    /// `round`, faces are one pixel closer to the eye than they are.
     enum class Depth : std::uint8_t { flat, round };
     ShapeProgram(const scene::Style& style, Depth depth);
 
-    /// Draws the shapes in order, without depths.
+    /// Draws the shapes in order, without a depth test.
     void draw(const ShapeBatch& shapes);
 
     /// Draws the shapes with depths, for a depth buffer that covers `range`.

@@ -1,5 +1,5 @@
 #pragma once
-// Access to one slice of a scene, shared by the classes that draw slices.
+// Access to one slice of a scene, for the classes that draw slices.
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +14,12 @@
 
 namespace oval4d::render {
 
-/// One slice, and everything needed to draw it.
+/// A reference to one slice of a scene. The arguments v, e and f are indices of vertices, edges and faces in the slice.
 struct SliceView {
     const slicing::SliceSet& set;
     const scene::Scene& scene;
-    const glm::dmat4& toView;
-    std::size_t number;
+    const glm::dmat4& toView;  ///< from world coordinates to view coordinates
+    std::size_t number;        ///< index of the slice in the set
 
     std::size_t firstVertex() const { return set.vertexBegin[number]; }
     std::size_t firstEdge() const { return set.edgeBegin[number]; }
@@ -29,7 +29,7 @@ struct SliceView {
     std::size_t faces() const { return set.faceBegin[number + 1] - firstFace(); }
     const std::array<std::uint32_t, 2>& edge(std::size_t e) const { return set.edges[firstEdge() + e]; }
 
-    /// The range of the loop of face f in the set's corners.
+    /// Returns the half-open range of SliceSet::corners that is the loop of face f.
     std::pair<std::size_t, std::size_t> loop(std::size_t f) const {
         return {set.cornerBegin[firstFace() + f], set.cornerBegin[firstFace() + f + 1]};
     }
@@ -64,12 +64,12 @@ class SliceTransform {
     glm::vec3 origin_;
 };
 
-/// The appearance of balls and bars. If balls are off, balls with the radius of the bars round their joints.
+/// The appearance of balls and bars. If only bars are shown, balls with the bars' radius and color round their joints.
 struct Skeleton {
     bool balls, bars;
     float ballRadius, barRadius;
     scene::Color ballColor, barColor;
-    float inBall;  ///< distance from a bar's end at which it emerges from the ball
+    float inBall;  ///< the length of a bar's end that is inside a ball
 
     explicit Skeleton(const scene::Scene& scene)
         : balls(scene.look.parts.balls || scene.look.parts.bars),
@@ -80,7 +80,7 @@ struct Skeleton {
           barColor(scene::style().bar),
           inBall(std::sqrt(std::max(ballRadius * ballRadius - barRadius * barRadius, 0.0f))) {}
 
-    /// Adds the part of a bar that is visible between the balls at its ends; `from` is the farther end.
+    /// Adds the part of a bar that is outside the balls at its ends. `from` is the end that is farther from the eye.
     void bar(const glm::vec3& from, const glm::vec3& to, float opacity, ShapeBatch& out) const {
         const float length = glm::length(to - from);
         if (opacity == 0 || length <= 2 * inBall) return;

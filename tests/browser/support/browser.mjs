@@ -1,4 +1,4 @@
-// Starts headless Chromium, and has helpers for tests of the page.
+// Starts headless Chromium; helpers for tests of the page.
 import { existsSync } from "node:fs";
 
 import { chromium } from "playwright-core";

@@ -35,7 +35,7 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     EXPECT_EQ(std::get<Refusal>(given).cause, Refusal::Cause::too_long);
 }
 
-/// The bodies of an OBJ file.
+/// Returns the points of each body of an OBJ file.
 std::vector<std::vector<glm::dvec3>> bodiesIn(const std::string& text) {
     std::vector<std::vector<glm::dvec3>> bodies;
     std::istringstream in(text);
@@ -59,7 +59,7 @@ TEST(File, ofTheOvalHasBodiesThatDoNotMeet) {
                 bodiesIn(fileOf(p, {}, {-(count - 1) / 2, count, spacing},
                                 {.format = formatNamed("obj"), .extent = SliceSelection::oval, .body = body}));
             EXPECT_GE(static_cast<int>(bodies.size()), std::max(1, count - 2));
-            // Each stands in a ball of its own.
+            // The bounding spheres of the bodies must not overlap.
             std::vector<std::pair<glm::dvec3, double>> balls;
             for (const auto& points : bodies) {
                 Box box;

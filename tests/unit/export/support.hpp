@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of exported bodies share: a check of meshes of their own, and subjects to export.
+// Helpers shared by the tests of exports: an independent check of meshes, and objects to export.
 
 #include <cmath>
 #include <cstdint>
@@ -30,8 +30,8 @@ using namespace exports;
 
 using Key = std::tuple<float, float, float>;
 
-/// As a program that knows nothing but the coordinates, in float32: every edge lies in two triangles, once each way,
-/// the triangles around every point are one ring, and the volume is positive.
+/// Expects a printable mesh, by its float32 coordinates alone, as a slicing program would: every edge lies in two
+/// triangles, once in each direction; the triangles around every point form one ring; the volume is positive.
 inline void expectPrintable(const Mesh& mesh) {
     ASSERT_FALSE(mesh.triangles.empty());
     ASSERT_EQ(mesh.cells.size(), mesh.triangles.size());
@@ -41,9 +41,9 @@ inline void expectPrintable(const Mesh& mesh) {
         const Key key{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
         same.push_back(points.try_emplace(key, points.size()).first->second);
     }
-    // Each edge is there once in each direction, and what is around a point is one ring.
+    // Each edge occurs once in each direction, and the triangles around a point form one ring.
     const auto edge = [](std::uint32_t from, std::uint32_t to) { return (std::uint64_t{from} << 32U) | to; };
-    std::unordered_map<std::uint64_t, std::uint32_t> next;  // from a point's neighbor to the one beside it
+    std::unordered_map<std::uint64_t, std::uint32_t> next;  // from a neighbor of a point to the next neighbor around it
     next.reserve(3 * mesh.triangles.size());
     std::vector<std::size_t> sides(points.size());
     std::vector<std::uint32_t> neighbor(points.size());
@@ -91,12 +91,12 @@ inline Polygon pentagram() {
         star.emplace_back(std::cos(4 * i * std::numbers::pi / 5), std::sin(4 * i * std::numbers::pi / 5));
     return star;
 }
-/// Of all that a pentagram of circumradius 1 winds around: ten triangles from its middle, between a point of the star
-/// at distance 1 and an inner corner at distance φ⁻², 36° apart.
+/// The area of the points with nonzero winding number in a pentagram of circumradius 1: ten triangles between the
+/// center, a tip at distance 1 and an inner corner at distance φ⁻², 36° apart.
 inline const double kPentagramArea =
     10 * 0.5 * std::sin(std::numbers::pi / 5) / (std::numbers::phi * std::numbers::phi);
 
-/// Composes the scene of slices of a polytope. It refers to `slices`.
+/// Returns the scene of a polytope's slices, which refers to `slices`.
 inline scene::Scene composed(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
                              const slicing::SliceSet& slices) {
     scene::Scene scene;
@@ -107,7 +107,7 @@ inline scene::Scene composed(const polytopes::Polytope& polytope, const geometry
     return scene;
 }
 
-/// Cuts a polytope and exports its slices.
+/// Slices a polytope and exports the slices.
 inline std::variant<std::string, Refusal> exported(const polytopes::Polytope& polytope,
                                                    const geometry::Rotation& orientation,
                                                    const geometry::Hyperplanes& planes, const ExportRequest& request,
@@ -127,7 +127,7 @@ inline std::string fileOf(const polytopes::Polytope& polytope, const geometry::R
     return std::get<std::string>(std::move(made));
 }
 
-/// Two polytopes as one, the second moved.
+/// Returns two polytopes as one, with the second translated by `by`.
 inline polytopes::Polytope compound(const polytopes::Polytope& a, const polytopes::Polytope& b, const glm::dvec4& by) {
     std::vector<glm::dvec4> vertices = a.vertices;
     for (const auto& v : b.vertices) vertices.push_back(v + by);

@@ -1,4 +1,4 @@
-// Whose turn is next, in virtual time: jobs take as long as a test says.
+// Weighted fair queueing, simulated in virtual time: a job takes as long as the test says.
 
 #include "parallel/fair_queue.hpp"
 
@@ -22,12 +22,12 @@ using LanePtr = FairQueue::LanePtr;
 FairQueue::ClientPtr newClient() { return std::make_shared<FairQueue::Client>(); }
 LanePtr newLane(const FairQueue::ClientPtr& client = newClient()) { return std::make_shared<FairQueue::Lane>(client); }
 
-/// A pool whose clock and threads are these variables.
+/// A simulated pool of threads with a virtual clock.
 class Simulation {
   public:
     explicit Simulation(std::size_t threads, FairQueue::Limits limits = {}) : queue_(threads, limits), free_(threads) {}
 
-    /// A job that is thought to take `estimate`, and takes `takes`; then it calls `done`.
+    /// Posts a job with an estimated and an actual duration; calls `done` when it ends. Returns false if it is refused.
     bool post(const LanePtr& lane, Seconds estimate, Seconds takes, std::function<void()> done = {}) {
         const auto job = [this, lane, takes, done = std::move(done)](std::size_t) { begun_ = {takes, done, lane}; };
         return queue_.push(job, lane, estimate, time());
@@ -35,7 +35,7 @@ class Simulation {
     bool post(const LanePtr& lane, Seconds takes, std::function<void()> done = {}) {
         return post(lane, takes, takes, std::move(done));
     }
-    /// Something else that happens then.
+    /// Schedules a function to be called at this time.
     void at(Seconds when, std::function<void()> act) { events_.emplace(when, std::move(act)); }
 
     void run(Seconds until) {
@@ -54,7 +54,7 @@ class Simulation {
     std::size_t waiting() const { return queue_.waiting(); }
     Seconds usedBy(const LanePtr& lane) const { return used_.contains(lane.get()) ? used_.at(lane.get()) : Seconds(0); }
     std::size_t running() const { return running_; }
-    /// Of all threads together, with jobs that are done.
+    /// The time that all threads together have spent on completed jobs.
     Seconds busy() const {
         Seconds sum{0};
         for (const auto& [lane, used] : used_) sum += used;
@@ -94,17 +94,17 @@ class Simulation {
     Job begun_;
 };
 
-/// Posts one job after the other, each as soon as the one before is done.
+/// Posts jobs to a lane forever, each as soon as the previous one ends.
 void always(Simulation& in, const LanePtr& lane, Seconds takes) {
     EXPECT_TRUE(in.post(lane, takes, [&in, lane, takes] { always(in, lane, takes); }));
 }
 
-/// As always, but each job in a lane of its own: a session for each picture.
+/// Like always(), but with a new lane for each job, like a client that opens a session for each picture.
 void alwaysNew(Simulation& in, const FairQueue::ClientPtr& client, Seconds takes) {
     EXPECT_TRUE(in.post(newLane(client), takes, [&in, client, takes] { alwaysNew(in, client, takes); }));
 }
 
-/// How long jobs of this length wait and take that come one every `period`, until `until`.
+/// The latencies of jobs that are posted every `period` until `until`: their waiting time plus their duration.
 class Latencies {
   public:
     Latencies(Simulation& in, LanePtr lane, Seconds takes, Seconds period, Seconds until) : takes_(takes) {
@@ -151,7 +151,7 @@ TEST(FairQueue, WhoHasHadLessIsNext) {
     EXPECT_EQ(order, (std::vector<std::string>{"greedy", "greedy", "greedy", "modest", "greedy", "greedy"}));
 }
 
-/// Whoever opens a session for each picture is not ahead of those who keep theirs.
+/// A client that opens a session for each picture gains no advantage over one that keeps its session.
 TEST(FairQueue, NewLanesAreNotAhead) {
     for (const bool same : {false, true}) {
         Simulation pool(1);
@@ -161,22 +161,23 @@ TEST(FairQueue, NewLanesAreNotAhead) {
         const Latencies seen(pool, kept, 2800us, 103ms, 20s);
         pool.run(20s);
         EXPECT_GE(seen.count(), 190U);
-        EXPECT_LE(seen.worst(), 30.8ms + 1us);  // the job that runs, one that was about to be begun, and its own
+        // The running job, one that was just about to begin, and its own duration.
+        EXPECT_LE(seen.worst(), 30.8ms + 1us);
         EXPECT_LE(seen.median(), 24.1ms);
     }
 }
 
-/// Nor with jobs so long that they are of the other class, where one thread has to serve both.
+/// The same with jobs that count as long, where one thread serves both long and short jobs.
 TEST(FairQueue, NewLanesWithLongJobsAreNotAhead) {
     Simulation pool(1);
     for (int i = 0; i < 6; ++i) alwaysNew(pool, newClient(), 25ms);
     const Latencies seen(pool, newLane(), 5ms, 103ms, 20s);
     pool.run(20s);
     EXPECT_GE(seen.count(), 190U);
-    EXPECT_LE(seen.worst(), 80ms + 1us);  // the job that runs, two that were about to be begun, and its own
+    EXPECT_LE(seen.worst(), 80ms + 1us);  // the running job, two that were just about to begin, and its own duration
 }
 
-/// Also where the jobs turn out longer than they were thought to be, again and again.
+/// The same if the jobs repeatedly take longer than estimated.
 TEST(FairQueue, NewLanesAreChargedByWhatTheirClientsTook) {
     Simulation pool(1);
     const FairQueue::ClientPtr attacker = newClient();
@@ -219,7 +220,7 @@ TEST(FairQueue, SessionsShareEquallyByTimeNotByJobs) {
     EXPECT_NEAR(pool.usedBy(large).count(), 30, 1);
 }
 
-/// Ten clients flood the pool with short jobs: a long job is begun all the same, and others of it follow.
+/// A long job begins in time although ten clients flood the pool with short jobs.
 TEST(FairQueue, LongJobsAreNotStarved) {
     for (const std::size_t threads : {1U, 2U, 4U}) {
         Simulation pool(threads);
@@ -233,11 +234,11 @@ TEST(FairQueue, LongJobsAreNotStarved) {
         ASSERT_TRUE(pool.post(lane, 1s, [&] { done = pool.now(); }));
         pool.run(30s);
         EXPECT_GT(done, 0s);
-        EXPECT_LE(done, 5s + 11s + 1s);  // ten others have as much first, at worst on one thread
+        EXPECT_LE(done, 5s + 11s + 1s);  // at worst, on one thread, each of the ten others gets the same time first
     }
 }
 
-/// Nor are they by other long ones, while somebody's short ones keep a thread for themselves.
+/// A long job is not starved by other long jobs either, while short jobs of another client occupy a thread.
 TEST(FairQueue, ALongJobOfANewClientWaitsForOneOfEachOtherAtMost) {
     Simulation pool(2);
     for (int i = 0; i < 4; ++i) {
@@ -251,7 +252,7 @@ TEST(FairQueue, ALongJobOfANewClientWaitsForOneOfEachOtherAtMost) {
     pool.run(200s);
     EXPECT_GT(done, 0s);
     EXPECT_LE(done, 100s + 7s);
-    EXPECT_LE(seen.worst(), 1s + 20ms);  // only at the start, before anybody knew of short jobs
+    EXPECT_LE(seen.worst(), 1s + 20ms);  // only at the start, before a thread is reserved for short jobs
 }
 
 TEST(FairQueue, AThreadIsKeptForShortJobsWhileSomebodyHasSome) {
@@ -260,7 +261,7 @@ TEST(FairQueue, AThreadIsKeptForShortJobsWhileSomebodyHasSome) {
         const LanePtr quick = newLane();
         ASSERT_TRUE(pool.post(quick, 5ms));
         pool.run(10ms);
-        for (int i = 0; i < 40; ++i) always(pool, newLane(), 2s);  // nothing was learned of these lanes yet
+        for (int i = 0; i < 40; ++i) always(pool, newLane(), 2s);  // lanes whose durations are not known yet
         const Latencies seen(pool, quick, 5ms, 500ms, 30s);
         pool.run(30s);
         EXPECT_GE(seen.count(), 58U);
@@ -287,7 +288,7 @@ TEST(FairQueue, LongJobsHaveAllThreadsWhenNobodyElseIsThere) {
     EXPECT_EQ(pool.running(), 4U);
 }
 
-/// A visitor does not wait for jobs of seconds, though no short ones came before.
+/// A short job does not wait for jobs that take seconds, even if there were no short jobs before.
 TEST(FairQueue, VeryLongJobsAlwaysLeaveAThread) {
     for (const std::size_t threads : {2U, 16U}) {
         Simulation pool(threads);
@@ -297,13 +298,13 @@ TEST(FairQueue, VeryLongJobsAlwaysLeaveAThread) {
         EXPECT_EQ(seen.count(), 9U);
         EXPECT_LE(seen.worst(), 5ms + 1us);
     }
-    Simulation one(1);  // which does all there is
+    Simulation one(1);  // the only thread executes all jobs
     for (int i = 0; i < 4; ++i) always(one, newLane(), 2s);
     one.run(100s);
     EXPECT_NEAR(one.busy().count(), 100, 2);
 }
 
-/// One job that something disturbed makes no long one of the next.
+/// After one job that was unusually slow, the next job of its lane does not count as long.
 TEST(FairQueue, SurprisesAreNotTakenForTheRule) {
     Simulation pool(2);
     const LanePtr quick = newLane();
@@ -328,7 +329,7 @@ TEST(FairQueue, ShortJobsOfALaneWithLongOnesKeepNoThread) {
     EXPECT_NEAR(pool.busy().count(), 20, 0.2);
 }
 
-/// After an hour of silence a lane has its turn like a new one, and no more.
+/// A lane that was idle for an hour gets the same share as a new one: idle time gives no credit.
 TEST(FairQueue, TimeIsNotSavedUp) {
     Simulation pool(1);
     const LanePtr silent = newLane(), busy = newLane();
@@ -341,12 +342,12 @@ TEST(FairQueue, TimeIsNotSavedUp) {
     EXPECT_NEAR((pool.usedBy(busy) - before).count(), 5, 0.1);
 }
 
-/// Nor are debts for ever: after a pause of all, who had all the time before has his share again.
+/// Debts are forgotten when nothing waits: a lane that had all the time before gets its share again.
 TEST(FairQueue, NobodyOwesWhenNobodyWaits) {
     Simulation pool(1);
     const LanePtr one = newLane(), other = newLane();
     ASSERT_TRUE(pool.post(other, 10ms));
-    ASSERT_TRUE(pool.post(one, 10ms, 1000s));  // estimated badly
+    ASSERT_TRUE(pool.post(one, 10ms, 1000s));  // takes much longer than estimated
     pool.run(2000s);
     for (int i = 0; i < 3; ++i) {
         always(pool, one, 10ms);
@@ -357,7 +358,7 @@ TEST(FairQueue, NobodyOwesWhenNobodyWaits) {
     EXPECT_NEAR(pool.usedBy(other).count(), 5, 0.5);
 }
 
-/// A long job that waits for its turn earns its client no lead for short ones.
+/// While its long jobs wait, a client earns no advantage for short jobs.
 TEST(FairQueue, WaitingWithLongJobsGivesNoLeadForShortOnes) {
     Simulation pool(2);
     const LanePtr victim = newLane();
@@ -374,7 +375,7 @@ TEST(FairQueue, WaitingWithLongJobsGivesNoLeadForShortOnes) {
     const Latencies seen(pool, victim, 5ms, 1s, 90s);
     pool.run(100s);
     EXPECT_EQ(seen.count(), 29U);
-    EXPECT_LE(seen.worst(), 2 * 11 * 5ms);  // two jobs of each, not a second of them
+    EXPECT_LE(seen.worst(), 2 * 11 * 5ms);  // two short jobs of each client, not a second of them
 }
 
 TEST(FairQueue, MoreThanMayWaitAreRefused) {

@@ -1,4 +1,4 @@
-// Threads that carry out jobs.
+// The pool of threads that execute jobs.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ class WorkerPools : public testing::Test {
         return [time](std::size_t) { std::this_thread::sleep_for(time); };
     }
 
-    /// A job that writes its name down.
+    /// Returns a job that records its name.
     WorkerPool::Job saying(std::string name) {
         return [this, name](std::size_t) {
             const std::lock_guard lock(mutex_);
@@ -41,7 +41,7 @@ class WorkerPools : public testing::Test {
         };
     }
 
-    /// Waits until all that was posted in these lanes before has been carried out.
+    /// Waits until all jobs posted so far in these lanes have been executed.
     static void drain(WorkerPool& pool, const std::vector<Lane>& lanes) {
         for (const Lane& each : lanes) {
             std::promise<void> done;
@@ -60,7 +60,7 @@ class WorkerPools : public testing::Test {
     std::vector<std::string> said_;
 };
 
-/// A worker that is kept busy until it is let go. The job holds what it needs: it may end after the gate.
+/// Keeps a worker busy until the gate is opened. The job owns what it needs, so it may outlive the gate.
 class Gate {
   public:
     WorkerPool::Job job() {
@@ -102,7 +102,7 @@ TEST_F(WorkerPools, EachWorkerHasANumberAndBeginsWithTheFirstJob) {
     post(pool, one.job(), lane());
     post(pool, two.job(), lane());
     one.awaitBegun();
-    two.awaitBegun();  // both workers have a job
+    two.awaitBegun();  // both workers are busy
     {
         const std::lock_guard lock(mutex);
         std::ranges::sort(begun);
@@ -129,7 +129,7 @@ TEST_F(WorkerPools, LongJobsLeaveAWorkerToShortOnes) {
     Gate gate;
     post(pool, gate.job(), one, 1s);
     gate.awaitBegun();
-    post(pool, saying("long"), two, 1s);  // one worker is free, but kept
+    post(pool, saying("long"), two, 1s);  // one worker is free, but reserved for short jobs
     for (int i = 0; i < 5; ++i) {
         post(pool, saying("quick"), quick);
         drain(pool, {quick});
@@ -146,12 +146,12 @@ TEST_F(WorkerPools, LongJobsUseAllWorkersWhenNobodyElseIsThere) {
     post(pool, first.job(), lane(), 200ms);
     post(pool, second.job(), lane(), 200ms);
     first.awaitBegun();
-    second.awaitBegun();  // both run at once, or this test does not end
+    second.awaitBegun();  // returns only if both run at the same time
     first.open();
     second.open();
 }
 
-/// A lane whose jobs take long is not taken at its word again.
+/// After a lane's jobs took longer than announced, the pool uses its own estimate.
 TEST_F(WorkerPools, LearnsHowLongJobsTake) {
     WorkerPool pool({.threads = 2});
     const Lane slow = lane(), other = lane(), quick = lane();

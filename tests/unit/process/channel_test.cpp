@@ -1,4 +1,4 @@
-// Messages from one process to another.
+// The channel that carries messages between processes.
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -44,10 +44,10 @@ TEST(Channel, WaitsForNoneThatHangs) {
     MessageType type{};
     std::string body;
     EXPECT_EQ(channel.receive(type, body, nullptr, soon()), Transfer::timed_out);
-    // It reads nothing of what does not fit into the socket.
+    // A message that does not fit into the socket's buffer times out if the receiver does not read.
     const std::string text(5'000'000, 'x');
     EXPECT_EQ(channel.send(MessageType::object, text, Channel::kNoFile, soon()), Transfer::timed_out);
-    // It hangs amid a message: the other end has its head, and the first of its bytes.
+    // The sender stopped in the middle of the message: the receiver gets the header and only some of the bytes.
     EXPECT_EQ(hanging.receive(type, body, nullptr, soon()), Transfer::timed_out);
     EXPECT_EQ(type, MessageType::object);
 }

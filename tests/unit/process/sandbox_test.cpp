@@ -1,4 +1,4 @@
-// What a confined process may do.
+// What the sandbox lets a process do.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@
 namespace oval4d::process {
 namespace {
 
-/// Calls `act` in a confined child process; returns the child's status as from waitpid(2), 0 if `act` returns true.
+/// Calls `act` in a sandboxed child process; returns the child's status as from waitpid(2), 0 if `act` returns true.
 int endOf(Role role, const Confinement& confinement, const std::function<bool()>& act) {
     const pid_t child = fork();
     if (child == 0) {
@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Sandbox, Confined, testing::Values(Role::draw, Role::re
 
 TEST(Sandbox, LimitsAdditionalMemory) {
     std::string why;
-    if (!isSandboxed(SandboxMode::automatic, why)) GTEST_SKIP() << why;  // no limit with sanitizers
+    if (!isSandboxed(SandboxMode::automatic, why)) GTEST_SKIP() << why;  // builds with sanitizers have no limit
     const auto takes = [](std::size_t bytes) {
         return [bytes] {
             try {

@@ -1,4 +1,4 @@
-// Orders from the server to a rasterizer process.
+// The messages with which the server orders pictures from a rasterizer process.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Pixels from one process to another.
+// Pixels in memory shared between processes.
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -32,7 +32,7 @@ TEST(Channel, LongMessagesArriveWholeWithTheirFile) {
     SharedPixels pixels;
     const auto written = pixels.resize(1'000'000);
     written[999'999] = 42;
-    const std::string text(5'000'000, 'x');  // many times what a socket holds
+    const std::string text(5'000'000, 'x');  // much more than a socket's buffer holds
     std::thread sending([&] {
         EXPECT_EQ(sender.send(MessageType::draw, text, pixels.file()), Transfer::complete);
         EXPECT_EQ(sender.send(MessageType::ready), Transfer::complete);
@@ -65,7 +65,7 @@ TEST(Channel, FilesThatNobodyWantsAreDropped) {
     EXPECT_EQ(sender.send(MessageType::draw, "1", pixels.file()), Transfer::complete);
     EXPECT_EQ(receiver.receive(type, body), Transfer::complete);
     EXPECT_EQ(body, "1");
-    const int after = dup(0);  // the lowest number that is free
+    const int after = dup(0);  // the lowest free descriptor: shows whether one leaked
     EXPECT_EQ(after, before + 1);
     close(after);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes to draw and pictures to look at, for the tests of render.
+// Helpers shared by the tests of rendering: scenes to draw, and access to pixels.
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ namespace oval4d::render {
 
 using Rgb = std::array<int, 3>;
 
-/// The pixel in column x, row y from the bottom.
+/// Returns the pixel in column x of row y, counted from the bottom.
 inline Rgb pixelAt(const image::Image& image, int x, int y) {
     const std::uint8_t* p = &image.pixels[(static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                                            static_cast<std::size_t>(x)) *
@@ -40,7 +40,7 @@ inline int difference(const Rgb& a, const Rgb& b) {
     return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
-/// A polytope, cut through its middle, with all that is needed to draw it.
+/// A polytope with the slices and the scene needed to draw it; the focus slice is at w = 0.
 struct Subject {
     std::shared_ptr<const polytopes::Polytope> polytope;
     slicing::SliceSet slices;
@@ -57,7 +57,7 @@ struct Subject {
     Subject(const Subject&) = delete;
     Subject& operator=(const Subject&) = delete;
 
-    /// Removes everything but the slices.
+    /// Removes everything but the slices from the scene.
     void slicesOnly() {
         scene.look.parts.coordinates = false;
         scene.axes.length = 0;
@@ -71,7 +71,7 @@ struct Subject {
     }
 };
 
-/// One slice made by hand, seen from z = 10 along −z: a unit is 100 pixels in the picture's middle.
+/// A slice built by a test, seen from z = 10 along −z: one unit is 100 pixels at the center of the picture.
 struct HandMade {
     static constexpr int kSize = 201;
     static constexpr double kUnit = 100;
@@ -130,7 +130,7 @@ inline geometry::Rotation randomRotation(unsigned seed) {
     return {left, right};
 }
 
-/// Reads a PNG file with libpng; an image without pixels if it is not one. Alpha is set to 255.
+/// Reads a PNG file with libpng, and sets alpha to 255. Returns an image without pixels if the file is not valid.
 inline image::Image readPng(std::span<const std::uint8_t> file) {
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
@@ -138,7 +138,7 @@ inline image::Image readPng(std::span<const std::uint8_t> file) {
     png.format = PNG_FORMAT_RGBA;
     image::Image image{static_cast<int>(png.width), static_cast<int>(png.height),
                        std::vector<std::uint8_t>(PNG_IMAGE_SIZE(png))};
-    // A negative stride reads from the bottom up.
+    // A negative stride stores the rows from the bottom up.
     if (png_image_finish_read(&png, nullptr, image.pixels.data(), -4 * image.width, nullptr) == 0) return {};
     return image;
 }

@@ -1,4 +1,4 @@
-// Whole pictures: order, symmetry, robustness.
+// Whole pictures: the order of surfaces, symmetry, unusual viewpoints and sizes.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ class Pictures : public testing::Test {
     }
 };
 
-/// What a ray from the eye through a pixel's middle meets: all faces of all slices, blended from far to near.
+/// Casts a ray from the eye through the center of a pixel, and blends all faces that it hits from far to near.
 class RayCaster {
   public:
     explicit RayCaster(const Subject& subject) : subject_(subject) {
@@ -36,7 +36,7 @@ class RayCaster {
 
     struct Result {
         glm::dvec3 color;
-        double nearestEdge;  ///< in pixels, roughly
+        double nearestEdge;  ///< approximately, in pixels
     };
 
     Result cast(int x, int y) const {
@@ -62,7 +62,7 @@ class RayCaster {
                 double inside = 1e9;
                 for (std::size_t i = 0; i < corners.size(); ++i) {
                     const glm::dvec3 &a = corners[i], &b = corners[(i + 1) % corners.size()];
-                    // The plane through the eye and this edge: on which side, and how far in angle, the ray passes.
+                    // The signed angle between the ray and the plane through the eye and this edge.
                     const glm::dvec3 side = glm::normalize(glm::cross(a - eye, b - eye));
                     const double sense = glm::dot(normal, corners[0] - eye) < 0 ? -1 : 1;
                     inside = std::min(inside, sense * glm::dot(side, direction) / pixel);
@@ -138,8 +138,8 @@ INSTANTIATE_TEST_SUITE_P(Pictures, Transparency,
                                          std::tuple("24-cell", scene::View::single, 4u)));
 
 TEST_F(Pictures, MirroredSceneGivesMirroredSilhouette) {
-    // The unrotated tesseract's slices are cubes: the whole oval is its own mirror image. Light is not, so outlines
-    // are compared.
+    // The unrotated tesseract's slices are cubes, so the oval is its own mirror image. The lighting is not symmetric,
+    // so only silhouettes are compared.
     scene::Look look;
     Subject subject("8-cell", {}, 21, look, {400, 300});
     subject.slicesOnly();
@@ -208,7 +208,7 @@ TEST_F(Pictures, OfEverySizeAndViewAreDrawn) {
 }
 
 TEST_F(Pictures, FromAnyPlaceAreDrawn) {
-    // The viewer may stand among the slices or look from behind.
+    // The viewpoint may be between the slices or behind them.
     for (const double azimuth : {0.0, 2.0, 3.14159})
         for (const double elevation : {-1.4, 0.0, 1.4})
             for (const double zoom : {0.05, 1.0, 30.0}) {
@@ -252,7 +252,8 @@ TEST_F(Pictures, ShowTheDensityOfManyVertices) {
     int count = 0;
     for (int row = 1; row + 1 < Density::kRows; ++row)
         for (int column = 3; column + 3 < Density::kColumns; ++column) {
-            if (column % Density::kGap < 3 || column % Density::kGap > Density::kGap - 3) continue;  // beside the axes
+            // Columns that the axes cover.
+            if (column % Density::kGap < 3 || column % Density::kGap > Density::kGap - 3) continue;
             const double opacity = subject.scene.density[Density::index(row, column)] / 255.0;
             const auto gap = static_cast<std::size_t>(column / Density::kGap);
             const double part = column % Density::kGap / double(Density::kGap);

@@ -14,7 +14,7 @@ using namespace oval4d;
 using scene::Scene;
 using support::named;
 
-/// Composes a scene without its slices.
+/// Returns a scene without its slices.
 Scene composed(std::string_view name, int count = 21, scene::Viewport viewport = {}, scene::Look look = {},
                int focus = 0) {
     const auto& p = named(name);
@@ -27,7 +27,7 @@ Scene composed(std::string_view name, int count = 21, scene::Viewport viewport =
     return s;
 }
 
-/// Pixel coordinates from the upper left corner.
+/// Returns pixel coordinates, measured from the upper left corner.
 glm::dvec2 project(const Scene& s, const glm::dvec3& world) {
     const double aspect = double(s.viewport.width) / s.viewport.height;
     const glm::dvec4 clip = s.camera.projection(aspect) * s.camera.view() * glm::dvec4(world, 1);
@@ -67,7 +67,7 @@ TEST(Oval, keepsEverySliceInSightAndClearOfTheCoordinates) {
                     EXPECT_LT(at.y, viewport.height - strip);
                     EXPECT_LT(project(s, placement.labelAt).y, viewport.height - strip);
                 }
-                // the focus slice's own sphere, whole
+                // The circumscribed sphere of the focus slice is entirely visible.
                 const double radius = s.scale * s.circumradius;
                 EXPECT_GT(project(s, {0, radius, 0}).y, 0);
                 EXPECT_LT(project(s, {0, -radius, 0}).y, viewport.height - strip);
@@ -78,7 +78,7 @@ TEST(Oval, keepsEverySliceInSightAndClearOfTheCoordinates) {
 
 TEST(Oval, closes) {
     const Scene s = composed("5-cell");
-    // The arms rise all the way, part from each other and come together again.
+    // Both arms of the oval rise monotonically, move apart and meet again at the top.
     double widest = 0;
     for (int i = 10; i < 20; ++i) {
         EXPECT_LT(project(s, s.placements[i + 1].position).y, project(s, s.placements[i].position).y);
@@ -114,7 +114,7 @@ TEST(Single, drawsTheFocusAloneAndLarge) {
     EXPECT_TRUE(s.placements[10].drawn);
     const double radius = s.scale * s.circumradius;
     EXPECT_GT(project(s, {0, -radius, 0}).y - project(s, {0, radius, 0}).y, 0.7 * 720);
-    // seen in the negative z direction, as the paper has it
+    // The camera looks in the direction of −z, as in the paper.
     EXPECT_NEAR(s.camera.eye.x, 0, 1e-12);
     EXPECT_NEAR(s.camera.eye.y, 0, 1e-12);
     EXPECT_GT(s.camera.eye.z, 0);
@@ -142,7 +142,7 @@ TEST(Coordinates, holdEveryVertexInsideTheViewport) {
         EXPECT_LE(c.left + c.columnStep * c.perRow, 1280.0 / 720 + 1e-9);
         EXPECT_LE(c.left + 3 * c.lineStep + c.lineWidth, 1280.0 / 720);
         EXPECT_LE(c.density ? 0 : 4 * c.lineStep, c.columnStep);
-        EXPECT_GT(c.lineWidth * 720, 0.7) << entry.name;  // about a pixel at least
+        EXPECT_GT(c.lineWidth * 720, 0.7) << entry.name;  // at least about one pixel
         EXPECT_GE(c.zero - c.amplitude - (c.rows - 1) * c.rowStep, 0);
         EXPECT_LT(c.zero + c.amplitude, 0.3);
     }

@@ -55,13 +55,13 @@ TEST(Density, DoesNotDependOnTheOrderOfVertices) {
 }
 
 TEST(Density, OneVertexIsALineFromAxisToAxis) {
-    const glm::dvec4 point(1, -1, 0, 0.5);  // in circumradii of 1: at the ends, in the middle, halfway
+    const glm::dvec4 point(1, -1, 0, 0.5);  // relative to a circumradius of 1: the ends, the middle, and halfway
     const Density density = densityOf({point});
     for (int k = 0; k < 4; ++k)
         EXPECT_EQ(weightAt(density, kMiddleRow - static_cast<int>(point[k] * kMiddleRow), k * Density::kGap),
                   Density::kLine)
             << "axis " << k;
-    // The mean row of every column lies on the line, to within half a step of the counting.
+    // The mean row of every column lies on the line, to within half a row.
     for (int column = 0; column < Density::kColumns; ++column) {
         const int gap = std::min(column / Density::kGap, 2);
         const double t = double(column - gap * Density::kGap) / Density::kGap;
@@ -89,7 +89,7 @@ TEST(Density, OfACentrallySymmetricPolytopeIsItsMirrorImage) {
         const auto polytope = support::shared(name);
         for (const double angle : {0.0, 0.4}) {
             const geometry::Rotation turn(geometry::Turn{geometry::Plane::xw, angle, 3 * angle});
-            // As they are built the vertices are opposite only to within rounding: take exact opposites.
+            // Built vertices are opposite only up to rounding, so use exact opposites.
             std::vector<glm::dvec4> points;
             for (const glm::dvec4& p : polytope->vertices) {
                 points.push_back(p);

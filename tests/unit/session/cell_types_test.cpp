@@ -1,4 +1,4 @@
-// Colors, and kinds of cells hidden and faded.
+// Coloring, and hidden and faded kinds of cells.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 using scene::CellTypeFilter;
 
-/// A session that shows a polytope with four kinds of cells, two of them of one name.
+/// Returns a session whose polytope has four kinds of cells, two of them with the same name.
 Session withKinds() {
     auto polytope = support::named("24-cell");
     polytope.name = "mixed";

@@ -26,7 +26,7 @@ TEST(History, UndoAndRedoReturnEqualStatesOverRandomKeys) {
             if (session.past.size() > steps) {
                 seen.push_back(session.now);
             } else {
-                seen.back() = session.now;  // a turn that stopped, or nothing at all
+                seen.back() = session.now;  // a change without a step: turning stopped, or nothing changed
             }
         }
         ASSERT_EQ(session.past.size() + 1, seen.size());

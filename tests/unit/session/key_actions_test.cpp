@@ -30,7 +30,7 @@ std::vector<Key> strokesOf(const nlohmann::json& row) {
     return strokes;
 }
 
-// A session in the midst of things, so that every key has something to act on.
+// Returns a session with a history and changed settings, so that every key has an effect.
 Session busy() {
     Session session;
     line(session, "polytope 24-cell");
@@ -116,7 +116,7 @@ TEST(Keys, AKeyAndItsInverseRestoreTheState) {
     for (const auto& [key, inverse] : couples) {
         SCOPED_TRACE(key.key + (key.shift ? " with shift" : ""));
         Session session = busy();
-        line(session, "focus 0");  // another polytope begins at focus 0
+        line(session, "focus 0");  // a new polytope starts with focus 0
         const State before = session.now;
         must(session, key);
         EXPECT_FALSE(session.now == before);

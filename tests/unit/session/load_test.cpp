@@ -44,7 +44,7 @@ TEST(Load, RefusesWhatItCannotRead) {
                   Limits{.maxVertices = 4});
 }
 
-// Applies the command as a server does, and counts the orders it takes.
+// Applies a command as a server does; returns how many times it must wait for an object that is loaded separately.
 int ordersOf(Session& session, const Command& command, ObjectLoader& loader, Result<std::monostate>& done) {
     for (int orders = 0;; ++orders) {
         const Session before = session;
@@ -108,7 +108,7 @@ TEST(Load, PolytopesAreBuiltAheadOnlyWhereTheyAreNotBuiltYet) {
     EXPECT_LE(ordersOf(session, Key{"N", false, false}, walker, done), 1);
     EXPECT_TRUE(done);
 
-    // Its elements coincide: told only by building it.
+    // Its elements coincide, which is found only when the polytope is built.
     ObjectLoader builder(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, CommandLine{"polytope x3o3o5/2x"}, builder, done), 1);
     EXPECT_FALSE(done);

@@ -1,5 +1,5 @@
 #pragma once
-// What the session's tests share.
+// Helpers shared by the tests of sessions.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace oval4d::session {
 
 inline const geometry::ObjectInfo& infoOf(const State& state) { return slicing::infoOf(state.object); }
 
-/// Carries out a command on the spot, with the cache of the test program.
+/// Executes a command immediately, with the cache of the test program.
 inline Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits = {}) {
     ObjectLoader loader(limits, support::cache());
     return apply(session, command, limits, loader);
@@ -43,7 +43,7 @@ inline void expectNear(const State& a, const State& b, double tolerance) {
     EXPECT_EQ(a.turning, b.turning);
 }
 
-/// Applies a command that must succeed.
+/// Expects that the command succeeds.
 inline void must(Session& session, const Command& command, const Limits& limits = {}) {
     const auto done = apply(session, command, limits);
     ASSERT_TRUE(done) << done.error().message;
@@ -55,7 +55,7 @@ inline void press(Session& session, const std::string& keys) {
 
 inline void line(Session& session, const std::string& text) { must(session, CommandLine{text}); }
 
-/// The command must fail with this code, say this, and leave the session exactly as it was.
+/// Expects that the command fails with this code and with `says` in its message, and does not change the session.
 inline void expectRefused(Session& session, const Command& command, ErrorCode code, const std::string& says,
                           const Limits& limits = {}) {
     const Session before = session;

@@ -1,4 +1,4 @@
-// What the program asks of any object, and objects as bytes.
+// The functions that all kinds of objects have, and the encoding of objects as bytes.
 
 #include <algorithm>
 #include <array>

@@ -258,7 +258,7 @@ TEST(Quotes, KeepToPrintableText) {
     EXPECT_EQ(text::inQuotes("24-cell"), "'24-cell'");
     EXPECT_EQ(text::inQuotes("a\n\x7f\xff\xe2\x82"), "'a" + std::string(5, '?') + "'");
     EXPECT_EQ(text::inQuotes("π"), "'π'");
-    // Longer forms of a character, surrogates and what is beyond U+10FFFF are not UTF-8 (RFC 3629, 3 and 4).
+    // Overlong forms, surrogates and code points above U+10FFFF are not UTF-8 (RFC 3629, sections 3 and 4).
     for (const char* wrong : {"\xc0\xaf", "\xe0\x8c\x8f", "\xed\xa0\x80", "\xf0\x80\x80\x80", "\xf4\x90\x80\x80"}) {
         EXPECT_FALSE(text::isUtf8(wrong));
         EXPECT_EQ(text::inQuotes(wrong), "'" + std::string(std::string_view(wrong).size(), '?') + "'");

@@ -1,4 +1,4 @@
-// The data files of protocol/, the specification and the code say the same.
+// The data files and the specification in protocol/ agree with the code.
 
 #include <algorithm>
 #include <fstream>
@@ -76,7 +76,7 @@ TEST(Tables, EveryExampleOfTheSpecificationFitsItsSchema) {
         std::string line, example;
         while (std::getline(examples, line)) {
             example += line;
-            if (!json::accept(example)) continue;  // an example may take several lines
+            if (!json::accept(example)) continue;  // an example may have several lines
             SCOPED_TRACE(example);
             const std::string type = json::parse(example).at("type");
             fitting(example);
@@ -95,7 +95,7 @@ TEST(Tables, EveryExampleOfTheSpecificationFitsItsSchema) {
     EXPECT_EQ(seen, all) << "an example of each message";
 }
 
-// What valijson checks rightly; anything else in a schema would be passed over in silence.
+// The keywords that valijson checks correctly; it would silently ignore others in a schema.
 void expectKnownKeywords(const json& schema, const std::string& where) {
     static const std::set<std::string> known{
         "$schema",  "title",      "description",          "type",      "const",    "enum",
@@ -140,7 +140,7 @@ Names namesIn(const Choices& choices) {
     return {names.begin(), names.end()};
 }
 
-/// The enum of a property, in dots: "scene.view".
+/// Returns the enum of a property, given as a path with dots: "scene.view".
 Names allowedIn(const std::string& type, const std::string& property) {
     json schema = schemaText(type + ".schema.json");
     std::istringstream path(property);

@@ -16,7 +16,7 @@ using nlohmann::json;
 using session::Session;
 using slicing::SliceSet;
 
-/// A picture of a session. The scene refers to `slices`.
+/// The slices and the scene of a session's state. The scene refers to `slices`.
 struct Picture {
     std::shared_ptr<const polytopes::Polytope> polytope;
     SliceSet slices;
@@ -184,7 +184,7 @@ TEST(SlicesMessage, ReusesItsMemory) {
     EXPECT_EQ(static_cast<const void*>(out.data()), memory);
 }
 
-// What a writer keeps from one message to the next must never show.
+// A writer caches parts of previous messages; this must not change its output.
 TEST(SlicesMessage, DoesNotDependOnTheMessagesBefore) {
     std::deque<Picture> pictures;
     for (const char* text :
@@ -206,7 +206,7 @@ TEST(SlicesMessage, DoesNotDependOnTheMessagesBefore) {
     }
 }
 
-// A typed array of RFC 8746 as an array of its numbers.
+// Returns the numbers of a typed array (RFC 8746).
 template <typename T>
 json numbersOf(const json& typed, std::uint64_t tag) {
     const auto& bytes = typed.get_binary();
@@ -217,7 +217,7 @@ json numbersOf(const json& typed, std::uint64_t tag) {
     return numbers;
 }
 
-// The same of integers, which are as wide as they must be.
+// Returns the integers of a typed array, whose width is the least possible.
 std::vector<std::uint32_t> integersOf(const json& typed) {
     const std::uint64_t tag = typed.get_binary().subtype();
     const json numbers = tag == 64   ? numbersOf<std::uint8_t>(typed, tag)
@@ -228,7 +228,7 @@ std::vector<std::uint32_t> integersOf(const json& typed) {
     return numbers;
 }
 
-// Takes from the front of a list, again and again.
+// Takes elements from the front of a list; expects at the end that none is left.
 class Reader {
   public:
     explicit Reader(json list) : list_(std::move(list)) {}
@@ -255,7 +255,7 @@ class Reader {
 
 constexpr std::uint64_t kFloat32 = 85, kFloat64 = 86;
 
-// The slices of a message in CBOR, as JSON has them.
+// Converts the slices of a CBOR message to the form of the JSON message.
 json slicesOf(const json& columns) {
     const auto floats = [&](const char* name) { return numbersOf<float>(columns.at(name), kFloat32); };
     const auto ofEach = [&](const char* name, const char* kind) { return integersOf(columns.at(name).at(kind)); };
@@ -290,7 +290,8 @@ json slicesOf(const json& columns) {
 
 TEST(SlicesMessage, CborSaysTheSame) {
     for (const char* name : {"5-cell", "8-cell", "120-cell"}) {
-        const Picture picture = pictureOf({std::string("polytope ") + name});  // unrotated: tints
+        // Unrotated, so that the message has tints.
+        const Picture picture = pictureOf({std::string("polytope ") + name});
         const std::string cbor = messageOf(picture, Encoding::cbor);
         json message = json::from_cbor(cbor, true, true, json::cbor_tag_handler_t::store);
         Reader coordinates(numbersOf<float>(message.at("coordinates"), kFloat32));

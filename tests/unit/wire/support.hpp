@@ -1,5 +1,5 @@
 #pragma once
-// What the protocol's tests share.
+// Helpers shared by the tests of the protocol.
 
 #include <string>
 #include <variant>
@@ -14,7 +14,7 @@
 
 namespace oval4d::wire {
 
-/// The message must parse; returns it.
+/// Returns the parsed message. Throws std::runtime_error if it is invalid.
 inline Request parsed(std::string_view text) {
     auto result = parseRequest(text);
     if (const auto* bad = std::get_if<BadRequest>(&result)) throw std::runtime_error(bad->error.message);
@@ -43,7 +43,7 @@ inline nlohmann::json schemaText(const std::string& file) {
     return schema;
 }
 
-/// The text must be JSON that fits the schema of its type; returns it.
+/// Expects JSON that conforms to the schema of its type; returns it.
 inline nlohmann::json fitting(std::string_view text) {
     nlohmann::json message = nlohmann::json::parse(text);
     const auto fault = validationError(message.at("type").get<std::string>(), message);

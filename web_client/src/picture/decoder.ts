@@ -1,4 +1,4 @@
-// Decodes PNG files in a worker, decode_worker.ts.
+// Decodes PNG files in a web worker, decode_worker.ts.
 
 interface PendingDecode {
     resolve(bitmap: ImageBitmap): void;

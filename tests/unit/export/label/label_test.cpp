@@ -35,13 +35,13 @@ TEST(Tessellate, trianglesCoverTheRegionWithItsOwnCorners) {
         area += own;
     }
     EXPECT_NEAR(area, 12, 1e-12);
-    EXPECT_TRUE(triangulate({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}}).empty());  // crosses itself
+    EXPECT_TRUE(triangulate({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}}).empty());  // a self-intersecting contour
 }
 
 TEST(Tessellate, anOutlineIsAllThatIsWoundAround) {
-    EXPECT_NEAR(areaOf(outlineOf({pentagram()})), kPentagramArea, 1e-6);  // GLU weighs in float32
+    EXPECT_NEAR(areaOf(outlineOf({pentagram()})), kPentagramArea, 1e-6);  // GLU computes in float32
     const Contour square{{0, 0}, {2, 0}, {2, 2}, {0, 2}};
-    const Contour beside{{1, 1}, {1, 3}, {3, 3}, {3, 1}};  // the other way round
+    const Contour beside{{1, 1}, {1, 3}, {3, 3}, {3, 1}};  // the opposite orientation
     EXPECT_NEAR(areaOf(outlineOf({square, Contour(beside.rbegin(), beside.rend())})), 7, 1e-9);
     EXPECT_NEAR(areaOf(outlineOf({square, beside})), 6, 1e-9);
 }
@@ -78,7 +78,7 @@ TEST(Label, isCutIntoAFaceAndTheBodyStaysClosed) {
             }
             ++cut;
             expectPrintable(mesh);
-            // Walls and floors are inside, and there is less of the body by the letters' area times the depth.
+            // The letters lie inside the body, and its volume decreases by their area times their depth.
             EXPECT_EQ(boxOf(mesh).size(), boxOf(plain).size());
             EXPECT_LT(volumeOf(mesh), volumeOf(plain));
             double ink = 0;

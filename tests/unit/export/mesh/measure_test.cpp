@@ -27,7 +27,7 @@ TEST(Measure, cubesOctahedraAndTetrahedra) {
     EXPECT_NEAR(o.volume, std::sqrt(2) / 3 * 8, 1e-12);
     EXPECT_NEAR(o.area, 2 * std::sqrt(3) * 4, 1e-12);
 
-    // A 5-cell over its base, part t of the way up: the tetrahedron of edge 2, shrunk by 1 − t.
+    // A 5-cell is a pyramid over a cell: at fraction t of the height, the slice is a tetrahedron of edge 2 · (1 − t).
     const Polytope& pen = named("5-cell");
     const Rotation up = ontoW(pen.vertices[0]);
     const double top = pen.circumradius;
@@ -56,8 +56,8 @@ TEST(Measure, movesWithTheSlice) {
 }
 
 TEST(Measure, theCentersOfSlicesAreThatOfThePolytope) {
-    // The first moments of the volumes over w are the polytope's, whose center is the origin; between vertex levels
-    // they are quartics in w, which Boole's rule integrates exactly.
+    // The integral over w of the slices' first moments is the first moment of the polytope, which is 0. Between the w
+    // of vertices the integrand is a polynomial of degree 4, which Boole's rule integrates exactly.
     std::mt19937 random(4);
     for (const char* name : {"5-cell", "24-cell"}) {
         const Polytope& p = named(name);

@@ -20,12 +20,12 @@ constexpr double kSize = 60;
 double scaleOf(const Polytope& p) { return kSize / 2 / p.circumradius; }
 Mesh solid(const Polytope& p, const SliceSet& s) { return solidOf(s, 0, scaleOf(p), Grid(kSize, kSize), unhurried()); }
 
-/// A body that is closed, and as large as the slice. Whether there was one.
+/// Expects that the solid of a slice is a closed mesh with the volume of the slice. Returns whether there is a solid.
 bool expectSolid(const Polytope& p, const Rotation& orientation, double w) {
     const SliceSet s = cutAt(p, orientation, w);
     const Mesh mesh = solid(p, s);
     if (mesh.triangles.empty()) {
-        // There is nothing to be printed: nothing, or a film of a few steps of the grid.
+        // No solid: the slice is empty, or thinner than a few steps of the grid.
         const Measures m = measure(s, 0);
         const double step = Grid(kSize, kSize).step();
         EXPECT_LE(m.volume * std::pow(scaleOf(p), 3), 4 * step * m.area * scaleOf(p) * scaleOf(p));
@@ -55,7 +55,7 @@ TEST_P(Solids, areClosedWhereTheHyperplaneMeetsAnElementOrNearlyDoes) {
     std::mt19937 random(6);
     std::vector<Rotation> orientations{Rotation()};
     for (const auto* list : {&p.faces, &p.cells}) {
-        // Turned so that an edge, a 2-face, a cell lies in a hyperplane.
+        // Rotations that put a 2-face or a cell into a hyperplane.
         glm::dvec4 sum(0);
         for (const auto item : (*list)[0]) {
             if (list == &p.faces) {
@@ -159,8 +159,8 @@ TEST(Skin, ofAStarIsAllThatItWindsAround) {
     }
 }
 
-/// How often the slice's faces wind around a place, by the solid angles of their parts (A. van Oosterom, J. Strackee,
-/// IEEE Transactions on Biomedical Engineering 30, 1983).
+/// Returns the winding number of the slice's faces around a point, as a sum of solid angles (A. van Oosterom,
+/// J. Strackee, IEEE Transactions on Biomedical Engineering 30, 1983).
 double windingAround(const SliceSet& s, const glm::dvec3& place) {
     double sum = 0;
     for (std::uint32_t f = 0; f < s.faceBegin[1]; ++f) {
@@ -196,7 +196,7 @@ TEST(Skin, ofStarPolychoraHoldsThePlacesThatTheFacesWindAround) {
         const double whole = box.size().x * box.size().y * box.size().z;
         const double share = static_cast<double>(inside) / kPlaces;
         EXPECT_GT(share, 0.05);
-        // Four standard deviations of the count, and what the cubes round off.
+        // The tolerance: four standard deviations of the count, and the rounding of edges by the grid of cubes.
         EXPECT_NEAR(volumeOf(mesh) / whole, share, 4 * std::sqrt(share / kPlaces) + 0.02 * share) << name;
     }
 }
@@ -264,14 +264,14 @@ TEST(Skeleton, ofAPointIsABall) {
 }
 
 TEST(Skeleton, hasTheVolumeOfItsBallsAndBars) {
-    // Twelve bars of 30 mm between eight balls; where a bar runs in a ball, a cap of it is lost.
+    // Twelve bars of 30 mm between eight balls; the part of a bar inside a ball does not count twice.
     const Polytope& p = named("8-cell");
     const SliceSet s = cutAt(p, {}, 0);
     const Thickness thick{3, 1};
     const Mesh mesh = skeletonOf(s, 0, scaleOf(p), thick, 0.25, Grid(kSize, kSize), unhurried());
     expectPrintable(mesh);
     const double pi = std::numbers::pi;
-    const double height = 3 - std::sqrt(8.0);  // of the ball's cap above the circle where a bar leaves it
+    const double height = 3 - std::sqrt(8.0);  // of the spherical cap above the circle where a bar leaves the ball
     const double bar = pi * (30 - 2 * std::sqrt(8.0)) - 2 * pi * height * height * (9 - height) / 3;
     EXPECT_NEAR(volumeOf(mesh), 8 * 4.0 / 3 * pi * 27 + 12 * bar, 20);
     const double expected = coarseTriangles(s, scaleOf(p), thick) / (0.25 * 0.25);
@@ -300,7 +300,7 @@ TEST(Mesh, theCheckSeesWhatIsOpenDoubledReversedOrTouching) {
     };
     const auto shared = at(boxOf(cube).max);
     const auto copy = at(boxOf(cube).min + boxOf(cube).size());
-    ASSERT_EQ(shared, copy);  // found by its place; the second one follows
+    ASSERT_EQ(shared, copy);  // both searches find the first point at this place
     for (auto& t : touching.triangles) {
         for (auto& corner : t) {
             if (corner >= 8 && touching.points[corner] == touching.points[shared]) corner = shared;

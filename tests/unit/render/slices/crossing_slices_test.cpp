@@ -1,4 +1,4 @@
-// Slices whose faces cross each other, against rays that look for the nearest place with a winding number.
+// Slices whose faces cross each other, compared with rays that search for the nearest point of nonzero winding number.
 
 #include <gtest/gtest.h>
 
@@ -17,12 +17,12 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// What the ray through a pixel's middle meets, in the focus slice alone.
+/// The nearest face of the focus slice on the ray through the center of a pixel.
 struct Sight {
     double distance = kFar;
     std::uint32_t of = 0;
     glm::dvec3 normal{0};
-    bool clear = true;  ///< no edge within two pixels, nothing else so near in depth that it might cross
+    bool clear = true;  ///< no edge within two pixels, and no other face at nearly the same depth
 };
 
 class Eye {
@@ -61,7 +61,7 @@ class Eye {
                subject_.scene.scale * set.vertices[set.vertexBegin[slice] + set.corners[i]];
     }
 
-    // The faces first … last − 1 are all loops of one cell.
+    // Intersects the ray with the faces first … last − 1, which are the loops of one cell.
     void lookAt(std::size_t slice, std::uint32_t first, std::uint32_t last, const glm::dvec3& ray, double pixel,
                 Sight& sight, double& second) const {
         const std::vector<std::uint32_t>& begin = subject_.slices.cornerBegin;

@@ -1,4 +1,4 @@
-// Single shapes, against what optics and geometry say that their pixels are.
+// Single balls, bars and faces: their pixels are compared with values computed from geometry and lighting.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr int kMiddle = HandMade::kSize / 2;
 constexpr double kPi = 3.14159265358979323846;
 
-/// Of a surface with this normal, in camera axes.
+/// Returns the color of a lit surface with this normal, given in camera coordinates.
 Rgb litColor(scene::Color color, const glm::dvec3& normal) {
     const scene::Style& style = scene::style();
     const glm::dvec3 half = glm::normalize(style.light + glm::dvec3(0, 0, 1));
@@ -26,7 +26,7 @@ Rgb litColor(scene::Color color, const glm::dvec3& normal) {
     return rgb;
 }
 
-/// How many pixels' worth of `color` there is instead of the background, judged by one channel.
+/// Returns the area in pixels that a color covers, computed from one channel as the sum of coverages.
 double area(const image::Image& image, int channelOfInterest, int full) {
     const auto c = static_cast<std::size_t>(channelOfInterest);
     const double background = rgbOf(scene::style().background)[c];
@@ -63,7 +63,7 @@ TEST_F(Shapes, BallIsALitSphere) {
 }
 
 TEST_F(Shapes, BallKeepsItsSilhouetteUnderPerspective) {
-    // A sphere far from the view axis is seen as an ellipse, longer away from the picture's middle.
+    // The perspective image of a sphere away from the optical axis is an ellipse, elongated radially.
     HandMade hand({glm::dvec3(4, 0, 0)});
     hand.scene.camera.fieldOfView = 2 * std::atan(0.5);  // ±5 units at distance 10
     const image::Image image = hand.draw(renderer());
@@ -83,7 +83,7 @@ TEST_F(Shapes, BallKeepsItsSilhouetteUnderPerspective) {
 }
 
 TEST_F(Shapes, BallSendsAsMuchLightAtEverySize) {
-    // What the ball adds to the picture is its area times its mean color, however few pixels it takes.
+    // The total brightness that a ball adds is its area times its mean color, even if it is smaller than a pixel.
     constexpr int kSteps = 200, kGreen = 1;
     const int background = rgbOf(scene::style().background)[kGreen];
     double mean = 0;
