@@ -20,11 +20,11 @@ void addRenderOptions(CLI::App& app, RenderOptions& options) {
 }
 
 void renderPicture(const CLI::App& app, const RenderOptions& options, parallel::ForkJoin& forkJoin) {
-    const auto viewport = valueOrThrow(pipeline::checked({options.width, options.height}, {}));
+    const auto viewport = valueOrThrow(pipeline::checkViewport({options.width, options.height}, {}));
     const auto state = stateOf(queryOf(app.remaining()));
     pipeline::Pipeline pipeline(std::make_unique<raster::LocalRasterizer>(&forkJoin), &forkJoin);
     std::vector<std::uint8_t> png;
-    pipeline.frame(state, wire::stateMessage(state, 0), viewport, png);
+    pipeline.drawPng(state, wire::stateMessage(state, 0), viewport, png);
     writeOutput(options.output, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 

@@ -33,18 +33,19 @@ class Exporter {
           request_(request),
           budget_(budget),
           scale_(request.size / 2 / scene.circumradius),
-          grid_(request.size, request.extent == SliceSelection::oval ? maxExtentOf(slices_.planes.count, request.size)
-                                                                     : 2 * request.size) {}
+          grid_(request.size, request.extent == SliceSelection::oval
+                                  ? coordinateBound(slices_.planes.count, request.size)
+                                  : 2 * request.size) {}
 
     std::string run() {
         const Format& format = *request_.format;
-        if (format.writeSource != nullptr) return format.writeSource({scene_, object_});
-        const std::vector<Solid> solids = bodies();
+        if (format.writeScene != nullptr) return format.writeScene({scene_, object_});
+        const std::vector<NamedMesh> solids = bodies();
         return format.writeBodies({solids, scene_.cellColors, scene_.title, budget_});
     }
 
   private:
-    std::vector<Solid> bodies() {
+    std::vector<NamedMesh> bodies() {
         std::vector<Group> groups;
         const auto color = request_.body == Body::skeleton ? scene::style().bar : scene::style().ball;
         std::size_t triangles = 0;
@@ -66,7 +67,7 @@ class Exporter {
         } else if (request_.extent == SliceSelection::oval) {
             arrangeInOval(groups, scene_, request_.size, grid_);
         }
-        std::vector<Solid> solids;
+        std::vector<NamedMesh> solids;
         for (Group& group : groups) std::ranges::move(group.solids, std::back_inserter(solids));
         return solids;
     }
@@ -97,7 +98,7 @@ class Exporter {
 
     void prepareSkeleton() {
         thickness_ = thicknessFor(scene_, scale_);
-        const double coarse = coarseTriangles(slices_, scale_, thickness_);
+        const double coarse = estimateTriangles(slices_, scale_, thickness_);
         const double allowed = std::min(kTargetTriangles, static_cast<double>(budget_.triangles()));
         const double cube = std::clamp(std::sqrt(coarse / allowed), kFineCube, kCoarseCube);
         budget_.checkTriangles(static_cast<std::size_t>(coarse / (cube * cube)));
@@ -135,7 +136,7 @@ class Exporter {
     const Budget& budget_;
     const double scale_;  // millimeters per unit of the object
     const Grid grid_;
-    Thickness thickness_;
+    SkeletonRadii thickness_;
     double cube_ = 0;
 };
 

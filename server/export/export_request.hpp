@@ -18,7 +18,7 @@ enum class Body : std::uint8_t { solid, skeleton };
 /// a separate plate.
 enum class Label : std::uint8_t { none, engraved, separate };
 
-inline constexpr auto kExtents =
+inline constexpr auto kSliceSelections =
     std::to_array<text::Choice<SliceSelection>>({{"focus", SliceSelection::focus}, {"oval", SliceSelection::oval}});
 inline constexpr auto kBodies = std::to_array<text::Choice<Body>>({{"solid", Body::solid}, {"frame", Body::skeleton}});
 inline constexpr auto kLabels = std::to_array<text::Choice<Label>>(

@@ -15,7 +15,7 @@ double gapFor(double size) { return std::max(size / 12, 2.0); }
 
 Box boxOf(const Group& group) {
     Box box;
-    for (const Solid& solid : group.solids) {
+    for (const NamedMesh& solid : group.solids) {
         const Box own = exports::boxOf(solid.mesh);
         box.include(own.min + solid.at);
         box.include(own.max + solid.at);
@@ -24,7 +24,7 @@ Box boxOf(const Group& group) {
 }
 
 void move(Group& group, const glm::dvec3& by, const Grid& grid) {
-    for (Solid& solid : group.solids) solid.at += grid.snap(by);
+    for (NamedMesh& solid : group.solids) solid.at += grid.snap(by);
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ void arrangeInOval(std::vector<Group>& groups, const scene::Scene& scene, double
     for (std::size_t i = 0; i < groups.size(); ++i) move(groups[i], places[i] * grow, grid);
 }
 
-double maxExtentOf(int slices, double size) {
+double coordinateBound(int slices, double size) {
     const double onPlate = std::ceil(std::sqrt(slices)) * (size + gapFor(size)) * 1.5;
     // Neighbors in the oval are at least the diameter of a slice apart. A few slices are farther apart, as in the
     // picture.

@@ -11,7 +11,7 @@ namespace oval4d::exports {
 /// The bodies of one slice, which are moved together: the slice itself and, if there is one, its separate label.
 struct Group {
     int slice = 0;  ///< index in the slice set
-    std::vector<Solid> solids;
+    std::vector<NamedMesh> solids;
 };
 
 /// Moves groups to where a 3-D printer needs them: in rows on the plane z = 0, in the positive octant, in the given
@@ -23,6 +23,6 @@ void arrangeOnPlate(std::vector<Group>& groups, double size, const Grid& grid);
 void arrangeInOval(std::vector<Group>& groups, const scene::Scene& scene, double size, const Grid& grid);
 
 /// Returns an upper bound, in millimeters, on the coordinates of `slices` slices after either arrangement.
-double maxExtentOf(int slices, double size);
+double coordinateBound(int slices, double size);
 
 }  // namespace oval4d::exports

@@ -16,12 +16,12 @@ struct CellType {
 /// The properties that 4-D objects of all kinds (polytopes and point clouds) have.
 struct ObjectInfo {
     std::string name;
-    std::uint64_t serial = 0;         ///< unique among the objects built in this process; caches use it as their key
-    double circumradius = 0;          ///< the largest distance of a vertex (or point) from the origin
-    bool convex = true;               ///< false for a polytope that does not bound a convex body; faces of its slices
-                                      ///< may then cross each other
-    bool constructed = false;         ///< whether the name alone determines the object, so that storing it is enough
-    std::vector<CellType> cellTypes;  ///< empty for an object without cells
+    std::uint64_t serial = 0;          ///< unique among the objects built in this process; caches use it as their key
+    double circumradius = 0;           ///< the largest distance of a vertex (or point) from the origin
+    bool convex = true;                ///< false for a polytope that does not bound a convex body; faces of its slices
+                                       ///< may then cross each other
+    bool rebuildableFromName = false;  ///< whether the name alone determines the object, so that storing it is enough
+    std::vector<CellType> cellTypes;   ///< empty for an object without cells
 };
 
 /// Returns a new value for ObjectInfo::serial: 1, 2, 3 … in this process. Thread-safe.

@@ -119,8 +119,8 @@ class Server {
   private:
     bool onLoopback() const;
     std::string requiredToken() const;
-    void onRasterizerLost(const process::Loss& loss);
-    void onReaderLost(const process::Loss& loss);
+    void onRasterizerLost(const process::ProcessLoss& loss);
+    void onReaderLost(const process::ProcessLoss& loss);
     asio::awaitable<void> listen(tcp::acceptor& acceptor);
     asio::awaitable<void> stopOnSignal();
     void stopWorkers();
@@ -142,7 +142,7 @@ class Server {
     pipeline::PipelinePool pictureWorkers_;
     parallel::WorkerPool fileWorkers_, loadWorkers_;
     Services services_;
-    std::shared_ptr<Hub> hub_;
+    std::shared_ptr<SessionManager> sessions_;
     std::string token_;
     Access access_;
     Routes routes_;
@@ -160,11 +160,12 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
       rasterizers_(processors(),
                    {{options_.maxFill, options_.polytopeCache},
                     options_.drawTimeout,
-                    [this](const process::Loss& loss) { onRasterizerLost(loss); },
+                    [this](const process::ProcessLoss& loss) { onRasterizerLost(loss); },
                     childEnvironment_},
-                   [this] { return pictureWorkers_.workers().crowded(); }),
-      readers_({options_.loadTimeout, kReaderIdleTimeout, [this](const process::Loss& loss) { onReaderLost(loss); },
-                childEnvironment_, static_cast<std::size_t>(options_.loadWorkers)}),
+                   [this] { return pictureWorkers_.workers().hasStartableJob(); }),
+      readers_({options_.loadTimeout, kReaderIdleTimeout,
+                [this](const process::ProcessLoss& loss) { onReaderLost(loss); }, childEnvironment_,
+                static_cast<std::size_t>(options_.loadWorkers)}),
       polytopes_(options_.polytopeCache),
       pictureWorkers_({.threads = workers_,
                        .limits = options_.jobs,
@@ -182,10 +183,10 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
                     .limits = options_.jobs,
                     .whenIdle = [&heap](std::size_t /*worker*/) { heap.returnFreeMemory(); }}),
       services_{options_, io_, pictureWorkers_, fileWorkers_, metrics_, clients_, loadWorkers_, readers_, polytopes_},
-      hub_(std::make_shared<Hub>(services_, store::openStore(storeOptions(options_)))),
+      sessions_(std::make_shared<SessionManager>(services_, store::openStore(storeOptions(options_)))),
       token_(requiredToken()),
       access_(options_.allowedHosts, options_.allowedOrigins, token_, onLoopback()),
-      routes_(services_, files_, readiness_, *hub_) {}
+      routes_(services_, files_, readiness_, *sessions_) {}
 
 bool Server::onLoopback() const {
     return std::ranges::all_of(acceptors_,
@@ -199,14 +200,14 @@ std::string Server::requiredToken() const {
     return onLoopback() ? std::string() : store::randomName(kTokenBytes);
 }
 
-void Server::onRasterizerLost(const process::Loss& loss) {
+void Server::onRasterizerLost(const process::ProcessLoss& loss) {
     (loss.hung ? metrics_.drawingHangs : metrics_.drawingDeaths).Increment();
-    spdlog::error("a rasterizer process was lost how=\"{}\"", loss.how);
+    spdlog::error("a rasterizer process was lost how=\"{}\"", loss.description);
 }
 
-void Server::onReaderLost(const process::Loss& loss) {
+void Server::onReaderLost(const process::ProcessLoss& loss) {
     (loss.hung ? metrics_.readingHangs : metrics_.readingDeaths).Increment();
-    spdlog::error("a reader process was lost how=\"{}\"", loss.how);
+    spdlog::error("a reader process was lost how=\"{}\"", loss.description);
 }
 
 void Server::run() {
@@ -221,7 +222,7 @@ void Server::run() {
     for (int i = 1; i < options_.ioThreads; ++i) others.emplace_back([this] { io_.run(); });
     io_.run();
     for (std::thread& thread : others) thread.join();
-    hub_->stop(options_.stopTimeout);
+    sessions_->stop(options_.stopTimeout);
     stopWorkers();
     spdlog::info("stopped");
 }
@@ -246,7 +247,7 @@ void Server::stopWorkers() {
 }
 
 asio::awaitable<void> Server::listen(tcp::acceptor& acceptor) {
-    const ServerContext context{services_, access_, routes_, hub_, connections_};
+    const ServerContext context{services_, access_, routes_, sessions_, connections_};
     for (;;) {
         tcp::socket socket(asio::make_strand(io_));
         const auto [fault] = co_await acceptor.async_accept(socket, kAsTuple);
@@ -275,14 +276,14 @@ asio::awaitable<void> Server::stopOnSignal() {
     asio::steady_timer poll(executor);
     // Save all sessions before clients reconnect to other servers, so that they find there what they have seen here.
     auto saving = std::make_shared<std::monostate>();
-    hub_->saveAll(saving);
+    sessions_->saveAll(saving);
     const std::weak_ptr<std::monostate> saved = std::exchange(saving, nullptr);
     do {
         poll.expires_after(2ms);
         co_await poll.async_wait(kAsTuple);
     } while (!saved.expired() && std::chrono::steady_clock::now() < limit - steady(options_.stopTimeout) / 2);
     connections_.stopAll();
-    while ((connections_.size() > 0 || hub_->openCount() > 0) && std::chrono::steady_clock::now() < limit) {
+    while ((connections_.size() > 0 || sessions_->openCount() > 0) && std::chrono::steady_clock::now() < limit) {
         poll.expires_after(10ms);
         co_await poll.async_wait(kAsTuple);
     }

@@ -148,7 +148,7 @@ bool FairQueue::longJobsMustWait(Clock::time_point now) {
     return !active_.empty() || (!clients.empty() && nextCost(*clients.next(), long_job) > kVeryLongJob);
 }
 
-bool FairQueue::crowded(Clock::time_point now) {
+bool FairQueue::hasStartableJob(Clock::time_point now) {
     return waiting_ > 0 && !(classes_[short_job].clients.empty() && longJobsMustWait(now));
 }
 

@@ -153,7 +153,7 @@ class FairQueue {
     /// Returns the number of waiting jobs.
     std::size_t waiting() const { return waiting_; }
     /// Returns whether a waiting job could start if one more thread were free.
-    bool crowded(Clock::time_point now);
+    bool hasStartableJob(Clock::time_point now);
 
   private:
     /// Learns the ratio of measured to estimated times, weighted toward recent jobs.

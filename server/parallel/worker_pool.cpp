@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 // The interval at which a free thread checks whether a queued long job may start.
 constexpr auto kRecheckInterval = 1s;
 
-void carryOut(const WorkerPool::Job& job, std::size_t worker) {
+void runJob(const WorkerPool::Job& job, std::size_t worker) {
     try {
         job(worker);
     } catch (const Canceled&) {  // a stop was requested: nobody needs the result
@@ -66,18 +66,18 @@ std::size_t WorkerPool::waiting() const {
     return queue_.waiting();
 }
 
-bool WorkerPool::crowded() {
+bool WorkerPool::hasStartableJob() {
     const std::lock_guard lock(mutex_);
-    return queue_.crowded(Clock::now());
+    return queue_.hasStartableJob(Clock::now());
 }
 
-WorkerPool::Seconds WorkerPool::worked() const {
+WorkerPool::Seconds WorkerPool::busyTime() const {
     const std::lock_guard lock(mutex_);
-    return worked_;
+    return busyTime_;
 }
 
 void WorkerPool::run(std::size_t worker) {
-    carryOut(options_.first, worker);
+    runJob(options_.first, worker);
     std::unique_lock lock(mutex_);
     bool used = true;
     while (!stopping_) {
@@ -92,12 +92,12 @@ void WorkerPool::run(std::size_t worker) {
         {
             std::optional<ForkJoin::BusyProcessor> work;
             if (options_.forkJoin != nullptr) work.emplace(*options_.forkJoin);
-            carryOut(next->job, worker);
+            runJob(next->job, worker);
         }
         next->job = nullptr;  // what the job owns is destroyed outside the lock
         const Seconds took = Clock::now() - start;
         lock.lock();
-        worked_ += took;
+        busyTime_ += took;
         queue_.finished(*next, took);
         if (queue_.waiting() > 0) wake_.notify_one();  // a long job that had to wait may start now
     }

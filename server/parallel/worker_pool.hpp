@@ -66,9 +66,9 @@ class WorkerPool {
     /// Returns the number of waiting jobs.
     std::size_t waiting() const;
     /// Returns whether a waiting job could start if one more thread were free.
-    bool crowded();
+    bool hasStartableJob();
     /// Returns the total running time of all jobs that have ended.
-    Seconds worked() const;
+    Seconds busyTime() const;
 
   private:
     using Clock = FairQueue::Clock;
@@ -83,7 +83,7 @@ class WorkerPool {
     std::condition_variable wake_;
     // Guarded by mutex_, like the contents of lanes and clients.
     FairQueue queue_;
-    Seconds worked_{0};
+    Seconds busyTime_{0};
     bool cleanUp_ = false;  // see cleanUpWhenIdle
     bool stopping_ = false;
     std::vector<std::thread> threads_;

@@ -12,10 +12,10 @@ namespace oval4d::pipeline {
 /// number of elements of the object, the number of slices and the size of the picture.
 using Seconds = std::chrono::duration<double>;
 
-/// Returns the estimated time of Pipeline::frame.
+/// Returns the estimated time of Pipeline::drawPng.
 Seconds frameCost(const session::State& state, scene::Viewport viewport);
 
-/// Returns the estimated time of Pipeline::cut and Pipeline::message together.
+/// Returns the estimated time of Pipeline::slice and Pipeline::writeSlices together.
 Seconds geometryCost(const session::State& state);
 
 /// Returns the estimated time of fileOf.

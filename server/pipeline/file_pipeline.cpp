@@ -67,7 +67,7 @@ Result<exports::ExportRequest> takeExportRequest(session::Query& query, const ex
     for (auto& [name, value] : query) {
         Result<std::monostate> done = std::monostate{};
         if (name == "of") {
-            done = choose(name, value, exports::kExtents, request.extent);
+            done = choose(name, value, exports::kSliceSelections, request.extent);
         } else if (name == "body") {
             done = choose(name, value, exports::kBodies, request.body);
         } else if (name == "label") {

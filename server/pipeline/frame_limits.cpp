@@ -4,7 +4,7 @@
 
 namespace oval4d::pipeline {
 
-Result<scene::Viewport> checked(scene::Viewport viewport, const FrameLimits& limits) {
+Result<scene::Viewport> checkViewport(scene::Viewport viewport, const FrameLimits& limits) {
     const auto [width, height] = viewport;
     const auto complaint = [&](const std::string& allowed) {
         return Error{ErrorCode::out_of_range, "a picture of " + std::to_string(width) + "×" + std::to_string(height) +

@@ -15,6 +15,6 @@ struct FrameLimits {
 };
 
 /// Returns the viewport if it is within the limits, else the error `out_of_range`, whose message says what is allowed.
-Result<scene::Viewport> checked(scene::Viewport viewport, const FrameLimits& limits);
+Result<scene::Viewport> checkViewport(scene::Viewport viewport, const FrameLimits& limits);
 
 }  // namespace oval4d::pipeline

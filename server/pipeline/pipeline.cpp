@@ -9,14 +9,15 @@ using raster::secondsOf;
 Pipeline::Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin, std::size_t fillSteps)
     : rasterizer_(std::move(rasterizer)), forkJoin_(forkJoin), fillSteps_(fillSteps), memory_(forkJoin) {}
 
-void Pipeline::cut(const session::State& state, slicing::SliceSet& out) {
+void Pipeline::slice(const session::State& state, slicing::SliceSet& out) {
     const parallel::OneAtATime::Use use(inUse_);
     times_ = {};
     times_.slice = secondsOf([&] { memory_.slicer.slice(state.object, state.orientation, state.hyperplanes(), out); });
 }
 
-void Pipeline::message(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
-                       std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding, std::string& out) {
+void Pipeline::writeSlices(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
+                           std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding,
+                           std::string& out) {
     const parallel::OneAtATime::Use use(inUse_);
     memory_.composer.limitFill(fillSteps_);
     times_.compose = secondsOf([&] {
@@ -26,8 +27,8 @@ void Pipeline::message(const session::State& state, const slicing::SliceSet& sli
     times_.write = secondsOf([&] { memory_.slicesWriter.write(memory_.scene, revision, id, encoding, out); });
 }
 
-void Pipeline::frame(const session::State& state, std::string_view stateText, scene::Viewport viewport,
-                     std::vector<std::uint8_t>& out, const std::function<void()>& drawn) {
+void Pipeline::drawPng(const session::State& state, std::string_view stateText, scene::Viewport viewport,
+                       std::vector<std::uint8_t>& out, const std::function<void()>& drawn) {
     const parallel::OneAtATime::Use use(inUse_);
     times_ = {};
     const image::ImageView image{viewport.width, viewport.height, rasterizer_->draw(state, viewport, times_)};

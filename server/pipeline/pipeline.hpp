@@ -39,18 +39,18 @@ class Pipeline {
              std::size_t fillSteps = kFillSteps);
 
     /// Slices the state's object. Overwrites `out` and reuses its memory.
-    void cut(const session::State& state, slicing::SliceSet& out);
+    void slice(const session::State& state, slicing::SliceSet& out);
 
     /// Writes the `slices` message of `slices`, which must have been cut from this state. `id` is that of the request
     /// which the message answers, if any. Overwrites `out`.
-    void message(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
-                 std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding, std::string& out);
+    void writeSlices(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
+                     std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding, std::string& out);
 
     /// Draws the picture of the state and encodes it as a PNG file, with `stateText`, the `state` message, in a text
     /// chunk. Overwrites `out`. Calls `drawn`, if given, between drawing and encoding. Throws std::runtime_error if the
     /// picture cannot be drawn, most likely because no GL context can be created.
-    void frame(const session::State& state, std::string_view stateText, scene::Viewport viewport,
-               std::vector<std::uint8_t>& out, const std::function<void()>& drawn = {});
+    void drawPng(const session::State& state, std::string_view stateText, scene::Viewport viewport,
+                 std::vector<std::uint8_t>& out, const std::function<void()>& drawn = {});
 
     /// Prepares for drawing, so that the first frame takes no longer than later ones (see Rasterizer::warmUp).
     void warmUp() { rasterizer_->warmUp(); }

@@ -140,7 +140,7 @@ void ChildProcess::awaitReady(Transfer& transfer, const Deadline& deadline) {
 }
 
 void ChildProcess::converse(const Talk& talk, const std::stop_token& stop) {
-    Loss loss{};
+    ProcessLoss loss{};
     for (int losses = 0; losses < 2; ++losses) {
         start();
         auto transfer = Transfer::complete;
@@ -158,16 +158,16 @@ void ChildProcess::converse(const Talk& talk, const std::stop_token& stop) {
         const std::string how = end(transfer == Transfer::timed_out);
         if (stop.stop_requested()) throw Canceled();
         loss = transfer == Transfer::closed
-                   ? Loss{false, "died: " + how}
-                   : Loss{true, "hung: no answer in " + text::shortest(options_.timeout.count()) + " s"};
+                   ? ProcessLoss{false, "died: " + how}
+                   : ProcessLoss{true, "hung: no answer in " + text::shortest(options_.timeout.count()) + " s"};
         options_.onLoss(loss);
         if (loss.hung && talked && !options_.repeatAfterHang)
-            throw ProcessLost("a process was lost in this conversation, it " + loss.how, true);
+            throw ProcessLost("a process was lost in this conversation, it " + loss.description, true);
     }
-    throw ProcessLost("two processes were lost in a row, the second " + loss.how, false);
+    throw ProcessLost("two processes were lost in a row, the second " + loss.description, false);
 }
 
-void beginChild() {
+void initializeChild() {
     // A terminal or a container sends these signals to all processes, but the server decides when its children end.
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGTERM, SIG_IGN);

@@ -22,19 +22,19 @@ inline constexpr int kChildSocket = 3;
 using parallel::Canceled;
 
 /// Describes the loss of a process that died, or that hung and was killed.
-struct Loss {
-    bool hung;        ///< whether the process hung; false if it died
-    std::string how;  ///< text for the log, such as "died: signal 11"
+struct ProcessLoss {
+    bool hung;                ///< whether the process hung; false if it died
+    std::string description;  ///< text for the log, such as "died: signal 11"
 };
 
 /// The options of a child process.
 struct ChildOptions {
-    std::string command;                      ///< the subcommand of this program that the child runs
-    std::vector<std::string> environment;     ///< "NAME=value"; a variable that the child inherits takes precedence
-    std::chrono::duration<double> timeout;    ///< for the start and for each conversation; then the child has hung
-    bool repeatAfterHang = true;              ///< whether to repeat a conversation in which the child hung
-    std::function<void(const Loss&)> onLoss;  ///< called when a child is lost, on any thread
-    int niceness = 0;                         ///< scheduling priority, as for nice(1)
+    std::string command;                    ///< the subcommand of this program that the child runs
+    std::vector<std::string> environment;   ///< "NAME=value"; a variable that the child inherits takes precedence
+    std::chrono::duration<double> timeout;  ///< for the start and for each conversation; then the child has hung
+    bool repeatAfterHang = true;            ///< whether to repeat a conversation in which the child hung
+    std::function<void(const ProcessLoss&)> onLoss;  ///< called when a child is lost, on any thread
+    int niceness = 0;                                ///< scheduling priority, as for nice(1)
 };
 
 /// Thrown when a conversation fails because its processes were lost.
@@ -90,6 +90,6 @@ class ChildProcess {
 };
 
 /// Makes this process end when the server ends, and ignore SIGINT and SIGTERM. A child process must call this first.
-void beginChild();
+void initializeChild();
 
 }  // namespace oval4d::process

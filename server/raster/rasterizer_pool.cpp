@@ -19,8 +19,8 @@ constexpr std::size_t kMostThreads = 8;  // more threads would wait for the thre
 
 }  // namespace
 
-RasterizerPool::RasterizerPool(std::size_t cores, RasterizerOptions options, std::function<bool()> crowded)
-    : options_(std::move(options)), crowded_(std::move(crowded)) {
+RasterizerPool::RasterizerPool(std::size_t cores, RasterizerOptions options, std::function<bool()> morePicturesQueued)
+    : options_(std::move(options)), morePicturesQueued_(std::move(morePicturesQueued)) {
     if (cores < 2) return;
     multithreaded_.emplace(static_cast<int>(std::min(cores, kMostThreads)), options_);
     multithreaded_->start();
@@ -38,7 +38,7 @@ void PooledRasterizer::warmUp() {
 std::span<const std::uint8_t> PooledRasterizer::draw(const session::State& state, scene::Viewport viewport,
                                                      Times& times) {
     const auto drawn = drawBest(state, viewport, times);
-    pool_.lastTook_ = times.draw;
+    pool_.lastDrawSeconds_ = times.draw;
     return drawn;
 }
 
@@ -55,9 +55,9 @@ std::span<const std::uint8_t> PooledRasterizer::drawBest(const session::State& s
     } const counted{pool_.drawing_};
     if (!pixels_) pixels_.emplace();
     const auto now = Clock::now().time_since_epoch();
-    if (!counted.alone || pool_.crowded_()) {
-        pool_.lastCrowded_ = now;
-    } else if (now - pool_.lastCrowded_.load() > kCrowded && pool_.lastTook_ > kLarge) {
+    if (!counted.alone || pool_.morePicturesQueued_()) {
+        pool_.lastQueued_ = now;
+    } else if (now - pool_.lastQueued_.load() > kCrowded && pool_.lastDrawSeconds_ > kLarge) {
         const std::unique_lock lock(pool_.multithreadedInUse_, std::try_to_lock);
         if (lock && pool_.multithreaded_) return pool_.multithreaded_->draw(state, viewport, *pixels_, times, stop_);
     }

@@ -20,17 +20,17 @@ namespace oval4d::raster {
 /// drawing them takes less time than waking threads. Thread-safe.
 class RasterizerPool {
   public:
-    /// `crowded` returns whether more pictures are queued; it must be callable on any thread. Throws std::runtime_error
-    /// if the multithreaded process cannot be started.
-    RasterizerPool(std::size_t cores, RasterizerOptions options, std::function<bool()> crowded);
+    /// `morePicturesQueued` returns whether more pictures are queued; it must be callable on any thread. Throws
+    /// std::runtime_error if the multithreaded process cannot be started.
+    RasterizerPool(std::size_t cores, RasterizerOptions options, std::function<bool()> morePicturesQueued);
 
   private:
     friend class PooledRasterizer;
     const RasterizerOptions options_;
-    const std::function<bool()> crowded_;
-    std::atomic<int> drawing_ = 0;                                    // the number of rasterizers that are drawing
-    std::atomic<std::chrono::steady_clock::duration> lastCrowded_{};  // when, since the clock's epoch
-    std::atomic<double> lastTook_ = 0;                                // drawing time of the last picture in seconds
+    const std::function<bool()> morePicturesQueued_;
+    std::atomic<int> drawing_ = 0;                                   // the number of rasterizers that are drawing
+    std::atomic<std::chrono::steady_clock::duration> lastQueued_{};  // when, since the clock's epoch
+    std::atomic<double> lastDrawSeconds_ = 0;                        // drawing time of the last picture in seconds
     std::mutex multithreadedInUse_;
     std::optional<RasterizerProcess> multithreaded_;  // guarded by multithreadedInUse_; none on a single core
 };

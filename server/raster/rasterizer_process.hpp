@@ -21,8 +21,8 @@ struct RasterizerOptions {
     RasterizerLimits limits;
     /// The time allowed for starting the process, and for drawing a picture. A slower process counts as hung.
     std::chrono::duration<double> timeout;
-    std::function<void(const process::Loss&)> onLoss;  ///< called on any thread
-    std::vector<std::string> environment;              ///< see process::ChildOptions
+    std::function<void(const process::ProcessLoss&)> onLoss;  ///< called on any thread
+    std::vector<std::string> environment;                     ///< see process::ChildOptions
 };
 
 /// A child process that draws pictures for the server. Reasons for separate processes: the server survives a crash of

@@ -90,8 +90,8 @@ class Service {
         if (file == Channel::kNoFile)
             throw std::runtime_error("a draw request arrived without the memory to draw into");
         auto pixels = std::make_unique<SharedPixels>(file);
-        pixels_ = pixels->number();
-        files_.try_emplace(pixels_, std::move(pixels));
+        currentFile_ = pixels->inode();
+        pixelFiles_.try_emplace(currentFile_, std::move(pixels));
         return true;
     }
 
@@ -105,7 +105,7 @@ class Service {
         rasterizer_.limitFill(request_.limits.fillSteps);
         Times times;
         rasterizer_.draw(request_.state, request_.viewport,
-                         files_.at(pixels_)->remap(image::bytesOf(request_.viewport)), times);
+                         pixelFiles_.at(currentFile_)->remap(image::bytesOf(request_.viewport)), times);
         channel_.send(MessageType::drawn, {reinterpret_cast<const char*>(&times), sizeof times});
     }
 
@@ -125,8 +125,8 @@ class Service {
     process::Heap& heap_;
     RecentObjects recent_;
     DrawRequest request_;
-    std::map<std::uint64_t, std::unique_ptr<SharedPixels>> files_;  // by inode; one for each worker of the server
-    std::uint64_t pixels_ = 0;                                      // the inode of the file to draw into
+    std::map<std::uint64_t, std::unique_ptr<SharedPixels>> pixelFiles_;  // by inode; one for each worker of the server
+    std::uint64_t currentFile_ = 0;                                      // the inode of the file to draw into
     std::string body_;
 };
 
@@ -134,7 +134,7 @@ class Service {
 
 void serveRasterizer(int socket, const process::Confinement& confinement, parallel::ForkJoin& forkJoin,
                      process::Heap& heap) {
-    process::beginChild();
+    process::initializeChild();
     Service(socket, forkJoin, heap).run(confinement);
 }
 

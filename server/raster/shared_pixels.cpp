@@ -30,7 +30,7 @@ SharedPixels::SharedPixels() : SharedPixels(memfd_create("oval4d-picture", MFD_C
 
 SharedPixels::SharedPixels(int file) : file_(file) {
     check(file >= 0);
-    number_ = statusOf(file).st_ino;
+    inode_ = statusOf(file).st_ino;
 }
 
 SharedPixels::~SharedPixels() {

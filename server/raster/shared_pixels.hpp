@@ -30,13 +30,13 @@ class SharedPixels {
     /// Returns the file descriptor.
     int file() const { return file_; }
     /// Returns the inode number, which identifies the file in both processes.
-    std::uint64_t number() const { return number_; }
+    std::uint64_t inode() const { return inode_; }
 
   private:
     void map(std::size_t size);
 
     int file_;
-    std::uint64_t number_ = 0;
+    std::uint64_t inode_ = 0;
     std::span<std::uint8_t> mapped_;
 };
 

@@ -21,11 +21,11 @@
 namespace oval4d::reading {
 
 struct ReaderOptions {
-    std::chrono::duration<double> timeout;             ///< the time allowed for reading one file
-    std::chrono::duration<double> idle;                ///< waiting processes end after this time without a file
-    std::function<void(const process::Loss&)> onLoss;  ///< called on any thread
-    std::vector<std::string> environment;              ///< see process::ChildOptions
-    std::size_t waiting;                               ///< the maximum number of waiting processes
+    std::chrono::duration<double> timeout;                    ///< the time allowed for reading one file
+    std::chrono::duration<double> idle;                       ///< waiting processes end after this time without a file
+    std::function<void(const process::ProcessLoss&)> onLoss;  ///< called on any thread
+    std::vector<std::string> environment;                     ///< see process::ChildOptions
+    std::size_t waiting;                                      ///< the maximum number of waiting processes
 };
 
 /// A pool of processes that read files. Each process reads a single file and ends, so that a malicious file cannot

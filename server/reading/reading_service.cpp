@@ -36,7 +36,7 @@ void outcomeOf(std::string& body) {
 }  // namespace
 
 void serveReading(int socket, const process::Confinement& confinement) {
-    process::beginChild();
+    process::initializeChild();
     const Channel channel(socket);
     try {
         process::confine(process::Role::read, confinement);

@@ -60,7 +60,7 @@ void layOutStrip(std::size_t vertices, double aspect, CoordinatesLayout& out) {
 void layOutCoordinates(std::size_t vertices, double aspect, CoordinatesLayout& out) {
     constexpr double kMinColumn = 0.0095;
     constexpr double kMaxColumn = 0.15;
-    if (vertices > kMostLines) {
+    if (vertices > kMaxVerticesAsLines) {
         layOutStrip(vertices, aspect, out);
         return;
     }

@@ -29,8 +29,8 @@ struct SlicePlacement {
 /// The layout of the parallel coordinates. Vertex i is in row i / perRow and column i % perRow. Its four lines x, y, z
 /// and w extend from the row's zero line up or down by value · amplitude / circumradius. All lengths are fractions of
 /// the viewport's height; positions are measured from the viewport's lower left corner. If there are more than
-/// kMostLines vertices, a density strip is drawn instead: a single column, whose four lines are axes that extend from
-/// −circumradius to +circumradius.
+/// kMaxVerticesAsLines vertices, a density strip is drawn instead: a single column, whose four lines are axes that
+/// extend from −circumradius to +circumradius.
 struct CoordinatesLayout {
     int rows = 1, perRow = 1;
     double left = 0;        ///< the left edge of the first column
@@ -47,7 +47,7 @@ struct CoordinatesLayout {
 
 /// The maximum number of vertices whose parallel coordinates are drawn as lines. For more vertices, a density strip is
 /// drawn.
-inline constexpr std::size_t kMostLines = 300;
+inline constexpr std::size_t kMaxVerticesAsLines = 300;
 
 /// The layout of the axes in the upper left corner: the distances of their center from the left and top edges, and the
 /// length of each axis. All are fractions of the viewport's height.

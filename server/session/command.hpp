@@ -39,7 +39,7 @@ struct Set {
     std::optional<double> azimuth, elevation, zoom;               ///< the members of scene::Orbit
     std::optional<scene::Coloring> coloring;
     std::optional<std::vector<std::uint32_t>> hidden, faded;  ///< cell types, in any order
-    std::optional<geometry::Turn> last;  ///< the last rotation, which the keys '.' and space repeat
+    std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
 };
 /// Loads an object from the text of a file and shows it.
 struct Load {

@@ -60,18 +60,18 @@ Done always(ActionContext& c) {
 constexpr auto kActions = std::to_array<Action>({
     {"rotate", always<[](ActionContext& c) {
          geometry::Turn turn{c.plane, c.state.alpha, {}};
-         if (c.doubled) turn.beta = c.state.beta;
+         if (c.isDoubleRotation) turn.beta = c.state.beta;
          rotate(c.state, c.inverse ? turn.inverse() : turn);
      }>},
     {"repeat",
      [](ActionContext& c) -> Done {
-         if (!c.state.last) return kNoRotationYet;
-         rotate(c.state, *c.state.last);
+         if (!c.state.lastTurn) return kNoRotationYet;
+         rotate(c.state, *c.state.lastTurn);
          return std::monostate{};
      }},
     {"turn",
      [](ActionContext& c) -> Done {
-         if (!c.state.last) return kNoRotationYet;
+         if (!c.state.lastTurn) return kNoRotationYet;
          c.state.turning = !c.state.turning;
          return std::monostate{};
      }},

@@ -12,11 +12,11 @@ namespace oval4d::session {
 /// The arguments of an action.
 struct ActionContext {
     State& state;
-    const Loaded& loaded;
+    const LoadedObjects& loaded;
     const Limits& limits;
     ObjectLoader& loader;
     geometry::Plane plane;  ///< the plane of the rotation by alpha
-    bool doubled;           ///< whether to rotate also by beta in the perpendicular plane
+    bool isDoubleRotation;  ///< whether to rotate also by beta in the perpendicular plane
     bool inverse;           ///< whether to apply the inverse rotation
 };
 

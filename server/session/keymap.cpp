@@ -61,7 +61,7 @@ std::vector<Entry> readTable() {
         entry.binding.action = &*at;
         if (row.contains("planes")) {
             entry.binding.plane = geometry::planeNamed(row.at("planes").at(0).get<std::string>()).value();
-            entry.binding.doubled = row.at("planes").size() == 2;
+            entry.binding.isDoubleRotation = row.at("planes").size() == 2;
         }
         table.push_back(entry);
         if (row.contains("shift")) {

@@ -15,8 +15,8 @@ namespace oval4d::session {
 struct Binding {
     const Action* action = nullptr;
     geometry::Plane plane = geometry::Plane::xy;
-    bool doubled = false;  ///< whether to rotate also by beta in the perpendicular plane
-    bool inverse = false;  ///< whether to apply the inverse rotation
+    bool isDoubleRotation = false;  ///< whether to rotate also by beta in the perpendicular plane
+    bool inverse = false;           ///< whether to apply the inverse rotation
 };
 
 /// Returns the binding of a key, or an empty optional if the key begins a sequence. `pending` is the first key of a

@@ -25,7 +25,7 @@ Result<slicing::Object> ObjectLoader::build(const polytopes::Design& design) {
     }
 }
 
-Result<slicing::Object> ObjectLoader::built(const polytopes::Design& design) {
+Result<slicing::Object> ObjectLoader::polytopeOf(const polytopes::Design& design) {
     if (mode_ == Mode::immediate) return build(design);
     if (built_ && builtName_ == design.name) return *built_;
     if (auto ready = cache_.find(design)) return slicing::Object(std::move(ready));
@@ -33,14 +33,14 @@ Result<slicing::Object> ObjectLoader::built(const polytopes::Design& design) {
     return kLater;
 }
 
-Result<LoadedObject> ObjectLoader::reading(const Load& load) {
-    if (reading_) return *reading_;
+Result<LoadedObject> ObjectLoader::objectFrom(const Load& load) {
+    if (fromFile_) return *fromFile_;
     if (auto error = checkLoad(load, limits_)) return *error;
     if (mode_ == Mode::deferred) {
         pending_ = &load;
         return kLater;
     }
-    return *(reading_ = reader_(load.format, load.data, load.name, limits_));
+    return *(fromFile_ = reader_(load.format, load.data, load.name, limits_));
 }
 
 void ObjectLoader::loadPending() {
@@ -49,7 +49,7 @@ void ObjectLoader::loadPending() {
         builtName_ = design->name;
     } else if (const auto* load = std::get_if<const Load*>(&pending_)) {
         const Load& file = **load;
-        reading_ = reader_(file.format, file.data, file.name, limits_);
+        fromFile_ = reader_(file.format, file.data, file.name, limits_);
     }
     pending_ = std::monostate{};
 }
@@ -65,7 +65,7 @@ std::size_t ObjectLoader::bytesNeeded() const {
     return kFixed + kPerElement * (counts.vertices + counts.edges + counts.faces + counts.cells);
 }
 
-std::chrono::duration<double> ObjectLoader::cost() const {
+std::chrono::duration<double> ObjectLoader::estimatedDuration() const {
     // Seconds for each element of a polytope that is built, for each byte of a file that lists elements, and for each
     // byte of a list of points whose convex hull is computed.
     constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6;
@@ -80,7 +80,7 @@ std::chrono::duration<double> ObjectLoader::cost() const {
 }
 
 std::vector<std::string> ObjectLoader::warnings() const {
-    return reading_ && *reading_ ? (*reading_)->warnings : std::vector<std::string>{};
+    return fromFile_ && *fromFile_ ? (*fromFile_)->warnings : std::vector<std::string>{};
 }
 
 }  // namespace oval4d::session

@@ -24,8 +24,8 @@ namespace oval4d::session {
 using FileReader = std::function<Result<LoadedObject>(std::string_view format, std::string_view text,
                                                       const std::string& name, const Limits& limits)>;
 
-/// Provides the objects that one command needs. With Mode::immediate, built() and reading() build or read the object
-/// before they return. With Mode::deferred, they fail if the object is not available yet, and the object becomes
+/// Provides the objects that one command needs. With Mode::immediate, polytopeOf() and objectFrom() build or read the
+/// object before they return. With Mode::deferred, they fail if the object is not available yet, and the object becomes
 /// pending. The caller then calls loadPending(), on any thread, and applies the command again; it repeats this until
 /// nothing is pending.
 class ObjectLoader {
@@ -38,11 +38,11 @@ class ObjectLoader {
 
     /// Returns the polytope of this design. Error: `unknown_polytope` if it cannot be built; the message is only the
     /// reason.
-    Result<slicing::Object> built(const polytopes::Design& design);
+    Result<slicing::Object> polytopeOf(const polytopes::Design& design);
 
     /// Returns the object read from the data of `load`, which must outlive the loader. Errors: those of checkLoad and
     /// readObject.
-    Result<LoadedObject> reading(const Load& load);
+    Result<LoadedObject> objectFrom(const Load& load);
 
     /// Returns whether an object is pending: the command failed only because the object is not available yet.
     bool isPending() const { return !std::holds_alternative<std::monostate>(pending_); }
@@ -52,12 +52,12 @@ class ObjectLoader {
     void loadPending();
     /// Returns the estimated duration of loadPending(). For entries of the catalogue, it is accurate to within a factor
     /// of three.
-    std::chrono::duration<double> cost() const;
+    std::chrono::duration<double> estimatedDuration() const;
 
     /// Returns the estimated memory in bytes that loadPending() and its result use; 0 if nothing is pending.
     std::size_t bytesNeeded() const;
     /// Returns whether loadPending() has built a polytope or this loader has read a file, successfully or not.
-    bool hasLoaded() const { return built_ || reading_; }
+    bool hasLoaded() const { return built_ || fromFile_; }
 
     /// Returns one warning for each fault that was corrected in the file; empty if no file has been read.
     std::vector<std::string> warnings() const;
@@ -72,7 +72,7 @@ class ObjectLoader {
     std::variant<std::monostate, polytopes::Design, const Load*> pending_;
     std::string builtName_;  // the name of the design from which `built_` was built
     std::optional<Result<slicing::Object>> built_;
-    std::optional<Result<LoadedObject>> reading_;
+    std::optional<Result<LoadedObject>> fromFile_;
 };
 
 }  // namespace oval4d::session

@@ -14,7 +14,7 @@ namespace {
 
 // Returns "; did you mean …?" with the most similar names in the catalogue, or with the name of a loaded object if that
 // is at least as similar.
-std::string suggestion(std::string_view name, const Loaded& loaded) {
+std::string suggestion(std::string_view name, const LoadedObjects& loaded) {
     std::vector<std::string_view> near = polytopes::nearestNames(name);
     std::size_t least = polytopes::editDistance(name, near.front());
     for (const auto& [own, ignored] : loaded) {
@@ -32,12 +32,12 @@ std::string suggestion(std::string_view name, const Loaded& loaded) {
 
 }  // namespace
 
-Result<slicing::Object> findObject(std::string_view name, const Loaded& loaded, const Limits& limits,
+Result<slicing::Object> findObject(std::string_view name, const LoadedObjects& loaded, const Limits& limits,
                                    ObjectLoader& loader) {
     if (const auto own = loaded.find(name); own != loaded.end()) return own->second;
     auto named = polytopes::designNamed(name, limits.maxVertices);
     if (const auto* design = std::get_if<polytopes::Design>(&named)) {
-        auto built = loader.built(*design);
+        auto built = loader.polytopeOf(*design);
         if (built || built.error().code != ErrorCode::unknown_polytope) return built;
         named = polytopes::NameError{polytopes::NameError::Reason::impossible, built.error().message};
     }
@@ -48,7 +48,8 @@ Result<slicing::Object> findObject(std::string_view name, const Loaded& loaded, 
                      (error.message.empty() ? suggestion(name, loaded) : ": " + error.message)};
 }
 
-Result<slicing::Object> neighborOf(const slicing::Object& object, int by, const Loaded& loaded, ObjectLoader& loader) {
+Result<slicing::Object> neighborOf(const slicing::Object& object, int by, const LoadedObjects& loaded,
+                                   ObjectLoader& loader) {
     std::vector<slicing::Object> own;
     for (const auto& [name, each] : loaded) own.push_back(each);
     const auto entries = polytopes::catalogue();
@@ -63,7 +64,7 @@ Result<slicing::Object> neighborOf(const slicing::Object& object, int by, const 
         i = static_cast<int>(entry - entries.begin());
     }
     i = (i + by + all) % all;
-    return i < named ? loader.built(entries[i].design) : Result<slicing::Object>(own[i - named]);
+    return i < named ? loader.polytopeOf(entries[i].design) : Result<slicing::Object>(own[i - named]);
 }
 
 }  // namespace oval4d::session

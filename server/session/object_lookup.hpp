@@ -11,12 +11,13 @@ namespace oval4d::session {
 /// Returns the loaded object with this name or, if there is none, the polytope of this name (see
 /// polytopes::designNamed). Errors: `unknown_polytope`, with the most similar names or with the reason; `too_large`;
 /// those of the loader.
-Result<slicing::Object> findObject(std::string_view name, const Loaded& loaded, const Limits& limits,
+Result<slicing::Object> findObject(std::string_view name, const LoadedObjects& loaded, const Limits& limits,
                                    ObjectLoader& loader);
 
 /// Returns the object `by` places after `object` in the cyclic list of catalogue entries and loaded objects; `by` is 1
 /// or −1. For an object that is not in the list, returns the first catalogue entry if `by` is 1, and the last catalogue
 /// entry if `by` is −1.
-Result<slicing::Object> neighborOf(const slicing::Object& object, int by, const Loaded& loaded, ObjectLoader& loader);
+Result<slicing::Object> neighborOf(const slicing::Object& object, int by, const LoadedObjects& loaded,
+                                   ObjectLoader& loader);
 
 }  // namespace oval4d::session

@@ -50,7 +50,7 @@ class Applier {
             return Error{ErrorCode::too_many, "a session holds at most " + std::to_string(limits_.maxLoaded) +
                                                   " loaded polytopes; load under a name that is in use to replace one"};
         }
-        const auto reading = loader_.reading(command);
+        const auto reading = loader_.objectFrom(command);
         if (!reading) return reading.error();
         State next = session_.now;
         show(next, reading->object);
@@ -78,7 +78,8 @@ class Applier {
     Done press(const Binding& binding) {
         if (binding.action->onSession != nullptr) return binding.action->onSession(session_);
         State next = session_.now;
-        ActionContext context{next, session_.loaded, limits_, loader_, binding.plane, binding.doubled, binding.inverse};
+        ActionContext context{next,          session_.loaded,          limits_,        loader_,
+                              binding.plane, binding.isDoubleRotation, binding.inverse};
         if (Done done = binding.action->onState(context); !done) return done;
         commit(session_, std::move(next), limits_);
         return std::monostate{};
@@ -132,15 +133,15 @@ std::size_t objectBytes(const Session& session) {
     std::size_t bytes = 0;
     for (const auto& [identity, object] : objects) {
         const geometry::ObjectInfo& info = slicing::infoOf(*object);
-        const bool shared = info.constructed && polytopes::findEntry(info.name) != nullptr;
+        const bool shared = info.rebuildableFromName && polytopes::findEntry(info.name) != nullptr;
         if (!shared) bytes += slicing::bytesOf(*object);
     }
     return bytes;
 }
 
 void advance(Session& session, double seconds) {
-    if (!session.now.turning || !session.now.last) return;
-    const geometry::Rotation turn(session.now.last->scaled(kTurnsPerSecond * seconds));
+    if (!session.now.turning || !session.now.lastTurn) return;
+    const geometry::Rotation turn(session.now.lastTurn->scaled(kTurnsPerSecond * seconds));
     session.now.orientation = turn * session.now.orientation;
     ++session.revision;
 }

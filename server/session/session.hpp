@@ -19,7 +19,7 @@
 namespace oval4d::session {
 
 /// The objects loaded into a session, by name.
-using Loaded = std::map<std::string, slicing::Object, std::less<>>;
+using LoadedObjects = std::map<std::string, slicing::Object, std::less<>>;
 
 /// The hyperplanes that cut the slices: w = n · spacing, for `count` consecutive indices n.
 struct SliceSettings {
@@ -37,8 +37,8 @@ struct State {
     double step;         ///< the change of alpha or beta by the keys k, j, K and J, in radians
     SliceSettings slices;
     scene::Look look;
-    bool turning = false;                ///< whether the object turns continuously: advance() repeats `last`
-    std::optional<geometry::Turn> last;  ///< the last rotation, which the keys '.' and space repeat
+    bool turning = false;                    ///< whether the object turns continuously: advance() repeats `last`
+    std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
 
     /// Returns the hyperplanes that `slices` describes.
     geometry::Hyperplanes hyperplanes() const;
@@ -69,7 +69,7 @@ struct Session {
     State now = initialState();
     std::deque<State> past;     ///< undo steps, the oldest first
     std::vector<State> future;  ///< redo steps, the next one last
-    Loaded loaded;
+    LoadedObjects loaded;
     std::string pendingKey;      ///< the first key of a sequence that has begun, such as the "g" of "gg"; else empty
     std::uint64_t revision = 0;  ///< counts the changes of `now`
     bool operator==(const Session&) const = default;

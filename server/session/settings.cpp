@@ -83,7 +83,7 @@ void setCount(State& state, int count) {
     state.slices.count = count;
 }
 
-Result<std::monostate> applySet(State& state, const Set& set, const Loaded& loaded, const Limits& limits,
+Result<std::monostate> applySet(State& state, const Set& set, const LoadedObjects& loaded, const Limits& limits,
                                 ObjectLoader& loader) {
     if (set.object) {
         auto object = findObject(*set.object, loaded, limits, loader);
@@ -98,9 +98,9 @@ Result<std::monostate> applySet(State& state, const Set& set, const Loaded& load
         }
         state.orientation = *orientation;
     }
-    if (set.last) {
-        if (auto valid = checkTurn(*set.last); !valid) return valid;
-        state.last = set.last;
+    if (set.lastTurn) {
+        if (auto valid = checkTurn(*set.lastTurn); !valid) return valid;
+        state.lastTurn = set.lastTurn;
     }
     constexpr double kLeastStep = 1e-9;
     for (auto&& done :
@@ -117,7 +117,7 @@ Result<std::monostate> applySet(State& state, const Set& set, const Loaded& load
     state.look.coloring = set.coloring.value_or(state.look.coloring);
     if (auto done = setCellTypes(state, set); !done) return done;
     put(set.turning, state.turning);
-    if (state.turning && !state.last) {
+    if (state.turning && !state.lastTurn) {
         return Error{ErrorCode::nothing_to_undo, "nothing to repeat: no rotation has been made yet"};
     }
     return std::monostate{};
@@ -136,7 +136,7 @@ Result<std::monostate> checkTurn(const geometry::Turn& turn) {
 
 void rotate(State& state, const geometry::Turn& turn) {
     state.orientation = geometry::Rotation(turn) * state.orientation;
-    state.last = turn;
+    state.lastTurn = turn;
 }
 
 }  // namespace oval4d::session

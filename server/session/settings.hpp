@@ -24,7 +24,7 @@ void setCount(State& state, int count);
 
 /// Applies the settings that are present in `set`. After an error, some of them may already be applied, so callers must
 /// pass a copy of the state.
-Result<std::monostate> applySet(State& state, const Set& set, const Loaded& loaded, const Limits& limits,
+Result<std::monostate> applySet(State& state, const Set& set, const LoadedObjects& loaded, const Limits& limits,
                                 ObjectLoader& loader);
 
 /// Returns the error `out_of_range` unless the angles are finite and within ±kMaxAngle.

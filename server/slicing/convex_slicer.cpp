@@ -20,17 +20,17 @@ bool isWorthTwoCores(const polytopes::Polytope& polytope, int planes) {
 
 }  // namespace
 
-bool ConvexSlicer::cut(const polytopes::Polytope& polytope, Levels levels, std::span<SliceSet* const> touching,
+bool ConvexSlicer::cut(const polytopes::Polytope& polytope, VertexLevels levels, std::span<SliceSet* const> touching,
                        SliceSet& out) {
-    if (!levels.anyLie && isWorthTwoCores(polytope, out.planes.count)) return cutHalves(polytope, levels, out);
+    if (!levels.anyOnPlane && isWorthTwoCores(polytope, out.planes.count)) return cutHalves(polytope, levels, out);
     Sweep& sweep = lower_.sweep;
     if (!sweep.begin(polytope, levels, out.planes.count)) return false;
-    ElementCounts size = sweep.size();
+    SliceCounts size = sweep.size();
     for (const SliceSet* slice : touching) {
         if (slice != nullptr) size = size + slice->size();
     }
     out.resize(size);
-    ElementCounts end;
+    SliceCounts end;
     if (!sweep.cut(polytope, touching, 0, end, out)) return false;
     out.end(end);
     return true;
@@ -38,7 +38,7 @@ bool ConvexSlicer::cut(const polytopes::Polytope& polytope, Levels levels, std::
 
 // Requires that no vertex lies in a hyperplane. Then the sizes of slices are known before they are cut, so the size of
 // the lower half gives the position of the upper half in `out`.
-bool ConvexSlicer::cutHalves(const polytopes::Polytope& polytope, Levels levels, SliceSet& out) {
+bool ConvexSlicer::cutHalves(const polytopes::Polytope& polytope, VertexLevels levels, SliceSet& out) {
     const auto [least, most] = std::minmax_element(levels.below.begin(), levels.below.end());
     const std::int32_t middle = (*least + *most) / 2;
     const auto begin = [&](Half& half, std::int32_t first, std::int32_t end) {

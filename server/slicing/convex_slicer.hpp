@@ -23,17 +23,18 @@ class ConvexSlicer {
     /// Slices `polytope` and writes the slices to `out`, whose `planes` and `rotatedVertices` must be set. For
     /// `touching`, see Sweep::cut. Returns false, and leaves `out` unusable, if rounding errors in the vertices make a
     /// hyperplane cut a 2-face or a cell twice; the caller must then use a method for nonconvex polytopes.
-    bool cut(const polytopes::Polytope& polytope, Levels levels, std::span<SliceSet* const> touching, SliceSet& out);
+    bool cut(const polytopes::Polytope& polytope, VertexLevels levels, std::span<SliceSet* const> touching,
+             SliceSet& out);
 
   private:
     // The lower or upper half of the hyperplanes.
     struct Half {
         Sweep sweep;
-        std::vector<std::int32_t> below;  // as Levels::below, for the hyperplanes of this half
-        ElementCounts end;                // the position in `out` at which its next slice begins
+        std::vector<std::int32_t> below;  // as VertexLevels::below, for the hyperplanes of this half
+        SliceCounts end;                  // the position in `out` at which its next slice begins
         bool sound = false;               // whether the last call of `sweep` succeeded
     };
-    bool cutHalves(const polytopes::Polytope& polytope, Levels levels, SliceSet& out);
+    bool cutHalves(const polytopes::Polytope& polytope, VertexLevels levels, SliceSet& out);
 
     parallel::ForkJoin* forkJoin_;
     Half lower_, upper_;

@@ -4,14 +4,14 @@
 
 namespace oval4d::slicing {
 
-void DegeneracyCollapse::begin(const polytopes::Polytope& polytope, Levels levels) {
+void DegeneracyCollapse::begin(const polytopes::Polytope& polytope, VertexLevels levels) {
     levels_ = levels;
     sliceVertex_.assign(polytope.vertices.size(), kNone);
     sliceEdge_.assign(polytope.edges.size(), kNone);
 }
 
-ElementCounts DegeneracyCollapse::collapse(const polytopes::Polytope& polytope, int plane, ElementCounts at,
-                                           ElementCounts size, SliceSet& out) {
+SliceCounts DegeneracyCollapse::collapse(const polytopes::Polytope& polytope, int plane, SliceCounts at,
+                                         SliceCounts size, SliceSet& out) {
     plane_ = plane;
     size.vertices = collapseVertices(polytope, at, size.vertices, out);
     size.edges = collapseEdges(polytope, at, size.edges, out);
@@ -19,7 +19,7 @@ ElementCounts DegeneracyCollapse::collapse(const polytopes::Polytope& polytope, 
     return size;
 }
 
-std::uint32_t DegeneracyCollapse::collapseVertices(const polytopes::Polytope& polytope, ElementCounts at,
+std::uint32_t DegeneracyCollapse::collapseVertices(const polytopes::Polytope& polytope, SliceCounts at,
                                                    std::uint32_t count, SliceSet& out) {
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     auto* vertices = out.vertices.data() + at.vertices;
@@ -45,7 +45,7 @@ std::uint32_t DegeneracyCollapse::collapseVertices(const polytopes::Polytope& po
     return kept;
 }
 
-std::uint32_t DegeneracyCollapse::collapseEdges(const polytopes::Polytope& polytope, ElementCounts at,
+std::uint32_t DegeneracyCollapse::collapseEdges(const polytopes::Polytope& polytope, SliceCounts at,
                                                 std::uint32_t count, SliceSet& out) {
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
@@ -74,7 +74,7 @@ std::uint32_t DegeneracyCollapse::collapseEdges(const polytopes::Polytope& polyt
     return kept;
 }
 
-void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, ElementCounts at, ElementCounts& size,
+void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, SliceCounts at, SliceCounts& size,
                                        SliceSet& out) const {
     const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());

@@ -15,9 +15,9 @@ namespace oval4d::slicing {
 /// The positions of a polytope's vertices relative to the hyperplanes. below[v] is the number of hyperplanes strictly
 /// below vertex v; upTo[v] is the number of hyperplanes below or through v. If upTo[v] > below[v], v lies in the
 /// hyperplane with the index below[v].
-struct Levels {
+struct VertexLevels {
     std::span<const std::int32_t> below, upTo;
-    bool anyLie = false;  ///< whether any vertex lies in a hyperplane
+    bool anyOnPlane = false;  ///< whether any vertex lies in a hyperplane
 
     /// Returns whether the vertex lies in the hyperplane with the index `plane`.
     bool liesIn(std::uint32_t vertex, std::int32_t plane) const {
@@ -35,27 +35,27 @@ struct Levels {
 class DegeneracyCollapse {
   public:
     /// Prepares for slices of this polytope. The arrays of `levels` must outlive the calls of `collapse`.
-    void begin(const polytopes::Polytope& polytope, Levels levels);
+    void begin(const polytopes::Polytope& polytope, VertexLevels levels);
 
     /// Collapses, in place, the slice that begins at position `at` in `out` and has this `size`. It was cut just above
     /// the hyperplane with the index `plane`: all of its vertices were cut from edges, its edges from 2-faces, and its
     /// faces from cells. Returns its new size.
-    ElementCounts collapse(const polytopes::Polytope& polytope, int plane, ElementCounts at, ElementCounts size,
-                           SliceSet& out);
+    SliceCounts collapse(const polytopes::Polytope& polytope, int plane, SliceCounts at, SliceCounts size,
+                         SliceSet& out);
 
   private:
     static constexpr std::uint32_t kNone = 0xffffffffU;
 
-    std::uint32_t collapseVertices(const polytopes::Polytope& polytope, ElementCounts at, std::uint32_t count,
+    std::uint32_t collapseVertices(const polytopes::Polytope& polytope, SliceCounts at, std::uint32_t count,
                                    SliceSet& out);
-    std::uint32_t collapseEdges(const polytopes::Polytope& polytope, ElementCounts at, std::uint32_t count,
+    std::uint32_t collapseEdges(const polytopes::Polytope& polytope, SliceCounts at, std::uint32_t count,
                                 SliceSet& out);
-    void collapseFaces(const polytopes::Polytope& polytope, ElementCounts at, ElementCounts& size, SliceSet& out) const;
+    void collapseFaces(const polytopes::Polytope& polytope, SliceCounts at, SliceCounts& size, SliceSet& out) const;
     std::uint32_t baseEdge(const polytopes::Polytope& polytope, std::uint32_t face,
                            std::array<std::uint32_t, 2> ends) const;
     std::uint32_t baseFace(const polytopes::Polytope& polytope, std::uint32_t cell, std::size_t corners) const;
 
-    Levels levels_;
+    VertexLevels levels_;
     int plane_ = 0;
     // By vertex or edge of the polytope: its index in the slice if it lies in the hyperplane; kNone: not found yet.
     std::vector<std::uint32_t> sliceVertex_, sliceEdge_;

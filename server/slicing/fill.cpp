@@ -244,7 +244,7 @@ bool Filler::canContinue(const Piece& piece, const Side& left, const Side& right
         if (std::abs(before.at(bottom) - after.at(bottom)) > epsilon_) return false;
         return inward * (after.slope - before.slope) >= 0;
     };
-    return piece.leftCount < Piece::kMost && piece.rightCount < Piece::kMost && follows(l, left, 1) &&
+    return piece.leftCount < Piece::kMaxCorners && piece.rightCount < Piece::kMaxCorners && follows(l, left, 1) &&
            follows(r, right, -1);
 }
 

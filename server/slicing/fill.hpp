@@ -63,8 +63,8 @@ class Filler {
     // A convex piece under construction, from the bottom up: its left and right chains of corners so far, and the sides
     // that the chains currently follow.
     struct Piece {
-        static constexpr std::size_t kMost = 16;  // the maximum number of corners in a chain
-        std::array<glm::dvec2, kMost> left, right;
+        static constexpr std::size_t kMaxCorners = 16;  // the maximum number of corners in a chain
+        std::array<glm::dvec2, kMaxCorners> left, right;
         std::size_t leftCount, rightCount;
         std::uint32_t leftSide, rightSide;
         // Whether the winding number in the piece is positive; whether the piece extends into the current strip.

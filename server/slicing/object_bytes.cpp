@@ -29,7 +29,7 @@ void visitArray(Archive& archive, Array& array) {
 template <typename Archive, typename P>
 void visitPolytope(Archive& archive, P& p) {
     archive(p.name), archive(p.serial), archive(p.circumradius), archive(p.convex), archive(p.convexFaces);
-    archive(p.constructed);
+    archive(p.rebuildableFromName);
     archive(p.vertices), archive(p.edges);
     for (auto* array : {&p.faces, &p.faceEdges, &p.edgeFaces, &p.cells}) visitArray(archive, *array);
     archive(p.cellSigns), archive(p.faceCells), archive(p.typeOfCell);

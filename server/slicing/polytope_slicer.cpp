@@ -19,10 +19,10 @@ void PolytopeSlicer::slice(const polytopes::Polytope& polytope, const geometry::
                            const geometry::Hyperplanes& planes, SliceSet& out) {
     out.planes = planes;
     locateVertices(polytope, orientation, out);
-    if (!polytope.convex || !cutConvex(polytope, out)) cutAny(polytope, out);
+    if (!polytope.convex || !cutConvex(polytope, out)) cutGeneral(polytope, out);
 }
 
-void PolytopeSlicer::cutAny(const polytopes::Polytope& polytope, SliceSet& out) {
+void PolytopeSlicer::cutGeneral(const polytopes::Polytope& polytope, SliceSet& out) {
     cutEdges(polytope, out);
     cutFaces(polytope, out);
     cutCells(polytope, out);
@@ -30,8 +30,8 @@ void PolytopeSlicer::cutAny(const polytopes::Polytope& polytope, SliceSet& out) 
 
 bool PolytopeSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet& out) {
     touching_.clear();
-    if (anyLie_ && !cutTouching(polytope, out)) return false;
-    return convexCut_.cut(polytope, {below_, upTo_, anyLie_}, touching_, out);
+    if (anyOnPlane_ && !cutTouching(polytope, out)) return false;
+    return convexSlicer_.cut(polytope, {below_, upTo_, anyOnPlane_}, touching_, out);
 }
 
 // Cuts separately, by the general method, the slices in hyperplanes that the polytope touches from one side. Returns
@@ -48,21 +48,22 @@ bool PolytopeSlicer::cutTouching(const polytopes::Polytope& polytope, SliceSet& 
         if (k == allUpTo_[v] || (k >= firstAbove && k < lastBelow) || touching_[k] != nullptr) continue;
         if (touched++ == singles_.size()) break;
         touching_[k] = &singles_.at(touched - 1);
-        cutOne(polytope, k, *touching_[k], out);
+        cutSingle(polytope, k, *touching_[k], out);
     }
     below_.swap(allBelow_);
     upTo_.swap(allUpTo_);
     return touched <= singles_.size();
 }
 
-void PolytopeSlicer::cutOne(const polytopes::Polytope& polytope, std::int32_t plane, SliceSet& single, SliceSet& all) {
+void PolytopeSlicer::cutSingle(const polytopes::Polytope& polytope, std::int32_t plane, SliceSet& single,
+                               SliceSet& all) {
     for (std::size_t v = 0; v < below_.size(); ++v) {
         below_[v] = std::clamp(allBelow_[v] - plane, 0, 1);
         upTo_[v] = std::clamp(allUpTo_[v] - plane, 0, 1);
     }
     single.planes = {all.planes.first + plane, 1, all.planes.spacing};
     single.rotatedVertices.swap(all.rotatedVertices);
-    cutAny(polytope, single);
+    cutGeneral(polytope, single);
     single.rotatedVertices.swap(all.rotatedVertices);
 }
 
@@ -76,7 +77,7 @@ void PolytopeSlicer::locateVertices(const polytopes::Polytope& polytope, const g
     out.rotatedVertices.resize(n);
     below_.resize(n);
     upTo_.resize(n);
-    anyLie_ = false;
+    anyOnPlane_ = false;
     for (std::size_t v = 0; v < n; ++v) {
         out.rotatedVertices[v] = m * polytope.vertices[v];
         const double level = out.rotatedVertices[v].w * inverse - out.planes.first;
@@ -84,7 +85,7 @@ void PolytopeSlicer::locateVertices(const polytopes::Polytope& polytope, const g
         const auto whole = static_cast<std::int32_t>(above);
         below_[v] = whole + (above > whole ? 1 : 0);  // rounded up
         upTo_[v] = static_cast<std::int32_t>(std::clamp(level + tolerance + 1, 0.0, count));
-        anyLie_ |= below_[v] != upTo_[v];
+        anyOnPlane_ |= below_[v] != upTo_[v];
     }
 }
 
@@ -94,7 +95,7 @@ void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out
     const auto vertices = static_cast<std::uint32_t>(polytope.vertices.size());
     out.vertexBegin.assign(out.planes.count + 1, 0);
     for (std::uint32_t v = 0; v < vertices; ++v) {
-        if (below_[v] != upTo_[v]) countSpan(out.vertexBegin, below_[v], upTo_[v]);
+        if (below_[v] != upTo_[v]) addToDifferences(out.vertexBegin, below_[v], upTo_[v]);
     }
     slotBegin_.resize(edges);
     std::uint32_t slots = 0;
@@ -104,9 +105,9 @@ void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out
         slots += std::abs(below_[a] - below_[b]);
         const std::int32_t from = std::min(upTo_[a], upTo_[b]);
         const std::int32_t to = std::max(below_[a], below_[b]);
-        if (from < to) countSpan(out.vertexBegin, from, to);
+        if (from < to) addToDifferences(out.vertexBegin, from, to);
     }
-    const std::uint32_t total = accumulate(out.vertexBegin);
+    const std::uint32_t total = toRangeBegins(out.vertexBegin);
     out.vertices.resize(total);
     out.vertexSource.resize(total);
     vertexPoint_.resize(vertices);
@@ -145,37 +146,37 @@ void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out
 // Finds the slice edges: the polytope's edges in the hyperplane, and the segments in which 2-faces cross it.
 void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out) {
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
-    twice_.resize(below_.size());
-    for (std::size_t v = 0; v < below_.size(); ++v) twice_[v] = below_[v] + upTo_[v];
+    levelSum_.resize(below_.size());
+    for (std::size_t v = 0; v < below_.size(); ++v) levelSum_[v] = below_[v] + upTo_[v];
     up_.resize(out.planes.count);
     down_.resize(out.planes.count);
     faceSpan_.resize(faces);
     lyingIn_.resize(faces);
-    lineBegin_.resize(faces + 1);
-    lines_.clear();
+    segmentBegin_.resize(faces + 1);
+    segments_.clear();
     const std::uint32_t* vertex = polytope.faces.items.data();
     for (std::uint32_t f = 0; f < faces; ++f) {
         const std::uint32_t* end = polytope.faces.items.data() + polytope.faces.begin[f + 1];
-        std::int32_t least = twice_[*vertex];
+        std::int32_t least = levelSum_[*vertex];
         std::int32_t most = least;
         while (++vertex != end) {
-            least = std::min(least, twice_[*vertex]);
-            most = std::max(most, twice_[*vertex]);
+            least = std::min(least, levelSum_[*vertex]);
+            most = std::max(most, levelSum_[*vertex]);
         }
         const Span above{least / 2, most / 2};
         const std::int32_t leastUpTo = (least + 1) / 2;
         const std::int32_t mostUpTo = (most + 1) / 2;
         faceSpan_[f] = {leastUpTo, above.to};
         lyingIn_[f] = above.from == above.to && leastUpTo == mostUpTo && leastUpTo > above.to ? above.to : kNoPlane;
-        lineBegin_[f] = static_cast<std::uint32_t>(lines_.size());
+        segmentBegin_[f] = static_cast<std::uint32_t>(segments_.size());
         if (above.from == above.to) continue;
         if (polytope.convexFaces) {
             cutConvexFace(polytope, f, above);
         } else {
-            cutAnyFace(polytope, f, above, out);
+            cutNonconvexFace(polytope, f, above, out);
         }
     }
-    lineBegin_[faces] = static_cast<std::uint32_t>(lines_.size());
+    segmentBegin_[faces] = static_cast<std::uint32_t>(segments_.size());
     numberEdges(polytope, out);
 }
 
@@ -193,14 +194,14 @@ void PolytopeSlicer::cutConvexFace(const polytopes::Polytope& polytope, std::uin
             for (std::int32_t k = to; k < from; ++k) down_[k] = slot++;
         }
     }
-    for (std::int32_t k = above.from; k < above.to; ++k) addLine(polytope, face, k, up_[k], down_[k]);
+    for (std::int32_t k = above.from; k < above.to; ++k) addSegment(polytope, face, k, up_[k], down_[k]);
 }
 
 // A nonconvex loop may cross the hyperplane several times. The crossings are sorted along the line in which the
 // hyperplane cuts the 2-face's plane, and the i-th ascent is paired with the i-th descent. Where the resulting segments
 // overlap, the 2-face covers the line more than once.
-void PolytopeSlicer::cutAnyFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above,
-                                const SliceSet& out) {
+void PolytopeSlicer::cutNonconvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above,
+                                      const SliceSet& out) {
     const auto loop = polytope.faces[face];
     const auto loopEdges = polytope.faceEdges[face];
     for (std::int32_t k = above.from; k < above.to; ++k) {
@@ -225,13 +226,13 @@ void PolytopeSlicer::cutAnyFace(const polytopes::Polytope& polytope, std::uint32
             std::sort(crossings->begin(), crossings->end(),
                       [](const Crossing& a, const Crossing& b) { return a.along < b.along; });
         }
-        for (std::size_t i = 0; i < ups_.size(); ++i) addLine(polytope, face, k, ups_[i].slot, downs_[i].slot);
+        for (std::size_t i = 0; i < ups_.size(); ++i) addSegment(polytope, face, k, ups_[i].slot, downs_[i].slot);
     }
 }
 
-void PolytopeSlicer::addLine(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane,
-                             std::uint32_t up, std::uint32_t down) {
-    std::uint32_t edge = kFresh;
+void PolytopeSlicer::addSegment(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane,
+                                std::uint32_t up, std::uint32_t down) {
+    std::uint32_t edge = kNewEdge;
     const std::uint32_t a = slotPoint_[up];
     const std::uint32_t b = slotPoint_[down];
     if (a == b) {
@@ -241,11 +242,11 @@ void PolytopeSlicer::addLine(const polytopes::Polytope& polytope, std::uint32_t 
         // edge between them lies in the hyperplane.
         for (const std::uint32_t e : polytope.faceEdges[face]) {
             const auto [v, u] = polytope.edges[e];
-            if (!liesInOne({v, u}) || below_[v] != plane) continue;
+            if (!liesInHyperplane({v, u}) || below_[v] != plane) continue;
             if (std::minmax(vertexPoint_[v], vertexPoint_[u]) == std::minmax(a, b)) edge = e;
         }
     }
-    lines_.push_back({plane, up, down, edge});
+    segments_.push_back({plane, up, down, edge});
 }
 
 void PolytopeSlicer::numberEdges(const polytopes::Polytope& polytope, SliceSet& out) {
@@ -254,18 +255,18 @@ void PolytopeSlicer::numberEdges(const polytopes::Polytope& polytope, SliceSet& 
     out.edgeBegin.assign(out.planes.count + 1, 0);
     lyingEdges_.clear();
     for (std::uint32_t e = 0; e < edges; ++e) {
-        if (!liesInOne(polytope.edges[e])) continue;
+        if (!liesInHyperplane(polytope.edges[e])) continue;
         lyingEdges_.push_back(e);
         const std::int32_t plane = below_[polytope.edges[e][0]];
-        countSpan(out.edgeBegin, plane, plane + 1);
+        addToDifferences(out.edgeBegin, plane, plane + 1);
     }
-    for (const Line& line : lines_) {
-        if (line.edge == kFresh) countSpan(out.edgeBegin, line.plane, line.plane + 1);
+    for (const Segment& segment : segments_) {
+        if (segment.edge == kNewEdge) addToDifferences(out.edgeBegin, segment.plane, segment.plane + 1);
     }
-    const std::uint32_t total = accumulate(out.edgeBegin);
+    const std::uint32_t total = toRangeBegins(out.edgeBegin);
     out.edges.resize(total);
     out.edgeSource.resize(total);
-    edgeLine_.resize(edges);
+    sliceEdgeOf_.resize(edges);
     cursor_.assign(out.edgeBegin.begin(), out.edgeBegin.end());
     const auto add = [&](std::int32_t plane, std::uint32_t a, std::uint32_t b, std::uint32_t source) {
         const std::uint32_t number = cursor_[plane]++;
@@ -275,14 +276,15 @@ void PolytopeSlicer::numberEdges(const polytopes::Polytope& polytope, SliceSet& 
     };
     for (const std::uint32_t e : lyingEdges_) {
         const auto [a, b] = polytope.edges[e];
-        edgeLine_[e] = add(below_[a], vertexPoint_[a], vertexPoint_[b], faces + e);
+        sliceEdgeOf_[e] = add(below_[a], vertexPoint_[a], vertexPoint_[b], faces + e);
     }
     for (std::uint32_t f = 0; f < faces; ++f) {
-        for (std::uint32_t i = lineBegin_[f]; i < lineBegin_[f + 1]; ++i) {
-            Line& line = lines_[i];
-            if (line.edge == kNone) continue;
-            line.edge = line.edge == kFresh ? add(line.plane, slotPoint_[line.up], slotPoint_[line.down], f)
-                                            : edgeLine_[line.edge];
+        for (std::uint32_t i = segmentBegin_[f]; i < segmentBegin_[f + 1]; ++i) {
+            Segment& segment = segments_[i];
+            if (segment.edge == kNone) continue;
+            segment.edge = segment.edge == kNewEdge
+                               ? add(segment.plane, slotPoint_[segment.up], slotPoint_[segment.down], f)
+                               : sliceEdgeOf_[segment.edge];
         }
     }
 }
@@ -318,13 +320,13 @@ void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_
     for (std::uint32_t at = polytope.cells.begin[cell]; at < polytope.cells.begin[cell + 1]; ++at) {
         const std::uint32_t f = polytope.cells.items[at];
         const bool outward = polytope.cellSigns[at] > 0;
-        for (std::uint32_t i = lineBegin_[f]; i < lineBegin_[f + 1]; ++i) {
-            const Line& line = lines_[i];
-            if (line.plane < span.from) continue;
-            const std::uint32_t from = outward ? line.up : line.down;
-            next_[from] = outward ? line.down : line.up;
-            nextEdge_[from] = line.edge;
-            starts_.emplace_back(line.plane, from);
+        for (std::uint32_t i = segmentBegin_[f]; i < segmentBegin_[f + 1]; ++i) {
+            const Segment& segment = segments_[i];
+            if (segment.plane < span.from) continue;
+            const std::uint32_t from = outward ? segment.up : segment.down;
+            next_[from] = outward ? segment.down : segment.up;
+            nextEdge_[from] = segment.edge;
+            starts_.emplace_back(segment.plane, from);
         }
     }
     for (const auto& [plane, start] : starts_) {
@@ -391,7 +393,7 @@ void PolytopeSlicer::addLyingFace(const polytopes::Polytope& polytope, std::uint
     for (std::size_t i = 0; i < n; ++i) {
         const std::size_t corner = forward ? i : (n - i) % n;
         const std::size_t edge = forward ? i : n - 1 - i;
-        loopCorners_.push_back({vertexPoint_[loop[corner]], edgeLine_[polytope.faceEdges[face][edge]]});
+        loopCorners_.push_back({vertexPoint_[loop[corner]], sliceEdgeOf_[polytope.faceEdges[face][edge]]});
     }
 }
 
@@ -416,12 +418,12 @@ void PolytopeSlicer::placeLoops(SliceSet& out) {
     out.faceBegin.assign(out.planes.count + 1, 0);
     cornerCursor_.assign(out.planes.count + 1, 0);
     for (const Loop& loop : loops_) {
-        countSpan(out.faceBegin, loop.plane, loop.plane + 1);
+        addToDifferences(out.faceBegin, loop.plane, loop.plane + 1);
         cornerCursor_[loop.plane] += loop.size;
         cornerCursor_[loop.plane + 1] -= loop.size;
     }
-    const std::uint32_t total = accumulate(out.faceBegin);
-    const std::uint32_t corners = accumulate(cornerCursor_);
+    const std::uint32_t total = toRangeBegins(out.faceBegin);
+    const std::uint32_t corners = toRangeBegins(cornerCursor_);
     out.faceSource.resize(total);
     out.cornerBegin.resize(total + 1);
     out.cornerBegin[total] = corners;

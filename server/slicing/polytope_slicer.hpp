@@ -23,7 +23,7 @@ namespace oval4d::slicing {
 class PolytopeSlicer {
   public:
     /// With `forkJoin`, large convex polytopes are sliced on two cores; null: always on one.
-    explicit PolytopeSlicer(parallel::ForkJoin* forkJoin = nullptr) : convexCut_(forkJoin) {}
+    explicit PolytopeSlicer(parallel::ForkJoin* forkJoin = nullptr) : convexSlicer_(forkJoin) {}
 
     /// Slices `polytope` rotated by `orientation`. Overwrites `out` and reuses its memory.
     void slice(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
@@ -32,7 +32,7 @@ class PolytopeSlicer {
   private:
     static constexpr std::int32_t kNoPlane = -1;
     static constexpr std::uint32_t kNone = 0xffffffffU;
-    static constexpr std::uint32_t kFresh = 0xfffffffeU;  // see Line
+    static constexpr std::uint32_t kNewEdge = 0xfffffffeU;  // see Segment
 
     // The hyperplanes with the indices from … to − 1; none if to ≤ from.
     struct Span {
@@ -41,8 +41,8 @@ class PolytopeSlicer {
     // A segment in which a 2-face crosses the level just above hyperplane `plane`, from the edge where the 2-face's
     // vertex loop rises through this level to the edge where it descends. `edge` is the slice edge of the segment;
     // kNone if the segment shrinks to a point when moved down into the hyperplane. Until numberEdges() has set `edge`,
-    // it is kFresh for a new slice edge, or the polytope's edge in the hyperplane onto which the segment moves.
-    struct Line {
+    // it is kNewEdge for a new slice edge, or the polytope's edge in the hyperplane onto which the segment moves.
+    struct Segment {
         std::int32_t plane;
         std::uint32_t up, down;  // slots (see slotBegin_)
         std::uint32_t edge;
@@ -61,21 +61,21 @@ class PolytopeSlicer {
     // Rotates the vertices and counts the hyperplanes below each.
     void locateVertices(const polytopes::Polytope& polytope, const geometry::Rotation& orientation, SliceSet& out);
     // Cuts all slices by the general method, which also handles nonconvex polytopes.
-    void cutAny(const polytopes::Polytope& polytope, SliceSet& out);
+    void cutGeneral(const polytopes::Polytope& polytope, SliceSet& out);
     // Cuts all slices of a convex polytope by the faster ConvexSlicer. Returns false if it cannot.
     bool cutConvex(const polytopes::Polytope& polytope, SliceSet& out);
     bool cutTouching(const polytopes::Polytope& polytope, SliceSet& out);
     // Cuts only hyperplane `plane` of `all`, into `single`.
-    void cutOne(const polytopes::Polytope& polytope, std::int32_t plane, SliceSet& single, SliceSet& all);
+    void cutSingle(const polytopes::Polytope& polytope, std::int32_t plane, SliceSet& single, SliceSet& all);
     void cutEdges(const polytopes::Polytope& polytope, SliceSet& out);
     void cutFaces(const polytopes::Polytope& polytope, SliceSet& out);
     void cutConvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above);
-    void cutAnyFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above, const SliceSet& out);
-    void addLine(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane, std::uint32_t up,
-                 std::uint32_t down);
+    void cutNonconvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above, const SliceSet& out);
+    void addSegment(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane, std::uint32_t up,
+                    std::uint32_t down);
     void numberEdges(const polytopes::Polytope& polytope, SliceSet& out);
     // Returns whether the whole edge lies in a hyperplane.
-    bool liesInOne(const std::array<std::uint32_t, 2>& edge) const {
+    bool liesInHyperplane(const std::array<std::uint32_t, 2>& edge) const {
         return below_[edge[0]] == below_[edge[1]] && below_[edge[0]] < upTo_[edge[0]] &&
                below_[edge[1]] < upTo_[edge[1]];
     }
@@ -86,22 +86,22 @@ class PolytopeSlicer {
     void traceCell(const polytopes::Polytope& polytope, std::uint32_t cell);
     void placeLoops(SliceSet& out);
 
-    ConvexSlicer convexCut_;
+    ConvexSlicer convexSlicer_;
     std::array<SliceSet, 2> singles_;               // the slices in hyperplanes that the polytope touches from one side
     std::vector<SliceSet*> touching_;               // by hyperplane: an element of singles_, or null
     std::vector<std::int32_t> allBelow_, allUpTo_;  // below_ and upTo_ for all hyperplanes, during cutTouching()
     // By vertex: the number of hyperplanes strictly below it, and the number of those below or through it. The two
     // differ if the vertex lies in a hyperplane, whose index is then below_.
-    std::vector<std::int32_t> below_, upTo_, twice_;  // twice_: their sum
-    bool anyLie_ = false;                             // whether any vertex lies in a hyperplane
-    std::vector<std::uint32_t> vertexPoint_;          // by vertex that lies in a hyperplane: its slice vertex
+    std::vector<std::int32_t> below_, upTo_, levelSum_;  // levelSum_: their sum
+    bool anyOnPlane_ = false;                            // whether any vertex lies in a hyperplane
+    std::vector<std::uint32_t> vertexPoint_;             // by vertex that lies in a hyperplane: its slice vertex
     // A slot is the crossing of an edge with the level just above a hyperplane: for edge e and hyperplane k, its index
     // is slotBegin_[e] + k − below_[lower end]. slotPoint_ is the slice vertex of each slot.
     std::vector<std::uint32_t> slotBegin_, slotPoint_;
-    std::vector<std::uint32_t> lyingEdges_;  // edges that lie in a hyperplane
-    std::vector<std::uint32_t> edgeLine_;    // by edge that lies in a hyperplane: its slice edge
-    std::vector<Line> lines_;                // those of 2-face f begin at lineBegin_[f]
-    std::vector<std::uint32_t> lineBegin_;
+    std::vector<std::uint32_t> lyingEdges_;   // edges that lie in a hyperplane
+    std::vector<std::uint32_t> sliceEdgeOf_;  // by edge that lies in a hyperplane: its slice edge
+    std::vector<Segment> segments_;           // those of 2-face f begin at segmentBegin_[f]
+    std::vector<std::uint32_t> segmentBegin_;
     std::vector<Span> faceSpan_, cellSpan_;       // by element: the hyperplanes with its vertices on both sides
     std::vector<std::int32_t> lyingIn_;           // by 2-face: the hyperplane that contains all of it, or kNoPlane
     std::vector<std::uint32_t> next_, nextEdge_;  // by slot: the next slot around the cell's section, the edge to it

@@ -9,14 +9,14 @@ namespace oval4d::slicing {
 /// Counts one element in each of the hyperplanes from … to − 1 (in none if from = to). `counts` is a difference array:
 /// entry k is the number of elements in hyperplane k minus that in hyperplane k − 1. Pass it to `accumulate` at the
 /// end.
-inline void countSpan(std::vector<std::uint32_t>& counts, std::int32_t from, std::int32_t to) {
+inline void addToDifferences(std::vector<std::uint32_t>& counts, std::int32_t from, std::int32_t to) {
     counts[from] += 1;
     counts[to] -= 1;  // may wrap around below 0, but the sums are correct
 }
 
-/// Converts a difference array of `countSpan`, in place, to the index at which the range of each hyperplane begins. The
-/// last entry, after those of all hyperplanes, becomes the total number of elements. Returns the total.
-inline std::uint32_t accumulate(std::vector<std::uint32_t>& begin) {
+/// Converts a difference array of `addToDifferences`, in place, to the index at which the range of each hyperplane
+/// begins. The last entry, after those of all hyperplanes, becomes the total number of elements. Returns the total.
+inline std::uint32_t toRangeBegins(std::vector<std::uint32_t>& begin) {
     std::uint32_t total = 0;
     std::uint32_t here = 0;
     for (auto& entry : begin) {

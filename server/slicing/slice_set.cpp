@@ -2,7 +2,7 @@
 
 namespace oval4d::slicing {
 
-void SliceSet::resize(ElementCounts size) {
+void SliceSet::resize(SliceCounts size) {
     vertexBegin.resize(planes.count + 1);
     edgeBegin.resize(planes.count + 1);
     faceBegin.resize(planes.count + 1);
@@ -16,7 +16,7 @@ void SliceSet::resize(ElementCounts size) {
     cornerEdges.resize(size.corners);
 }
 
-void SliceSet::end(ElementCounts at) {
+void SliceSet::end(SliceCounts at) {
     begin(planes.count, at);
     if (vertices.size() != at.vertices || edges.size() != at.edges || faceSource.size() != at.faces ||
         corners.size() != at.corners)

@@ -18,10 +18,10 @@ inline constexpr double kOnPlane = 1e-9;
 
 /// Numbers of vertices, edges, faces and face corners in slices. Describes the size of a slice, or its position in a
 /// SliceSet: the total size of the slices before it.
-struct ElementCounts {
+struct SliceCounts {
     std::uint32_t vertices = 0, edges = 0, faces = 0, corners = 0;
 
-    ElementCounts operator+(ElementCounts more) const {
+    SliceCounts operator+(SliceCounts more) const {
         return {vertices + more.vertices, edges + more.edges, faces + more.faces, corners + more.corners};
     }
 };
@@ -56,17 +56,17 @@ struct SliceSet {
     std::size_t faceCount(int slice) const { return faceBegin[slice + 1] - faceBegin[slice]; }
 
     /// Returns the total size of all slices. Not for a default-constructed set, whose arrays are empty.
-    ElementCounts size() const { return {vertexBegin.back(), edgeBegin.back(), faceBegin.back(), cornerBegin.back()}; }
+    SliceCounts size() const { return {vertexBegin.back(), edgeBegin.back(), faceBegin.back(), cornerBegin.back()}; }
     /// Resizes the arrays for planes.count slices with this total size.
-    void resize(ElementCounts size);
+    void resize(SliceCounts size);
     /// Records that slice number `slice` begins at `at`.
-    void begin(int slice, ElementCounts at) {
+    void begin(int slice, SliceCounts at) {
         vertexBegin[slice] = at.vertices;
         edgeBegin[slice] = at.edges;
         faceBegin[slice] = at.faces;
     }
     /// Records that the last slice ends at `at`, and truncates the arrays there.
-    void end(ElementCounts at);
+    void end(SliceCounts at);
 };
 
 /// A set without slices.

@@ -37,8 +37,8 @@ void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::
 }
 
 // Copies a single slice into `out` at `at`; returns its size.
-ElementCounts insert(const SliceSet& slice, ElementCounts at, SliceSet& out) {
-    const ElementCounts size = slice.size();
+SliceCounts insert(const SliceSet& slice, SliceCounts at, SliceSet& out) {
+    const SliceCounts size = slice.size();
     const auto copy = [](const auto& from, auto& to, std::size_t begin) {
         std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(begin));
     };
@@ -56,22 +56,22 @@ ElementCounts insert(const SliceSet& slice, ElementCounts at, SliceSet& out) {
 
 }  // namespace
 
-bool Sweep::begin(const polytopes::Polytope& polytope, Levels levels, int planes) {
+bool Sweep::begin(const polytopes::Polytope& polytope, VertexLevels levels, int planes) {
     levels_ = levels;
     findSteps(polytope, planes);
     return findElements(polytope, planes);
 }
 
-bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, ElementCounts& at,
+bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, SliceCounts& at,
                 SliceSet& out) {
     first_ = first;
-    ElementCounts here = at;  // a local copy, which no other write can alias
+    SliceCounts here = at;  // a local copy, which no other write can alias
     for (std::size_t step = 0; step + 1 < steps_.size(); ++step) {
         int k = steps_[step];
         const int next = steps_[step + 1];
         advance(polytope, out.rotatedVertices, k);
-        const ElementCounts size = sizeOfSlice();
-        if (vertexStep_[k] == VertexStep::inside) {
+        const SliceCounts size = countsOfSlice();
+        if (vertexPosition_[k] == VertexPosition::inside) {
             out.begin(first + k, here);
             if (!touching.empty() && touching[k] != nullptr) {
                 here = here + insert(*touching[k], here, out);
@@ -90,17 +90,17 @@ bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> 
 
 // Finds the hyperplanes at which the set of cut elements may change.
 void Sweep::findSteps(const polytopes::Polytope& polytope, int planes) {
-    vertexStep_.assign(planes + 1, VertexStep::none);
-    for (const std::int32_t below : levels_.below) vertexStep_[below] = VertexStep::between;
-    if (levels_.anyLie) {
+    vertexPosition_.assign(planes + 1, VertexPosition::none);
+    for (const std::int32_t below : levels_.below) vertexPosition_[below] = VertexPosition::between;
+    if (levels_.anyOnPlane) {
         for (std::size_t v = 0; v < levels_.below.size(); ++v) {
-            if (levels_.below[v] != levels_.upTo[v]) vertexStep_[levels_.below[v]] = VertexStep::inside;
+            if (levels_.below[v] != levels_.upTo[v]) vertexPosition_[levels_.below[v]] = VertexPosition::inside;
         }
         collapse_.begin(polytope, levels_);
     }
     steps_.assign(1, 0);
     for (int k = 1; k < planes; ++k) {
-        if (vertexStep_[k] != VertexStep::none) steps_.push_back(k);
+        if (vertexPosition_[k] != VertexPosition::none) steps_.push_back(k);
     }
     steps_.push_back(planes);
 }
@@ -111,7 +111,7 @@ bool Sweep::findElements(const polytopes::Polytope& polytope, int planes) {
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
-    ElementCounts total;
+    SliceCounts total;
     std::uint32_t ends = 0;
     edges_.clear(edges, planes);
     for (std::uint32_t e = 0; e < edges; ++e) {
@@ -196,13 +196,13 @@ inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t 
 
 // Writes the slices in hyperplanes plane … end − 1. No vertex lies between these, so the slices differ only in the
 // coordinates of their vertices.
-bool Sweep::write(int plane, int end, ElementCounts at, SliceSet& out) {
+bool Sweep::write(int plane, int end, SliceCounts at, SliceSet& out) {
     writeVertices(plane, end, at, out);
     writeEdges(at, out);
     if (!writeFaces(at, out)) return false;
     const auto times = static_cast<std::size_t>(end - plane);
     if (times == 1) return true;
-    const ElementCounts size = sizeOfSlice();
+    const SliceCounts size = countsOfSlice();
     repeat(out.vertexSource, at.vertices, size.vertices, times);
     repeat(out.edges, at.edges, size.edges, times);
     repeat(out.edgeSource, at.edges, size.edges, times);
@@ -214,7 +214,7 @@ bool Sweep::write(int plane, int end, ElementCounts at, SliceSet& out) {
     return true;
 }
 
-void Sweep::writeVertices(int plane, int end, ElementCounts at, SliceSet& out) {
+void Sweep::writeVertices(int plane, int end, SliceCounts at, SliceSet& out) {
     const auto cut = edges_.active();
     const Line* edgeLines = line_.data();
     std::uint32_t* vertexSource = out.vertexSource.data() + at.vertices;
@@ -232,7 +232,7 @@ void Sweep::writeVertices(int plane, int end, ElementCounts at, SliceSet& out) {
     }
 }
 
-void Sweep::writeEdges(ElementCounts at, SliceSet& out) {
+void Sweep::writeEdges(SliceCounts at, SliceSet& out) {
     const auto cut = faces_.active();
     const std::uint32_t* vertices = vertex_.data();
     const std::uint32_t* ends = end_.data();
@@ -247,7 +247,7 @@ void Sweep::writeEdges(ElementCounts at, SliceSet& out) {
     }
 }
 
-bool Sweep::writeFaces(ElementCounts at, SliceSet& out) const {
+bool Sweep::writeFaces(SliceCounts at, SliceSet& out) const {
     const auto cut = cells_.active();
     const std::uint32_t* sliceEdges = sliceEdge_.data();
     const std::uint32_t* next = next_.data();

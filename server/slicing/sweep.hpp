@@ -27,18 +27,18 @@ class Sweep {
     /// Prepares the sweep of a polytope by `planes` hyperplanes: finds the elements that each of them cuts. `levels`
     /// describes only these hyperplanes; its arrays must outlive the call of `cut`. Returns false if rounding errors in
     /// the vertices make a hyperplane cut a 2-face or a cell twice.
-    bool begin(const polytopes::Polytope& polytope, Levels levels, int planes);
+    bool begin(const polytopes::Polytope& polytope, VertexLevels levels, int planes);
 
     /// Returns an upper bound of the total size of the slices, without those that are passed to `cut` in `touching`. It
     /// is not exact if vertices lie in hyperplanes, because the slices there become smaller (see DegeneracyCollapse).
-    ElementCounts size() const { return size_; }
+    SliceCounts size() const { return size_; }
 
     /// Writes the slices to `out`. The first one becomes slice number `first` of `out`, and its elements begin at
     /// position `at`; sets `at` to the position after the last slice. `out` must contain the rotated vertices, and its
     /// arrays must be large enough. `touching` has an entry for each hyperplane: a set with only the slice there if the
     /// polytope touches the hyperplane from one side, else null. It may be empty if all entries would be null. Returns
     /// false in the same case as `begin`.
-    bool cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, ElementCounts& at,
+    bool cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, SliceCounts& at,
              SliceSet& out);
 
   private:
@@ -52,25 +52,25 @@ class Sweep {
     };
     // Where vertices lie: in a hyperplane (inside), only between it and the hyperplane below (between), or in neither
     // place.
-    enum class VertexStep : std::uint8_t { none, between, inside };
+    enum class VertexPosition : std::uint8_t { none, between, inside };
     void findSteps(const polytopes::Polytope& polytope, int planes);
     bool findElements(const polytopes::Polytope& polytope, int planes);
     void advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& rotatedVertices, int plane);
     void beginEdge(const polytopes::Polytope& polytope, std::uint32_t edge,
                    const std::vector<glm::dvec4>& rotatedVertices);
-    ElementCounts sizeOfSlice() const { return {edges_.size(), faces_.size(), cells_.size(), 2 * faces_.size()}; }
-    bool write(int plane, int end, ElementCounts at, SliceSet& out);
-    void writeVertices(int plane, int end, ElementCounts at, SliceSet& out);
-    void writeEdges(ElementCounts at, SliceSet& out);
-    bool writeFaces(ElementCounts at, SliceSet& out) const;
+    SliceCounts countsOfSlice() const { return {edges_.size(), faces_.size(), cells_.size(), 2 * faces_.size()}; }
+    bool write(int plane, int end, SliceCounts at, SliceSet& out);
+    void writeVertices(int plane, int end, SliceCounts at, SliceSet& out);
+    void writeEdges(SliceCounts at, SliceSet& out);
+    bool writeFaces(SliceCounts at, SliceSet& out) const;
 
-    Levels levels_;
-    ElementCounts size_;
+    VertexLevels levels_;
+    SliceCounts size_;
     int first_ = 0;
     ActiveList edges_, faces_, cells_;
     std::vector<Span> faceSpan_;
-    std::vector<VertexStep> vertexStep_;    // by hyperplane
-    std::vector<int> steps_;                // hyperplane 0, the others with a vertexStep_, and the end of the range
+    std::vector<VertexPosition> vertexPosition_;  // by hyperplane
+    std::vector<int> steps_;                // hyperplane 0, the others with a vertexPosition_, and the end of the range
     std::vector<Line> line_;                // by active edge
     std::vector<std::uint32_t> vertex_;     // by active edge: its slice vertex
     std::vector<std::uint32_t> sliceEdge_;  // by active 2-face: its slice edge

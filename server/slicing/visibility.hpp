@@ -24,7 +24,7 @@ struct Visibilities {
     std::vector<Visibility> vertices, edges, faces;
 
     /// Returns whether everything is fully visible.
-    bool all() const { return faces.empty(); }
+    bool allVisible() const { return faces.empty(); }
     Visibility vertex(std::uint32_t source) const { return vertices.empty() ? Visibility::full : vertices[source]; }
     Visibility edge(std::uint32_t source) const { return edges.empty() ? Visibility::full : edges[source]; }
     Visibility face(std::uint32_t source) const { return faces.empty() ? Visibility::full : faces[source]; }

@@ -53,7 +53,7 @@ glm::dquat quaternionIn(const json& value) {
 
 /// Returns the polytope with this name, and subtracts its number of vertices from `vertexBudget`. Throws Unreadable if
 /// the budget is too small.
-slicing::Object constructed(const std::string& name, polytopes::PolytopeCache& cache, std::size_t& vertexBudget) {
+slicing::Object rebuilt(const std::string& name, polytopes::PolytopeCache& cache, std::size_t& vertexBudget) {
     const auto named = polytopes::designNamed(name, kMaxVertices);
     const auto* design = std::get_if<polytopes::Design>(&named);
     if (design == nullptr) refuse("the catalogue has no polytope called " + text::inQuotes(name));
@@ -78,7 +78,7 @@ class ObjectTable {
             // An entry is [name] for an object that is built from its name, and [name, key] for any other object.
             const geometry::ObjectInfo& info = slicing::infoOf(object);
             json entry = json::array({info.name});
-            if (!info.constructed) entry.push_back(keyOf_(object));
+            if (!info.rebuildableFromName) entry.push_back(keyOf_(object));
             list.push_back(std::move(entry));
         }
         return found->second;
@@ -98,7 +98,7 @@ ObjectList objectsIn(const json& list, const ObjectLookup& objectOf, polytopes::
     std::size_t vertexBudget = kMaxTotalVertices;
     for (const json& entry : list) {
         if (entry.size() == 1) {
-            objects.push_back(constructed(textIn(entry.at(0)), cache, vertexBudget));
+            objects.push_back(rebuilt(textIn(entry.at(0)), cache, vertexBudget));
         } else if (auto object = objectOf(textIn(entry.at(1)))) {
             objects.push_back(std::move(*object));
         } else {
@@ -211,7 +211,7 @@ State stateIn(const json& value, const ObjectList& objects) {
     if (count < 1 || count > kMaxSlices || count % 2 == 0 || !(spacing > 0))
         refuse("the number of slices or their spacing is not allowed");
     if (focus < -session::kMaxFocus || focus > session::kMaxFocus) refuse("the focus is out of range");
-    if (state.turning && !state.last) refuse("a state is turning, but has no last rotation");
+    if (state.turning && !state.lastTurn) refuse("a state is turning, but has no last rotation");
     return state;
 }
 

@@ -43,7 +43,7 @@ std::vector<SaveResult> MemoryStore::save(std::span<const RecordUpdate> updates)
         const auto found = entries_.find(update.credentials.id);
         const bool known = found != entries_.end();
         if (known ? update.fence < found->second.fence : update.whole.empty()) {
-            results.push_back(known ? SaveResult::taken : SaveResult::missing);
+            results.push_back(known ? SaveResult::claimed : SaveResult::missing);
             continue;
         }
         results.push_back(SaveResult::saved);

@@ -69,7 +69,7 @@ bool checkFile(const std::string& path, Permissions permissions) {
         if (errno == ENOENT) return false;
         fail(path, "unable to open it");
     }
-    struct stat status {};
+    struct stat status{};
     if (fstat(file.number(), &status) != 0) fail(path, "unable to read its status");
     if (!S_ISREG(status.st_mode)) throw StoreError(path + " is " + kindOf(status.st_mode));
     if (status.st_uid != geteuid()) {
@@ -102,7 +102,7 @@ void makePrivateIfExists(const std::string& path) { checkFile(path, Permissions:
 void refuseUnsafe(const std::string& path) { checkFile(path, Permissions::leave); }
 
 std::string identityOf(const std::string& path) {
-    struct stat status {};
+    struct stat status{};
     if (lstat(path.c_str(), &status) != 0) return {};
     return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);
 }

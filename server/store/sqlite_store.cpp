@@ -353,7 +353,7 @@ SaveResult SqliteStore::saveOne(const RecordUpdate& update) {
     }
     if (written == 0) {
         Query query(*database_, "SELECT 1 FROM session WHERE id = ?");
-        return query.text(id).row() ? SaveResult::taken : SaveResult::missing;
+        return query.text(id).row() ? SaveResult::claimed : SaveResult::missing;
     }
     for (const auto& [key, bytes] : update.objects) {
         Query query(*database_, "INSERT OR REPLACE INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");

@@ -54,7 +54,7 @@ struct RecordUpdate {
 /// The result of saving one update.
 enum class SaveResult : std::uint8_t {
     saved,
-    taken,    ///< not saved: another server has claimed the session
+    claimed,  ///< not saved: another server has claimed the session
     missing,  ///< not saved: the store does not have the session, and the update has no `whole`
 };
 

@@ -72,11 +72,11 @@ void WriteBehindStore::stop(Milliseconds limit) {
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
     // The callbacks may own large objects: destroy them before this function returns, but without holding the lock.
-    decltype(held_) held;
+    decltype(cached_) cached;
     decltype(tasks_) tasks;
     {
         const std::lock_guard lock(mutex_);
-        held.swap(held_);
+        cached.swap(cached_);
         tasks.swap(tasks_);
     }
 }
@@ -84,7 +84,7 @@ void WriteBehindStore::stop(Milliseconds limit) {
 SessionCredentials WriteBehindStore::create() {
     SessionCredentials credentials{randomName(kIdBytes), randomName(kTokenBytes)};
     const std::lock_guard lock(mutex_);
-    held_[credentials.id].credentials = credentials;
+    cached_[credentials.id].credentials = credentials;
     ++created_;
     return credentials;
 }
@@ -111,12 +111,12 @@ void WriteBehindStore::save(const std::string& id, Session value, SaveScope scop
     bool ours = false;
     {
         const std::lock_guard lock(mutex_);
-        if (const auto found = held_.find(id); found != held_.end()) {
+        if (const auto found = cached_.find(id); found != cached_.end()) {
             ours = true;
-            Held& held = found->second;
-            (scope == SaveScope::head ? held.head : held.whole) = std::make_shared<const Session>(std::move(value));
-            enqueue(id, held);
-            if (lastError_.empty() && written) held.waiting.push_back(std::exchange(written, nullptr));
+            CachedSession& cached = found->second;
+            (scope == SaveScope::head ? cached.head : cached.whole) = std::make_shared<const Session>(std::move(value));
+            enqueue(id, cached);
+            if (lastError_.empty() && written) cached.waiting.push_back(std::exchange(written, nullptr));
         }
     }
     wake_.notify_one();
@@ -125,38 +125,38 @@ void WriteBehindStore::save(const std::string& id, Session value, SaveScope scop
 
 void WriteBehindStore::close(const std::string& id, Session value) {
     const std::size_t bytes = bytesOf(value);
-    std::vector<Held> evicted;
+    std::vector<CachedSession> evicted;
     {
         const std::lock_guard lock(mutex_);
-        const auto found = held_.find(id);
-        if (found == held_.end()) return;
-        Held& held = found->second;
-        held.whole = std::make_shared<const Session>(std::move(value));
-        held.closed = true;
-        held.closedAt = Clock::now();
-        held.bytes = bytes;
-        enqueue(id, held);
+        const auto found = cached_.find(id);
+        if (found == cached_.end()) return;
+        CachedSession& cached = found->second;
+        cached.whole = std::make_shared<const Session>(std::move(value));
+        cached.closed = true;
+        cached.closedAt = Clock::now();
+        cached.bytes = bytes;
+        enqueue(id, cached);
         if (!lastError_.empty()) evicted = evictClosed();
     }
     if (!evicted.empty()) spdlog::warn("sessions evicted from memory while the store fails count={}", evicted.size());
-    for (const Held& held : evicted) {
-        for (const Written& written : held.waiting) written(false);
+    for (const CachedSession& cached : evicted) {
+        for (const Written& written : cached.waiting) written(false);
     }
     wake_.notify_one();
 }
 
 /// Removes closed sessions from memory until the remaining ones fit within the quota, and returns them: first those
 /// that were never changed, then those that were closed first. Skips sessions that are being written.
-std::vector<WriteBehindStore::Held> WriteBehindStore::evictClosed() {
+std::vector<WriteBehindStore::CachedSession> WriteBehindStore::evictClosed() {
     std::size_t bytes = 0;
-    std::vector<decltype(held_)::iterator> closed;
-    for (auto entry = held_.begin(); entry != held_.end(); ++entry) {
-        const Held& held = entry->second;
-        if (!held.closed || held.inFlight) continue;
-        bytes += held.bytes;
+    std::vector<decltype(cached_)::iterator> closed;
+    for (auto entry = cached_.begin(); entry != cached_.end(); ++entry) {
+        const CachedSession& cached = entry->second;
+        if (!cached.closed || cached.inFlight) continue;
+        bytes += cached.bytes;
         closed.push_back(entry);
     }
-    std::vector<Held> evicted;
+    std::vector<CachedSession> evicted;
     if (bytes <= settings_.quota) return evicted;
     std::ranges::sort(closed, {}, [](const auto& entry) {
         return std::tuple(entry->second.whole->revision > 0, entry->second.closedAt);
@@ -166,7 +166,7 @@ std::vector<WriteBehindStore::Held> WriteBehindStore::evictClosed() {
         bytes -= entry->second.bytes;
         tasks_.emplace_back([this, id = entry->first] { dropKeys(id); });
         evicted.push_back(std::move(entry->second));
-        held_.erase(entry);
+        cached_.erase(entry);
     }
     recount();
     return evicted;
@@ -176,46 +176,46 @@ void WriteBehindStore::remove(const std::string& id) {
     {
         const std::lock_guard lock(mutex_);
         tasks_.emplace_back([this, id] {
-            Held held;  // destroyed without holding the lock
+            CachedSession cached;  // destroyed without holding the lock
             {
                 const std::lock_guard inner(mutex_);
-                const auto found = held_.find(id);
-                if (found != held_.end() && !found->second.closed) return;
-                if (found != held_.end()) {
-                    held = std::move(found->second);
-                    held_.erase(found);
+                const auto found = cached_.find(id);
+                if (found != cached_.end() && !found->second.closed) return;
+                if (found != cached_.end()) {
+                    cached = std::move(found->second);
+                    cached_.erase(found);
                 }
                 keys_.erase(id);
                 removals_.insert(id);
             }
-            for (const Written& written : held.waiting) written(false);
+            for (const Written& written : cached.waiting) written(false);
         });
     }
     wake_.notify_one();
 }
 
-/// Drops the object keys of a session unless `held_` contains it again.
+/// Drops the object keys of a session unless `cached_` contains it again.
 void WriteBehindStore::dropKeys(const std::string& id) {
     const std::lock_guard lock(mutex_);
-    if (!held_.contains(id)) keys_.erase(id);
+    if (!cached_.contains(id)) keys_.erase(id);
 }
 
 void WriteBehindStore::release(const std::string& id) {
     const std::lock_guard lock(mutex_);
-    held_.erase(id);
+    cached_.erase(id);
 }
 
 std::size_t WriteBehindStore::count() const {
     const std::lock_guard lock(mutex_);
     // If servers share the store (at_once), its size does not tell the load of this server.
-    return writePolicy_ == Store::WritePolicy::at_once ? held_.size() : kept_ + created_;
+    return writePolicy_ == Store::WritePolicy::at_once ? cached_.size() : kept_ + created_;
 }
 
 std::size_t WriteBehindStore::unsaved() const {
     const std::lock_guard lock(mutex_);
-    return static_cast<std::size_t>(std::ranges::count_if(held_, [](const auto& entry) {
-        const Held& held = entry.second;
-        return held.head || held.whole || held.inFlight;
+    return static_cast<std::size_t>(std::ranges::count_if(cached_, [](const auto& entry) {
+        const CachedSession& cached = entry.second;
+        return cached.head || cached.whole || cached.inFlight;
     }));
 }
 
@@ -224,8 +224,8 @@ std::string WriteBehindStore::lastError() const {
     return lastError_;
 }
 
-void WriteBehindStore::enqueue(const std::string& id, Held& held) {
-    if (std::exchange(held.queued, true)) return;
+void WriteBehindStore::enqueue(const std::string& id, CachedSession& cached) {
+    if (std::exchange(cached.queued, true)) return;
     queue_.push_back(id);
 }
 
@@ -233,7 +233,7 @@ bool WriteBehindStore::mayWrite() const { return (!queue_.empty() || !removals_.
 
 void WriteBehindStore::recount() {
     created_ =
-        static_cast<std::size_t>(std::ranges::count_if(held_, [](const auto& entry) { return !entry.second.saved; }));
+        static_cast<std::size_t>(std::ranges::count_if(cached_, [](const auto& entry) { return !entry.second.saved; }));
 }
 
 WriteBehindStore::Clock::time_point WriteBehindStore::nextWake() const {
@@ -328,17 +328,17 @@ void WriteBehindStore::takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate
             if (queue_.empty()) break;
             const std::string id = std::move(queue_.front());
             queue_.pop_front();
-            const auto found = held_.find(id);
-            if (found == held_.end()) continue;
-            Held& held = found->second;
-            held.queued = false;
-            held.inFlight = true;
+            const auto found = cached_.find(id);
+            if (found == cached_.end()) continue;
+            CachedSession& cached = found->second;
+            cached.queued = false;
+            cached.inFlight = true;
             jobs.push_back({id,
-                            std::exchange(held.head, nullptr),
-                            std::exchange(held.whole, nullptr),
-                            std::exchange(held.waiting, {}),
+                            std::exchange(cached.head, nullptr),
+                            std::exchange(cached.whole, nullptr),
+                            std::exchange(cached.waiting, {}),
                             {}});
-            updates.push_back({held.credentials, held.fence, {}, {}, {}, {}, held.closed, true});
+            updates.push_back({cached.credentials, cached.fence, {}, {}, {}, {}, cached.closed, true});
         }
         encode(jobs.back(), updates.back());
         bytes += store::bytesOf(updates.back());
@@ -379,7 +379,7 @@ std::vector<std::optional<SaveResult>> WriteBehindStore::saveOrEvict(std::span<c
     } catch (const NotWritable&) {
         const std::size_t count = store_->evict(updates, [this](const std::string& id) {
             const std::lock_guard lock(mutex_);
-            return held_.contains(id);
+            return cached_.contains(id);
         });
         if (count > 0) spdlog::warn("sessions evicted, the store is full count={} store={}", count, name_);
     }
@@ -398,7 +398,7 @@ void WriteBehindStore::writeRemovals() {
     std::vector<std::string> ids;
     {
         const std::lock_guard lock(mutex_);
-        std::erase_if(removals_, [&](const std::string& id) { return held_.contains(id); });  // reopened meanwhile
+        std::erase_if(removals_, [&](const std::string& id) { return cached_.contains(id); });  // reopened meanwhile
         ids.assign(removals_.begin(), removals_.end());
     }
     if (ids.empty()) return;
@@ -446,13 +446,13 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
             return std::ranges::find(update.dropped, entry.second.key) != update.dropped.end();
         });
         const std::lock_guard lock(mutex_);
-        const auto found = held_.find(job.id);
-        if (found != held_.end()) {
-            Held& held = found->second;
-            held.inFlight = false;
-            if (!std::exchange(held.saved, true)) pollAt_ = Clock::time_point();  // poll now, to update count()
-            if (held.closed && !held.queued) {
-                held_.erase(found);
+        const auto found = cached_.find(job.id);
+        if (found != cached_.end()) {
+            CachedSession& cached = found->second;
+            cached.inFlight = false;
+            if (!std::exchange(cached.saved, true)) pollAt_ = Clock::time_point();  // poll now, to update count()
+            if (cached.closed && !cached.queued) {
+                cached_.erase(found);
                 keys_.erase(job.id);
             }
         }
@@ -473,16 +473,16 @@ void WriteBehindStore::requeue(Job& job) {
     std::vector<Written> released;
     {
         const std::lock_guard lock(mutex_);
-        const auto found = held_.find(job.id);
-        if (found == held_.end()) return;
-        Held& held = found->second;
-        held.inFlight = false;
-        if (!held.head) held.head = std::move(job.head);
-        if (!held.whole) held.whole = std::move(job.whole);
-        std::ranges::move(job.waiting, std::back_inserter(held.waiting));
+        const auto found = cached_.find(job.id);
+        if (found == cached_.end()) return;
+        CachedSession& cached = found->second;
+        cached.inFlight = false;
+        if (!cached.head) cached.head = std::move(job.head);
+        if (!cached.whole) cached.whole = std::move(job.whole);
+        std::ranges::move(job.waiting, std::back_inserter(cached.waiting));
         if (!lastError_.empty()) {
-            enqueue(job.id, held);
-            released = std::exchange(held.waiting, {});
+            enqueue(job.id, cached);
+            released = std::exchange(cached.waiting, {});
         }
     }
     for (const Written& written : released) written(true);
@@ -494,11 +494,11 @@ void WriteBehindStore::dropTaken(const std::string& id) {
     bool open = false;
     {
         const std::lock_guard lock(mutex_);
-        const auto found = held_.find(id);
-        if (found == held_.end()) return;
+        const auto found = cached_.find(id);
+        if (found == cached_.end()) return;
         released = std::move(found->second.waiting);
         open = !found->second.closed;
-        held_.erase(found);
+        cached_.erase(found);
     }
     keys_.erase(id);
     for (const Written& written : released) written(false);
@@ -537,13 +537,13 @@ void WriteBehindStore::refreshExpiry() {
     {
         const std::lock_guard lock(mutex_);
         pollAt_ = std::min(pollAt_, refreshAt_);
-        std::erase_if(held_, [&](const auto& entry) {
+        std::erase_if(cached_, [&](const auto& entry) {
             const bool old = entry.second.closed && Clock::now() - entry.second.closedAt > settings_.expiry;
             if (old) keys_.erase(entry.first);
             return old;
         });
-        for (const auto& [id, held] : held_) {
-            if (held.saved && !held.closed) open.push_back(id);
+        for (const auto& [id, session] : cached_) {
+            if (session.saved && !session.closed) open.push_back(id);
         }
     }
     for (std::size_t i = 0; i < open.size(); i += kBatch) {
@@ -568,12 +568,12 @@ void WriteBehindStore::fetchNow(const SessionCredentials& credentials, const std
 WriteBehindStore::FetchResult WriteBehindStore::claimOrFind(const SessionCredentials& credentials) {
     {
         const std::lock_guard lock(mutex_);
-        if (const auto found = held_.find(credentials.id); found != held_.end()) {
-            Held& held = found->second;
-            if (!equalInConstantTime(credentials.token, held.credentials.token)) return kBadToken;
-            if (!held.whole) return kNoAnswer;  // another client is opening it, or it is being written
-            held.closed = false;
-            return Fetched{*held.whole, {}};
+        if (const auto found = cached_.find(credentials.id); found != cached_.end()) {
+            CachedSession& cached = found->second;
+            if (!equalInConstantTime(credentials.token, cached.credentials.token)) return kBadToken;
+            if (!cached.whole) return kNoAnswer;  // another client is opening it, or it is being written
+            cached.closed = false;
+            return Fetched{*cached.whole, {}};
         }
         if (removals_.contains(credentials.id)) return kNotFound;
         if (Clock::now() < readAt_) return kNoAnswer;
@@ -587,10 +587,10 @@ WriteBehindStore::FetchResult WriteBehindStore::claimOrFind(const SessionCredent
     auto record = timed("claim", [&] { return store_->claim(credentials.id); });
     if (!record) return kNotFound;
     const std::lock_guard lock(mutex_);
-    Held& held = held_[credentials.id];
-    held.credentials = credentials;
-    held.fence = record->fence;
-    held.saved = true;
+    CachedSession& cached = cached_[credentials.id];
+    cached.credentials = credentials;
+    cached.fence = record->fence;
+    cached.saved = true;
     return Fetched{{}, std::move(*record)};
 }
 

@@ -114,7 +114,7 @@ class WriteBehindStore {
     using Clock = std::chrono::steady_clock;
     using Value = std::shared_ptr<const session::Session>;
     /// A session in memory.
-    struct Held {
+    struct CachedSession {
         SessionCredentials credentials;
         Fence fence = 1;
         Value head, whole;             ///< changes to be written; null if there are none
@@ -160,10 +160,10 @@ class WriteBehindStore {
     void storeFailed(const std::exception& fault);
     void storeWorked();
 
-    // These require that mutex_ is held.
-    void enqueue(const std::string& id, Held& held);
+    // These require that mutex_ is cached.
+    void enqueue(const std::string& id, CachedSession& cached);
     void recount();
-    std::vector<Held> evictClosed();
+    std::vector<CachedSession> evictClosed();
     bool mayWrite() const;
     Clock::time_point nextWake() const;
 
@@ -176,7 +176,7 @@ class WriteBehindStore {
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     // Guarded by mutex_.
-    std::map<std::string, Held, std::less<>> held_;
+    std::map<std::string, CachedSession, std::less<>> cached_;
     std::deque<std::string> queue_;            // ids of sessions with pending changes
     std::deque<std::function<void()>> tasks_;  // the cache's thread runs them before it writes
     std::set<std::string> removals_;           // ids to remove from the store

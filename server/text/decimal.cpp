@@ -54,7 +54,7 @@ char* putPlain(char* at, const double* numbers, std::size_t begin, std::size_t e
     static constexpr auto kSeparators = separators<Size>();
     for (std::size_t i = begin; i < end; ++i) {
         const auto number = static_cast<float>(numbers[i]);
-        char* const room = at + 2 * kNumberRoom;
+        char* const room = at + 2 * kBytesPerNumber;
         const bool large = std::abs(number) >= kExponentFrom && isExactInteger(number);
         at = large ? std::to_chars(at, room, static_cast<std::int64_t>(number)).ptr
                    : std::to_chars(at, room, number).ptr;

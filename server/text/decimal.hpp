@@ -22,7 +22,7 @@ inline bool isExactInteger(double number) {
 
 /// The bytes of buffer that each number needs, including the brackets and commas after it. The buffer must have room
 /// for one number more than it is to contain, because these functions may write beyond the end of the text.
-inline constexpr std::size_t kNumberRoom = 20;
+inline constexpr std::size_t kBytesPerNumber = 20;
 
 /// Writes vectors as JSON at `at`, such as "[1,0.5,0.25],[1,1,0]"; writes nothing for an empty list. Returns the end of
 /// the text. Rounds each number to a float and writes the fewest digits that read back as the same float, in rare cases

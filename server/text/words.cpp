@@ -13,7 +13,7 @@ char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned 
 
 }  // namespace
 
-std::vector<std::string_view> listOf(std::string_view text) {
+std::vector<std::string_view> splitAtCommas(std::string_view text) {
     std::vector<std::string_view> parts;
     while (!text.empty()) {
         const std::size_t comma = std::min(text.find(','), text.size());

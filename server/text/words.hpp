@@ -8,7 +8,7 @@
 namespace oval4d::text {
 
 /// Returns the parts of a comma-separated list: "a", "b" and "c" for "a,b,c". The parts refer to the memory of `text`.
-std::vector<std::string_view> listOf(std::string_view text);
+std::vector<std::string_view> splitAtCommas(std::string_view text);
 
 /// Returns the words of a text in lower case. White space, hyphens and underscores separate words.
 std::vector<std::string> wordsOf(std::string_view text);

@@ -13,7 +13,7 @@ class CachedText {
     /// Returns the text of `value`. Calls `write(out)`, with a std::string that it must overwrite, only if `value`
     /// differs from the last value. The result is valid until the next call.
     template <typename Write>
-    std::string_view of(const Value& value, Write write) {
+    std::string_view textFor(const Value& value, Write write) {
         if (text_.empty() || value_ != value) {
             value_ = value;
             write(text_);

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMaxNumberLength = 32;  // the maximum length of a number
 
 // Returns the number of bytes to reserve for an array of this many coordinates or indices.
-std::size_t reserveFor(std::size_t numbers) { return (numbers + 2) * text::kNumberRoom; }
+std::size_t reserveFor(std::size_t numbers) { return (numbers + 2) * text::kBytesPerNumber; }
 
 // Writes each number, followed by a comma. Returns the end of the text.
 char* putIntegers(char* at, std::span<const std::uint32_t> list) {

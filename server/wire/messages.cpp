@@ -120,7 +120,7 @@ void stateMessage(const session::State& state, std::uint64_t revision, std::opti
     w.numbers(state.look.cellTypes.hidden);
     w.key("faded");
     w.numbers(state.look.cellTypes.faded);
-    writeLast(w, state.last);
+    writeLast(w, state.lastTurn);
     w.endObject();
 }
 

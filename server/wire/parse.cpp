@@ -100,7 +100,7 @@ session::Set setOf(const json& message) {
     take(message, "hidden", set.hidden);
     take(message, "faded", set.faded);
     if (const auto last = message.find("last"); last != message.end() && !last->is_null())
-        set.last = turnOf(*last, "set: /last");
+        set.lastTurn = turnOf(*last, "set: /last");
     return set;
 }
 
@@ -113,7 +113,7 @@ exports::ExportRequest exportRequestOf(const json& message) {
         throw InvalidRequest{"get: /format must be " + text::listed(exports::formatNames()) + ", not " +
                              text::inQuotes(format)};
     }
-    choose(message, "of", exports::kExtents, request.extent);
+    choose(message, "of", exports::kSliceSelections, request.extent);
     choose(message, "body", exports::kBodies, request.body);
     choose(message, "label", exports::kLabels, request.label);
     request.size = message.value("size", request.size);

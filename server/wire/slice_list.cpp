@@ -60,7 +60,7 @@ void writeTints(W& w, const Scene& scene, std::size_t from, std::size_t to) {
 // Writes the visibility of each element, unless all elements are fully visible.
 template <typename W>
 void writeVisibilities(W& w, const slicing::Visibilities& visibilities, const Sources& of) {
-    if (visibilities.all()) return;
+    if (visibilities.allVisible()) return;
     const auto write = [&](std::string_view name, Numbers elements, const std::vector<slicing::Visibility>& by) {
         std::vector<std::uint32_t> list;
         for (const std::uint32_t element : elements) list.push_back(static_cast<std::uint32_t>(by[element]));
@@ -126,7 +126,7 @@ void writeFill(W& w, const Fill& fill, const slicing::Visibilities& visibilities
     w.triples(fill.triangles);
     w.key("tints");
     w.numbers(fill.tints);
-    if (!visibilities.all()) {
+    if (!visibilities.allVisible()) {
         w.key("seen");
         w.numbers(fill.seen);
     }
@@ -215,7 +215,7 @@ void SliceListWriter::write(JsonWriter& w, const Scene& scene) {
     for (std::size_t i = 0; i < scene.placements.size(); ++i) {
         const SlicePlacement& placement = scene.placements[i];
         const auto text =
-            placements_[i].of(placement, [&](std::string& out) { writePlacement(JsonWriter(out), placement); });
+            placements_[i].textFor(placement, [&](std::string& out) { writePlacement(JsonWriter(out), placement); });
         writeSlice(w, text, scene, i);
     }
     w.endArray();
@@ -233,7 +233,8 @@ void SliceListWriter::write(CborWriter& w, const Scene& scene) {
     const std::size_t count = scene.placements.size();
     const Sources of = sourcesOf(slices, 0, count);
     w.beginObject();
-    w.raw(columns_.of(scene.placements, [&](std::string& out) { writePlacements(CborWriter(out), scene.placements); }));
+    w.raw(columns_.textFor(scene.placements,
+                           [&](std::string& out) { writePlacements(CborWriter(out), scene.placements); }));
     w.key("counts");
     w.beginObject();
     writeSizes(w, "vertices", slices.vertexBegin);

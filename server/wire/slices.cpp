@@ -125,7 +125,7 @@ void SlicesWriter::writeMessage(W&& w, CachedText<StaticScene>& cache, const Sce
     const StaticScene fixed{scene.look.view,   scene.look.parts,   scene.viewport,   scene.camera,
                             scene.scale,       scene.circumradius, scene.ballRadius, scene.barRadius,
                             scene.faceOpacity, scene.axes,         scene.coordinates};
-    w.raw(cache.of(fixed, [&](std::string& out) { writeStaticScene(W(out), fixed); }));
+    w.raw(cache.textFor(fixed, [&](std::string& out) { writeStaticScene(W(out), fixed); }));
     writeColors(w, scene::style(), scene.cellColors);
     w.endObject();
     if (scene.look.parts.coordinates) {

@@ -115,7 +115,7 @@ class Bench {
 
     void cut(int i) {
         turn(i);
-        pipeline_.cut(state_, set_);
+        pipeline_.slice(state_, set_);
     }
 
     void slices() {
@@ -137,7 +137,7 @@ class Bench {
         repeat(("state to " + name).c_str(), 50, [&](int i, Samples& whole) {
             whole.add(secondsOf([&] {
                 cut(i);
-                pipeline_.message(state_, set_, 1, {}, job_.viewport, encoding, text_);
+                pipeline_.writeSlices(state_, set_, 1, {}, job_.viewport, encoding, text_);
             }));
             write.add(pipeline_.times().write);
             bytes += text_.size();
@@ -154,7 +154,7 @@ class Bench {
             whole.add(secondsOf([&] {
                 turn(i);
                 wire::stateMessage(state_, 1, {}, text_);
-                pipeline_.frame(state_, text_, job_.viewport, png_);
+                pipeline_.drawPng(state_, text_, job_.viewport, png_);
             }));
             compose.add(pipeline_.times().compose);
             draw.add(pipeline_.times().draw);
@@ -162,7 +162,7 @@ class Bench {
         });
         for (int i = 0; i < std::min(job_.frames, 24); ++i) {
             turn(5 * i);
-            pipeline_.frame(state_, {}, job_.viewport, png_);
+            pipeline_.drawPng(state_, {}, job_.viewport, png_);
             const LibpngFile again = encodeByLibpng(png_);
             libpng.add(again.seconds);
             ours += png_.size();

@@ -85,7 +85,7 @@ void describe(session::Query query) {
             return;
         }
         fuzz::requireSound(*state, fuzz::kLimits);
-        fuzz::requireSurvives(*state, {});
+        fuzz::requireRoundTrip(*state, {});
         const std::string name = pipeline::fileName(*state, *request);
         const std::string_view plain = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-_.";
         require(name.find_first_not_of(plain) == std::string::npos, "a file's name needs no quoting:", name);

@@ -42,8 +42,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         } else {
             fuzz::requireSentence(turn.error());
         }
-        fuzz::carryOut(session, session::CommandLine{std::string(line)});
+        fuzz::execute(session, session::CommandLine{std::string(line)});
     }
-    fuzz::requireSurvives(session.now, session.loaded);
+    fuzz::requireRoundTrip(session.now, session.loaded);
     return 0;
 }

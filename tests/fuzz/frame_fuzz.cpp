@@ -91,7 +91,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     session::Session session;
-    fuzz::carryOut(session, *set);
-    fuzz::requireSurvives(session.now, session.loaded);
+    fuzz::execute(session, *set);
+    fuzz::requireRoundTrip(session.now, session.loaded);
     return 0;
 }

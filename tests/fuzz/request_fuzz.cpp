@@ -43,11 +43,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require(nlohmann::json::accept(text), "what is carried out was JSON");
         requireEcho(text, request.id, nullptr);
         if (const auto* command = std::get_if<session::Command>(&request.body)) {
-            fuzz::carryOut(session, *command);
+            fuzz::execute(session, *command);
             if (session.now.turning) session::advance(session, 0.01);
         }
     }
     fuzz::requireSound(session, fuzz::kLimits);
-    fuzz::requireSurvives(session.now, session.loaded);
+    fuzz::requireRoundTrip(session.now, session.loaded);
     return 0;
 }

@@ -186,7 +186,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     viewport = {std::clamp(viewport.width, 16, 8192), std::clamp(viewport.height, 16, 8192)};
     session::Session session;
     for (int lines = 0; !rest.empty() && lines < 8; ++lines)
-        fuzz::carryOut(session, session::CommandLine{std::string(fuzz::takeUntil(rest, '\n'))});
+        fuzz::execute(session, session::CommandLine{std::string(fuzz::takeUntil(rest, '\n'))});
 
     static slicing::Slicer slicer;
     static slicing::SliceSet slices;

@@ -102,11 +102,11 @@ inline void requireSound(const session::State& state, const session::Limits& lim
     std::sort(both.begin(), both.end());
     require(std::adjacent_find(both.begin(), both.end()) == both.end(), "a cell type is listed once");
     require(both.empty() || both.back() < info.cellTypes.size(), "cell types are the object's");
-    require(!state.turning || state.last, "what turns has a rotation to turn with");
-    if (state.last) {
-        require(
-            within(state.last->alpha, session::kMaxAngle) && within(state.last->beta.value_or(0), session::kMaxAngle),
-            "the last rotation is within its bounds");
+    require(!state.turning || state.lastTurn, "what turns has a rotation to turn with");
+    if (state.lastTurn) {
+        require(within(state.lastTurn->alpha, session::kMaxAngle) &&
+                    within(state.lastTurn->beta.value_or(0), session::kMaxAngle),
+                "the last rotation is within its bounds");
     }
 }
 
@@ -132,7 +132,7 @@ inline void requireSentence(const Error& error) {
 }
 
 /// Executes a command as the server does, unless it would build a large polytope.
-inline void carryOut(session::Session& session, const session::Command& command) {
+inline void execute(session::Session& session, const session::Command& command) {
     const session::Session before = session;
     const bool small = isSmall(polytopeIn(command, session.now)) && !std::holds_alternative<session::Key>(command);
     session::ObjectLoader loader(kLimits, cache(), session::ObjectLoader::Mode::deferred, session::readObject);
@@ -156,7 +156,7 @@ inline void carryOut(session::Session& session, const session::Command& command)
 }
 
 /// Requires that a state survives encoding as a message and setting another session to it.
-inline void requireSurvives(const session::State& state, const session::Loaded& loaded) {
+inline void requireRoundTrip(const session::State& state, const session::LoadedObjects& loaded) {
     const std::string text = wire::stateMessage(state, 7, 3);
     requireJson(text);
     const auto set = wire::setFromState(text);
@@ -177,7 +177,7 @@ inline void requireSurvives(const session::State& state, const session::Loaded& 
                 "the orientation survives");
     }
     other.now.orientation = state.orientation;
-    if (!state.last) other.now.last.reset();
+    if (!state.lastTurn) other.now.lastTurn.reset();
     require(other.now == state, "a state survives:", text);
 }
 

@@ -30,7 +30,7 @@ void appendSlice(std::string& out, const slicing::SliceSet& slices, int i) {
 
 }  // namespace
 
-std::string csv(const Source& source) {
+std::string csv(const SceneInput& source) {
     const slicing::SliceSet& slices = *source.scene.slices;
     std::string out = "n,w,vertices,edges,faces,volume,area,centroid_x,centroid_y,centroid_z\n";
     for (int i = 0; i < slices.planes.count; ++i) appendSlice(out, slices, i);

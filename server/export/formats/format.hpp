@@ -13,21 +13,21 @@
 namespace oval4d::exports {
 
 /// The input of formats with bodies: the bodies, already arranged.
-struct Bodies {
-    std::span<const Solid> solids;
+struct BodiesInput {
+    std::span<const NamedMesh> solids;
     std::span<const scene::Color> cellColors;  ///< one per cell
     const std::string& title;
     const Budget& budget;
 
     /// Returns the color of a triangle of `solid`: that of its cell, or that of the solid if it has no cell.
-    scene::Color colorOf(const Solid& solid, std::size_t triangle) const {
+    scene::Color colorOf(const NamedMesh& solid, std::size_t triangle) const {
         const std::uint32_t cell = solid.mesh.cells[triangle];
         return cell < cellColors.size() ? cellColors[cell] : solid.color;
     }
 };
 
 /// The input of formats without bodies: a scene, and the object whose slices it contains.
-struct Source {
+struct SceneInput {
     const scene::Scene& scene;
     const slicing::Object& object;
 };
@@ -40,8 +40,8 @@ struct Format {
     std::string name;       ///< the name in messages, which is also the file name extension: "stl"
     std::string mediaType;  ///< the value of the Content-Type header
     Arrangement arrangement = Arrangement::none;
-    std::string (*writeBodies)(const Bodies&) = nullptr;
-    std::string (*writeSource)(const Source&) = nullptr;
+    std::string (*writeBodies)(const BodiesInput&) = nullptr;
+    std::string (*writeScene)(const SceneInput&) = nullptr;
 };
 
 }  // namespace oval4d::exports

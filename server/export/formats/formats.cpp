@@ -24,8 +24,8 @@ namespace {
 /// The function that writes a format; the other pointer is null.
 struct Writer {
     std::string_view name;
-    std::string (*ofBodies)(const Bodies&);
-    std::string (*ofSource)(const Source&);
+    std::string (*ofBodies)(const BodiesInput&);
+    std::string (*ofScene)(const SceneInput&);
 };
 constexpr auto kWriters = std::to_array<Writer>({{"3mf", threeMf, nullptr},
                                                  {"csv", nullptr, csv},
@@ -49,7 +49,7 @@ std::vector<Format> readTable() {
         if (!bodies.empty())
             format.arrangement = bodies == "plate" ? Format::Arrangement::plate : Format::Arrangement::oval;
         format.writeBodies = writer->ofBodies;
-        format.writeSource = writer->ofSource;
+        format.writeScene = writer->ofScene;
         table.push_back(std::move(format));
     }
     if (table.size() != kWriters.size())

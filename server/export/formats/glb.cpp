@@ -65,7 +65,7 @@ class VertexAttribute {
 };
 
 /// Adds a solid to the model. Triangles do not share vertices, so that each triangle has one normal and one color.
-void addSolid(const Solid& solid, const Bodies& bodies, tinygltf::Model& model) {
+void addMesh(const NamedMesh& solid, const BodiesInput& bodies, tinygltf::Model& model) {
     VertexAttribute positions;
     VertexAttribute normals;
     VertexAttribute colors;
@@ -102,7 +102,7 @@ void addSolid(const Solid& solid, const Bodies& bodies, tinygltf::Model& model) 
 
 }  // namespace
 
-std::string glb(const Bodies& bodies) {
+std::string glb(const BodiesInput& bodies) {
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = "oval4d";
@@ -113,7 +113,7 @@ std::string glb(const Bodies& bodies) {
     material.pbrMetallicRoughness.metallicFactor = 0;
     material.pbrMetallicRoughness.roughnessFactor = 0.6;
     model.materials.push_back(std::move(material));
-    for (const Solid& solid : bodies.solids) addSolid(solid, bodies, model);
+    for (const NamedMesh& solid : bodies.solids) addMesh(solid, bodies, model);
     std::ostringstream out;
     if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, out, false, true))
         throw std::runtime_error("tinygltf cannot write the file");

@@ -4,11 +4,11 @@
 
 namespace oval4d::exports {
 
-std::string ply(const Bodies& bodies) {
+std::string ply(const BodiesInput& bodies) {
     const auto solids = bodies.solids;
     std::size_t points = 0;
     std::size_t triangles = 0;
-    for (const Solid& solid : solids) {
+    for (const NamedMesh& solid : solids) {
         points += solid.mesh.points.size();
         triangles += solid.mesh.triangles.size();
     }
@@ -17,11 +17,11 @@ std::string ply(const Bodies& bodies) {
                       std::to_string(triangles) +
                       "\nproperty list uchar uint vertex_indices\nproperty uchar red\nproperty uchar green\n"
                       "property uchar blue\nend_header\n";
-    for (const Solid& solid : solids) {
+    for (const NamedMesh& solid : solids) {
         for (const glm::dvec3& point : solid.mesh.points) put(out, point + solid.at);
     }
     std::uint32_t first = 0;
-    for (const Solid& solid : solids) {
+    for (const NamedMesh& solid : solids) {
         for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) {
             put(out, std::uint8_t{3});
             for (const std::uint32_t corner : solid.mesh.triangles[t]) put(out, first + corner);

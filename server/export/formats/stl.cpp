@@ -13,17 +13,17 @@
 
 namespace oval4d::exports {
 
-std::string stl(const Bodies& bodies) {
+std::string stl(const BodiesInput& bodies) {
     const auto solids = bodies.solids;
     constexpr std::size_t kHeader = 80;
     constexpr std::size_t kTriangle = 50;
     std::size_t count = 0;
-    for (const Solid& solid : solids) count += solid.mesh.triangles.size();
+    for (const NamedMesh& solid : solids) count += solid.mesh.triangles.size();
     std::string out = "oval4d, millimeters";
     out.reserve(kHeader + 4 + kTriangle * count);
     out.resize(kHeader, ' ');
     put(out, static_cast<std::uint32_t>(count));
-    for (const Solid& solid : solids) {
+    for (const NamedMesh& solid : solids) {
         for (const auto& triangle : solid.mesh.triangles) {
             const glm::dvec3 across = normalOf(solid.mesh, triangle);
             const double length = glm::length(across);

@@ -7,6 +7,6 @@
 namespace oval4d::exports {
 
 /// Returns a binary STL file in millimeters, with all bodies in one mesh.
-std::string stl(const Bodies& bodies);
+std::string stl(const BodiesInput& bodies);
 
 }  // namespace oval4d::exports

@@ -88,7 +88,7 @@ std::string densityPaths(const scene::Density& density) {
     return out;
 }
 
-std::string strip(const Source& source) {
+std::string strip(const SceneInput& source) {
     using scene::Density;
     scene::Density density;
     density.measure(source.scene.slices->rotatedVertices, glm::dmat4(1), source.scene.circumradius);
@@ -119,8 +119,8 @@ std::string strip(const Source& source) {
 
 }  // namespace
 
-std::string svg(const Source& source) {
-    if (source.scene.slices->rotatedVertices.size() > scene::kMostLines) return strip(source);
+std::string svg(const SceneInput& source) {
+    if (source.scene.slices->rotatedVertices.size() > scene::kMaxVerticesAsLines) return strip(source);
     const Columns columns(source.scene.slices->rotatedVertices.size());
     const double height = columns.rowStep * static_cast<double>(columns.rows) + kMargin;
     const double right = columns.left(columns.perRow - 1) + columns.step;

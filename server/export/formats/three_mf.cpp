@@ -49,7 +49,7 @@ bool mayContinue(int /*progress*/, ProgressIdentifier /*step*/, void* budget) {
     return !static_cast<const Budget*>(budget)->isOver();
 }
 
-void addSolid(PLib3MFModel* model, const Solid& solid) {
+void addMesh(PLib3MFModel* model, const NamedMesh& solid) {
     std::vector<MODELMESHVERTEX> points;
     points.reserve(solid.mesh.points.size());
     for (const glm::dvec3& p : solid.mesh.points) {
@@ -72,12 +72,12 @@ void addSolid(PLib3MFModel* model, const Solid& solid) {
 
 }  // namespace
 
-std::string threeMf(const Bodies& bodies) {
+std::string threeMf(const BodiesInput& bodies) {
     const auto model = owned<PLib3MFModel>("cannot create a model", [](auto** out) { return lib3mf_createmodel(out); });
     check(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER), "cannot set the unit");
     check(lib3mf_model_addmetadatautf8(model.get(), "Title", bodies.title.c_str()), "cannot set the title");
     check(lib3mf_model_addmetadatautf8(model.get(), "Application", "oval4d"), "cannot set the application");
-    for (const Solid& solid : bodies.solids) addSolid(model.get(), solid);
+    for (const NamedMesh& solid : bodies.solids) addMesh(model.get(), solid);
     const auto writer = owned<PLib3MFModelWriter>(
         "cannot create a writer", [&](auto** out) { return lib3mf_model_querywriter(model.get(), "3mf", out); });
     check(lib3mf_writer_setprogresscallback(writer.get(), &mayContinue, const_cast<Budget*>(&bodies.budget)),

@@ -15,7 +15,7 @@ void appendColor(std::string& out, scene::Color color) {
     }
 }
 
-void appendBody(std::string& out, const Solid& solid, const Bodies& bodies) {
+void appendBody(std::string& out, const NamedMesh& solid, const BodiesInput& bodies) {
     out += "<Transform translation=\"";
     append(out, glm::dvec3(solid.at * kMeter));
     out += "\"><Shape><Appearance><Material/></Appearance>\n<IndexedFaceSet colorPerVertex=\"false\" coordIndex=\"";
@@ -34,12 +34,12 @@ void appendBody(std::string& out, const Solid& solid, const Bodies& bodies) {
 
 }  // namespace
 
-std::string x3d(const Bodies& bodies) {
+std::string x3d(const BodiesInput& bodies) {
     std::string out =
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<X3D profile=\"Interchange\" version=\"3.3\">\n<head><meta name=\"title\" content=\"" +
         xmlEscaped(bodies.title) + "\"/><meta name=\"generator\" content=\"oval4d\"/></head>\n<Scene>\n";
-    for (const Solid& solid : bodies.solids) {
+    for (const NamedMesh& solid : bodies.solids) {
         bodies.budget.checkTime();
         appendBody(out, solid, bodies);
     }

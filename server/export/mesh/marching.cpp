@@ -132,8 +132,8 @@ class MarchingTetrahedra {
             const glm::ivec3 from = at + offset(inside);
             const glm::ivec3 to = at + offset(outside);
             const EdgeCrossing cross = crossing_(from, to);
-            const double part = std::clamp(cross.part, off, 1 - off);
-            mesh_.points.push_back(grid_.snap(glm::mix(field_.place(from), field_.place(to), part)));
+            const double part = std::clamp(cross.fraction, off, 1 - off);
+            mesh_.points.push_back(grid_.snap(glm::mix(field_.positionOf(from), field_.positionOf(to), part)));
             pointCells_.push_back(cross.cell);
         }
         return id;
@@ -176,7 +176,7 @@ class MarchingTetrahedra {
 
 }  // namespace
 
-glm::ivec3 SampledField::below(const glm::dvec3& place) const { return {glm::floor((place - origin_) / step_)}; }
+glm::ivec3 SampledField::floorIndex(const glm::dvec3& place) const { return {glm::floor((place - origin_) / step_)}; }
 
 float& SampledField::at(const glm::ivec3& point) {
     const glm::ivec3 corner = blockOf(point) * kSide;

@@ -32,9 +32,9 @@ class SampledField {
 
     double step() const { return step_; }
     /// Returns the position of the point with these indices.
-    glm::dvec3 place(const glm::ivec3& at) const { return origin_ + step_ * glm::dvec3(at); }
+    glm::dvec3 positionOf(const glm::ivec3& at) const { return origin_ + step_ * glm::dvec3(at); }
     /// Returns the indices of the last point that is not above `place` in any coordinate.
-    glm::ivec3 below(const glm::dvec3& place) const;
+    glm::ivec3 floorIndex(const glm::dvec3& place) const;
 
     /// Returns the value at a point, for writing. Creates the point's block if it does not exist.
     float& at(const glm::ivec3& point);
@@ -57,10 +57,10 @@ class SampledField {
     Block* last_ = nullptr;  // the block last written to
 };
 
-/// The point where the surface crosses an edge of a tetrahedron. `part` is its position on the edge, from 0 at the
+/// The point where the surface crosses an edge of a tetrahedron. `fraction` is its position on the edge, from 0 at the
 /// inside end to 1 at the outside end. `cell` is the cell whose face is crossed, or kNoCell.
 struct EdgeCrossing {
-    double part = 0.5;
+    double fraction = 0.5;
     std::uint32_t cell = kNoCell;
 };
 /// Finds the crossing on the edge between a point that is inside and a neighboring point that is outside.

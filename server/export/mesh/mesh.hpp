@@ -30,7 +30,7 @@ struct Mesh {
 };
 
 /// One body of a file.
-struct Solid {
+struct NamedMesh {
     std::string name;
     Mesh mesh;
     scene::Color color;  ///< the color of triangles without a cell

@@ -52,7 +52,7 @@ class OuterSurface {
         return marchTetrahedra(
             field,
             [&](const glm::ivec3& inside, const glm::ivec3& outside) {
-                return cross(field.place(inside), field.place(outside));
+                return cross(field.positionOf(inside), field.positionOf(outside));
             },
             grid, budget_);
     }
@@ -85,12 +85,12 @@ class OuterSurface {
             const auto [a, b, c] = triangle.corners;
             Box box;
             for (const std::uint32_t corner : triangle.corners) box.include(points_[corner]);
-            const glm::ivec3 least = field.below(box.min);
-            const glm::ivec3 most = field.below(box.max) + 1;
+            const glm::ivec3 least = field.floorIndex(box.min);
+            const glm::ivec3 most = field.floorIndex(box.max) + 1;
             const glm::dvec3 normal = glm::cross(points_[b] - points_[a], points_[c] - points_[a]);
             for (int k = least.z; k <= most.z; ++k) {
                 for (int j = least.y; j <= most.y; ++j) {
-                    const glm::dvec3 row = field.place({0, j, k});
+                    const glm::dvec3 row = field.positionOf({0, j, k});
                     const int turns = crossings(a, b, row) + crossings(b, c, row) + crossings(c, a, row);
                     if (turns == 0) continue;
                     const glm::dvec3 to = row - points_[a];
@@ -108,8 +108,8 @@ class OuterSurface {
             for (std::size_t h = 0; h + 1 < hits.size(); ++h) {
                 winding += hits[h].turns;
                 if (winding == 0) continue;
-                const int first = field.below({hits[h].at, 0, 0}).x + 1;
-                const int last = field.below({hits[h + 1].at, 0, 0}).x;
+                const int first = field.floorIndex({hits[h].at, 0, 0}).x + 1;
+                const int last = field.floorIndex({hits[h + 1].at, 0, 0}).x;
                 for (int i = first; i <= last; ++i) field.at({i, j, k}) = -1;
                 // Creates the blocks of the lowest corners of all cubes that contain these points.
                 for (int i = first - 1; i <= last; ++i) {

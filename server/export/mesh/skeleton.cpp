@@ -31,13 +31,13 @@ struct Capsule {
 /// replaces the value by the distance from the capsule if that is smaller.
 void include(const Capsule& capsule, SampledField& field) {
     const double reach = capsule.radius + 1.01 * std::sqrt(3) * field.step();
-    const glm::ivec3 least = field.below(glm::min(capsule.from, capsule.to) - reach);
-    const glm::ivec3 most = field.below(glm::max(capsule.from, capsule.to) + reach) + 1;
+    const glm::ivec3 least = field.floorIndex(glm::min(capsule.from, capsule.to) - reach);
+    const glm::ivec3 most = field.floorIndex(glm::max(capsule.from, capsule.to) + reach) + 1;
     // Visits the lines of points along x; on each line, only the points near the capsule.
     const glm::dvec3 along = capsule.to - capsule.from;
     for (int k = least.z; k <= most.z; ++k) {
         for (int j = least.y; j <= most.y; ++j) {
-            const glm::dvec3 row = field.place({0, j, k});
+            const glm::dvec3 row = field.positionOf({0, j, k});
             // The part of the capsule's axis whose y and z are within reach of this line.
             double low = 0;
             double high = 1;
@@ -54,10 +54,10 @@ void include(const Capsule& capsule, SampledField& field) {
             if (low > high) continue;
             const double x0 = capsule.from.x + low * along.x;
             const double x1 = capsule.from.x + high * along.x;
-            const int first = field.below({std::min(x0, x1) - reach, 0, 0}).x;
-            const int last = field.below({std::max(x0, x1) + reach, 0, 0}).x + 1;
+            const int first = field.floorIndex({std::min(x0, x1) - reach, 0, 0}).x;
+            const int last = field.floorIndex({std::max(x0, x1) + reach, 0, 0}).x + 1;
             for (int i = first; i <= last; ++i) {
-                const double distance = capsule.distance(field.place({i, j, k}));
+                const double distance = capsule.distance(field.positionOf({i, j, k}));
                 if (distance > reach - capsule.radius) continue;
                 float& value = field.at({i, j, k});
                 value = std::min(value, static_cast<float>(distance));
@@ -66,7 +66,7 @@ void include(const Capsule& capsule, SampledField& field) {
     }
 }
 
-std::vector<Capsule> capsulesOf(const slicing::SliceSet& slices, int i, double scale, const Thickness& thickness) {
+std::vector<Capsule> capsulesOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& thickness) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
     std::vector<Capsule> capsules;
     for (std::size_t v = 0; v < slices.vertexCount(i); ++v)
@@ -80,11 +80,11 @@ std::vector<Capsule> capsulesOf(const slicing::SliceSet& slices, int i, double s
 
 }  // namespace
 
-Thickness thicknessFor(const scene::Scene& scene, double scale) {
+SkeletonRadii thicknessFor(const scene::Scene& scene, double scale) {
     return {scene.ballRadius / scene.scale * scale, scene.barRadius / scene.scale * scale};
 }
 
-double coarseTriangles(const slicing::SliceSet& slices, double scale, const Thickness& thickness) {
+double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& thickness) {
     double area = 4 * std::numbers::pi * thickness.ball * thickness.ball * static_cast<double>(slices.vertices.size());
     for (int i = 0; i < slices.planes.count; ++i) {
         const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
@@ -97,7 +97,7 @@ double coarseTriangles(const slicing::SliceSet& slices, double scale, const Thic
     return kPerSquare * area / (thickness.bar * thickness.bar);
 }
 
-Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const Thickness& thickness, double cube,
+Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& thickness, double cube,
                 const Grid& grid, const Budget& budget) {
     // The offset keeps the points of the field off the symmetry planes of polytopes, where many values would be equal.
     SampledField field(glm::dvec3(0.371, 0.217, 0.449) * cube, cube);

@@ -8,20 +8,20 @@
 namespace oval4d::exports {
 
 /// The radii of balls and bars in millimeters.
-struct Thickness {
+struct SkeletonRadii {
     double ball = 0, bar = 0;
 };
 
 /// Returns the radii that balls and bars have in the picture. `scale`: millimeters per unit of the polytope.
-Thickness thicknessFor(const scene::Scene& scene, double scale);
+SkeletonRadii thicknessFor(const scene::Scene& scene, double scale);
 
 /// Returns the approximate number of triangles of the skeletons of all slices, if the cubes of the mesh are as wide as
 /// the radius of a bar. Cubes of half the width give four times as many triangles.
-double coarseTriangles(const slicing::SliceSet& slices, double scale, const Thickness& thickness);
+double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& thickness);
 
 /// Returns the skeleton of slice i, meshed by marching tetrahedra in cubes that are `cube` millimeters wide. `scale`:
 /// millimeters per unit of the polytope.
-Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const Thickness& thickness, double cube,
+Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& thickness, double cube,
                 const Grid& grid, const Budget& budget);
 
 }  // namespace oval4d::exports

@@ -354,7 +354,7 @@ asio::awaitable<bool> HttpSession::write(const Request& request, Reply reply) {
 }
 
 asio::awaitable<void> HttpSession::upgrade(Request request, std::string session) {
-    auto connection = std::make_shared<Connection>(std::move(stream_), context_.services, context_.hub, client_,
+    auto connection = std::make_shared<Connection>(std::move(stream_), context_.services, context_.sessions, client_,
                                                    std::move(session), [this] { slot_.setInUse(true); });
     slot_.setInUse(false);
     slot_.onEndRequest([weak = std::weak_ptr(connection)](ConnectionRegistry::EndReason reason) {

@@ -9,7 +9,7 @@
 #include "net/connection_registry.hpp"
 #include "net/http/access.hpp"
 #include "net/http/routes.hpp"
-#include "net/live/hub.hpp"
+#include "net/live/session_manager.hpp"
 #include "net/services.hpp"
 
 namespace oval4d::net {
@@ -19,7 +19,7 @@ struct ServerContext {
     Services services;
     const Access& access;
     Routes& routes;
-    std::shared_ptr<Hub> hub;
+    std::shared_ptr<SessionManager> sessions;
     ConnectionRegistry& connections;
 };
 

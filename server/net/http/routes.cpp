@@ -10,7 +10,7 @@
 #include "net/http/file_job.hpp"
 #include "net/http/preconditions.hpp"
 #include "net/loader_job.hpp"
-#include "net/on_pool.hpp"
+#include "net/run_on_pool.hpp"
 #include "pipeline/cost.hpp"
 #include "session/object_loader.hpp"
 #include "text/message_text.hpp"
@@ -88,7 +88,7 @@ Result<scene::Viewport> takeViewport(session::Query& query, const pipeline::Fram
         }
     }
     query = std::move(rest);
-    return pipeline::checked(viewport, limits);
+    return pipeline::checkViewport(viewport, limits);
 }
 
 /// Returns the file format that a path requests, such as stl for "/api/v1/file.stl"; null for other paths.
@@ -105,7 +105,7 @@ std::function<std::optional<Bytes>(pipeline::Pipeline&)> frameJob(const session:
         auto held = client->byteAccount().reserve(image::bytesOf(viewport));  // a PNG file is rarely larger
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
-        pipeline.frame(state, wire::stateMessage(state, 0), viewport, png);
+        pipeline.drawPng(state, wire::stateMessage(state, 0), viewport, png);
         metrics.observe(pipeline.times());
         held->resize(png.capacity());
         return Bytes(std::move(png)).keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(*held)));
@@ -173,7 +173,8 @@ asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
     co_return errorReply(notFound(path));
 }
 
-/// Returns the state that a query describes. Builds the polytope on a worker if necessary. Throws what onPool() throws.
+/// Returns the state that a query describes. Builds the polytope on a worker if necessary. Throws what runOnPool()
+/// throws.
 asio::awaitable<Result<session::State>> Routes::state(session::Query query, ClientPtr client) {
     std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
     const session::Limits& limits = services_.options.session;
@@ -184,8 +185,8 @@ asio::awaitable<Result<session::State>> Routes::state(session::Query query, Clie
         if (!loader->isPending()) co_return state;
         const auto reservation = client->byteAccount().reserve(loader->bytesNeeded());
         if (!reservation) co_return kTooManyBytes;
-        co_await onPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader), client->lane(),
-                                        loader->cost());
+        co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader), client->lane(),
+                                           loader->estimatedDuration());
     }
 }
 
@@ -200,9 +201,9 @@ asio::awaitable<Reply> Routes::frame(session::Query query, ClientPtr client) {
         if (!viewport) co_return countedError(viewport.error());
         const auto requested = co_await state(std::move(query), client);
         if (!requested) co_return countedError(requested.error());
-        auto png = co_await onPool<std::optional<Bytes>>(services_.pictureWorkers,
-                                                         frameJob(*requested, *viewport, client, services_.metrics),
-                                                         client->lane(), pipeline::frameCost(*requested, *viewport));
+        auto png = co_await runOnPool<std::optional<Bytes>>(services_.pictureWorkers,
+                                                            frameJob(*requested, *viewport, client, services_.metrics),
+                                                            client->lane(), pipeline::frameCost(*requested, *viewport));
         if (!png) co_return countedError(kTooManyBytes);
         co_return reply("image/png", std::move(*png));
     } catch (const parallel::QueueFull&) {
@@ -220,8 +221,8 @@ asio::awaitable<Reply> Routes::file(session::Query query, const exports::Format&
         const auto requested = co_await state(std::move(query), client);
         if (!requested) co_return countedError(requested.error());
         const FileResult made =
-            co_await onPool<FileResult>(services_.fileWorkers, fileJob(services_, *requested, *exported, client),
-                                        client->fileLane(), pipeline::fileCost(*requested));
+            co_await runOnPool<FileResult>(services_.fileWorkers, fileJob(services_, *requested, *exported, client),
+                                           client->fileLane(), pipeline::fileCost(*requested));
         if (!*made) co_return countedError(made->error());
         Reply answer = reply(format.mediaType, **made);
         answer.headers.emplace_back("Content-Disposition",
@@ -239,7 +240,7 @@ Reply Routes::readiness() const {
     if (readiness_.stopping()) return textReply("text/plain", "stopping\n", 503);
     if (readiness_.ready()) {
         // The server stays ready if the store fails, because a shared store then fails for the other servers, too.
-        const std::string error = hub_.writeBehind().lastError();
+        const std::string error = sessions_.writeBehind().lastError();
         return textReply("text/plain", error.empty() ? "ready\n"
                                                      : "ready, but the store fails, so sessions are kept in memory "
                                                        "for now: " +
@@ -252,13 +253,13 @@ Reply Routes::readiness() const {
 
 Reply Routes::metrics() {
     Metrics& shown = services_.metrics;
-    shown.sessions.Set(static_cast<double>(hub_.writeBehind().count()));
-    shown.openSessions.Set(static_cast<double>(hub_.openCount()));
-    shown.unsaved.Set(static_cast<double>(hub_.writeBehind().unsaved()));
-    shown.storeUp.Set(hub_.writeBehind().lastError().empty() ? 1 : 0);
+    shown.sessions.Set(static_cast<double>(sessions_.writeBehind().count()));
+    shown.openSessions.Set(static_cast<double>(sessions_.openCount()));
+    shown.unsaved.Set(static_cast<double>(sessions_.writeBehind().unsaved()));
+    shown.storeUp.Set(sessions_.writeBehind().lastError().empty() ? 1 : 0);
     shown.workers.Set(static_cast<double>(services_.pictureWorkers.workers().size()));
     shown.workerSeconds.Increment(
-        std::max(0.0, Seconds(services_.pictureWorkers.workers().worked()).count() - shown.workerSeconds.Value()));
+        std::max(0.0, Seconds(services_.pictureWorkers.workers().busyTime()).count() - shown.workerSeconds.Value()));
     shown.jobsWaiting.Set(static_cast<double>(services_.pictureWorkers.workers().waiting()));
     shown.memory.Set(residentBytes());
     shown.bytesHeld.Set(static_cast<double>(services_.clients.bytesHeld()));

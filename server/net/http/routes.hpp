@@ -11,7 +11,7 @@
 #include "export/export_request.hpp"
 #include "net/http/target.hpp"
 #include "net/http/web_files.hpp"
-#include "net/live/hub.hpp"
+#include "net/live/session_manager.hpp"
 #include "net/readiness.hpp"
 #include "net/services.hpp"
 #include "net/ws/peer.hpp"
@@ -33,8 +33,8 @@ Reply errorReply(const Error& error, unsigned status = 0);
 /// Answers HTTP requests. Every function may be called from any thread.
 class Routes {
   public:
-    Routes(Services services, const WebFiles& files, const Readiness& readiness, const Hub& hub)
-        : services_(services), files_(files), readiness_(readiness), hub_(hub) {}
+    Routes(Services services, const WebFiles& files, const Readiness& readiness, const SessionManager& sessions)
+        : services_(services), files_(files), readiness_(readiness), sessions_(sessions) {}
 
     /// The parts of a request that the routes use.
     struct ParsedRequest {
@@ -58,7 +58,7 @@ class Routes {
     const Services services_;
     const WebFiles& files_;
     const Readiness& readiness_;
-    const Hub& hub_;
+    const SessionManager& sessions_;
 };
 
 }  // namespace oval4d::net

@@ -11,7 +11,7 @@
 #include "net/awaited.hpp"
 #include "net/http/file_job.hpp"
 #include "net/loader_job.hpp"
-#include "net/on_pool.hpp"
+#include "net/run_on_pool.hpp"
 #include "pipeline/cost.hpp"
 #include "session/history.hpp"
 #include "session/object_loader.hpp"
@@ -90,7 +90,7 @@ void LiveSession::save(std::shared_ptr<void> completion) {
     });
 }
 
-void LiveSession::dismiss() {
+void LiveSession::disconnectAll() {
     asio::post(strand_, [self = shared_from_this()] {
         self->detached_ = true;
         for (const auto& [key, client] : self->clients_) {
@@ -198,11 +198,11 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
                 break;
             }
             if (loader->isFilePending()) {
-                co_await onPool<std::monostate>(services_.loadWorkers, loaderJob(loader), client_->loadingLane(),
-                                                loader->cost());
+                co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(loader), client_->loadingLane(),
+                                                   loader->estimatedDuration());
             } else {
-                co_await onPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader),
-                                                lanesOf(*peer).pictures, loader->cost());
+                co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader),
+                                                   lanesOf(*peer).pictures, loader->estimatedDuration());
             }
         }
         if (done) updateReservation(loader->hasLoaded() || session_.now.object != shown);
@@ -273,9 +273,9 @@ asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, ex
     const std::uint64_t askedRevision = revision();
     FileResult made;
     try {
-        made = co_await onPool<FileResult>(services_.fileWorkers,
-                                           fileJob(services_, session_.now, request, peer->client()),
-                                           lanesOf(*peer).files, pipeline::fileCost(session_.now));
+        made = co_await runOnPool<FileResult>(services_.fileWorkers,
+                                              fileJob(services_, session_.now, request, peer->client()),
+                                              lanesOf(*peer).files, pipeline::fileCost(session_.now));
     } catch (const parallel::QueueFull&) {
         made = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -296,8 +296,8 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
     const std::uint64_t askedRevision = revision();
     std::optional<Error> failed;
     try {
-        Message picture = co_await onPool<Message>(services_.pictureWorkers, requestedPictureJob(key, id),
-                                                   lanesOf(*peer).pictures, pictureCost(session_.now, key));
+        Message picture = co_await runOnPool<Message>(services_.pictureWorkers, requestedPictureJob(key, id),
+                                                      lanesOf(*peer).pictures, pictureCost(session_.now, key));
         peer->send(std::move(picture));
         if (key.stream == Stream::frames) peer->send(doneMessage(id, askedRevision));
     } catch (const parallel::QueueFull&) {
@@ -403,7 +403,7 @@ void LiveSession::requestPictures(std::vector<StreamKey> wanted) {
     assertOnStrand();
     const SnapshotPtr known = snapshot_ && snapshot_->revision == revision() ? snapshot_ : nullptr;
     const bool isNew = drawing_ == 0;
-    const parallel::WorkerPool::LanePtr lane = nextPayer(wanted).lanes.pictures;
+    const parallel::WorkerPool::LanePtr lane = clientToCharge(wanted).lanes.pictures;
     Seconds cost{0};
     for (const StreamKey& key : wanted) cost += pictureCost(session_.now, key);
     PictureJob next{isNew ? jobs_ + 1 : drawing_, session_.now, revision(), changed_, known, std::move(wanted)};
@@ -423,7 +423,7 @@ void LiveSession::requestPictures(std::vector<StreamKey> wanted) {
 }
 
 /// Returns the client to whose lane a job is charged. The clients that receive the pictures of a job take turns.
-const LiveSession::Client& LiveSession::nextPayer(const std::vector<StreamKey>& wanted) const {
+const LiveSession::Client& LiveSession::clientToCharge(const std::vector<StreamKey>& wanted) const {
     std::vector<const Client*> payers;
     for (const auto& [peer, client] : clients_) {
         if (std::ranges::find(wanted, client.streamKey) != wanted.end()) payers.push_back(&client);

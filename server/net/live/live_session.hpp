@@ -57,7 +57,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void save(std::shared_ptr<void> completion = {});
 
     /// Closes all connections because another server has taken over the session.
-    void dismiss();
+    void disconnectAll();
 
   private:
     using Clock = Pacing::Clock;
@@ -120,7 +120,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void update();
     void advanceTurn();
     void requestPictures(std::vector<StreamKey> wanted);
-    const Client& nextPayer(const std::vector<StreamKey>& wanted) const;
+    const Client& clientToCharge(const std::vector<StreamKey>& wanted) const;
     void scheduleRetry();
     void onJobDone(JobResult result);
     void sendPicture(Client& client, const Message& picture);

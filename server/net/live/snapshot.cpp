@@ -19,7 +19,7 @@ SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& sta
     made->changed = changed;
     made->stateText = Bytes(wire::stateMessage(state, revision));
     made->sliced = key.stream != Stream::frames;
-    if (made->sliced) pipeline.cut(state, made->slices);
+    if (made->sliced) pipeline.slice(state, made->slices);
     return made;
 }
 
@@ -31,11 +31,11 @@ Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, cons
                     std::optional<double> id, const std::function<void()>& whenDrawn) {
     if (key.stream == Stream::frames) {
         std::vector<std::uint8_t> png;
-        pipeline.frame(snapshot.state, snapshot.stateText.view(), key.viewport, png, whenDrawn);
+        pipeline.drawPng(snapshot.state, snapshot.stateText.view(), key.viewport, png, whenDrawn);
         return {Bytes(std::move(png)), true};
     }
     std::string text;
-    pipeline.message(snapshot.state, snapshot.slices, snapshot.revision, id, key.viewport, key.encoding, text);
+    pipeline.writeSlices(snapshot.state, snapshot.slices, snapshot.revision, id, key.viewport, key.encoding, text);
     return {Bytes(std::move(text)), key.encoding != wire::Encoding::json};
 }
 

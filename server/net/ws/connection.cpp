@@ -6,7 +6,7 @@
 #include <boost/beast/websocket/rfc6455.hpp>
 
 #include "net/awaited.hpp"
-#include "net/on_pool.hpp"
+#include "net/run_on_pool.hpp"
 #include "store/secret.hpp"
 #include "wire/messages.hpp"
 #include "wire/parse.hpp"
@@ -48,11 +48,11 @@ std::function<Parsed(std::size_t worker)> parseJob(std::string_view text, const 
 
 }  // namespace
 
-Connection::Connection(beast::tcp_stream stream, Services services, std::shared_ptr<Hub> hub, ClientPtr client,
-                       std::string session, std::function<void()> joined)
+Connection::Connection(beast::tcp_stream stream, Services services, std::shared_ptr<SessionManager> sessions,
+                       ClientPtr client, std::string session, std::function<void()> joined)
     : stream_(std::move(stream)),
       services_(services),
-      hub_(std::move(hub)),
+      sessions_(std::move(sessions)),
       client_(std::move(client)),
       requestedId_(std::move(session)),
       joined_(std::move(joined)),
@@ -73,7 +73,7 @@ asio::awaitable<void> Connection::run(Request upgrade) {
     outbox_.clear();
     deadline_.cancel();
     helloDeadline_.cancel();
-    if (session_) hub_->leave(std::exchange(session_, nullptr), shared_from_this());
+    if (session_) sessions_->leave(std::exchange(session_, nullptr), shared_from_this());
     services_.pictureWorkers.workers().cleanUpWhenIdle();
 }
 
@@ -210,8 +210,8 @@ asio::awaitable<Parsed> Connection::parse(std::string_view text) {
     if (text.size() <= services_.options.maxRequestBytes)
         co_return wire::parseRequest(text, services_.options.maxDepth);
     auto work = parseJob(text, services_.options);
-    co_return co_await onPool<Parsed>(services_.pictureWorkers.workers(), std::move(work), client_->lane(),
-                                      Seconds(kParseSecondsPerByte * static_cast<double>(text.size())));
+    co_return co_await runOnPool<Parsed>(services_.pictureWorkers.workers(), std::move(work), client_->lane(),
+                                         Seconds(kParseSecondsPerByte * static_cast<double>(text.size())));
 }
 
 asio::awaitable<void> Connection::execute(wire::Request request) {
@@ -224,7 +224,7 @@ asio::awaitable<void> Connection::execute(wire::Request request) {
         co_return;
     }
     if (const auto* get = std::get_if<wire::Get>(&request.body); get != nullptr && get->viewport) {
-        if (const auto fits = pipeline::checked(*get->viewport, services_.options.frame); !fits) {
+        if (const auto fits = pipeline::checkViewport(*get->viewport, services_.options.frame); !fits) {
             sendError(fits.error(), request.id);
             co_return;
         }
@@ -233,7 +233,7 @@ asio::awaitable<void> Connection::execute(wire::Request request) {
 }
 
 asio::awaitable<void> Connection::handleHello(wire::Hello hello, Id id) {
-    if (const auto fits = pipeline::checked(hello.viewport, services_.options.frame); !fits) {
+    if (const auto fits = pipeline::checkViewport(hello.viewport, services_.options.frame); !fits) {
         sendError(fits.error(), id);
         co_return;
     }
@@ -256,7 +256,7 @@ asio::awaitable<void> Connection::handleHello(wire::Hello hello, Id id) {
 
 /// Joins or creates the session that a hello requests. If the connection has joined a session already, returns that
 /// one.
-asio::awaitable<Hub::JoinResult> Connection::joinSession(wire::Hello hello) {
+asio::awaitable<SessionManager::JoinResult> Connection::joinSession(wire::Hello hello) {
     const std::string token = hello.token.value_or("");
     if (session_) {
         if (hello.token && !store::equalInConstantTime(token, session_->credentials().token)) {
@@ -271,20 +271,20 @@ asio::awaitable<Hub::JoinResult> Connection::joinSession(wire::Hello hello) {
     if (hello.token && !client_->mayTryToken(Client::Clock::now()))
         co_return Error{ErrorCode::too_many, "this address has sent too many wrong tokens; try again in a minute"};
     auto open = sessionOpener(token);
-    auto joined = co_await awaitCallback<Hub::JoinResult>(std::move(open));
+    auto joined = co_await awaitCallback<SessionManager::JoinResult>(std::move(open));
     if (!joined && joined.error().code == ErrorCode::bad_token) client_->countWrongToken(Client::Clock::now());
     co_return joined;
 }
 
 /// Returns a function that joins the requested session, or creates one if none is requested, and passes the result to
 /// its argument.
-std::function<void(Hub::JoinHandler)> Connection::sessionOpener(const std::string& token) {
-    return [hub = hub_, client = client_,
-            credentials = store::SessionCredentials{requestedId_, token}](const Hub::JoinHandler& done) {
+std::function<void(SessionManager::JoinHandler)> Connection::sessionOpener(const std::string& token) {
+    return [sessions = sessions_, client = client_,
+            credentials = store::SessionCredentials{requestedId_, token}](const SessionManager::JoinHandler& done) {
         if (credentials.id.empty()) {
-            hub->create(client, done);
+            sessions->create(client, done);
         } else {
-            hub->join(credentials, client, done);
+            sessions->join(credentials, client, done);
         }
     };
 }

@@ -13,7 +13,7 @@
 #include <variant>
 
 #include "net/http/request_rules.hpp"
-#include "net/live/hub.hpp"
+#include "net/live/session_manager.hpp"
 #include "net/services.hpp"
 #include "net/ws/peer.hpp"
 #include "net/ws/rate_limit.hpp"
@@ -35,8 +35,8 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   public:
     /// `session`: the session id in the request path; empty for a new session. `joined`: called when the client has
     /// sent its first hello and has joined a session; may be empty.
-    Connection(boost::beast::tcp_stream stream, Services services, std::shared_ptr<Hub> hub, ClientPtr client,
-               std::string session, std::function<void()> joined);
+    Connection(boost::beast::tcp_stream stream, Services services, std::shared_ptr<SessionManager> sessions,
+               ClientPtr client, std::string session, std::function<void()> joined);
 
     /// Serves the connection, from the handshake until the connection ends. `upgrade`: the client's handshake request.
     boost::asio::awaitable<void> run(Request upgrade);
@@ -77,8 +77,8 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
     boost::asio::awaitable<std::variant<wire::Request, wire::BadRequest>> parse(std::string_view text);
     boost::asio::awaitable<void> execute(wire::Request request);
     boost::asio::awaitable<void> handleHello(wire::Hello hello, Id id);
-    boost::asio::awaitable<Hub::JoinResult> joinSession(wire::Hello hello);
-    std::function<void(Hub::JoinHandler)> sessionOpener(const std::string& token);
+    boost::asio::awaitable<SessionManager::JoinResult> joinSession(wire::Hello hello);
+    std::function<void(SessionManager::JoinHandler)> sessionOpener(const std::string& token);
     void sendError(const Error& error, Id id);
 
     void dropSlowReader();
@@ -90,7 +90,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
 
     boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
     const Services services_;
-    const std::shared_ptr<Hub> hub_;
+    const std::shared_ptr<SessionManager> sessions_;
     const ClientPtr client_;
     const std::string requestedId_;  // the session id in the request path; empty for a new session
     std::function<void()> joined_;

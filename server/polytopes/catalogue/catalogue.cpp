@@ -32,7 +32,7 @@ CatalogueEntry entryOf(Design design, std::string family, std::vector<std::strin
 
 CatalogueEntry entryOf(const UniformPolychoron& row) {
     std::vector<std::string> aliases;
-    for (const std::string_view name : text::listOf(row.otherNames)) aliases.emplace_back(name);
+    for (const std::string_view name : text::splitAtCommas(row.otherNames)) aliases.emplace_back(name);
     aliases.insert(row.family == "regular" ? aliases.begin() + 1 : aliases.begin(), std::string(row.bowers));
     if (row.family == "regular" && aliases.size() < 2) aliases.emplace_back(row.bowers);
     const auto add = [&](std::string_view symbol) {
@@ -41,7 +41,7 @@ CatalogueEntry entryOf(const UniformPolychoron& row) {
         }
     };
     add(row.symbol);
-    for (const std::string_view other : text::listOf(row.others)) {
+    for (const std::string_view other : text::splitAtCommas(row.others)) {
         add(other);
         aliases.emplace_back(other);
     }

@@ -16,9 +16,9 @@ namespace oval4d::polytopes {
 
 /// An entry of the catalogue. Its values are derived from the design, without building the polytope.
 struct CatalogueEntry {
-    std::string name;    ///< "24-cell"
-    std::string family;  ///< "regular", "star", "uniform A4" … "H4", "other", "prism", "antiprism prism",
-                         ///< "duoprism"
+    std::string name;                  ///< "24-cell"
+    std::string family;                ///< "regular", "star", "uniform A4" … "H4", "other", "prism", "antiprism prism",
+                                       ///< "duoprism"
     std::vector<std::string> aliases;  ///< other names, lower case: "icositetrachoron", "ico", "rectified 16-cell"
     std::string diagram;               ///< Coxeter–Dynkin diagram in linear notation, "x3o4o3o", or empty
     std::string schlaefli;             ///< Schläfli symbol, "{3,4,3}", or empty

@@ -47,7 +47,7 @@ bool isRegular(const UniformPolychoron& row) { return row.family == "regular" ||
 bool isCalled(const UniformPolychoron& row, std::string_view name) {
     const std::string wanted = text::folded(name);
     if (text::folded(row.name) == wanted || row.bowers == wanted) return true;
-    const auto others = text::listOf(row.otherNames);
+    const auto others = text::splitAtCommas(row.otherNames);
     return std::any_of(others.begin(), others.end(),
                        [&](std::string_view other) { return text::folded(other) == wanted; });
 }
@@ -198,7 +198,7 @@ std::vector<std::string> operationNames(const Diagram& diagram) {
             regular.ringed = operation.rings;
             if (canonical(regular) != canonical(diagram)) continue;
             names.push_back(std::string(operation.name) + " " + std::string(row.name));
-            const std::string_view other = text::listOf(row.otherNames).front();
+            const std::string_view other = text::splitAtCommas(row.otherNames).front();
             names.push_back(std::string(operation.name) + " " + std::string(other));
         }
     }

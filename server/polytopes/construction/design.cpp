@@ -96,7 +96,7 @@ const std::map<Diagram, Design>& namedDesigns() {
         for (const UniformPolychoron& row : uniformPolychora()) {
             const Design design{std::string(row.name), wythoffian(known(row.symbol))};
             designs.emplace(canonical(known(row.symbol)), design);
-            for (const std::string_view other : text::listOf(row.others))
+            for (const std::string_view other : text::splitAtCommas(row.others))
                 designs.emplace(canonical(known(other)), design);
         }
         for (const NamedPolyhedron& base : namedPolyhedra()) {
@@ -164,7 +164,7 @@ std::string schlaefliOf(const Design& design) { return design.recipe->schlaefli(
 
 Polytope build(const Design& design) {
     Polytope polytope = design.recipe->build(design.name);
-    polytope.constructed = true;
+    polytope.rebuildableFromName = true;
     return polytope;
 }
 

@@ -16,7 +16,8 @@ namespace oval4d::polytopes {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr double kMaxGrowth = 16;       // the maximum factor by which extrapolation is taken to amplify a flat's noise
+constexpr double kMaxAmplification =
+    16;                                 // the maximum factor by which extrapolation is taken to amplify a flat's noise
 constexpr double kAmbiguityFactor = 3;  // deviations up to this many times the expected noise are ambiguous
 constexpr int kMaxRefits = 4;
 constexpr int kMaxCorrections = 32;
@@ -83,7 +84,7 @@ class Flat {
 
     /// Returns the factor by which errors of the corners are amplified at p: the sum of the absolute values of its
     /// barycentric coordinates.
-    double growth(const glm::dvec4& p) const {
+    double errorAmplification(const glm::dvec4& p) const {
         std::array<double, Dimension> weights = project(p);
         double sum = 0, first = 1;
         for (std::size_t j = Dimension; j-- > 0;) {
@@ -103,7 +104,8 @@ class Flat {
         for (const glm::dvec4& axis : axes_) rest -= glm::dot(rest, axis) * axis;
         const double distance = glm::length(rest);
         if (!(distance > 0)) return true;
-        return distance <= factor * frame.noise(rest / distance) * (1 + std::min(growth(p), kMaxGrowth));
+        return distance <=
+               factor * frame.noise(rest / distance) * (1 + std::min(errorAmplification(p), kMaxAmplification));
     }
 
   private:
@@ -275,7 +277,7 @@ class Merger {
     // Removes simplices from the group until it forms a convex cell; in the worst case, all but the seed.
     void makeConvex(std::uint32_t seed, const Hyperplane& hyperplane, std::vector<std::uint32_t>& group) {
         for (int i = 0; i < kMaxCorrections && group.size() > 1; ++i) {
-            const auto faults = faultsOf(seed, hyperplane, group);
+            const auto faults = simplicesToRemove(seed, hyperplane, group);
             if (faults.empty()) return;
             std::vector<std::uint32_t> kept;
             std::set_difference(group.begin(), group.end(), faults.begin(), faults.end(), std::back_inserter(kept));
@@ -288,8 +290,8 @@ class Merger {
 
     // Returns the simplices, in ascending order, whose removal may make the group convex; none if the group is convex.
     // Sorts the group.
-    std::vector<std::uint32_t> faultsOf(std::uint32_t seed, const Hyperplane& hyperplane,
-                                        std::vector<std::uint32_t>& group) const {
+    std::vector<std::uint32_t> simplicesToRemove(std::uint32_t seed, const Hyperplane& hyperplane,
+                                                 std::vector<std::uint32_t>& group) const {
         std::sort(group.begin(), group.end());
         std::vector<Facet> facets;
         for (const std::uint32_t s : group) {
@@ -347,32 +349,33 @@ class Merger {
         };
         const glm::dvec3 a = place(edge.first);
         const glm::dvec3 along = place(edge.second) - a;
-        struct Seen {
+        struct RelativeHeight {
             glm::dvec3 normal;
             // For the third corner of the other triangle: its height above this triangle, the uncertainty of the
             // height, and its distance from the common edge.
             double height = 0, uncertain = 0, reach = 0;
         };
-        const auto see = [&](const Facet& from, const Facet& to) {
-            Seen seen;
+        const auto heightFrom = [&](const Facet& from, const Facet& to) {
+            RelativeHeight height;
             const glm::dvec3 q = place(from.corners[0]);
-            seen.normal = from.sign * glm::cross(place(from.corners[1]) - q, place(from.corners[2]) - q);
-            const double size = glm::length(seen.normal);
+            height.normal = from.sign * glm::cross(place(from.corners[1]) - q, place(from.corners[2]) - q);
+            const double size = glm::length(height.normal);
             const std::uint32_t v = cornerBeside(edge, to.corners);
             const glm::dvec3 third = place(v) - a;
-            seen.reach = glm::length(glm::cross(along, third)) / glm::length(along);
+            height.reach = glm::length(glm::cross(along, third)) / glm::length(along);
             if (!(size > 0)) {
-                seen.uncertain = std::numeric_limits<double>::infinity();
-                return seen;
+                height.uncertain = std::numeric_limits<double>::infinity();
+                return height;
             }
-            seen.normal /= size;
-            seen.height = glm::dot(seen.normal, third);
-            const glm::dvec4 direction = seen.normal.x * hyperplane.axis(0) + seen.normal.y * hyperplane.axis(1) +
-                                         seen.normal.z * hyperplane.axis(2);
-            seen.uncertain = frame_.noise(direction) * (1 + Plane(from.corners, points_).growth(points_[v]));
-            return seen;
+            height.normal /= size;
+            height.height = glm::dot(height.normal, third);
+            const glm::dvec4 direction = height.normal.x * hyperplane.axis(0) + height.normal.y * hyperplane.axis(1) +
+                                         height.normal.z * hyperplane.axis(2);
+            height.uncertain =
+                frame_.noise(direction) * (1 + Plane(from.corners, points_).errorAmplification(points_[v]));
+            return height;
         };
-        const Seen there = see(one, other), back = see(other, one);
+        const RelativeHeight there = heightFrom(one, other), back = heightFrom(other, one);
         if (there.height > there.uncertain || back.height > back.uncertain) return false;
         const bool folded = glm::dot(there.normal, back.normal) < 0 && std::abs(there.height) <= there.uncertain &&
                             std::abs(back.height) <= back.uncertain && there.reach > there.uncertain &&

@@ -69,7 +69,7 @@ struct Skeleton {
     bool balls, bars;
     float ballRadius, barRadius;
     scene::Color ballColor, barColor;
-    float inBall;  ///< the length of a bar's end that is inside a ball
+    float hiddenEndLength;  ///< the length of a bar's end that is inside a ball
 
     explicit Skeleton(const scene::Scene& scene)
         : balls(scene.look.parts.balls || scene.look.parts.bars),
@@ -78,13 +78,13 @@ struct Skeleton {
           barRadius(static_cast<float>(scene.barRadius)),
           ballColor(scene.look.parts.balls ? scene::style().ball : scene::style().bar),
           barColor(scene::style().bar),
-          inBall(std::sqrt(std::max(ballRadius * ballRadius - barRadius * barRadius, 0.0f))) {}
+          hiddenEndLength(std::sqrt(std::max(ballRadius * ballRadius - barRadius * barRadius, 0.0f))) {}
 
     /// Adds the part of a bar that is outside the balls at its ends. `from` is the end that is farther from the eye.
     void bar(const glm::vec3& from, const glm::vec3& to, float opacity, ShapeBatch& out) const {
         const float length = glm::length(to - from);
-        if (opacity == 0 || length <= 2 * inBall) return;
-        const glm::vec3 cut = (to - from) * (inBall / length);
+        if (opacity == 0 || length <= 2 * hiddenEndLength) return;
+        const glm::vec3 cut = (to - from) * (hiddenEndLength / length);
         out.bar(from + cut, to - cut, barRadius, barColor, opacity);
     }
 };

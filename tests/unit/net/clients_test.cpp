@@ -5,7 +5,7 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "net/live/session_ledger.hpp"
+#include "net/live/session_owners.hpp"
 
 namespace oval4d::net {
 namespace {
@@ -124,9 +124,9 @@ TEST(ByteBudget, LimitsEachClientAndAllTogether) {
     EXPECT_FALSE(one->reserve(0));
 }
 
-TEST(SessionLedger, FindsTheOldestUnmodifiedSession) {
-    SessionLedger ledger(100s);
-    const SessionLedger::Clock::time_point start{};
+TEST(SessionOwners, FindsTheOldestUnmodifiedSession) {
+    SessionOwners ledger(100s);
+    const SessionOwners::Clock::time_point start{};
     const std::string one = "one", other = "other";
     for (const char* id : {"a", "b", "c"}) ledger.open(id, one);
     ledger.open("d", other);

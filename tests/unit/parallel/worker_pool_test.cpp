@@ -157,7 +157,7 @@ TEST_F(WorkerPools, LearnsHowLongJobsTake) {
     const Lane slow = lane(), other = lane(), quick = lane();
     for (int i = 1; i <= 10; ++i) {
         post(pool, busy(100ms), slow, 20ms);
-        while (pool.worked() < i * 100ms) std::this_thread::yield();
+        while (pool.busyTime() < i * 100ms) std::this_thread::yield();
     }
     post(pool, saying("quick"), quick);
     drain(pool, {quick});

@@ -46,7 +46,7 @@ TEST(Channel, LongMessagesArriveWholeWithTheirFile) {
     EXPECT_EQ(body, text);
     ASSERT_NE(file, Channel::kNoFile);
     SharedPixels seen(file);
-    EXPECT_EQ(seen.number(), pixels.number());
+    EXPECT_EQ(seen.inode(), pixels.inode());
     EXPECT_EQ(seen.remap(1'000'000)[999'999], 42);
     EXPECT_EQ(receiver.receive(type, body, &file), Transfer::complete);
     EXPECT_EQ(type, MessageType::ready);

@@ -99,17 +99,17 @@ TEST(Visibilities, FollowTheLook) {
         composer.compose(objectOf(p), {}, slices, 0, look, {}, s);
     };
     compose(polytope);
-    EXPECT_TRUE(s.visibilities.all());
+    EXPECT_TRUE(s.visibilities.allVisible());
     look.cellTypes = {{1}, {}};
     compose(polytope);
-    EXPECT_FALSE(s.visibilities.all());
+    EXPECT_FALSE(s.visibilities.allVisible());
     look.cellTypes = {{1}, {0}};
     compose(polytope);
     for (std::uint32_t c = 0; c < polytope.cells.size(); ++c)
         EXPECT_EQ(s.visibilities.face(c), polytope.typeOfCell[c] == 1 ? Visibility::hidden : Visibility::faded);
     look.cellTypes = {};
     compose(named("5-cell"));
-    EXPECT_TRUE(s.visibilities.all());
+    EXPECT_TRUE(s.visibilities.allVisible());
     look.cellTypes = {{0}, {}};
     compose(named("5-cell"));
     EXPECT_EQ(s.visibilities.face(4), Visibility::hidden);

@@ -138,7 +138,7 @@ TEST(Coordinates, holdEveryVertexInsideTheViewport) {
         const auto& c = s.coordinates;
         EXPECT_GE(std::size_t(c.rows) * c.perRow, entry.vertices);
         EXPECT_GE(c.left, 0);
-        EXPECT_EQ(c.density, entry.vertices > scene::kMostLines);
+        EXPECT_EQ(c.density, entry.vertices > scene::kMaxVerticesAsLines);
         EXPECT_LE(c.left + c.columnStep * c.perRow, 1280.0 / 720 + 1e-9);
         EXPECT_LE(c.left + 3 * c.lineStep + c.lineWidth, 1280.0 / 720);
         EXPECT_LE(c.density ? 0 : 4 * c.lineStep, c.columnStep);

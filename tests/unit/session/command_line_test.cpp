@@ -22,11 +22,11 @@ TEST(CommandLine, DoesWhatTheMethodPageShows) {
     EXPECT_FALSE(session.now.look.parts.faces);
     EXPECT_EQ(session.now.look.view, scene::View::single);
     line(session, "rotate xw,yz pi/8 pi/sqrt(3)-pi/8");
-    EXPECT_EQ(session.now.last, (geometry::Turn{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}));
+    EXPECT_EQ(session.now.lastTurn, (geometry::Turn{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}));
     line(session, " : rotate zw 0.1");
-    EXPECT_EQ(session.now.last, (geometry::Turn{geometry::Plane::zw, 0.1, {}}));
+    EXPECT_EQ(session.now.lastTurn, (geometry::Turn{geometry::Plane::zw, 0.1, {}}));
     line(session, "rotate xw,yz");
-    EXPECT_EQ(session.now.last, (geometry::Turn{geometry::Plane::xw, pi / 12, session.now.beta}))
+    EXPECT_EQ(session.now.lastTurn, (geometry::Turn{geometry::Plane::xw, pi / 12, session.now.beta}))
         << "by the keys' angles";
     line(session, "view oval");
     EXPECT_EQ(session.now.look.view, scene::View::oval);
@@ -39,7 +39,7 @@ TEST(CommandLine, DoesWhatTheMethodPageShows) {
     line(session, "reset");
     EXPECT_EQ(session.now.orientation, geometry::Rotation{});
     line(session, "key y");
-    EXPECT_EQ(session.now.last->plane, geometry::Plane::xy);
+    EXPECT_EQ(session.now.lastTurn->plane, geometry::Plane::xy);
     line(session, "key space");
     EXPECT_TRUE(session.now.turning);
     line(session, "key u");

@@ -147,7 +147,7 @@ TEST(Keys, TurnInTheirPlanes) {
         Session session;
         line(session, "set alpha=0.25 beta=0.5");
         must(session, key);
-        return session.now.last.value();
+        return session.now.lastTurn.value();
     };
     EXPECT_EQ(lastAfter({"2"}), (Turn{Plane::xy, 0.25, {}}));
     EXPECT_EQ(lastAfter({"3"}), (Turn{Plane::xz, 0.25, {}}));

@@ -188,7 +188,7 @@ TEST(ConvexSlicer, handlesManyElements) {
     SliceSet s;
     slicer.slice(p, randomRotation(random), {-1, 3, 0.4}, s);
     for (int i = 0; i < 3; ++i) {
-        const SliceCounts c = sliceCounts(s, i);
+        const ElementsOfSlice c = sliceCounts(s, i);
         EXPECT_GT(c.faces, 100U);
         EXPECT_EQ(c.vertices + c.faces, c.edges + 2);
         EXPECT_GT(volumeOf(s, i), 0);

@@ -96,8 +96,8 @@ TEST(ObjectBytes, ObjectsComeAsTheyWere) {
         const Object decoded = decodeObject(bytes);
         const Polytope& got = polytopeIn(decoded);
         EXPECT_EQ(std::tie(got.name, got.serial, got.cellTypes), std::tie(sent->name, sent->serial, sent->cellTypes));
-        EXPECT_EQ(std::tie(got.convexFaces, got.convex, got.circumradius, got.constructed),
-                  std::tie(sent->convexFaces, sent->convex, sent->circumradius, sent->constructed));
+        EXPECT_EQ(std::tie(got.convexFaces, got.convex, got.circumradius, got.rebuildableFromName),
+                  std::tie(sent->convexFaces, sent->convex, sent->circumradius, sent->rebuildableFromName));
         expectSameElements(got, *sent);
     }
 }
@@ -127,7 +127,7 @@ TEST(ObjectBytes, PartsMakeTheSameObjectWithANameAndSerialOfItsOwn) {
         const Object got = read(partsOf(sent));
         EXPECT_EQ(infoOf(got).name, "mine");
         EXPECT_NE(infoOf(got).serial, sent->serial);
-        EXPECT_FALSE(infoOf(got).constructed);
+        EXPECT_FALSE(infoOf(got).rebuildableFromName);
         expectSameElements(polytopeIn(got), *sent);
     }
 }

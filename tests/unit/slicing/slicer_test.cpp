@@ -82,7 +82,7 @@ TEST_P(Slices, doNotDependOnTheOtherHyperplanes) {
 
 TEST_P(Slices, beyondTheCircumscribedSphereAreEmpty) {
     slicer.slice(p, geometry::Rotation(), {1, 5, 1.001 * p.circumradius}, s);
-    for (int i = 0; i < 5; ++i) EXPECT_EQ(sliceCounts(s, i), (SliceCounts{0, 0, 0}));
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(sliceCounts(s, i), (ElementsOfSlice{0, 0, 0}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Regular, Slices, testing::ValuesIn(polytopes::catalogue().first(6)), [](const auto& i) {
@@ -95,41 +95,41 @@ TEST(Sections, ofTheTesseractCellFirstAreCubes) {
     const polytopes::Polytope& p = named("8-cell");
     for (const double w : {-1.0, -0.3, 0.0, 0.9999, 1.0}) {
         const SliceSet s = cutAt(p, geometry::Rotation(), w);
-        EXPECT_EQ(sliceCounts(s), (SliceCounts{8, 12, 6})) << w;
+        EXPECT_EQ(sliceCounts(s), (ElementsOfSlice{8, 12, 6})) << w;
         EXPECT_NEAR(volumeOf(s, 0), 8, 1e-12);
     }
-    EXPECT_EQ(sliceCounts(cutAt(p, geometry::Rotation(), 1.0001)), (SliceCounts{0, 0, 0}));
+    EXPECT_EQ(sliceCounts(cutAt(p, geometry::Rotation(), 1.0001)), (ElementsOfSlice{0, 0, 0}));
 }
 
 TEST(Sections, ofTheTesseractVertexFirst) {
     const polytopes::Polytope& p = named("8-cell");
     const geometry::Rotation orientation = ontoW({1, 1, 1, 1});
-    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 2)), (SliceCounts{1, 0, 0}));
-    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 1.5)), (SliceCounts{4, 6, 4}));    // tetrahedron
-    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 1)), (SliceCounts{4, 6, 4}));      // through four vertices
-    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 0.5)), (SliceCounts{12, 18, 8}));  // truncated tetrahedron
+    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 2)), (ElementsOfSlice{1, 0, 0}));
+    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 1.5)), (ElementsOfSlice{4, 6, 4}));    // tetrahedron
+    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 1)), (ElementsOfSlice{4, 6, 4}));      // through four vertices
+    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 0.5)), (ElementsOfSlice{12, 18, 8}));  // truncated tetrahedron
     const SliceSet middle = cutAt(p, orientation, 0);
-    EXPECT_EQ(sliceCounts(middle), (SliceCounts{6, 12, 8}));  // a regular octahedron through six vertices
+    EXPECT_EQ(sliceCounts(middle), (ElementsOfSlice{6, 12, 8}));  // a regular octahedron through six vertices
     EXPECT_NEAR(volumeOf(middle, 0), std::numbers::sqrt2 / 3 * std::pow(2 * std::numbers::sqrt2, 3), 1e-10);
 }
 
 TEST(Sections, ofThe16CellAtZeroIsAnOctahedronOfSixVertices) {
     const polytopes::Polytope& p = named("16-cell");
     const SliceSet s = cutAt(p, geometry::Rotation(), 0);
-    EXPECT_EQ(sliceCounts(s), (SliceCounts{6, 12, 8}));
+    EXPECT_EQ(sliceCounts(s), (ElementsOfSlice{6, 12, 8}));
     for (const auto source : s.vertexSource) EXPECT_GE(source, p.edges.size());
     for (const auto source : s.edgeSource) EXPECT_GE(source, p.faces.size());
     for (const auto source : s.faceSource) EXPECT_GE(source, p.cells.size());
-    EXPECT_EQ(sliceCounts(cutAt(p, ontoW({1, 1, 1, 1}), std::sqrt(2) / 2)), (SliceCounts{4, 6, 4}));  // a cell
+    EXPECT_EQ(sliceCounts(cutAt(p, ontoW({1, 1, 1, 1}), std::sqrt(2) / 2)), (ElementsOfSlice{4, 6, 4}));  // a cell
 }
 
 TEST(Sections, ofThe24Cell) {
     const polytopes::Polytope& p = named("24-cell");
-    EXPECT_EQ(sliceCounts(cutAt(p, geometry::Rotation(), 0)), (SliceCounts{14, 24, 12}));  // rhombic dodecahedron
-    EXPECT_EQ(sliceCounts(cutAt(p, geometry::Rotation(), 1)), (SliceCounts{8, 12, 6}));    // cube
+    EXPECT_EQ(sliceCounts(cutAt(p, geometry::Rotation(), 0)), (ElementsOfSlice{14, 24, 12}));  // rhombic dodecahedron
+    EXPECT_EQ(sliceCounts(cutAt(p, geometry::Rotation(), 1)), (ElementsOfSlice{8, 12, 6}));    // cube
     const geometry::Rotation cellFirst = ontoW({1, 1, 0, 0});
-    EXPECT_EQ(sliceCounts(cutAt(p, cellFirst, std::sqrt(2))), (SliceCounts{6, 12, 8}));  // a cell
-    EXPECT_EQ(sliceCounts(cutAt(p, cellFirst, 0)), (SliceCounts{12, 24, 14}));           // cuboctahedron
+    EXPECT_EQ(sliceCounts(cutAt(p, cellFirst, std::sqrt(2))), (ElementsOfSlice{6, 12, 8}));  // a cell
+    EXPECT_EQ(sliceCounts(cutAt(p, cellFirst, 0)), (ElementsOfSlice{12, 24, 14}));           // cuboctahedron
 }
 
 TEST(Sections, ofThe600CellVertexFirstHaveTheKnownLayers) {
@@ -148,7 +148,7 @@ TEST(Sections, ofThe600CellVertexFirstHaveTheKnownLayers) {
         }
     }
     EXPECT_EQ(sliceCounts(cutAt(p, orientation, r * phi / 2)),
-              (SliceCounts{12, 30, 20}));  // an icosahedron of 2-faces of the polytope
+              (ElementsOfSlice{12, 30, 20}));  // an icosahedron of 2-faces of the polytope
 }
 
 // The third and sixth figures of Kageyama's paper: after R_yw(π/2) two vertices lie in w = 0, and after four steps of
@@ -161,13 +161,13 @@ TEST(Sections, ofThePapersPanelsAreExact) {
     EXPECT_EQ(
         std::count_if(third.vertexSource.begin(), third.vertexSource.end(), [](auto source) { return source >= 10; }),
         2);
-    EXPECT_EQ(sliceCounts(third), (SliceCounts{4, 6, 4}));
+    EXPECT_EQ(sliceCounts(third), (ElementsOfSlice{4, 6, 4}));
 
     geometry::Rotation four;
     for (int i = 0; i < 4; ++i)
         four = geometry::Rotation(geometry::Turn{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}) * four;
     const SliceSet sixth = cutAt(p, four, 0);
-    EXPECT_EQ(sliceCounts(sixth), (SliceCounts{4, 6, 4}));
+    EXPECT_EQ(sliceCounts(sixth), (ElementsOfSlice{4, 6, 4}));
     EXPECT_EQ(
         std::count_if(sixth.vertexSource.begin(), sixth.vertexSource.end(), [](auto source) { return source >= 10; }),
         3);

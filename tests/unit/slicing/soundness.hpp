@@ -16,20 +16,20 @@
 
 namespace oval4d::support {
 
-struct SliceCounts {
+struct ElementsOfSlice {
     std::size_t vertices, edges, faces;
-    bool operator==(const SliceCounts&) const = default;
+    bool operator==(const ElementsOfSlice&) const = default;
 };
-inline std::ostream& operator<<(std::ostream& os, const SliceCounts& c) {
+inline std::ostream& operator<<(std::ostream& os, const ElementsOfSlice& c) {
     return os << c.vertices << '/' << c.edges << '/' << c.faces;
 }
-inline SliceCounts sliceCounts(const slicing::SliceSet& s, int i = 0) {
+inline ElementsOfSlice sliceCounts(const slicing::SliceSet& s, int i = 0) {
     return {s.vertexCount(i), s.edgeCount(i), s.faceCount(i)};
 }
 
 /// Expects a slice, which must have a volume, to be a closed convex polyhedron with correct incidences.
 inline void expectClosedConvexSolid(const slicing::SliceSet& s, int slice) {
-    const SliceCounts c = sliceCounts(s, slice);
+    const ElementsOfSlice c = sliceCounts(s, slice);
     ASSERT_EQ(c.vertices + c.faces, c.edges + 2) << c;
     glm::dvec3 center(0);
     for (auto v = s.vertexBegin[slice]; v < s.vertexBegin[slice + 1]; ++v) center += s.vertices[v] / double(c.vertices);

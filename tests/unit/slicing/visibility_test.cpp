@@ -59,7 +59,7 @@ TEST(Visibilities, AreEmptyIfEverythingIsFullyVisible) {
     Visibilities found;
     found.faces.resize(3);
     findVisibilities(support::objectOf(polytope), std::array{Visibility::full, Visibility::full}, found);
-    EXPECT_TRUE(found.all());
+    EXPECT_TRUE(found.allVisible());
     EXPECT_EQ(found.vertex(0), Visibility::full);
     EXPECT_EQ(found.edge(1), Visibility::full);
     EXPECT_EQ(found.face(2), Visibility::full);

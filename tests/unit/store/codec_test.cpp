@@ -135,7 +135,7 @@ TEST(Codec, RefusesInvalidValues) {
     refused([](State& state) { state.look.orbit.zoom = 0; });
     refused([](State& state) { state.look.orbit.azimuth = 1e9; });
     refused([](State& state) { state.turning = true; });
-    refused([](State& state) { state.last = geometry::Turn{geometry::Plane::xy, 1e7, {}}; });
+    refused([](State& state) { state.lastTurn = geometry::Turn{geometry::Plane::xy, 1e7, {}}; });
     refused([](State& state) { state.look.cellTypes = {{0}, {0}}; });
     session.pendingKey = "\xff";
     refused([](State&) {});

@@ -156,8 +156,8 @@ TEST_P(AnyStore, ReturnsSavedRecords) {
 TEST_P(AnyStore, RefusesUpdatesWithAnOldFence) {
     EXPECT_EQ(save(whole(1, "first")), SaveResult::saved);
     EXPECT_EQ(store->claim("one")->fence, 2U);
-    EXPECT_EQ(save(whole(1, "late")), SaveResult::taken);
-    EXPECT_EQ(save(head(1, "late")), SaveResult::taken);
+    EXPECT_EQ(save(whole(1, "late")), SaveResult::claimed);
+    EXPECT_EQ(save(head(1, "late")), SaveResult::claimed);
     EXPECT_EQ(save(head(2, "in time")), SaveResult::saved);
     const auto record = store->claim("one");
     EXPECT_EQ(record->whole + record->head, "firstin time");
@@ -169,7 +169,7 @@ TEST_P(AnyStore, SaveReturnsAResultForEachUpdate) {
     RecordUpdate headless = head(1, "x");
     headless.credentials.id = "three";
     const std::vector<RecordUpdate> updates{whole(1, "late"), whole(1, "b", "two"), headless};
-    EXPECT_EQ(store->save(updates), (std::vector{SaveResult::taken, SaveResult::saved, SaveResult::missing}));
+    EXPECT_EQ(store->save(updates), (std::vector{SaveResult::claimed, SaveResult::saved, SaveResult::missing}));
     EXPECT_EQ(store->claim("two")->whole, "b");
     EXPECT_FALSE(store->claim("three"));
 }
@@ -446,7 +446,7 @@ TEST(RedisStore, PollReturnsSessionsClaimedByOthers) {
     EXPECT_EQ(two->claim("id")->fence, 2U);
     EXPECT_EQ(one->poll(), std::vector<std::string>{"id"});
     EXPECT_TRUE(one->poll().empty()) << "returned only once";
-    EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::taken);
+    EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::claimed);
     const RecordUpdate last{{"id", "secret"}, 2, "", "whole", {}, {}, true};
     EXPECT_EQ(two->save({&last, 1}).at(0), SaveResult::saved);
     EXPECT_EQ(one->claim("id")->fence, 3U);
@@ -483,7 +483,7 @@ TEST(RedisStore, RecoversWhenRedisHasLostAllData) {
     EXPECT_EQ(one->save({&head, 1}).at(0), SaveResult::missing);
     EXPECT_EQ(one->save({&first, 1}).at(0), SaveResult::saved);
     // Another server with the same fence, from before the loss.
-    EXPECT_EQ(two->save({&first, 1}).at(0), SaveResult::taken);
+    EXPECT_EQ(two->save({&first, 1}).at(0), SaveResult::claimed);
 }
 
 TEST(OpenStore, ParsesPlaces) {

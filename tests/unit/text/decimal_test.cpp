@@ -15,7 +15,7 @@ namespace oval4d::text {
 namespace {
 
 std::string textOf(const std::vector<glm::dvec3>& list) {
-    std::string text((3 * list.size() + 2) * kNumberRoom, '?');
+    std::string text((3 * list.size() + 2) * kBytesPerNumber, '?');
     text.resize(putVectors(text.data(), list) - text.data());
     return text;
 }
@@ -130,7 +130,7 @@ TEST(Decimal, VectorsAreValidJson) {
     for (std::size_t size = 1; size < 10; ++size) {
         std::vector<glm::dvec4> list(size);
         for (auto& v : list) v = {normal(random), normal(random), normal(random), normal(random)};
-        std::string text((4 * size + 2) * kNumberRoom, '?');
+        std::string text((4 * size + 2) * kBytesPerNumber, '?');
         text.resize(putVectors(text.data(), std::span<const glm::dvec4>(list)) - text.data());
         const auto json = nlohmann::json::parse("[" + text + "]");
         ASSERT_EQ(json.size(), size);
@@ -142,7 +142,7 @@ TEST(Decimal, VectorsAreValidJson) {
 
 TEST(Decimal, IntegersHaveAllTheirDigits) {
     const auto expectDigits = [](std::uint32_t number) {
-        char text[2 * kNumberRoom];
+        char text[2 * kBytesPerNumber];
         ASSERT_EQ(std::string(text, putInteger(text, number)), std::to_string(number));
     };
     for (std::uint32_t number = 0; number < 120'000; ++number) expectDigits(number);

@@ -98,7 +98,7 @@ TEST(Parse, SetsEverySetting) {
     EXPECT_EQ(set.coloring, scene::Coloring::w);
     EXPECT_EQ(set.hidden, (std::vector<std::uint32_t>{3, 1}));
     EXPECT_EQ(set.faded, std::vector<std::uint32_t>{});
-    EXPECT_EQ(set.last, (geometry::Turn{geometry::Plane::xw, 0.3, {}}));
+    EXPECT_EQ(set.lastTurn, (geometry::Turn{geometry::Plane::xw, 0.3, {}}));
     EXPECT_EQ(parsedCommand<session::Set>(R"({"type":"set","polytope":"5-cell"})").object, "5-cell");
 }
 

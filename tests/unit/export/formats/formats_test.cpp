@@ -34,7 +34,7 @@ TEST(Formats, areThoseOfTheTable) {
                                       : bodies == "oval" ? Format::Arrangement::oval
                                                          : Format::Arrangement::none);
         EXPECT_EQ(format.writeBodies != nullptr, !bodies.empty());
-        EXPECT_EQ(format.writeSource != nullptr, bodies.empty());
+        EXPECT_EQ(format.writeScene != nullptr, bodies.empty());
     }
     EXPECT_EQ(formatNamed("STL"), nullptr);
     EXPECT_EQ(formatNamed(""), nullptr);

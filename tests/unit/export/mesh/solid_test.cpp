@@ -243,7 +243,7 @@ TEST(Skeleton, isClosedHoweverTurned) {
             const Rotation orientation = randomRotation(random);
             const SliceSet s = cutAt(p, orientation, level(random) * p.circumradius);
             if (s.vertexCount(0) == 0) continue;
-            const Thickness thick = thicknessFor(composed(p, orientation, s), scaleOf(p));
+            const SkeletonRadii thick = thicknessFor(composed(p, orientation, s), scaleOf(p));
             expectPrintable(skeletonOf(s, 0, scaleOf(p), thick, thick.bar, grid, unhurried()));
         }
     }
@@ -254,7 +254,7 @@ TEST(Skeleton, ofAPointIsABall) {
     const Rotation up = oval4d::support::ontoW(p.vertices[0]);
     const SliceSet s = cutAt(p, up, p.circumradius);
     ASSERT_EQ(s.vertexCount(0), 1U);
-    const Thickness thick{3, 1};
+    const SkeletonRadii thick{3, 1};
     const Mesh mesh = skeletonOf(s, 0, scaleOf(p), thick, 0.3, Grid(kSize, kSize), unhurried());
     expectPrintable(mesh);
     EXPECT_NEAR(volumeOf(mesh), 4.0 / 3 * std::numbers::pi * 27, 1);
@@ -267,14 +267,14 @@ TEST(Skeleton, hasTheVolumeOfItsBallsAndBars) {
     // Twelve bars of 30 mm between eight balls; the part of a bar inside a ball does not count twice.
     const Polytope& p = named("8-cell");
     const SliceSet s = cutAt(p, {}, 0);
-    const Thickness thick{3, 1};
+    const SkeletonRadii thick{3, 1};
     const Mesh mesh = skeletonOf(s, 0, scaleOf(p), thick, 0.25, Grid(kSize, kSize), unhurried());
     expectPrintable(mesh);
     const double pi = std::numbers::pi;
     const double height = 3 - std::sqrt(8.0);  // of the spherical cap above the circle where a bar leaves the ball
     const double bar = pi * (30 - 2 * std::sqrt(8.0)) - 2 * pi * height * height * (9 - height) / 3;
     EXPECT_NEAR(volumeOf(mesh), 8 * 4.0 / 3 * pi * 27 + 12 * bar, 20);
-    const double expected = coarseTriangles(s, scaleOf(p), thick) / (0.25 * 0.25);
+    const double expected = estimateTriangles(s, scaleOf(p), thick) / (0.25 * 0.25);
     EXPECT_NEAR(static_cast<double>(mesh.triangles.size()) / expected, 1, 0.25);
 }
 

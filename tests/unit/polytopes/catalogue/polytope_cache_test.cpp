@@ -84,9 +84,9 @@ TEST(PolytopeCache, hasOneFiveCellForAll) {
 TEST(PolytopeCache, marksWhatItsNameIsEnoughToBuild) {
     PolytopeCache cache;
     for (const char* name : {"5-cell", "24-cell", "7,9-duoprism", "snub 24-cell", "{5/2,3,5}", "x3o4x3o"})
-        EXPECT_TRUE(cache.get(designFor(name))->constructed) << name;
+        EXPECT_TRUE(cache.get(designFor(name))->rebuildableFromName) << name;
     const polytopes::Polytope& cell = *polytopes::fiveCell();
-    EXPECT_FALSE(polytopes::makePolytope("5-cell", cell.vertices, cell.faces, cell.cells).constructed);
+    EXPECT_FALSE(polytopes::makePolytope("5-cell", cell.vertices, cell.faces, cell.cells).rebuildableFromName);
 }
 
 }  // namespace

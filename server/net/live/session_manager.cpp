@@ -1,4 +1,4 @@
-#include "net/live/hub.hpp"
+#include "net/live/session_manager.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -52,13 +52,13 @@ Seconds decodingCost(const store::Record& record) {
 
 }  // namespace
 
-Hub::Hub(Services services, std::unique_ptr<store::Store> store)
+SessionManager::SessionManager(Services services, std::unique_ptr<store::Store> store)
     : services_(services),
-      ledger_(std::chrono::duration_cast<SessionLedger::Clock::duration>(services.options.sessionExpiry)),
+      owners_(std::chrono::duration_cast<SessionOwners::Clock::duration>(services.options.sessionExpiry)),
       writeBehind_(std::move(store), settingsFrom(services.options), listener()) {}
 
-WriteBehindStore::Listener Hub::listener() {
-    return {[this](const std::string& id) { dismiss(id); },
+WriteBehindStore::Listener SessionManager::listener() {
+    return {[this](const std::string& id) { disconnectAll(id); },
             [this](const std::string& id) {
                 if (const auto session = find(id)) session->save();
             },
@@ -70,11 +70,11 @@ WriteBehindStore::Listener Hub::listener() {
 
 /// Checks whether a client may create one more session, and returns the error if it may not. At a limit, evicts an
 /// unmodified closed session to make room. Requires that mutex_ is held.
-std::optional<Error> Hub::admitSession(Client& client) {
-    const auto now = SessionLedger::Clock::now();
+std::optional<Error> SessionManager::admitSession(Client& client) {
+    const auto now = SessionOwners::Clock::now();
     const Options& options = services_.options;
-    if (ledger_.count(client.name(), now) >= options.client.sessions) {
-        const auto unmodified = ledger_.oldestUnmodified(now, &client.name());
+    if (owners_.count(client.name(), now) >= options.client.sessions) {
+        const auto unmodified = owners_.oldestUnmodified(now, &client.name());
         if (!unmodified) {
             return Error{ErrorCode::too_many, "the server stores at most " + std::to_string(options.client.sessions) +
                                                   " sessions for one address; reopen one of them or try again later"};
@@ -87,7 +87,7 @@ std::optional<Error> Hub::admitSession(Client& client) {
                                               " sessions per minute; try again soon"};
     }
     if (writeBehind_.count() >= options.maxSessions) {
-        const auto unmodified = ledger_.oldestUnmodified(now);
+        const auto unmodified = owners_.oldestUnmodified(now);
         if (!unmodified) {
             return Error{ErrorCode::too_many, "the server stores at most " + std::to_string(options.maxSessions) +
                                                   " sessions, and all are in use; try again later"};
@@ -98,13 +98,13 @@ std::optional<Error> Hub::admitSession(Client& client) {
 }
 
 /// Deletes a session to make room for a new one. Requires that mutex_ is held.
-void Hub::evict(const std::string& id) {
+void SessionManager::evict(const std::string& id) {
     spdlog::debug("session evicted for a new one session={}", id);
     writeBehind_.remove(id);
-    ledger_.remove(id);
+    owners_.remove(id);
 }
 
-void Hub::create(const ClientPtr& client, const JoinHandler& done) {
+void SessionManager::create(const ClientPtr& client, const JoinHandler& done) {
     std::unique_lock lock(mutex_);
     if (auto refused = admitSession(*client)) {
         lock.unlock();
@@ -125,7 +125,8 @@ void Hub::create(const ClientPtr& client, const JoinHandler& done) {
     }
 }
 
-void Hub::join(const store::SessionCredentials& credentials, const ClientPtr& client, const JoinHandler& done) {
+void SessionManager::join(const store::SessionCredentials& credentials, const ClientPtr& client,
+                          const JoinHandler& done) {
     std::unique_lock lock(mutex_);
     if (const auto found = live_.find(credentials.id); found != live_.end()) {
         LiveEntry& live = found->second;
@@ -148,7 +149,7 @@ void Hub::join(const store::SessionCredentials& credentials, const ClientPtr& cl
 }
 
 /// Runs on the thread of the write-behind store, which must not be blocked: a worker decodes the record.
-void Hub::onFetched(const PendingJoin& pending, WriteBehindStore::FetchResult fetch) {
+void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::FetchResult fetch) {
     if (!fetch) {
         finishOpening(pending, fetch.error());
     } else if (fetch->session) {
@@ -166,7 +167,7 @@ void Hub::onFetched(const PendingJoin& pending, WriteBehindStore::FetchResult fe
     }
 }
 
-void Hub::decode(const PendingJoin& pending, const store::Record& record) {
+void SessionManager::decode(const PendingJoin& pending, const store::Record& record) {
     const std::string& id = pending.credentials.id;
     try {
         RecordObjects objects(record);
@@ -185,7 +186,7 @@ void Hub::decode(const PendingJoin& pending, const store::Record& record) {
 
 /// Passes the session, or the error, to the client that asked for the session first; then joins the other clients that
 /// waited for it.
-void Hub::finishOpening(const PendingJoin& pending, Result<session::Session> value) {
+void SessionManager::finishOpening(const PendingJoin& pending, Result<session::Session> value) {
     const std::string& id = pending.credentials.id;
     std::vector<PendingJoin> others;
     std::shared_ptr<LiveSession> session;
@@ -200,24 +201,24 @@ void Hub::finishOpening(const PendingJoin& pending, Result<session::Session> val
     for (const auto& [credentials, client, done] : others) join(credentials, client, done);
 }
 
-std::shared_ptr<LiveSession> Hub::activate(store::SessionCredentials credentials, const ClientPtr& client,
-                                           session::Session value) {
+std::shared_ptr<LiveSession> SessionManager::activate(store::SessionCredentials credentials, const ClientPtr& client,
+                                                      session::Session value) {
     const std::string id = credentials.id;
     auto session =
         std::make_shared<LiveSession>(services_, writeBehind_, std::move(credentials), client, std::move(value));
     live_.emplace(id, LiveEntry{session, 1});
-    ledger_.open(id, client->name());
+    owners_.open(id, client->name());
     return session;
 }
 
-void Hub::leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer) {
+void SessionManager::leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer) {
     session->leave(std::move(peer), [self = shared_from_this(), session](const session::Session& value) {
         const std::string& id = session->credentials().id;
         const std::lock_guard lock(self->mutex_);
         const auto found = self->live_.find(id);
         if (found == self->live_.end() || found->second.session != session || --found->second.clients > 0) return false;
         const bool unmodified = value.revision == 0 && value.loaded.empty();
-        self->ledger_.close(id, unmodified, SessionLedger::Clock::now());
+        self->owners_.close(id, unmodified, SessionOwners::Clock::now());
         self->writeBehind_.close(id, value);
         self->live_.erase(found);
         spdlog::info("session closed session={}", id);
@@ -226,7 +227,7 @@ void Hub::leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Pee
 }
 
 /// Disconnects the clients of a session that another server has taken over.
-void Hub::dismiss(const std::string& id) {
+void SessionManager::disconnectAll(const std::string& id) {
     std::shared_ptr<LiveSession> session;
     {
         const std::lock_guard lock(mutex_);
@@ -234,28 +235,28 @@ void Hub::dismiss(const std::string& id) {
         if (found == live_.end()) return;
         session = std::move(found->second.session);
         live_.erase(found);
-        ledger_.remove(id);
+        owners_.remove(id);
     }
     services_.metrics.sessionsTaken.Increment();
     spdlog::info("session taken over by another server session={}", id);
-    session->dismiss();
+    session->disconnectAll();
 }
 
-std::shared_ptr<LiveSession> Hub::find(const std::string& id) const {
+std::shared_ptr<LiveSession> SessionManager::find(const std::string& id) const {
     const std::lock_guard lock(mutex_);
     const auto found = live_.find(id);
     return found == live_.end() ? nullptr : found->second.session;
 }
 
-void Hub::saveAll(const std::shared_ptr<void>& completion) {
+void SessionManager::saveAll(const std::shared_ptr<void>& completion) {
     if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
     const std::lock_guard lock(mutex_);
     for (const auto& [id, live] : live_) live.session->save(completion);
 }
 
-void Hub::stop(Seconds limit) { writeBehind_.stop(std::chrono::duration_cast<store::Milliseconds>(limit)); }
+void SessionManager::stop(Seconds limit) { writeBehind_.stop(std::chrono::duration_cast<store::Milliseconds>(limit)); }
 
-std::size_t Hub::openCount() const {
+std::size_t SessionManager::openCount() const {
     const std::lock_guard lock(mutex_);
     return live_.size();
 }

@@ -20,8 +20,8 @@ namespace oval4d::net {
 /// `work` threw, or QueueFull if the pool rejected the job. `cost`: the estimated running time. Create `work` in an
 /// ordinary function: GCC 12 destroys the captures of a lambda twice if it is created in a coroutine.
 template <typename Value, typename Pool>
-boost::asio::awaitable<Value> onPool(Pool& pool, std::function<Value(typename Pool::Argument)> work,
-                                     parallel::WorkerPool::LanePtr lane, parallel::WorkerPool::Seconds cost) {
+boost::asio::awaitable<Value> runOnPool(Pool& pool, std::function<Value(typename Pool::Argument)> work,
+                                        parallel::WorkerPool::LanePtr lane, parallel::WorkerPool::Seconds cost) {
     namespace asio = boost::asio;
     auto start = [&pool, cost](auto handler, std::function<Value(typename Pool::Argument)> job,
                                parallel::WorkerPool::LanePtr in) {

@@ -1,5 +1,5 @@
 #pragma once
-// The hub of all sessions: it holds the sessions that have clients; the others are in the store.
+// The sessions of all sessions: it holds the sessions that have clients; the others are in the store.
 
 #include <map>
 #include <memory>
@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "net/live/live_session.hpp"
-#include "net/live/session_ledger.hpp"
+#include "net/live/session_owners.hpp"
 #include "store/write_behind_store.hpp"
 
 namespace oval4d::net {
 
 /// Creates, opens and closes sessions for connections. Every function may be called from any thread.
-class Hub : public std::enable_shared_from_this<Hub> {
+class SessionManager : public std::enable_shared_from_this<SessionManager> {
   public:
-    Hub(Services services, std::unique_ptr<store::Store> store);
+    SessionManager(Services services, std::unique_ptr<store::Store> store);
 
     using JoinResult = Result<std::shared_ptr<LiveSession>>;
     using JoinHandler = std::function<void(JoinResult)>;
@@ -66,12 +66,12 @@ class Hub : public std::enable_shared_from_this<Hub> {
     void finishOpening(const PendingJoin& pending, Result<session::Session> value);
     std::shared_ptr<LiveSession> activate(store::SessionCredentials credentials, const ClientPtr& client,
                                           session::Session value);
-    void dismiss(const std::string& id);
+    void disconnectAll(const std::string& id);
 
     const Services services_;
     mutable std::mutex mutex_;
     std::map<std::string, LiveEntry, std::less<>> live_;  // guarded by mutex_
-    SessionLedger ledger_;                                // guarded by mutex_
+    SessionOwners owners_;                                // guarded by mutex_
     // The sessions that are being fetched from the store, by id, with the further joins that wait for each. Guarded by
     // mutex_.
     std::map<std::string, std::vector<PendingJoin>, std::less<>> opening_;
