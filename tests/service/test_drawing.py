@@ -151,9 +151,9 @@ async def test_one_that_has_no_room_for_a_picture_draws_none(tmp_path):
                                    pass_fds=[3])
         ours.settimeout(DEADLINE)
         assert struct.unpack("=I4xQ", ours.recv(16)) == (0, 0)  # the process reports that it is ready
-        ours.sendall(struct.pack("=I4xQ", 1, 0))  # an order without its contents and without the shared memory
+        ours.sendall(struct.pack("=I4xQ", 1, 0))  # a draw request without its contents and without the shared memory
         assert drawing.wait(DEADLINE) == 1
-    assert b"a drawing order arrived without the memory to draw into" in (tmp_path / "log").read_bytes()
+    assert b"a draw request arrived without the memory to draw into" in (tmp_path / "log").read_bytes()
 
 
 @pytest.mark.skipif(sanitized(), reason="sanitizers open files, too")
