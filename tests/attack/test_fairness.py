@@ -21,7 +21,7 @@ from wire import Client, Refused
 HEAVY = "omnitruncated 120-cell"
 VICTIM = "127.0.0.1"
 OTHERS = [f"127.0.0.{n}" for n in range(2, 12)]
-ALONE, BESIDE = 2 * SLOW, 6 * SLOW  # seconds of measuring
+ALONE, BESIDE = 1 * SLOW, 3 * SLOW  # seconds of measuring
 
 
 def distribution(seconds):
