@@ -12,7 +12,7 @@ namespace oval4d::net {
 inline std::function<std::monostate(std::size_t worker)> loaderJob(
     const std::shared_ptr<session::ObjectLoader>& loader) {
     return [loader](std::size_t /*worker*/) {
-        loader->loadPending();
+        loader->loadPendingObject();
         return std::monostate{};
     };
 }

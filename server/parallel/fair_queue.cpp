@@ -37,7 +37,7 @@ Seconds FairQueue::correctedCost(const Lane& lane, Seconds estimate) const {
 }
 
 /// Returns the cost to charge to a class. The weight of a class is its number of active clients.
-Seconds FairQueue::classCost(Length length, Seconds cost) const {
+Seconds FairQueue::classCost(JobLength length, Seconds cost) const {
     return cost / std::max<std::size_t>(1, classes_[length].clients.activeFlows());
 }
 
@@ -48,7 +48,7 @@ bool FairQueue::push(Job job, const LanePtr& lane, Seconds estimate, Clock::time
     ++client.waiting_;
     estimate = std::max(kMinCost, estimate);
     const Seconds cost = correctedCost(*lane, estimate);
-    const Length length = cost > kLongJob * std::clamp(correction_.factor(1), 1.0, 2.0) ? long_job : short_job;
+    const JobLength length = cost > kLongJob * std::clamp(correction_.factor(1), 1.0, 2.0) ? long_job : short_job;
     lane->jobs_.push_back({std::move(job), estimate, cost, length});
     recordActivity(lane, length, now);
     if (lane->jobs_.size() == 1) scheduleLane(lane);
@@ -57,7 +57,7 @@ bool FairQueue::push(Job job, const LanePtr& lane, Seconds estimate, Clock::time
 
 std::optional<FairQueue::Begun> FairQueue::pop(Clock::time_point now) {
     if (scheduler_.empty()) return std::nullopt;
-    const Length length = longJobsMustWait(now) ? short_job : scheduler_.next();
+    const JobLength length = longJobsMustWait(now) ? short_job : scheduler_.next();
     Class& schedulers = classes_[length];
     if (schedulers.clients.empty()) return std::nullopt;
     const ClientPtr client = schedulers.clients.next();
@@ -79,7 +79,7 @@ std::optional<FairQueue::Begun> FairQueue::pop(Clock::time_point now) {
 void FairQueue::finished(const Begun& begun, Seconds took) {
     Lane& lane = *begun.lane;
     Client& client = *lane.client_;
-    const Length length = begun.length;
+    const JobLength length = begun.length;
     if (length == long_job) --longRunning_;
     for (Correction* each : {&lane.correction_, &client.correction_, &correction_})
         each->learn(begun.estimate, std::min(took, kMaxOverrun * begun.cost));
@@ -94,7 +94,7 @@ void FairQueue::finished(const Begun& begun, Seconds took) {
     }
 }
 
-Seconds FairQueue::nextCost(const Client& client, Length length) {
+Seconds FairQueue::nextCost(const Client& client, JobLength length) {
     return client.lanes_[length].next()->jobs_.front().cost;
 }
 
@@ -106,7 +106,7 @@ void FairQueue::scheduleLane(const LanePtr& lane) {
 }
 
 /// Updates the queue entries of a client and the class after a change of the client's next job of that length.
-void FairQueue::scheduleClient(const ClientPtr& client, Length length) {
+void FairQueue::scheduleClient(const ClientPtr& client, JobLength length) {
     Class& schedulers = classes_[length];
     if (client->lanes_[length].empty()) {
         schedulers.clients.dequeue(client->states_[length]);
@@ -122,7 +122,7 @@ void FairQueue::scheduleClient(const ClientPtr& client, Length length) {
 
 /// Records that the lane queues a job of this length. Adds the lane to `active_` unless it has queued a long job within
 /// kActive: threads are kept free only for lanes with short jobs.
-void FairQueue::recordActivity(const LanePtr& lane, Length length, Clock::time_point now) {
+void FairQueue::recordActivity(const LanePtr& lane, JobLength length, Clock::time_point now) {
     forgetInactive(now);
     if (length == long_job) lane->lastLong_ = now;
     if (lane->lastLong_ && now - *lane->lastLong_ <= kActive) return;
@@ -155,7 +155,7 @@ bool FairQueue::hasStartableJob(Clock::time_point now) {
 std::deque<FairQueue::Job> FairQueue::clear() {
     std::deque<Job> dropped;
     while (!scheduler_.empty()) {
-        const Length length = scheduler_.next();
+        const JobLength length = scheduler_.next();
         const ClientPtr client = classes_[length].clients.next();
         const LanePtr lane = client->lanes_[length].next();
         client->waiting_ -= lane->jobs_.size();

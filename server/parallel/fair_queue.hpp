@@ -103,7 +103,7 @@ class FairQueue {
     using Clock = std::chrono::steady_clock;
     class Client;
     class Lane;
-    enum Length : std::size_t { short_job, long_job };
+    enum JobLength : std::size_t { short_job, long_job };
     template <typename T>
     using PerClass = std::array<T, 2>;
     using ClientPtr = std::shared_ptr<Client>;
@@ -128,7 +128,7 @@ class FairQueue {
         Job job;
         LanePtr lane;
         Seconds estimate, cost;  ///< the estimate given to push(); the estimate corrected by measured times
-        Length length;
+        JobLength length;
     };
 
     /// `threads`: the number of threads that run the jobs, at least 1.
@@ -171,23 +171,23 @@ class FairQueue {
     struct Waiting {
         Job job;
         Seconds estimate, cost;
-        Length length;
+        JobLength length;
     };
 
     /// The class of all jobs of one length: its clients with waiting jobs, and its own place in `scheduler_`.
     struct Class {
         FairScheduler<ClientPtr> clients;
-        FairScheduler<Length>::FlowState state;
+        FairScheduler<JobLength>::FlowState state;
     };
 
-    using Activity = std::list<std::pair<Clock::time_point, std::weak_ptr<Lane>>>;
+    using RecentLanes = std::list<std::pair<Clock::time_point, std::weak_ptr<Lane>>>;
 
     Seconds correctedCost(const Lane& lane, Seconds estimate) const;
-    Seconds classCost(Length length, Seconds cost) const;
-    static Seconds nextCost(const Client& client, Length length);
+    Seconds classCost(JobLength length, Seconds cost) const;
+    static Seconds nextCost(const Client& client, JobLength length);
     void scheduleLane(const LanePtr& lane);
-    void scheduleClient(const ClientPtr& client, Length length);
-    void recordActivity(const LanePtr& lane, Length length, Clock::time_point now);
+    void scheduleClient(const ClientPtr& client, JobLength length);
+    void recordActivity(const LanePtr& lane, JobLength length, Clock::time_point now);
     bool longJobsMustWait(Clock::time_point now);
     void forgetInactive(Clock::time_point now);
 
@@ -195,9 +195,9 @@ class FairQueue {
     const Limits limits_;
     std::size_t waiting_ = 0, longRunning_ = 0;
     PerClass<Class> classes_;
-    FairScheduler<Length> scheduler_;  // decides which class is served next
-    Correction correction_;            // from the jobs of all clients
-    Activity active_;                  // lanes with short jobs, with the time of their last job, in order of time
+    FairScheduler<JobLength> scheduler_;  // decides which class is served next
+    Correction correction_;               // from the jobs of all clients
+    RecentLanes active_;                  // lanes with short jobs, with the time of their last job, in order of time
 };
 
 /// A client, such as all connections from one address. All of its jobs must be in the same queue.
@@ -220,8 +220,8 @@ class FairQueue::Lane {
     PerClass<FairScheduler<LanePtr>::FlowState> states_;
     std::deque<Waiting> jobs_;
     Correction correction_;
-    std::optional<Activity::iterator> activity_;  // position in active_; empty if the lane is not in it
-    std::optional<Clock::time_point> lastLong_;   // when the last long job was queued
+    std::optional<RecentLanes::iterator> activity_;  // position in active_; empty if the lane is not in it
+    std::optional<Clock::time_point> lastLong_;      // when the last long job was queued
 };
 
 }  // namespace oval4d::parallel

@@ -311,14 +311,14 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, geomet
     return p;
 }
 
-std::size_t bytesOf(const Polytope& p) {
-    const auto bytesOf = [](const geometry::JaggedArray& lists) {
+std::size_t memoryOf(const Polytope& p) {
+    const auto memoryOf = [](const geometry::JaggedArray& lists) {
         return sizeof(std::uint32_t) * (lists.begin.size() + lists.items.size());
     };
     return sizeof p + p.vertices.size() * sizeof p.vertices[0] + p.edges.size() * sizeof p.edges[0] +
            p.faceCells.size() * sizeof p.faceCells[0] + p.cellSigns.size() +
-           p.typeOfCell.size() * sizeof p.typeOfCell[0] + bytesOf(p.faces) + bytesOf(p.faceEdges) +
-           bytesOf(p.edgeFaces) + bytesOf(p.cells);
+           p.typeOfCell.size() * sizeof p.typeOfCell[0] + memoryOf(p.faces) + memoryOf(p.faceEdges) +
+           memoryOf(p.edgeFaces) + memoryOf(p.cells);
 }
 
 }  // namespace oval4d::polytopes

@@ -69,6 +69,6 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, geomet
                       geometry::JaggedArray cells, std::vector<std::uint32_t> typeOfCell = {});
 
 /// Returns the memory used by a polytope in bytes, not counting names.
-std::size_t bytesOf(const Polytope& polytope);
+std::size_t memoryOf(const Polytope& polytope);
 
 }  // namespace oval4d::polytopes

@@ -32,7 +32,7 @@ struct ChildOptions {
     std::string command;                    ///< the subcommand of this program that the child runs
     std::vector<std::string> environment;   ///< "NAME=value"; a variable that the child inherits takes precedence
     std::chrono::duration<double> timeout;  ///< for the start and for each conversation; then the child has hung
-    bool repeatAfterHang = true;            ///< whether to repeat a conversation in which the child hung
+    bool repeatAfterHang = true;            ///< after a hang, whether to retry ChildProcess::Talk with a new child
     std::function<void(const ProcessLoss&)> onLoss;  ///< called when a child is lost, on any thread
     int niceness = 0;                                ///< scheduling priority, as for nice(1)
 };

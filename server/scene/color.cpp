@@ -68,7 +68,7 @@ void paintByCell(const slicing::Object& object, std::vector<Color>& out) {
 
 void paintByType(const slicing::Object& object, std::vector<Color>& out) {
     const std::size_t types = slicing::infoOf(object).cellTypes.size();
-    const auto typeOfCell = slicing::cellTypesOf(object);
+    const auto typeOfCell = slicing::typeOfCells(object);
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = cellTypeColor(typeOfCell[c], types);
 }
 

@@ -31,13 +31,13 @@ void limitHistoryBytes(Session& session, std::size_t maxBytes) {
     for (const State& step : session.past) {
         bytes += bytesOfFilter(step);
         if (!isHeld(step.object) && ++steps[slicing::identityOf(step.object)] == 1)
-            bytes += slicing::bytesOf(step.object);
+            bytes += slicing::memoryOf(step.object);
     }
     while (bytes > maxBytes && !session.past.empty()) {
         const State& oldest = session.past.front();
         bytes -= bytesOfFilter(oldest);
         const auto held = steps.find(slicing::identityOf(oldest.object));
-        if (held != steps.end() && --held->second == 0) bytes -= slicing::bytesOf(oldest.object);
+        if (held != steps.end() && --held->second == 0) bytes -= slicing::memoryOf(oldest.object);
         session.past.pop_front();
     }
 }
@@ -60,7 +60,7 @@ void commit(Session& session, State next, const Limits& limits) {
     if (grows) limitHistoryBytes(session, limits.maxUndoBytes);
 }
 
-void forgetOldest(Session& session) {
+void forgetOlderHalf(Session& session) {
     const auto half = static_cast<std::ptrdiff_t>((session.past.size() + 1) / 2);
     session.past.erase(session.past.begin(), session.past.begin() + half);
 }

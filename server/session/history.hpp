@@ -11,7 +11,7 @@ namespace oval4d::session {
 void commit(Session& session, State next, const Limits& limits);
 
 /// Removes the older half of the undo steps.
-void forgetOldest(Session& session);
+void forgetOlderHalf(Session& session);
 
 /// Undoes or redoes one step. Does not move the camera. Error: `nothing_to_undo` if there is no such step.
 Result<std::monostate> undo(Session& session);

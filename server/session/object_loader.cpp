@@ -43,7 +43,7 @@ Result<LoadedObject> ObjectLoader::objectFrom(const Load& load) {
     return *(fromFile_ = reader_(load.format, load.data, load.name, limits_));
 }
 
-void ObjectLoader::loadPending() {
+void ObjectLoader::loadPendingObject() {
     if (const auto* design = std::get_if<polytopes::Design>(&pending_)) {
         built_ = build(*design);
         builtName_ = design->name;

@@ -26,8 +26,8 @@ using FileReader = std::function<Result<LoadedObject>(std::string_view format, s
 
 /// Provides the objects that one command needs. With Mode::immediate, polytopeOf() and objectFrom() build or read the
 /// object before they return. With Mode::deferred, they fail if the object is not available yet, and the object becomes
-/// pending. The caller then calls loadPending(), on any thread, and applies the command again; it repeats this until
-/// nothing is pending.
+/// pending. The caller then calls loadPendingObject(), on any thread, and applies the command again; it repeats this
+/// until nothing is pending.
 class ObjectLoader {
   public:
     enum class Mode : bool { immediate, deferred };
@@ -49,15 +49,15 @@ class ObjectLoader {
     /// Returns whether the pending object must be read from a file.
     bool isFilePending() const { return std::holds_alternative<const Load*>(pending_); }
     /// Builds or reads the pending object, if there is one.
-    void loadPending();
-    /// Returns the estimated duration of loadPending(). For entries of the catalogue, it is accurate to within a factor
-    /// of three.
+    void loadPendingObject();
+    /// Returns the estimated duration of loadPendingObject(). For entries of the catalogue, it is accurate to within a
+    /// factor of three.
     std::chrono::duration<double> estimatedDuration() const;
 
-    /// Returns the estimated memory in bytes that loadPending() and its result use; 0 if nothing is pending.
+    /// Returns the estimated memory in bytes that loadPendingObject() and its result use; 0 if nothing is pending.
     std::size_t bytesNeeded() const;
-    /// Returns whether loadPending() has built a polytope or this loader has read a file, successfully or not.
-    bool hasLoaded() const { return built_ || fromFile_; }
+    /// Returns whether this loader has read a file, even one with errors, or built a polytope in loadPendingObject().
+    bool hasDoneWork() const { return built_ || fromFile_; }
 
     /// Returns one warning for each fault that was corrected in the file; empty if no file has been read.
     std::vector<std::string> warnings() const;

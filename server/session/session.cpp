@@ -134,7 +134,7 @@ std::size_t objectBytes(const Session& session) {
     for (const auto& [identity, object] : objects) {
         const geometry::ObjectInfo& info = slicing::infoOf(*object);
         const bool shared = info.rebuildableFromName && polytopes::findEntry(info.name) != nullptr;
-        if (!shared) bytes += slicing::bytesOf(*object);
+        if (!shared) bytes += slicing::memoryOf(*object);
     }
     return bytes;
 }

@@ -27,7 +27,7 @@ bool ConvexSlicer::cut(const polytopes::Polytope& polytope, VertexLevels levels,
     if (!sweep.begin(polytope, levels, out.planes.count)) return false;
     SliceCounts size = sweep.size();
     for (const SliceSet* slice : touching) {
-        if (slice != nullptr) size = size + slice->size();
+        if (slice != nullptr) size = size + slice->totalCounts();
     }
     out.resize(size);
     SliceCounts end;

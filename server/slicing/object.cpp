@@ -61,8 +61,8 @@ std::array<std::size_t, 4> elementCounts(const Object& object) {
                       object);
 }
 
-std::size_t bytesOf(const Object& object) {
-    return std::visit(Visitor{[](const PolytopePtr& p) { return polytopes::bytesOf(*p); },
+std::size_t memoryOf(const Object& object) {
+    return std::visit(Visitor{[](const PolytopePtr& p) { return polytopes::memoryOf(*p); },
                               [](const CloudPtr& cloud) {
                                   return sizeof *cloud + cloud->points.size() * (sizeof(glm::dvec4) + sizeof(double));
                               }},
@@ -95,7 +95,7 @@ void findCellCenters(const Object& object, std::vector<glm::dvec4>& out) {
                object);
 }
 
-std::span<const std::uint32_t> cellTypesOf(const Object& object) {
+std::span<const std::uint32_t> typeOfCells(const Object& object) {
     using Types = std::span<const std::uint32_t>;
     return std::visit(Visitor{[](const PolytopePtr& p) { return Types(p->typeOfCell); },
                               [](const CloudPtr& /*cloud*/) { return Types(); }},

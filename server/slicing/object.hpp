@@ -42,7 +42,7 @@ const geometry::ObjectInfo& infoOf(const Object& object);
 std::array<std::size_t, 4> elementCounts(const Object& object);
 
 /// Returns the memory used by an object in bytes, without its name.
-std::size_t bytesOf(const Object& object);
+std::size_t memoryOf(const Object& object);
 
 /// Returns the address of the shared data. It identifies the object: all copies of an Object return the same address.
 const void* identityOf(const Object& object);
@@ -60,7 +60,7 @@ double ballRadius(const Object& object);
 void findCellCenters(const Object& object, std::vector<glm::dvec4>& out);
 
 /// Returns the type of each cell, as an index into ObjectInfo::cellTypes; empty for a point cloud.
-std::span<const std::uint32_t> cellTypesOf(const Object& object);
+std::span<const std::uint32_t> typeOfCells(const Object& object);
 
 /// Returns the text of a 4OFF file with the object, in its own units, with `rotatedVertices` in place of its vertices.
 /// For a polytope, reading the file gives the same polytope, rotated; for a point cloud, the file has vertices only.

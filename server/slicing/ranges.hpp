@@ -7,7 +7,7 @@
 namespace oval4d::slicing {
 
 /// Counts one element in each of the hyperplanes from … to − 1 (in none if from = to). `counts` is a difference array:
-/// entry k is the number of elements in hyperplane k minus that in hyperplane k − 1. Pass it to `accumulate` at the
+/// entry k is the number of elements in hyperplane k minus that in hyperplane k − 1. Pass it to `toRangeBegins` at the
 /// end.
 inline void addToDifferences(std::vector<std::uint32_t>& counts, std::int32_t from, std::int32_t to) {
     counts[from] += 1;

@@ -55,9 +55,11 @@ struct SliceSet {
     std::size_t edgeCount(int slice) const { return edgeBegin[slice + 1] - edgeBegin[slice]; }
     std::size_t faceCount(int slice) const { return faceBegin[slice + 1] - faceBegin[slice]; }
 
-    /// Returns the total size of all slices. Not for a default-constructed set, whose arrays are empty.
-    SliceCounts size() const { return {vertexBegin.back(), edgeBegin.back(), faceBegin.back(), cornerBegin.back()}; }
-    /// Resizes the arrays for planes.count slices with this total size.
+    /// Returns the total counts of all slices. Not for a default-constructed set, whose arrays are empty.
+    SliceCounts totalCounts() const {
+        return {vertexBegin.back(), edgeBegin.back(), faceBegin.back(), cornerBegin.back()};
+    }
+    /// Resizes the arrays for planes.count slices with these total counts.
     void resize(SliceCounts size);
     /// Records that slice number `slice` begins at `at`.
     void begin(int slice, SliceCounts at) {

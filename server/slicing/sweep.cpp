@@ -38,7 +38,7 @@ void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::
 
 // Copies a single slice into `out` at `at`; returns its size.
 SliceCounts insert(const SliceSet& slice, SliceCounts at, SliceSet& out) {
-    const SliceCounts size = slice.size();
+    const SliceCounts size = slice.totalCounts();
     const auto copy = [](const auto& from, auto& to, std::size_t begin) {
         std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(begin));
     };

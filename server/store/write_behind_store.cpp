@@ -46,7 +46,7 @@ std::size_t bytesOf(const Session& session) {
     for (const session::State& state : session.past) add(state);
     for (const session::State& state : session.future) add(state);
     for (const auto& [name, object] : session.loaded) addObject(object);
-    for (const auto& [identity, object] : objects) bytes += slicing::bytesOf(*object);
+    for (const auto& [identity, object] : objects) bytes += slicing::memoryOf(*object);
     return bytes;
 }
 

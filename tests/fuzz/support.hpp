@@ -140,7 +140,7 @@ inline void execute(session::Session& session, const session::Command& command) 
     if (loader.isPending()) {
         require(!done && session == before, "what is not ready yet changes nothing");
         if (!small) return;
-        loader.loadPending();
+        loader.loadPendingObject();
         done = session::apply(session, command, kLimits, loader);
         require(!loader.isPending(), "a command orders one thing");
     }

@@ -42,7 +42,7 @@ class SampledField {
     float value(const glm::ivec3& point) const;
 
     struct Block {
-        glm::ivec3 corner;                                ///< the lowest point
+        glm::ivec3 corner;                                ///< the indices of its point with the least x, y, z
         std::array<float, kSide * kSide * kSide> values;  ///< x varies fastest, z slowest
     };
     /// Returns all blocks, in an order that depends only on their positions.

@@ -30,7 +30,9 @@ using namespace std::chrono_literals;
 // machine.
 constexpr std::chrono::milliseconds kSaveDelay{250};
 
-Message doneMessage(LiveSession::Id id, std::uint64_t revision) { return textMessage(wire::doneMessage(id, revision)); }
+Message doneMessage(LiveSession::RequestId id, std::uint64_t revision) {
+    return textMessage(wire::doneMessage(id, revision));
+}
 
 /// Returns a function that reads a file in a file reader process.
 session::FileReader fileReader(const Services& services) {
@@ -69,7 +71,7 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
       saveTimer_(strand_),
       retryTimer_(strand_) {}
 
-asio::awaitable<void> LiveSession::welcome(std::shared_ptr<Peer> peer, wire::Hello hello, Id id) {
+asio::awaitable<void> LiveSession::welcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
     return asio::co_spawn(strand_, welcomeOnStrand(std::move(peer), std::move(hello), id), asio::use_awaitable);
 }
 
@@ -108,7 +110,7 @@ void LiveSession::updateReservation(bool polytopesChanged) {
     if (polytopesChanged) objectBytes_ = session::objectBytes(session_);
     const std::size_t bytes = objectBytes_ + session::historyBytes(session_);
     if (bytes > held_.size() && !held_.grow(bytes)) {
-        session::forgetOldest(session_);
+        session::forgetOlderHalf(session_);
         objectBytes_ = session::objectBytes(session_);
     }
     held_.resize(objectBytes_ + session::historyBytes(session_));
@@ -142,10 +144,11 @@ std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::W
     };
 }
 
-asio::awaitable<void> LiveSession::welcomeOnStrand(std::shared_ptr<Peer> peer, wire::Hello hello, Id id) {
+asio::awaitable<void> LiveSession::welcomeOnStrand(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
     assertOnStrand();
     Lanes lanes = lanesOf(*peer);
-    clients_[peer.get()] = Client{peer, std::move(lanes), {hello.stream, hello.encoding, hello.viewport}, {}, false};
+    clients_[peer.get()] =
+        Subscriber{peer, std::move(lanes), {hello.stream, hello.encoding, hello.viewport}, {}, false};
     peer->send(
         textMessage(wire::welcomeMessage(credentials_.id, credentials_.token, limitsText(services_.options), id)));
     update();
@@ -180,7 +183,8 @@ asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, w
 
 /// Applies a command. Slow work runs on a worker: later messages of this client wait for it, but not those of other
 /// clients. With a store that several servers share, the command is acknowledged only once its result is in the store.
-asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, const session::Command& command, Id id) {
+asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, const session::Command& command,
+                                                RequestId id) {
     const auto loader = std::make_shared<session::ObjectLoader>(
         services_.options.session, services_.polytopes, session::ObjectLoader::Mode::deferred, fileReader(services_));
     Result<std::monostate> done = kInternalError;
@@ -205,7 +209,7 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
                                                    lanesOf(*peer).pictures, loader->estimatedDuration());
             }
         }
-        if (done) updateReservation(loader->hasLoaded() || session_.now.object != shown);
+        if (done) updateReservation(loader->hasDoneWork() || session_.now.object != shown);
     } catch (const parallel::QueueFull&) {
         done = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -237,7 +241,7 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
     update();
 }
 
-asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get get, Id id) {
+asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
     const auto client = clients_.find(peer.get());
     if (client == clients_.end()) co_return;
     StreamKey key = client->second.streamKey;
@@ -269,7 +273,8 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
     }
 }
 
-asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request, Id id) {
+asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
+                                                  RequestId id) {
     const std::uint64_t askedRevision = revision();
     FileResult made;
     try {
@@ -292,7 +297,7 @@ asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, ex
     peer->send(doneMessage(id, askedRevision));
 }
 
-asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, Id id) {
+asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id) {
     const std::uint64_t askedRevision = revision();
     std::optional<Error> failed;
     try {
@@ -311,7 +316,7 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
 }
 
 /// Returns a job that makes a picture of the current state.
-std::function<Message(pipeline::Pipeline&)> LiveSession::requestedPictureJob(const StreamKey& key, Id id) const {
+std::function<Message(pipeline::Pipeline&)> LiveSession::requestedPictureJob(const StreamKey& key, RequestId id) const {
     const SnapshotPtr known = snapshot_ && snapshot_->revision == revision() ? snapshot_ : nullptr;
     return [known, state = session_.now, askedRevision = revision(), changed = changed_, key, id,
             &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
@@ -323,7 +328,7 @@ std::function<Message(pipeline::Pipeline&)> LiveSession::requestedPictureJob(con
     };
 }
 
-void LiveSession::sendError(Peer& peer, const Error& error, Id id) {
+void LiveSession::sendError(Peer& peer, const Error& error, RequestId id) {
     services_.metrics.countError(error.code);
     peer.send(textMessage(wire::errorMessage(error, id)));
 }
@@ -382,7 +387,7 @@ void LiveSession::advanceTurn() {
     scheduleSave();
 }
 
-bool LiveSession::readyForNext(const Client& client) const {
+bool LiveSession::readyForNext(const Subscriber& client) const {
     if (client.pacing.newest() != revision() && !isEncoding(client.streamKey, revision())) return false;
     return client.streamKey.stream == Stream::none ? !client.stateInFlight
                                                    : client.pacing.hasRoom(countEncoding(client.streamKey));
@@ -423,8 +428,8 @@ void LiveSession::requestPictures(std::vector<StreamKey> wanted) {
 }
 
 /// Returns the client to whose lane a job is charged. The clients that receive the pictures of a job take turns.
-const LiveSession::Client& LiveSession::clientToCharge(const std::vector<StreamKey>& wanted) const {
-    std::vector<const Client*> payers;
+const LiveSession::Subscriber& LiveSession::clientToCharge(const std::vector<StreamKey>& wanted) const {
+    std::vector<const Subscriber*> payers;
     for (const auto& [peer, client] : clients_) {
         if (std::ranges::find(wanted, client.streamKey) != wanted.end()) payers.push_back(&client);
     }
@@ -506,7 +511,7 @@ const Message* LiveSession::findPicture(const StreamKey& key, std::uint64_t ofRe
 }
 
 /// Sends the state of `snapshot_`, followed by a picture of it.
-void LiveSession::sendPicture(Client& client, const Message& picture) {
+void LiveSession::sendPicture(Subscriber& client, const Message& picture) {
     const auto peer = client.peer.lock();
     if (!peer) return;
     client.pacing.sent(snapshot_->revision);
@@ -529,7 +534,7 @@ void LiveSession::sendPicture(Client& client, const Message& picture) {
 
 /// Sends the newest state to a client without a stream, one message at a time: if the state changes faster than the
 /// client's socket accepts messages, states in between are skipped.
-void LiveSession::sendState(Client& client) {
+void LiveSession::sendState(Subscriber& client) {
     const auto peer = client.peer.lock();
     if (!peer) return;
     if (stateRevision_ != revision()) {

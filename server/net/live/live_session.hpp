@@ -33,9 +33,9 @@ namespace oval4d::net {
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
-    using Id = std::optional<double>;  ///< the id of a request; empty if the request has none
+    using RequestId = std::optional<double>;  ///< the id of a request; empty if the request has none
 
-    /// `client`: the client that opened the session, on whose byte account the session's memory is reserved.
+    /// `client`: the client that opened the session; the session's memory counts against its ByteBudget::Account.
     LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
                 ClientPtr client, session::Session value);
 
@@ -43,7 +43,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
     /// Adds a client, or changes its stream if it was added before, and sends `welcome`; the state and a picture
     /// follow.
-    boost::asio::awaitable<void> welcome(std::shared_ptr<Peer> peer, wire::Hello hello, Id id);
+    boost::asio::awaitable<void> welcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
 
     /// Executes a request of a client that was added with welcome(), and returns once the request is answered.
     boost::asio::awaitable<void> execute(std::shared_ptr<Peer> peer, wire::Request request);
@@ -68,7 +68,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
         parallel::WorkerPool::LanePtr pictures, files;
     };
     /// A connection to this session.
-    struct Client {
+    struct Subscriber {
         std::weak_ptr<Peer> peer;
         Lanes lanes;
         StreamKey streamKey;
@@ -103,33 +103,35 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void assertOnStrand() const {
         assert(strand_.running_in_this_thread() && "the session is used outside its strand");
     }
-    boost::asio::awaitable<void> welcomeOnStrand(std::shared_ptr<Peer> peer, wire::Hello hello, Id id);
+    boost::asio::awaitable<void> welcomeOnStrand(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
     boost::asio::awaitable<void> executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request);
     Lanes lanesOf(const Peer& peer) const;
-    boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, wire::Get get, Id id);
-    boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, Id id);
-    boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request, Id id);
-    std::function<Message(pipeline::Pipeline&)> requestedPictureJob(const StreamKey& key, Id id) const;
-    boost::asio::awaitable<void> applyCommand(std::shared_ptr<Peer> peer, const session::Command& command, Id id);
+    boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
+    boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id);
+    boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
+                                                RequestId id);
+    std::function<Message(pipeline::Pipeline&)> requestedPictureJob(const StreamKey& key, RequestId id) const;
+    boost::asio::awaitable<void> applyCommand(std::shared_ptr<Peer> peer, const session::Command& command,
+                                              RequestId id);
     std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::SaveScope scope);
     void updateReservation(bool polytopesChanged);
     void scheduleSave();
     void saveNow(store::WriteBehindStore::Written written = {});
-    void sendError(Peer& peer, const Error& error, Id id);
+    void sendError(Peer& peer, const Error& error, RequestId id);
 
     void update();
     void advanceTurn();
     void requestPictures(std::vector<StreamKey> wanted);
-    const Client& clientToCharge(const std::vector<StreamKey>& wanted) const;
+    const Subscriber& clientToCharge(const std::vector<StreamKey>& wanted) const;
     void scheduleRetry();
     void onJobDone(JobResult result);
-    void sendPicture(Client& client, const Message& picture);
-    void sendState(Client& client);
+    void sendPicture(Subscriber& client, const Message& picture);
+    void sendState(Subscriber& client);
     void schedulePacing();
     void expirePictures();
     Clock::duration shownTimeout() const;
     const Message* findPicture(const StreamKey& key, std::uint64_t ofRevision) const;
-    bool readyForNext(const Client& client) const;
+    bool readyForNext(const Subscriber& client) const;
     std::size_t countEncoding(const StreamKey& key) const;
     bool isEncoding(const StreamKey& key, std::uint64_t ofRevision) const;
     std::uint64_t revision() const { return session_.revision; }
@@ -149,7 +151,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     session::Session session_;
     std::size_t objectBytes_ = 0;   ///< session::objectBytes() of session_
     ByteBudget::Reservation held_;  ///< reserves objectBytes_ and the bytes of the history
-    std::map<const Peer*, Client> clients_;
+    std::map<const Peer*, Subscriber> clients_;
     Clock::time_point changed_;  ///< the time at which the session reached its revision
     SnapshotPtr snapshot_;       ///< the newest snapshot, kept while a client waits for a picture; else null
     EncodedPictures pictures_;   ///< pictures of snapshot_

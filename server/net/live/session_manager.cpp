@@ -54,7 +54,7 @@ Seconds decodingCost(const store::Record& record) {
 
 SessionManager::SessionManager(Services services, std::unique_ptr<store::Store> store)
     : services_(services),
-      owners_(std::chrono::duration_cast<SessionOwners::Clock::duration>(services.options.sessionExpiry)),
+      byClient_(std::chrono::duration_cast<SessionsByClient::Clock::duration>(services.options.sessionExpiry)),
       writeBehind_(std::move(store), settingsFrom(services.options), listener()) {}
 
 WriteBehindStore::Listener SessionManager::listener() {
@@ -71,10 +71,10 @@ WriteBehindStore::Listener SessionManager::listener() {
 /// Checks whether a client may create one more session, and returns the error if it may not. At a limit, evicts an
 /// unmodified closed session to make room. Requires that mutex_ is held.
 std::optional<Error> SessionManager::admitSession(Client& client) {
-    const auto now = SessionOwners::Clock::now();
+    const auto now = SessionsByClient::Clock::now();
     const Options& options = services_.options;
-    if (owners_.count(client.name(), now) >= options.client.sessions) {
-        const auto unmodified = owners_.oldestUnmodified(now, &client.name());
+    if (byClient_.count(client.name(), now) >= options.client.sessions) {
+        const auto unmodified = byClient_.oldestUnmodified(now, &client.name());
         if (!unmodified) {
             return Error{ErrorCode::too_many, "the server stores at most " + std::to_string(options.client.sessions) +
                                                   " sessions for one address; reopen one of them or try again later"};
@@ -87,7 +87,7 @@ std::optional<Error> SessionManager::admitSession(Client& client) {
                                               " sessions per minute; try again soon"};
     }
     if (writeBehind_.count() >= options.maxSessions) {
-        const auto unmodified = owners_.oldestUnmodified(now);
+        const auto unmodified = byClient_.oldestUnmodified(now);
         if (!unmodified) {
             return Error{ErrorCode::too_many, "the server stores at most " + std::to_string(options.maxSessions) +
                                                   " sessions, and all are in use; try again later"};
@@ -101,7 +101,7 @@ std::optional<Error> SessionManager::admitSession(Client& client) {
 void SessionManager::evict(const std::string& id) {
     spdlog::debug("session evicted for a new one session={}", id);
     writeBehind_.remove(id);
-    owners_.remove(id);
+    byClient_.remove(id);
 }
 
 void SessionManager::create(const ClientPtr& client, const JoinHandler& done) {
@@ -207,7 +207,7 @@ std::shared_ptr<LiveSession> SessionManager::activate(store::SessionCredentials 
     auto session =
         std::make_shared<LiveSession>(services_, writeBehind_, std::move(credentials), client, std::move(value));
     live_.emplace(id, LiveEntry{session, 1});
-    owners_.open(id, client->name());
+    byClient_.open(id, client->name());
     return session;
 }
 
@@ -218,7 +218,7 @@ void SessionManager::leave(const std::shared_ptr<LiveSession>& session, std::sha
         const auto found = self->live_.find(id);
         if (found == self->live_.end() || found->second.session != session || --found->second.clients > 0) return false;
         const bool unmodified = value.revision == 0 && value.loaded.empty();
-        self->owners_.close(id, unmodified, SessionOwners::Clock::now());
+        self->byClient_.close(id, unmodified, SessionsByClient::Clock::now());
         self->writeBehind_.close(id, value);
         self->live_.erase(found);
         spdlog::info("session closed session={}", id);
@@ -235,7 +235,7 @@ void SessionManager::disconnectAll(const std::string& id) {
         if (found == live_.end()) return;
         session = std::move(found->second.session);
         live_.erase(found);
-        owners_.remove(id);
+        byClient_.remove(id);
     }
     services_.metrics.sessionsTaken.Increment();
     spdlog::info("session taken over by another server session={}", id);

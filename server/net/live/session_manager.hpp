@@ -1,5 +1,5 @@
 #pragma once
-// The sessions of all sessions: it holds the sessions that have clients; the others are in the store.
+// Manages the sessions of this server: those with clients are in memory, the others in the store.
 
 #include <map>
 #include <memory>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "net/live/live_session.hpp"
-#include "net/live/session_owners.hpp"
+#include "net/live/sessions_by_client.hpp"
 #include "store/write_behind_store.hpp"
 
 namespace oval4d::net {
@@ -71,7 +71,7 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     const Services services_;
     mutable std::mutex mutex_;
     std::map<std::string, LiveEntry, std::less<>> live_;  // guarded by mutex_
-    SessionOwners owners_;                                // guarded by mutex_
+    SessionsByClient byClient_;                           // guarded by mutex_
     // The sessions that are being fetched from the store, by id, with the further joins that wait for each. Guarded by
     // mutex_.
     std::map<std::string, std::vector<PendingJoin>, std::less<>> opening_;

@@ -179,7 +179,7 @@ asio::awaitable<void> Connection::waitUntilDrained() {
 }
 
 asio::awaitable<void> Connection::handle(std::string_view text) {
-    Id id;
+    RequestId id;
     try {
         if (const auto verdict = rate_.take(RateLimit::Clock::now()); verdict != RateLimit::Verdict::allowed) {
             sendError({ErrorCode::too_many, "at most " + std::to_string(services_.options.maxRequests) +
@@ -232,7 +232,7 @@ asio::awaitable<void> Connection::execute(wire::Request request) {
     co_await session_->execute(shared_from_this(), std::move(request));
 }
 
-asio::awaitable<void> Connection::handleHello(wire::Hello hello, Id id) {
+asio::awaitable<void> Connection::handleHello(wire::Hello hello, RequestId id) {
     if (const auto fits = pipeline::checkViewport(hello.viewport, services_.options.frame); !fits) {
         sendError(fits.error(), id);
         co_return;
@@ -289,7 +289,7 @@ std::function<void(SessionManager::JoinHandler)> Connection::sessionOpener(const
     };
 }
 
-void Connection::sendError(const Error& error, Id id) {
+void Connection::sendError(const Error& error, RequestId id) {
     services_.metrics.countError(error.code);
     send(textMessage(wire::errorMessage(error, id)));
 }

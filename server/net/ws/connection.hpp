@@ -51,7 +51,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
     void drop();
 
   private:
-    using Id = LiveSession::Id;
+    using RequestId = LiveSession::RequestId;
     /// A message in the send queue.
     struct Outgoing {
         Message message;
@@ -62,7 +62,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
     struct Incoming {
         boost::system::error_code fault;
         std::optional<Error> refusal;  ///< set if the message was discarded because of its length
-        Id id;                         ///< the request id of a discarded message, if it was found
+        RequestId id;                  ///< the request id of a discarded message, if it was found
         ByteBudget::Reservation held;  ///< reserves the memory of a long message
     };
 
@@ -76,10 +76,10 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
     boost::asio::awaitable<void> handle(std::string_view text);
     boost::asio::awaitable<std::variant<wire::Request, wire::BadRequest>> parse(std::string_view text);
     boost::asio::awaitable<void> execute(wire::Request request);
-    boost::asio::awaitable<void> handleHello(wire::Hello hello, Id id);
+    boost::asio::awaitable<void> handleHello(wire::Hello hello, RequestId id);
     boost::asio::awaitable<SessionManager::JoinResult> joinSession(wire::Hello hello);
     std::function<void(SessionManager::JoinHandler)> sessionOpener(const std::string& token);
-    void sendError(const Error& error, Id id);
+    void sendError(const Error& error, RequestId id);
 
     void dropSlowReader();
     void startClosing(std::uint16_t code, std::string reason);

@@ -146,32 +146,32 @@ constexpr auto kNotations = std::to_array<Notation>({
     // A dual: "dual of rectified 5-cell", "dual 3,5-duoprism".
     dualNamed,
     // A Schläfli symbol: "{5,5/2,5}", "t0,1{3,3,5}".
-    [](const NamedText& text) -> std::optional<DesignOrError> {
+    [](const NameWords& text) -> std::optional<DesignOrError> {
         if (text.from(0).find('{') == std::string::npos) return {};
         return designFrom(parseSchlaefli(text.from(0)));
     },
     // A diagram: "x5o3o3x", "x3o3o *b3o", "x5o x7o".
-    [](const NamedText& text) -> std::optional<DesignOrError> {
+    [](const NameWords& text) -> std::optional<DesignOrError> {
         if (!looksLikeDiagram(text.from(0))) return {};
         return designFrom(parseDiagram(text.from(0)));
     },
     // The diagram of a snub prism: "s4s3s x".
-    [](const NamedText& text) -> std::optional<DesignOrError> {
+    [](const NameWords& text) -> std::optional<DesignOrError> {
         if (auto snub = snubPrismNamed(text.from(0))) return *snub;
         return {};
     },
     // A duoprism: "5,7-duoprism", "5-7 duoprism", "triangular-square duoprism", "pentagonal duoprism" (both pentagons).
-    [](const NamedText& text) -> std::optional<DesignOrError> {
+    [](const NameWords& text) -> std::optional<DesignOrError> {
         if (text.words.back() != "duoprism") return {};
         return duoprismNamed(text.withoutLast());
     },
     // A prism: "pentagonal antiprism prism", "6-gonal prism prism", "snub cube prism", "truncated cubic prism".
-    [](const NamedText& text) -> std::optional<DesignOrError> {
+    [](const NameWords& text) -> std::optional<DesignOrError> {
         if (text.words.back() != "prism" || text.words.size() < 2) return {};
         return prismNamed(text.withoutLast());
     },
     // An operation on a regular polychoron: "omnitruncated 120-cell", "rectified hexacosichoron".
-    [](const NamedText& text) -> std::optional<DesignOrError> { return operationNamed(text.words); },
+    [](const NameWords& text) -> std::optional<DesignOrError> { return operationNamed(text.words); },
 });
 
 }  // namespace

@@ -63,9 +63,9 @@ void PolytopeCache::markUsed(const Shared& polytope) {
         return;
     }
     recent_.push_front(polytope);
-    bytes_ += bytesOf(*polytope);
+    bytes_ += memoryOf(*polytope);
     while (bytes_ > maxBytes_ && !recent_.empty()) {
-        bytes_ -= bytesOf(*recent_.back());
+        bytes_ -= memoryOf(*recent_.back());
         recent_.pop_back();
     }
 }

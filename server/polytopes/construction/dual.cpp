@@ -101,7 +101,7 @@ std::optional<Design> dualOfRegular(const Design& base) {
 
 }  // namespace
 
-std::optional<DesignOrError> dualNamed(const NamedText& text) {
+std::optional<DesignOrError> dualNamed(const NameWords& text) {
     if (text.words.front() != "dual" || text.words.size() < 2) return {};
     const std::size_t skipped = text.words[1] == "of" ? 2 : 1;
     DesignOrError described = text.lookup(text.from(skipped));

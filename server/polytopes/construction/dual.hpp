@@ -19,6 +19,6 @@ namespace oval4d::polytopes {
 /// dual has the design of the polytope itself. The dual of a regular polytope has the design of a regular polytope:
 /// that of the 8-cell is the 16-cell. Recipe::build throws std::invalid_argument if the hyperplane of a cell passes
 /// through the center.
-std::optional<DesignOrError> dualNamed(const NamedText& text);
+std::optional<DesignOrError> dualNamed(const NameWords& text);
 
 }  // namespace oval4d::polytopes

@@ -21,7 +21,7 @@ using DesignOrError = std::variant<Design, NameError>;
 using DesignLookup = std::function<DesignOrError(std::string_view text)>;
 
 /// A text that may name a polytope: in lower case and split into words (at least one), with a lookup for names in it.
-struct NamedText {
+struct NameWords {
     const std::vector<std::string>& words;
     const DesignLookup& lookup;
 
@@ -32,6 +32,6 @@ struct NamedText {
 };
 
 /// A parser for one notation. Returns std::nullopt if the text is not in this notation.
-using Notation = std::optional<DesignOrError> (*)(const NamedText& text);
+using Notation = std::optional<DesignOrError> (*)(const NameWords& text);
 
 }  // namespace oval4d::polytopes

@@ -16,10 +16,13 @@
 
 namespace oval4d::render {
 
-/// A vertex of a shape. Every shape is drawn as a flat patch (an impostor) with coordinates (u, v). Its normal is
-/// X·u + Y·v + Z·sqrt(1 − u² − v²) for three unit vectors X, Y and Z. A ball is the unit disk in (u, v), and its Z
-/// points to the eye. On a bar, v is 0 and u runs across the bar. On a face, u = v = 0. The vertices hold the dot
-/// products of X, Y and Z with the light direction L and the half vector H, so the shader need not compute normals.
+/// A vertex of a shape. Every shape is drawn as a flat patch (an impostor) with coordinates (u, v). The normal at (u,
+/// v) is X·u + Y·v + Z·sqrt(1 − u² − v²) for three unit vectors X, Y and Z:
+/// - ball: the patch is the unit disk in (u, v), and Z points to the eye;
+/// - bar: u runs across the bar from −1 to 1, and v = 0;
+/// - face: u = v = 0, so the normal is Z everywhere.
+/// The vertices hold the dot products of X, Y and Z with the light direction L and the half vector H, so the shader
+/// need not compute normals.
 struct ShapeVertex {
     glm::vec3 clip;       ///< clip coordinates x, y, w
     glm::vec3 place;      ///< u, v and r/2, for the radius r in pixels; coverage = (1 − u² − v²) · r/2 + ½

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "net/live/session_owners.hpp"
+#include "net/live/sessions_by_client.hpp"
 
 namespace oval4d::net {
 namespace {
@@ -124,9 +124,9 @@ TEST(ByteBudget, LimitsEachClientAndAllTogether) {
     EXPECT_FALSE(one->reserve(0));
 }
 
-TEST(SessionOwners, FindsTheOldestUnmodifiedSession) {
-    SessionOwners ledger(100s);
-    const SessionOwners::Clock::time_point start{};
+TEST(SessionsByClient, FindsTheOldestUnmodifiedSession) {
+    SessionsByClient ledger(100s);
+    const SessionsByClient::Clock::time_point start{};
     const std::string one = "one", other = "other";
     for (const char* id : {"a", "b", "c"}) ledger.open(id, one);
     ledger.open("d", other);

@@ -21,6 +21,14 @@
 
 namespace oval4d::support {
 
+/// Whether the tests are built with a sanitizer, which makes them several times slower. Long property tests then try
+/// fewer inputs, since a sanitizer finds an error of memory or threads with any input that reaches it.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
 /// Returns the one cache of the test program.
 inline polytopes::PolytopeCache& cache() {
     static polytopes::PolytopeCache kCache;

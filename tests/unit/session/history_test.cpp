@@ -155,11 +155,11 @@ TEST(History, TheOlderHalfIsForgotten) {
         commit(session, std::move(next), limits);
     }
     EXPECT_EQ(historyBytes(session), 7 * sizeof(State));
-    forgetOldest(session);
+    forgetOlderHalf(session);
     ASSERT_EQ(session.past.size(), 3U);
     EXPECT_EQ(session.past.front().slices.focus, 4);
     EXPECT_EQ(session.now.slices.focus, 7);
-    for (int i = 0; i < 5; ++i) forgetOldest(session);
+    for (int i = 0; i < 5; ++i) forgetOlderHalf(session);
     EXPECT_TRUE(session.past.empty());
 }
 

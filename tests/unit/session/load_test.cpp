@@ -52,7 +52,7 @@ int ordersOf(Session& session, const Command& command, ObjectLoader& loader, Res
         if (!loader.isPending()) return orders;
         EXPECT_FALSE(done);
         EXPECT_EQ(session, before);
-        loader.loadPending();
+        loader.loadPendingObject();
     }
 }
 

@@ -72,7 +72,7 @@ TEST(CloudSlicer, leavesOutWhatIsBeyondTheSlices) {
         makePointCloud("line", {{0, 0, 0, -3}, {0, 0, 0, 0.1}, {0, 0, 0, 3}}, {0, 0, 0}));
     SliceSet slices;
     Slicer().slice(Object(cloud), {}, {-1, 3, 1}, slices);
-    EXPECT_EQ(slices.size().vertices, 1U);
+    EXPECT_EQ(slices.totalCounts().vertices, 1U);
     EXPECT_EQ(slices.vertexCount(1), 1U);
     EXPECT_EQ(slices.vertexSource[0], 1U);
     EXPECT_EQ(slices.rotatedVertices.size(), 3U);
@@ -85,7 +85,7 @@ TEST(CloudSlicer, alternatesWithPolytopes) {
     slicer.slice(Object(support::shared("24-cell")), {}, {-2, 5, 0.5}, slices);
     EXPECT_TRUE(slices.ballScale.empty());
     EXPECT_TRUE(slices.ballOpacity.empty());
-    EXPECT_GT(slices.size().faces, 0U);
+    EXPECT_GT(slices.totalCounts().faces, 0U);
 }
 
 TEST(CloudSlicer, anObjectTellsWhatItIs) {
@@ -93,7 +93,7 @@ TEST(CloudSlicer, anObjectTellsWhatItIs) {
     EXPECT_EQ(elementCounts(object), (std::array<std::size_t, 4>{100, 0, 0, 0}));
     EXPECT_EQ(infoOf(object).name, "cloud");
     EXPECT_TRUE(infoOf(object).cellTypes.empty());
-    EXPECT_GT(bytesOf(object), 100 * sizeof(glm::dvec4));
+    EXPECT_GT(memoryOf(object), 100 * sizeof(glm::dvec4));
     const auto [least, most] = rangeOfW(object, {});
     EXPECT_GE(least, -1);
     EXPECT_LE(most, 1);

@@ -45,8 +45,8 @@ TEST(Object, TellsWhatItsPolytopeIs) {
     EXPECT_NE(Object(shared("5-cell")), object);
     EXPECT_EQ(&infoOf(object), polytope.get());
     EXPECT_EQ(elementCounts(object), (std::array<std::size_t, 4>{10, 30, 30, 10}));
-    EXPECT_EQ(bytesOf(object), polytopes::bytesOf(*polytope));
-    EXPECT_TRUE(std::ranges::equal(cellTypesOf(object), polytope->typeOfCell));
+    EXPECT_EQ(memoryOf(object), polytopes::memoryOf(*polytope));
+    EXPECT_TRUE(std::ranges::equal(typeOfCells(object), polytope->typeOfCell));
     EXPECT_EQ(write4Off(object, polytope->vertices).substr(0, 4), "4OFF");
     std::vector<glm::dvec4> centers;
     findCellCenters(object, centers);

@@ -38,7 +38,7 @@ TEST(PolytopeCache, keepsUnusedPolytopesUpToItsBound) {
     PolytopeCache cache(bound);
     const auto serial = cache.get(designFor("8-cell"))->serial;
     EXPECT_EQ(cache.get(designFor("8-cell"))->serial, serial) << "it is kept though nobody holds it";
-    EXPECT_EQ(cache.bytes(), polytopes::bytesOf(*cache.get(designFor("8-cell"))));
+    EXPECT_EQ(cache.bytes(), polytopes::memoryOf(*cache.get(designFor("8-cell"))));
     for (const char* name :
          {"120-cell", "rectified 600-cell", "rectified 120-cell", "truncated 600-cell", "600-cell", "24-cell"}) {
         (void)cache.get(designFor(name));
@@ -50,7 +50,7 @@ TEST(PolytopeCache, keepsUnusedPolytopesUpToItsBound) {
 }
 
 TEST(PolytopeCache, dropsTheLeastRecentlyUsedFirst) {
-    const auto sizeOf = [](std::string_view name) { return polytopes::bytesOf(support::named(name)); };
+    const auto sizeOf = [](std::string_view name) { return polytopes::memoryOf(support::named(name)); };
     PolytopeCache cache(sizeOf("8-cell") + sizeOf("16-cell") + sizeOf("24-cell"));
     (void)cache.get(designFor("8-cell"));
     (void)cache.get(designFor("16-cell"));

@@ -13,12 +13,12 @@ namespace oval4d::net {
 /// Records which client opened each session of this process: open sessions, and closed ones that have not expired.
 /// Finds the session to evict when a limit is reached: of the unmodified closed sessions, the one that was closed
 /// first. Not thread-safe.
-class SessionOwners {
+class SessionsByClient {
   public:
     using Clock = std::chrono::steady_clock;
 
     /// `expiry`: the time after which a closed session is forgotten.
-    explicit SessionOwners(Clock::duration expiry) : expiry_(expiry) {}
+    explicit SessionsByClient(Clock::duration expiry) : expiry_(expiry) {}
 
     /// Records that a client has opened a session. A known session stays assigned to the client that opened it first.
     void open(const std::string& id, const std::string& client);

@@ -1,8 +1,8 @@
-#include "net/live/session_owners.hpp"
+#include "net/live/sessions_by_client.hpp"
 
 namespace oval4d::net {
 
-void SessionOwners::open(const std::string& id, const std::string& client) {
+void SessionsByClient::open(const std::string& id, const std::string& client) {
     const auto [found, isNew] = sessions_.try_emplace(id);
     if (isNew) {
         found->second.client = client;
@@ -12,7 +12,7 @@ void SessionOwners::open(const std::string& id, const std::string& client) {
     }
 }
 
-void SessionOwners::close(const std::string& id, bool unmodified, Clock::time_point now) {
+void SessionsByClient::close(const std::string& id, bool unmodified, Clock::time_point now) {
     const auto found = sessions_.find(id);
     if (found == sessions_.end()) return;
     Entry& entry = found->second;
@@ -25,25 +25,25 @@ void SessionOwners::close(const std::string& id, bool unmodified, Clock::time_po
     clients_[entry.client].unmodified.emplace(entry.closed, id);
 }
 
-void SessionOwners::reopen(Entry& entry) {
+void SessionsByClient::reopen(Entry& entry) {
     closed_.erase(entry.closed);
     unmodified_.erase(entry.closed);
     clients_[entry.client].unmodified.erase(entry.closed);
     entry.closed = 0;
 }
 
-void SessionOwners::remove(const std::string& id) {
+void SessionsByClient::remove(const std::string& id) {
     if (const auto found = sessions_.find(id); found != sessions_.end()) erase(found);
 }
 
-void SessionOwners::erase(Sessions::iterator session) {
+void SessionsByClient::erase(Sessions::iterator session) {
     reopen(session->second);
     const auto owner = clients_.find(session->second.client);
     if (--owner->second.sessions == 0) clients_.erase(owner);
     sessions_.erase(session);
 }
 
-void SessionOwners::expire(Clock::time_point now) {
+void SessionsByClient::expire(Clock::time_point now) {
     while (!closed_.empty()) {
         const auto first = sessions_.find(closed_.begin()->second);
         if (first->second.expires > now) return;
@@ -51,13 +51,13 @@ void SessionOwners::expire(Clock::time_point now) {
     }
 }
 
-std::size_t SessionOwners::count(const std::string& client, Clock::time_point now) {
+std::size_t SessionsByClient::count(const std::string& client, Clock::time_point now) {
     expire(now);
     const auto owner = clients_.find(client);
     return owner == clients_.end() ? 0 : owner->second.sessions;
 }
 
-std::optional<std::string> SessionOwners::oldestUnmodified(Clock::time_point now, const std::string* client) {
+std::optional<std::string> SessionsByClient::oldestUnmodified(Clock::time_point now, const std::string* client) {
     expire(now);
     const auto* sessions = &unmodified_;
     if (client != nullptr) {
