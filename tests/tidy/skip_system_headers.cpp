@@ -16,7 +16,7 @@ namespace {
 using clang::ast_matchers::MatchFinder;
 
 // Matches the translation unit, before its declarations are traversed, and sets the scope of the traversal.
-class OursOnly : public clang::tidy::ClangTidyCheck {
+class SkipSystemHeaders : public clang::tidy::ClangTidyCheck {
   public:
     using ClangTidyCheck::ClangTidyCheck;
 
@@ -34,7 +34,7 @@ class OursOnly : public clang::tidy::ClangTidyCheck {
 
 class Module : public clang::tidy::ClangTidyModule {
     void addCheckFactories(clang::tidy::ClangTidyCheckFactories& factories) override {
-        factories.registerCheck<OursOnly>("oval4d-ours-only");
+        factories.registerCheck<SkipSystemHeaders>("oval4d-skip-system-headers");
     }
 };
 
