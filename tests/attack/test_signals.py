@@ -98,7 +98,7 @@ def test_work_under_way_delays_no_stop(number, work):
         time.sleep(0.3)
         status, seconds = server.stop(number)
         assert status == 0
-        assert seconds < timeout + 2 * SLOW
+        assert seconds < timeout + 1 * SLOW
 
 
 def test_a_second_signal_ends_the_server_at_once():
