@@ -8,6 +8,7 @@
 
 #include "cli/export_command.hpp"
 #include "cli/render_command.hpp"
+#include "file_reading/file_reader_service.hpp"
 #include "net/confinement.hpp"
 #include "net/options.hpp"
 #include "net/server.hpp"
@@ -16,7 +17,6 @@
 #include "process/heap.hpp"
 #include "process/sandbox.hpp"
 #include "raster/rasterizer_service.hpp"
-#include "reading/reading_service.hpp"
 
 namespace {
 
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     // Hidden subcommands, with which the server starts this program as a child process. Child processes read their
     // options from environment variables.
     const CLI::App* draw = app.add_subcommand(oval4d::raster::kRasterizerCommand)->group("");
-    const CLI::App* read = app.add_subcommand(oval4d::reading::kReadingCommand)->group("");
+    const CLI::App* read = app.add_subcommand(oval4d::file_reading::kFileReaderCommand)->group("");
     app.require_subcommand(0, 1);
     CLI11_PARSE(app, argc, argv);
 
@@ -60,7 +60,8 @@ int main(int argc, char** argv) {
             oval4d::raster::serveRasterizer(oval4d::process::kChildSocket, oval4d::net::rasterizerConfinement(options),
                                             forkJoin, heap);
         } else if (*read) {
-            oval4d::reading::serveReading(oval4d::process::kChildSocket, oval4d::net::readingConfinement(options));
+            oval4d::file_reading::serveFileReader(oval4d::process::kChildSocket,
+                                                  oval4d::net::fileReaderConfinement(options));
         } else if (*render) {
             oval4d::renderPicture(*render, renderOptions, forkJoin);
         } else if (*exporting) {

@@ -5,7 +5,7 @@ import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 
-const kLargest = 250 * 1024; // bytes: the maximum total size of all files, compressed with gzip
+const kMaxTotalSize = 250 * 1024; // bytes: the maximum total size of all files, compressed with gzip
 
 const here = dirname(fileURLToPath(import.meta.url));
 const dist = join(here, "dist");
@@ -37,16 +37,16 @@ if (watch) {
     await compress();
 }
 
-/** Writes a gzip and a brotli form of each file; the server sends them to clients that accept them. */
+/** Compresses each file with gzip and brotli, for clients that accept these encodings; checks the total size. */
 async function compress() {
-    let whole = 0;
+    let total = 0;
     for (const file of await readdir(dist)) {
         const content = await readFile(join(dist, file));
         const zipped = gzipSync(content, { level: constants.Z_BEST_COMPRESSION });
         await writeFile(join(dist, `${file}.gz`), zipped);
         await writeFile(join(dist, `${file}.br`), brotliCompressSync(content));
-        whole += zipped.length;
+        total += zipped.length;
     }
-    console.log(`the page: ${(whole / 1024).toFixed(1)} KB compressed`);
-    if (whole > kLargest) throw new Error(`the page is larger than ${kLargest / 1024} KB compressed`);
+    console.log(`the page: ${(total / 1024).toFixed(1)} KB compressed`);
+    if (total > kMaxTotalSize) throw new Error(`the page is larger than ${kMaxTotalSize / 1024} KB compressed`);
 }

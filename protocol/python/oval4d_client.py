@@ -82,14 +82,14 @@ class Client:
         self._hello = {}
         self._reconnecting = False
         self._closing = False
-        self.welcome = None  # the newest message of each kind
+        self.welcome = None  # the newest message of each kind, None before the first
         self.newest_state = None
         self.newest_slices = None
         self.newest_frame = None
         self.errors = []  # error messages that do not answer a call
         self.closed = None  # (code, reason) once the connection has ended for good
         self._ids = itertools.count(1)
-        self._waiting = {}  # for the id of each call in progress: None, then the answer
+        self._waiting = {}  # for the id of each call in progress: its answer, None until it arrives
         self._wants_bytes = set()  # ids of calls that are answered by a binary message, which precedes their done
         self._binary = None
         self._change = threading.Condition()
@@ -336,7 +336,8 @@ def png_state(png):
         text = png[at + 8 : at + 8 + size]
         if kind == b"iTXt" and text.startswith(b"oval4d\0"):
             try:
-                state = json.loads(text.split(b"\0", 5)[-1])  # after keyword, flag, method, language, second keyword
+                # The text follows the keyword, two flags, the language and the translated keyword.
+                state = json.loads(text.split(b"\0", 5)[-1])
             except RecursionError:
                 break
             if isinstance(state, dict):
@@ -358,6 +359,9 @@ def from_cbor(data):
     try:
         message = cbor2.loads(data, tag_hook=typed)
         message["slices"] = _slices_of(message["slices"])
+        if "projection" in message:
+            parts = message["projection"]["parts"]
+            message["projection"]["parts"] = [look | own for look, own in zip(parts["looks"], _elements_of(parts))]
     except (cbor2.CBORDecodeError, ArithmeticError, AttributeError, LookupError, MemoryError, RecursionError,
             TypeError) as fault:
         raise ValueError(f"not a slices message in CBOR: {fault}") from fault
@@ -370,30 +374,41 @@ def _rows(flat, sizes, width=1):
     return [flat[width * begin : width * end] for begin, end in zip(ends, ends[1:])]
 
 
-def _slices_of(columns):
-    """Returns one dict per slice. `columns` has one array per property, with the values of all slices."""
+def _elements_of(columns):
+    """Returns one dict per slice, or per part of the projection, with its elements. `columns` has one array per property,
+    with the values of all slices."""
     counts = columns["counts"]
-    threes = [3] * len(columns["index"])
 
     def of_each(lists):
         rows = [_rows(lists[name], counts[name]) for name in lists]
         return [dict(zip(lists, row)) for row in zip(*rows)]
 
     sides = _rows(columns["sides"], counts["faces"])
-    properties = {name: columns[name] for name in ("index", "w", "label", "label_size", "focus", "drawn")}
-    properties |= {name: [row.tolist() for row in _rows(columns[name], threes)] for name in ("position", "label_at")}
-    properties["vertices"] = _rows(columns["vertices"], counts["vertices"], 3)
-    properties["edges"] = _rows(columns["edges"], counts["edges"], 2)
+    properties = {"vertices": _rows(columns["vertices"], counts["vertices"], 3),
+                  "edges": _rows(columns["edges"], counts["edges"], 2)}
     properties["faces"] = [{"begin": array.array("I", itertools.accumulate(own, initial=0)), "corners": corners}
                            for own, corners in zip(sides, _rows(columns["corners"], map(sum, sides)))]
     properties["of"] = of_each(columns["of"])
     if "seen" in columns:
         properties["seen"] = of_each(columns["seen"])
-    slices = [dict(zip(properties, row)) for row in zip(*properties.values())]
+    elements = [dict(zip(properties, row)) for row in zip(*properties.values())]
     if "tints" in columns:
-        for piece, tints in zip(slices, _rows(columns["tints"], counts["faces"])):
+        for piece, tints in zip(elements, _rows(columns["tints"], counts["faces"])):
             if tints != piece["of"]["faces"]:
                 piece["tints"] = tints
+    if "balls" in columns:
+        scales, opacities = (_rows(columns["balls"][name], counts["vertices"]) for name in ("scale", "opacity"))
+        for piece, scale, opacity in zip(elements, scales, opacities):
+            piece["balls"] = {"scale": scale, "opacity": opacity}
+    return elements
+
+
+def _slices_of(columns):
+    """Returns one dict per slice."""
+    threes = [3] * len(columns["index"])
+    properties = {name: columns[name] for name in ("index", "w", "label", "label_size", "focus", "drawn")}
+    properties |= {name: [row.tolist() for row in _rows(columns[name], threes)] for name in ("position", "label_at")}
+    slices = [dict(zip(properties, row)) | own for *row, own in zip(*properties.values(), _elements_of(columns))]
     if "fill" in columns:
         fill = columns["fill"]
         points, triangles = fill["counts"]["points"], fill["counts"]["triangles"]

@@ -34,9 +34,12 @@ export interface Options {
     onStatus?(status: Status): void;
     onWelcome?(welcome: Welcome): void;
     onState?(state: State): void;
-    /** Called with each picture of the stream, as onFrame is. Call `shown` once the picture is presented. */
+    /** Called with each picture of a geometry stream. Call `shown` once the picture is presented. */
     onSlices?(slices: Slices): void;
+    /** Called with each picture of a frame stream, a PNG file. Call `shown` once the picture is presented. */
     onFrame?(png: Uint8Array): unknown;
+    /** Called with the answer to come of each request, including those that the client makes itself. */
+    onRequest?(answer: Promise<unknown>): void;
     /** Called with an error that does not answer a request of this client. */
     onError?(error: ErrorMessage): void;
     /** Called if the session no longer exists or its token is wrong. The client then opens a new session. */
@@ -67,7 +70,7 @@ const kFirstRetryDelay = 0.5; // seconds after the first failed attempt, doubled
 const kMaxRetryDelay = 15; // seconds
 const kIdleBeforeTest = 20; // seconds without a message after which the connection is tested
 const kTestTimeout = 8; // seconds within which the server must answer a test
-const kFileTestTimeout = 300; // the same during the export of a file, when no answer comes until the file is complete
+const kFileTestTimeout = 300; // the same while a file is exported: the server answers only when it is complete
 const kOpen = 1; // WebSocket.OPEN
 
 export class Client {
@@ -139,7 +142,7 @@ export class Client {
     request(message: Exclude<Request, { type: "hello" | "get" | "shown" }>): Promise<Done>;
     request(message: Request): Promise<unknown> {
         const id = ++this.lastId;
-        return new Promise((resolve, reject) => {
+        const answer = new Promise((resolve, reject) => {
             if (this.socket?.readyState !== kOpen) {
                 reject(new RequestError("not_connected", "there is no connection to the server"));
                 return;
@@ -149,6 +152,8 @@ export class Client {
             this.pending.set(id, { wants, resolve, reject });
             this.send({ ...message, id });
         });
+        this.options.onRequest?.(answer);
+        return answer;
     }
 
     /** The number of bytes that are queued to be sent to the server. */
@@ -245,8 +250,9 @@ export class Client {
     /** Tests the connection with a request. If the server does not answer, the connection counts as lost. */
     test(): void {
         if (this.status.kind !== "open") return;
+        const { unsent } = this; // without the test itself, whose sending is no sign of a working connection
         this.request({ type: "get", what: "state" }).catch(() => {});
-        this.awaitAnswer(this.unsent);
+        this.awaitAnswer(unsent);
     }
 
     /** Waits for the answer to a test. It cannot come before all data are sent, so sending data extends the wait. */

@@ -1,6 +1,7 @@
-// The slices of a CBOR message, which has one array per property with the values of all slices.
+// The slices of a CBOR message, which has one array per property with the values of all slices. The parts of the
+// projection have the same columns for their elements.
 
-import type { Slice, Vector } from "./messages";
+import type { Elements, ObjectProjection, ProjectionLook, Slice, Vector } from "./messages";
 
 /** An array of integers whose width is the least that its largest value fits into. */
 export type Integers = Uint8Array | Uint16Array | Uint32Array;
@@ -8,17 +9,9 @@ export type Integers = Uint8Array | Uint16Array | Uint32Array;
 /** A value for each kind of element of a slice. */
 type OfEach<T> = Record<"vertices" | "edges" | "faces", T>;
 
-/** The member `slices` of a CBOR message (README.md, "CBOR"). */
-export interface Columns {
-    index: number[];
-    w: Float64Array;
-    position: Float32Array;
-    label: string[];
-    label_at: Float32Array;
-    label_size: Float64Array;
-    focus: boolean[];
-    drawn: boolean[];
-    /** The number of elements in each slice. */
+/** The elements of all slices, or of all parts of the projection. */
+interface ElementColumns {
+    /** The number of elements in each slice or part. */
     counts: OfEach<Integers>;
     vertices: Float32Array;
     edges: Integers;
@@ -29,6 +22,18 @@ export interface Columns {
     tints?: Integers;
     seen?: OfEach<Integers>;
     balls?: { scale: Float32Array; opacity: Float32Array };
+}
+
+/** The member `slices` of a CBOR message (README.md, "CBOR"). */
+export interface Columns extends ElementColumns {
+    index: number[];
+    w: Float64Array;
+    position: Float32Array;
+    label: string[];
+    label_at: Float32Array;
+    label_size: Float64Array;
+    focus: boolean[];
+    drawn: boolean[];
     fill?: {
         counts: Record<"points" | "triangles", Integers>;
         points: Float32Array;
@@ -36,6 +41,11 @@ export interface Columns {
         tints: Integers;
         seen?: Integers;
     };
+}
+
+/** The member `projection.parts` of a CBOR message. */
+export interface PartColumns extends ElementColumns {
+    looks: ProjectionLook[];
 }
 
 /** Returns an array of `count` integers. */
@@ -55,14 +65,18 @@ function vector(flat: Float32Array, i: number): Vector {
     return [flat[3 * i]!, flat[3 * i + 1]!, flat[3 * i + 2]!];
 }
 
-/** Returns one object per slice. Its arrays are views of the columns, or of arrays that `room` returned. */
-export function rowsOf(columns: Columns, room: Room): Slice[] {
-    const wide = (integers: Integers): Uint32Array => {
+function widener(room: Room): (integers: Integers) => Uint32Array {
+    return (integers) => {
         if (integers instanceof Uint32Array) return integers;
         const all = room(integers.length);
         all.set(integers);
         return all;
     };
+}
+
+/** Returns the elements of each slice or part. The arrays are views of the columns, or of arrays that `room` returned. */
+function elementsOf(columns: ElementColumns, room: Room): Elements[] {
+    const wide = widener(room);
     const wideOfEach = (lists: OfEach<Integers>): OfEach<Uint32Array> => {
         return { vertices: wide(lists.vertices), edges: wide(lists.edges), faces: wide(lists.faces) };
     };
@@ -71,14 +85,13 @@ export function rowsOf(columns: Columns, room: Room): Slice[] {
         edges: lists.edges.subarray(...edges[i]!),
         faces: lists.faces.subarray(...faces[i]!),
     });
-    const { counts, sides, fill } = columns;
+    const { counts, sides } = columns;
     const vertices = ranges(counts.vertices, columns.vertices.length / 3);
     const edges = ranges(counts.edges, columns.edges.length / 2);
     const faces = ranges(counts.faces, sides.length);
     const [ends, corners, of] = [wide(columns.edges), wide(columns.corners), wideOfEach(columns.of)];
     const tints = columns.tints && wide(columns.tints);
     const seen = columns.seen && wideOfEach(columns.seen);
-    const filled = fill && fillsOf(fill, wide);
     let corner = 0;
     const loops = ([first, last]: Range): Slice["faces"] => {
         const begin = room(last - first + 1);
@@ -86,6 +99,28 @@ export function rowsOf(columns: Columns, room: Room): Slice[] {
         for (let face = first; face < last; ++face) begin[face - first + 1] = begin[face - first]! + sides[face]!;
         return { begin, corners: corners.subarray(corner, (corner += begin[last - first]!)) };
     };
+    return vertices.map((range, i) => {
+        const elements: Elements = {
+            vertices: columns.vertices.subarray(3 * range[0], 3 * range[1]),
+            edges: ends.subarray(2 * edges[i]![0], 2 * edges[i]![1]),
+            faces: loops(faces[i]!),
+            of: partOfEach(of, i),
+        };
+        const own = tints?.subarray(...faces[i]!);
+        if (own?.some((tint, face) => tint !== elements.of.faces[face])) elements.tints = own;
+        if (seen) elements.seen = partOfEach(seen, i);
+        if (columns.balls) {
+            const { scale, opacity } = columns.balls;
+            elements.balls = { scale: scale.subarray(...range), opacity: opacity.subarray(...range) };
+        }
+        return elements;
+    });
+}
+
+/** Returns one object per slice. */
+export function rowsOf(columns: Columns, room: Room): Slice[] {
+    const elements = elementsOf(columns, room);
+    const filled = columns.fill && fillsOf(columns.fill, widener(room));
     return columns.index.map((index, i) => {
         const slice: Slice = {
             index,
@@ -96,21 +131,16 @@ export function rowsOf(columns: Columns, room: Room): Slice[] {
             label_size: columns.label_size[i]!,
             focus: columns.focus[i]!,
             drawn: columns.drawn[i]!,
-            vertices: columns.vertices.subarray(3 * vertices[i]![0], 3 * vertices[i]![1]),
-            edges: ends.subarray(2 * edges[i]![0], 2 * edges[i]![1]),
-            faces: loops(faces[i]!),
-            of: partOfEach(of, i),
+            ...elements[i]!,
         };
-        const own = tints?.subarray(...faces[i]!);
-        if (own?.some((tint, face) => tint !== slice.of.faces[face])) slice.tints = own;
-        if (seen) slice.seen = partOfEach(seen, i);
-        if (columns.balls) {
-            const { scale, opacity } = columns.balls;
-            slice.balls = { scale: scale.subarray(...vertices[i]!), opacity: opacity.subarray(...vertices[i]!) };
-        }
         if (filled?.[i]!.triangles.length) slice.fill = filled[i];
         return slice;
     });
+}
+
+/** Returns one object per part of the projection. */
+export function partsOf(columns: PartColumns, room: Room): ObjectProjection["parts"] {
+    return elementsOf(columns, room).map((elements, i) => ({ ...columns.looks[i]!, ...elements }));
 }
 
 function fillsOf(fill: NonNullable<Columns["fill"]>, wide: (list: Integers) => Uint32Array): NonNullable<Slice["fill"]>[] {

@@ -4,8 +4,8 @@
 import * as cborX from "cbor-x/decode-no-eval";
 
 import type { Arena, Numbers } from "./arena";
-import { rowsOf, type Columns, type Integers } from "./columns";
-import type { Message, Slice, Slices } from "./messages";
+import { partsOf, rowsOf, type Columns, type Integers, type PartColumns } from "./columns";
+import type { Elements, Message, ObjectProjection, ProjectionLook, Slice, Slices } from "./messages";
 
 const cbor = new cborX.Decoder({ mapsAsObjects: true, useRecords: false });
 
@@ -86,8 +86,8 @@ export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined
 
 type FlatOrNested<T> = T | number[] | number[][];
 
-/** A slice as the JSON encoding has it, with nested arrays. */
-interface JsonSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" | "tints" | "seen" | "balls" | "fill"> {
+/** The elements of a slice as the JSON encoding has them, with nested arrays. */
+interface JsonElements {
     vertices: number[][];
     edges: number[][];
     faces: number[][];
@@ -95,36 +95,55 @@ interface JsonSlice extends Omit<Slice, "vertices" | "edges" | "faces" | "of" | 
     tints?: number[];
     seen?: Record<"vertices" | "edges" | "faces", number[]>;
     balls?: { scale: number[]; opacity: number[] };
+}
+
+interface JsonSlice extends Omit<Slice, keyof Elements | "fill">, JsonElements {
     fill?: { points: number[][]; triangles: number[][]; tints: number[]; seen?: number[] };
 }
 
 function flattened(message: Message): Message {
     if (message.type !== "slices") return message;
-    const loose = message as unknown as Omit<Slices, "slices" | "coordinates" | "density"> & {
+    const loose = message as unknown as Omit<Slices, "slices" | "coordinates" | "density" | "projection"> & {
         coordinates?: FlatOrNested<Float32Array>;
         density?: FlatOrNested<Uint8Array>;
         slices: JsonSlice[] | Columns;
+        projection?: Omit<ObjectProjection, "parts"> & { parts: (JsonElements & ProjectionLook)[] | PartColumns };
     };
-    const { scene, slices } = loose;
+    const { scene, slices, projection, ...rest } = loose;
     return {
-        ...loose,
+        ...rest,
         scene: { ...scene, colors: { ...scene.colors, cells: indices(scene.colors.cells) } },
         coordinates: floats(loose.coordinates ?? []),
         density: loose.density instanceof Uint8Array ? loose.density : Uint8Array.from((loose.density ?? []).flat()),
         slices: Array.isArray(slices) ? slices.map(flattenedSlice) : rowsOf(slices, room),
+        ...(projection && {
+            projection: {
+                ...projection,
+                parts: Array.isArray(projection.parts)
+                    ? projection.parts.map(flattenedElements)
+                    : partsOf(projection.parts, room),
+            },
+        }),
     };
 }
 
-function flattenedSlice({ tints, seen, balls, fill, ...slice }: JsonSlice): Slice {
+function flattenedElements<T extends JsonElements>(all: T): Omit<T, keyof JsonElements> & Elements {
+    const { vertices, edges, faces, of, tints, seen, balls, ...rest } = all;
     return {
-        ...slice,
-        vertices: floats(slice.vertices),
-        edges: indices(slice.edges),
-        faces: loops(slice.faces),
-        of: ofAll(slice.of),
+        ...rest,
+        vertices: floats(vertices),
+        edges: indices(edges),
+        faces: loops(faces),
+        of: ofAll(of),
         ...(tints && { tints: indices(tints) }),
         ...(seen && { seen: ofAll(seen) }),
         ...(balls && { balls: { scale: floats(balls.scale), opacity: floats(balls.opacity) } }),
+    };
+}
+
+function flattenedSlice({ fill, ...slice }: JsonSlice): Slice {
+    return {
+        ...flattenedElements(slice),
         ...(fill && {
             fill: {
                 points: floats(fill.points),

@@ -6,11 +6,14 @@ export type Stream = "none" | "geometry" | "frames";
 export type Encoding = "json" | "cbor";
 export type View = "oval" | "single";
 /** What face colors show: the cell, the kind of the cell, the w of the cell's center after the rotation, or nothing. */
-export type Coloring = "cell" | "kind" | "w" | "plain";
+export type Coloring = "cell" | "kind" | "w" | "plain" | "light";
 export type Vector = [number, number, number];
 
 /** Which parts of the picture are drawn. */
 export type Parts = Record<keyof (typeof import("../schema/parts.schema.json"))["properties"], boolean>;
+
+/** The projection of the whole polytope. */
+export type Projection = "off" | "perspective" | "orthogonal";
 
 /** How the viewer has moved the camera: the angles of its rotation about its target, and the magnification. */
 export interface Orbit {
@@ -45,6 +48,9 @@ export interface Settings {
     shown?: Partial<Parts>;
     camera?: Partial<Orbit>;
     color?: Coloring;
+    projection?: Projection;
+    /** The w of the 4-D eye, in circumradii. */
+    eye?: number;
     /** Kinds of cells, as indices into the polytope's kinds. */
     hidden?: number[];
     faded?: number[];
@@ -55,7 +61,8 @@ export interface FileOptions {
     /** A name that export_formats.json lists. */
     format: string;
     of?: "focus" | "oval";
-    body?: "solid" | "frame";
+    /** Filled, or balls and bars merged into one body; "frame" is the former name of "skeleton". */
+    body?: "solid" | "skeleton" | "frame";
     /** The diameter of the polytope's circumscribed sphere, in millimeters. */
     size?: number;
     label?: "none" | "engraved" | "separate";
@@ -112,6 +119,9 @@ export interface State {
     shown: Parts;
     camera: Orbit;
     color: Coloring;
+    projection: Projection;
+    /** The w of the 4-D eye, in circumradii. */
+    eye: number;
     /** Kinds of cells, as indices into the polytope's kinds. */
     hidden: number[];
     faded: number[];
@@ -258,10 +268,8 @@ export interface Fill {
     seen?: Uint32Array;
 }
 
-/** One slice. Its arrays are flat, whichever encoding the message has. */
-export interface Slice {
-    index: number;
-    w: number;
+/** The elements of a slice, or of a part of the projection. The arrays are flat, whichever encoding the message has. */
+export interface Elements {
     /** x, y, z, x, y, z, … */
     vertices: Float32Array;
     /** Pairs of vertices. */
@@ -276,6 +284,11 @@ export interface Slice {
     seen?: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
     /** The radius of each vertex's ball, relative to scene.ball, and the ball's opacity; absent if all are 1. */
     balls?: { scale: Float32Array; opacity: Float32Array };
+}
+
+export interface Slice extends Elements {
+    index: number;
+    w: number;
     /** What to draw instead of the faces, with a depth buffer; present only if the faces may cross. */
     fill?: Fill;
     /** The world position of the slice's origin: a vertex p is drawn at position + scene.scale · p. */
@@ -289,6 +302,29 @@ export interface Slice {
     drawn: boolean;
 }
 
+/** How a part of the projection is drawn. */
+export interface ProjectionLook {
+    /** The radii of balls and bars in world units; those with the radius 0 are not drawn. */
+    ball: number;
+    bar: number;
+    ball_color: number;
+    bar_color: number;
+    /** The opacity of faces, from 0 to 1. */
+    opacity: number;
+}
+
+/** The projection of the whole object from four to three dimensions. */
+export interface ObjectProjection {
+    kind: Exclude<Projection, "off">;
+    /** The w of the 4-D eye, in circumradii. */
+    eye: number;
+    /** The world position of its center: a vertex p is drawn at position + scale · p. */
+    position: Vector;
+    scale: number;
+    /** The whole object, then the sections of hyperplanes. */
+    parts: (Elements & ProjectionLook)[];
+}
+
 export interface Slices {
     type: "slices";
     id?: number;
@@ -299,6 +335,8 @@ export interface Slices {
     /** The density of the lines (0 … 255), row by row from the top; empty unless a density strip is drawn. */
     density: Uint8Array;
     slices: Slice[];
+    /** Absent if it is not shown. */
+    projection?: ObjectProjection;
 }
 
 export type Message = Welcome | State | Done | ErrorMessage | Catalogue | Keymap | Slices;

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "cli/state_arguments.hpp"
-#include "pipeline/file_pipeline.hpp"
+#include "pipeline/export_pipeline.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d {
@@ -17,7 +17,7 @@ const exports::Format& formatOf(const ExportOptions& options) {
     if (name.empty()) name = std::filesystem::path(options.output).extension().string();
     if (name.starts_with('.')) name.erase(0, 1);
     if (const exports::Format* format = exports::formatNamed(name)) return *format;
-    const std::string known = text::listed(exports::formatNames());
+    const std::string known = text::commaSeparated(exports::formatNames());
     throw std::runtime_error(name.empty()
                                  ? "give a --format, one of " + known
                                  : "no format is called " + text::inQuotes(name) + "; the formats are " + known);
@@ -37,10 +37,10 @@ exports::Limits commandLineLimits() {
 void addExportOptions(CLI::App& app, ExportOptions& options) {
     app.add_option("-o,--output", options.output, "The file to write, - for standard output")->capture_default_str();
     app.add_option("--format", options.format,
-                   text::listed(exports::formatNames()) + "; default: from the output's extension");
+                   text::commaSeparated(exports::formatNames()) + "; default: from the output's extension");
     app.allow_extras();
     app.footer(std::string("The content of the file:\n"
-                           "  --of focus|oval  --body solid|frame  --size MILLIMETERS  --label "
+                           "  --of focus|oval  --body solid|skeleton  --size MILLIMETERS  --label "
                            "none|engraved|separate\n") +
                kStateHelp);
 }
@@ -49,7 +49,7 @@ void exportFile(const CLI::App& app, const ExportOptions& options) {
     session::Query query = queryOf(app.remaining());
     const auto request = valueOrThrow(pipeline::takeExportRequest(query, formatOf(options)));
     const auto state = stateOf(query);
-    writeOutput(options.output, valueOrThrow(pipeline::fileOf(state, request, commandLineLimits())));
+    writeOutput(options.output, valueOrThrow(pipeline::exportState(state, request, commandLineLimits())));
 }
 
 }  // namespace oval4d

@@ -1,5 +1,5 @@
 #pragma once
-// The subcommand `oval4d export`: writes a slice or the oval as a file, without a server.
+// The subcommand `oval4d export`: writes a file with one slice or with all slices, without a server.
 
 #include <string>
 
@@ -12,7 +12,7 @@ namespace oval4d {
 /// The options of `oval4d export` that do not describe the state or the content of the file.
 struct ExportOptions {
     std::string output = "slice.stl";  ///< "-" for standard output
-    std::string format;                ///< name of the file format; empty: the extension of `output`
+    std::string format;                ///< name of the file format; if empty, the extension of `output` determines it
 };
 
 /// Adds these options to `app`, the parser of the subcommand. After parsing, `app.remaining()` contains the options

@@ -39,7 +39,7 @@ session::State stateOf(session::Query query) {
         std::ifstream file(path, std::ios::binary);
         const std::string text{std::istreambuf_iterator<char>(file), {}};
         if (!file) throw std::runtime_error("cannot read " + path);
-        const auto reading = session::readObject(session::formatOf(text), text,
+        const auto reading = session::readObject(session::detectFormat(text), text,
                                                  std::filesystem::path(path).filename().string(), session::Limits{});
         if (!reading) throw std::runtime_error(path + ": " + reading.error().message);
         for (const std::string& warning : reading->warnings) std::cerr << "oval4d: " << path << ": " << warning << '\n';

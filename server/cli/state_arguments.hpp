@@ -34,7 +34,8 @@ void writeOutput(const std::string& path, std::string_view bytes);
 inline constexpr const char* kStateHelp =
     "All other options describe the state, as for :set and the query of frame.png:\n"
     "  --polytope 24-cell --rotate xw,yz:pi/8,pi/sqrt(3)-pi/8 --slices 31 --view single\n"
-    "--load FILE shows a polytope from a 4OFF file, or the convex hull of a list of points.\n"
+    "--load FILE shows a polytope from a 4OFF file, the points of a file whose first word is CLOUD,\n"
+    "or the convex hull of any other list of points.\n"
     "--rotate may be repeated; the rotations are applied in the order given.";
 
 }  // namespace oval4d

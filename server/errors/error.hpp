@@ -23,7 +23,7 @@ enum class ErrorCode {
     bad_polytope,        ///< a loaded polytope is invalid
     unsupported_format,  ///< a loaded file has a format that the server does not read
     no_body,             ///< a slice to export is empty or flat, or too small for its label
-    nothing_to_undo,     ///< there is nothing to undo, redo, repeat or turn
+    nothing_to_undo,     ///< there is nothing to undo, redo, repeat or keep turning
     hello_first,         ///< a message was sent before hello
     not_found,           ///< no such session or resource
     bad_token,           ///< the token does not open this session

@@ -16,13 +16,13 @@ struct Limits {
     std::size_t triangles = 5'000'000;       ///< of all bodies together
     std::size_t bytes = 512U << 20U;         ///< of the file
     std::chrono::duration<double> time{20};  ///< from the construction of the Budget
-    /// Called with the number of bytes that the export needs in total, whenever a new number is known. Returns false to
-    /// refuse the memory. If null, memory is not limited.
+    /// Called with the number of bytes that the export needs in total, each time this number is estimated anew. Returns
+    /// false to refuse the memory. If null, memory is not limited.
     std::function<bool(std::size_t)> reserve = nullptr;
 };
 
 /// The reason why an export gives no file. `message` is a sentence for the user.
-struct Refusal {
+struct ExportError {
     enum class Cause : std::uint8_t {
         no_body,    ///< the slice is empty or flat, or the label does not fit
         too_large,  ///< the file would exceed Limits::triangles or Limits::bytes
@@ -33,9 +33,9 @@ struct Refusal {
     std::string message;
 };
 
-/// The exception that functions in this folder throw to refuse an export. `fileOf` catches it and returns `refusal`.
-struct Refused {
-    Refusal refusal;
+/// The exception that functions in this folder throw to refuse an export. `exportScene` catches it and returns `error`.
+struct ExportRefused {
+    ExportError error;
 };
 
 /// Checks one export against its limits. The time counts from the construction of the budget.
@@ -45,33 +45,35 @@ class Budget {
         : limits_(limits), stop_(std::move(stop)), start_(std::chrono::steady_clock::now()) {}
 
     /// Returns whether the time limit is exceeded or a stop is requested.
-    bool isOver() const { return stop_.stop_requested() || std::chrono::steady_clock::now() - start_ > limits_.time; }
-    /// Throws Refused if the time limit is exceeded or a stop is requested. Long computations must call it often,
+    bool mustStop() const { return stop_.stop_requested() || std::chrono::steady_clock::now() - start_ > limits_.time; }
+    /// Throws ExportRefused if the time limit is exceeded or a stop is requested. Long computations must call it often,
     /// because they cannot be interrupted otherwise.
     void checkTime() const {
         if (stop_.stop_requested())
-            throw Refused{{Refusal::Cause::too_long, "the export was canceled because the server is stopping"}};
-        if (isOver()) {
-            throw Refused{{Refusal::Cause::too_long, "the export takes longer than the allowed " +
-                                                         std::to_string(static_cast<int>(limits_.time.count())) +
-                                                         " s; export only the focus slice, or a solid body"}};
+            throw ExportRefused{
+                {ExportError::Cause::too_long, "the export was canceled because the server is stopping"}};
+        if (mustStop()) {
+            throw ExportRefused{
+                {ExportError::Cause::too_long, "the export takes longer than the allowed " +
+                                                   std::to_string(static_cast<int>(limits_.time.count())) +
+                                                   " s; export only the focus slice, or a solid body"}};
         }
     }
-    /// Throws Refused if `count` triangles exceed Limits::triangles, or if Limits::reserve refuses their memory.
+    /// Throws ExportRefused if `count` triangles exceed Limits::triangles, or if Limits::reserve refuses their memory.
     void checkTriangles(std::size_t count) const {
         if (count > limits_.triangles) {
-            throw Refused{
-                {Refusal::Cause::too_large, "the file would have about " + std::to_string(count) +
-                                                " triangles; at most " + std::to_string(limits_.triangles) +
-                                                " are allowed; export only the focus slice, or a solid body"}};
+            throw ExportRefused{
+                {ExportError::Cause::too_large, "the file would have about " + std::to_string(count) +
+                                                    " triangles; at most " + std::to_string(limits_.triangles) +
+                                                    " are allowed; export only the focus slice, or a solid body"}};
         }
         checkRoom(kBytesOfTriangle * count);
     }
-    /// Throws Refused if `count` bytes exceed Limits::bytes, or if Limits::reserve refuses them.
+    /// Throws ExportRefused if `count` bytes exceed Limits::bytes, or if Limits::reserve refuses them.
     void checkBytes(std::size_t count) const {
         if (count > limits_.bytes) {
-            throw Refused{{Refusal::Cause::too_large,
-                           "the file would exceed the allowed " + std::to_string(limits_.bytes) + " bytes"}};
+            throw ExportRefused{{ExportError::Cause::too_large,
+                                 "the file would exceed the allowed " + std::to_string(limits_.bytes) + " bytes"}};
         }
         checkRoom(count);
     }
@@ -83,7 +85,7 @@ class Budget {
 
     void checkRoom(std::size_t bytes) const {
         if (limits_.reserve && !limits_.reserve(bytes))
-            throw Refused{{Refusal::Cause::no_room, "the memory limit leaves no room for the file"}};
+            throw ExportRefused{{ExportError::Cause::no_room, "the memory limit leaves no room for the file"}};
     }
 
     const Limits limits_;

@@ -7,9 +7,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "export/arrangement.hpp"
 #include "export/formats/text.hpp"
 #include "export/label/label.hpp"
-#include "export/layout.hpp"
 #include "export/mesh/skeleton.hpp"
 #include "export/mesh/solid.hpp"
 
@@ -46,15 +46,14 @@ class Exporter {
 
   private:
     std::vector<NamedMesh> bodies() {
-        std::vector<Group> groups;
+        std::vector<SliceBodies> groups;
         const auto color = request_.body == Body::skeleton ? scene::style().bar : scene::style().ball;
         std::size_t triangles = 0;
         if (request_.body == Body::skeleton) prepareSkeleton();
         for (int i = 0; i < slices_.planes.count; ++i) {
             budget_.checkTime();
-            Mesh mesh = request_.body == Body::skeleton
-                            ? skeletonOf(slices_, i, scale_, thickness_, cube_, grid_, budget_)
-                            : solidOf(slices_, i, scale_, grid_, budget_);
+            Mesh mesh = request_.body == Body::skeleton ? skeletonOf(slices_, i, scale_, radii_, cube_, grid_, budget_)
+                                                        : solidOf(slices_, i, scale_, grid_, budget_);
             if (mesh.triangles.empty()) continue;
             triangles += mesh.triangles.size();
             budget_.checkTriangles(triangles);
@@ -68,15 +67,15 @@ class Exporter {
             arrangeInOval(groups, scene_, request_.size, grid_);
         }
         std::vector<NamedMesh> solids;
-        for (Group& group : groups) std::ranges::move(group.solids, std::back_inserter(solids));
+        for (SliceBodies& group : groups) std::ranges::move(group.solids, std::back_inserter(solids));
         return solids;
     }
 
-    void label(std::vector<Group>& groups) const {
+    void label(std::vector<SliceBodies>& groups) const {
         std::size_t done = 0;
-        for (Group& group : groups) {
+        for (SliceBodies& group : groups) {
             budget_.checkTime();
-            const Caption text(scene_.title, wOf(group.slice));
+            const LabelText text(scene_.title, wOf(group.slice));
             if (request_.label == Label::engraved) {
                 done += text.engrave(group.solids.front().mesh, request_.size, grid_) ? 1 : 0;
                 continue;
@@ -88,21 +87,22 @@ class Exporter {
             ++done;
         }
         if (done == 0) {
-            throw Refused{{Refusal::Cause::no_body,
-                           request_.body == Body::skeleton
-                               ? "balls and bars have no face to engrave; choose a separate label"
-                               : "no face is flat and large enough for letters of 1 mm; choose a separate label or a "
-                                 "larger size"}};
+            throw ExportRefused{
+                {ExportError::Cause::no_body,
+                 request_.body == Body::skeleton
+                     ? "balls and bars have no face to engrave; choose a separate label"
+                     : "no face is flat and large enough for letters of 1 mm; choose a separate label or a "
+                       "larger size"}};
         }
     }
 
     void prepareSkeleton() {
-        thickness_ = thicknessFor(scene_, scale_);
-        const double coarse = estimateTriangles(slices_, scale_, thickness_);
+        radii_ = skeletonRadii(scene_, scale_);
+        const double coarse = estimateTriangles(slices_, scale_, radii_);
         const double allowed = std::min(kTargetTriangles, static_cast<double>(budget_.triangles()));
         const double cube = std::clamp(std::sqrt(coarse / allowed), kFineCube, kCoarseCube);
         budget_.checkTriangles(static_cast<std::size_t>(coarse / (cube * cube)));
-        cube_ = cube * thickness_.bar;
+        cube_ = cube * radii_.bar;
     }
 
     std::string nameOf(int i) const { return scene_.title + ", " + wOf(i); }
@@ -125,8 +125,8 @@ class Exporter {
             message += wOf(0);
             message += slices_.vertices.empty() ? " is empty" : " has no volume";
         }
-        throw Refused{{Refusal::Cause::no_body,
-                       message + ": the polytope extends from w = " + reach + "; move the focus or turn the polytope"}};
+        throw ExportRefused{{ExportError::Cause::no_body, message + ": the polytope extends from w = " + reach +
+                                                              "; move the focus or turn the polytope"}};
     }
 
     const scene::Scene& scene_;
@@ -136,21 +136,22 @@ class Exporter {
     const Budget& budget_;
     const double scale_;  // millimeters per unit of the object
     const Grid grid_;
-    SkeletonRadii thickness_;
+    SkeletonRadii radii_;
     double cube_ = 0;
 };
 
 }  // namespace
 
-std::variant<std::string, Refusal> fileOf(const scene::Scene& scene, const slicing::Object& object,
-                                          const ExportRequest& request, const Limits& limits, std::stop_token stop) {
+std::variant<std::string, ExportError> exportScene(const scene::Scene& scene, const slicing::Object& object,
+                                                   const ExportRequest& request, const Limits& limits,
+                                                   std::stop_token stop) {
     const Budget budget(limits, std::move(stop));
     try {
         std::string bytes = Exporter(scene, object, request, budget).run();
         budget.checkBytes(bytes.size());
         return bytes;
-    } catch (Refused& refused) {
-        return std::move(refused.refusal);
+    } catch (ExportRefused& refused) {
+        return std::move(refused.error);
     }
 }
 

@@ -11,20 +11,20 @@ namespace oval4d::exports {
 
 /// The slices to export: only the focus slice, or all slices.
 enum class SliceSelection : std::uint8_t { focus, oval };
-/// The shape of a slice's body: the filled slice, or its balls and bars merged into one body. Messages call the latter
-/// a frame.
+/// The shape of a slice's body: the filled slice, or its balls and bars merged into one body.
 enum class Body : std::uint8_t { solid, skeleton };
-/// The form in which the object's name and the slice's w are added: not at all, engraved into a face of the body, or on
-/// a separate plate.
+/// How a body is labeled with the object's name and the slice's w: `none`: without a label; `engraved`: in a face of
+/// the body; `separate`: on a plate next to the body.
 enum class Label : std::uint8_t { none, engraved, separate };
 
 inline constexpr auto kSliceSelections =
     std::to_array<text::Choice<SliceSelection>>({{"focus", SliceSelection::focus}, {"oval", SliceSelection::oval}});
-inline constexpr auto kBodies = std::to_array<text::Choice<Body>>({{"solid", Body::solid}, {"frame", Body::skeleton}});
+inline constexpr auto kBodies = std::to_array<text::Choice<Body>>(
+    {{"solid", Body::solid}, {"skeleton", Body::skeleton}, {"frame", Body::skeleton}});  // "frame": the former name
 inline constexpr auto kLabels = std::to_array<text::Choice<Label>>(
     {{"none", Label::none}, {"engraved", Label::engraved}, {"separate", Label::separate}});
 
-inline constexpr double kMinSize = 1, kMaxSize = 10'000;  ///< bounds of ExportRequest::size
+inline constexpr double kMinSize = 1, kMaxSize = 10'000;  ///< bounds of ExportRequest::size, in millimeters
 
 /// The options of an export. `body`, `size` and `label` apply only to formats with bodies.
 struct ExportRequest {

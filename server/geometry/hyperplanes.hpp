@@ -8,7 +8,7 @@ struct Hyperplanes {
     int count = 21;
     double spacing = 0.1;  ///< in the units of the object
 
-    /// Returns the w coordinate of hyperplane i, where i = 0 … count − 1 (not n).
+    /// Returns the w coordinate of the hyperplane with the index i, from 0 to count − 1. Its n is first + i.
     double w(int i) const { return (first + i) * spacing; }
     bool operator==(const geometry::Hyperplanes&) const = default;
 };

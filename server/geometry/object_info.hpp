@@ -6,7 +6,8 @@
 
 namespace oval4d::geometry {
 
-/// A type of cells of a polytope, such as "all its truncated tetrahedra". The user shows or hides cells by type.
+/// A type of cells of a polytope, for example its truncated tetrahedra. The user shows, fades or hides all cells of a
+/// type together.
 struct CellType {
     std::string name;         ///< "truncated tetrahedron"
     std::uint32_t cells = 0;  ///< the number of cells of this type
@@ -18,8 +19,8 @@ struct ObjectInfo {
     std::string name;
     std::uint64_t serial = 0;          ///< unique among the objects built in this process; caches use it as their key
     double circumradius = 0;           ///< the largest distance of a vertex (or point) from the origin
-    bool convex = true;                ///< false for a polytope that does not bound a convex body; faces of its slices
-                                       ///< may then cross each other
+    bool convex = true;                ///< false for a polytope that is not the boundary of a convex body: faces of its
+                                       ///< slices may cross each other; true for every point cloud
     bool rebuildableFromName = false;  ///< whether the name alone determines the object, so that storing it is enough
     std::vector<CellType> cellTypes;   ///< empty for an object without cells
 };

@@ -13,8 +13,10 @@
 namespace oval4d::geometry {
 
 /// A spatial hash that recognizes equal points despite rounding errors: two points that are less than `grid` / 4 apart
-/// count as equal. `grid` is the edge length of the hash's grid cells. A lookup checks all grid cells within this
-/// distance.
+/// count as equal. `grid` is the edge length of the hash's grid cells. A lookup checks all grid cells that may contain
+/// an equal point. The hash stores only the first point of each grid cell. Points that are not equal should therefore
+/// be more than 2 · `grid`, the diagonal of a grid cell, apart; if two share a grid cell, later lookups of the second
+/// do not find it.
 class PointIndex {
   public:
     explicit PointIndex(double grid) : grid_(grid) {}
@@ -48,7 +50,7 @@ class PointIndex {
     }
 
     double grid_;
-    std::unordered_map<std::uint64_t, std::uint32_t> cells_;
+    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  // hash of a grid cell to the index of its first point
 };
 
 }  // namespace oval4d::geometry

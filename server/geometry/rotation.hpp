@@ -12,8 +12,8 @@
 
 namespace oval4d::geometry {
 
-/// A coordinate plane, in which a rotation R_ab turns the +a axis toward the +b axis. The planes have the order of the
-/// number keys that select them.
+/// A coordinate plane of 4-D space. The rotation R_ab in the plane ab turns the +a axis toward the +b axis. The planes
+/// are in the order of the number keys 2 … 7, which select them.
 enum class Plane : std::uint8_t { xy, xz, xw, yz, yw, zw };
 
 inline constexpr std::array<Plane, 6> kPlanes{Plane::xy, Plane::xz, Plane::xw, Plane::yz, Plane::yw, Plane::zw};
@@ -50,16 +50,18 @@ class Rotation {
     Rotation() = default;
     /// The map v ↦ l·v·r. Normalizes both quaternions, which must not be 0.
     Rotation(const glm::dquat& left, const glm::dquat& right);
+    /// The rotation that `turn` requests.
     explicit Rotation(const Turn& turn);
 
     /// Returns the rotation with the matrix M (v' = M v). Returns std::nullopt if M is not a rotation matrix: if an
-    /// entry of M differs by more than `tolerance` from that of the nearest rotation found.
+    /// entry of M differs by more than `tolerance` from the same entry of the rotation that was computed from M.
     static std::optional<Rotation> fromMatrix(const glm::dmat4& matrix, double tolerance = 1e-6);
 
     /// Returns the rotation with exactly these quaternions, without normalizing them again, so that a stored rotation
     /// is restored bit by bit. Returns std::nullopt if their lengths differ from 1 by 1e-9 or more.
     static std::optional<Rotation> fromQuaternions(const glm::dquat& left, const glm::dquat& right);
 
+    /// Returns the rotation that undoes this one.
     Rotation inverse() const;
     /// Returns v rotated.
     glm::dvec4 operator()(const glm::dvec4& v) const;

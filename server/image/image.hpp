@@ -17,7 +17,7 @@ struct Image {
 };
 
 /// Returns the number of bytes of the pixels of an image of this size.
-inline std::size_t bytesOf(scene::Viewport viewport) {
+inline std::size_t byteCount(scene::Viewport viewport) {
     return 4 * static_cast<std::size_t>(viewport.width) * static_cast<std::size_t>(viewport.height);
 }
 

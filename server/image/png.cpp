@@ -7,7 +7,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "image/filter.hpp"
+#include "image/png_filter.hpp"
 
 namespace oval4d::image {
 
@@ -34,7 +34,8 @@ void append(Bytes& out, const void* data, std::size_t size) {
     std::memcpy(out.data() + out.size() - size, data, size);
 }
 
-/// Begins a chunk at the end of `out`, and returns its position. endChunk() later writes its length and CRC.
+/// Begins a chunk at the end of `out`, and returns the position of the chunk. endChunk() later writes its length and
+/// CRC.
 std::size_t beginChunk(Bytes& out, const char* type) {
     const std::size_t start = out.size();
     out.resize(start + 4);
@@ -50,7 +51,8 @@ void endChunk(Bytes& out, std::size_t start) {
     store32(out.data() + out.size() - 4, crc);
 }
 
-/// Compresses `in` as one piece of a deflate stream, and appends the piece to `out`. `last`: no other piece follows.
+/// Compresses `in` as one piece of a deflate stream, and appends the piece to `out`. `last` says that no other piece
+/// follows.
 void deflate(Bytes& in, bool last, Bytes& levelBuffer, Bytes& out) {
     isal_zstream stream;
     isal_deflate_init(&stream);

@@ -27,12 +27,13 @@ class PngEncoder {
     }
 
   private:
-    /// The upper or lower part of an image: its filtered rows, a work buffer of the compressor, and its IDAT chunk.
+    /// The upper or lower part of an image: its filtered rows, a work buffer of the compressor, and the IDAT chunk of
+    /// this part.
     struct Band {
         std::vector<std::uint8_t> filtered, levelBuffer, chunk;
         std::uint32_t checksum = 0;  // Adler-32 of `filtered`
     };
-    /// Encodes the rows from … to − 1, counted from the top.
+    /// Encodes the rows with the indices in [from, to), counted from the top.
     static void encode(const ImageView& image, int from, int to, Band& band);
 
     parallel::ForkJoin* forkJoin_;

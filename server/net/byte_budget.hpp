@@ -8,9 +8,10 @@
 
 namespace oval4d::net {
 
-/// Counts and limits the bytes that the server holds for clients: files and messages that clients have not yet read,
-/// objects loaded or built on request, and undo history. One budget covers all clients together; each client has an
-/// account in it. Bytes are reserved before they are used. Every function may be called from any thread.
+/// Counts and limits the bytes that the server holds for clients: files, pictures and messages that clients have not
+/// yet read, long messages being received, objects loaded or built by name, and undo histories. One budget covers all
+/// clients together; each client has an account in it. Bytes are reserved before they are used. Every function may be
+/// called from any thread.
 class ByteBudget {
   public:
     class Account;
@@ -24,9 +25,11 @@ class ByteBudget {
         ~Reservation();
 
         std::size_t size() const { return size_; }
-        /// Changes the size to `bytes` without checking the limits, for bytes that are already in use.
+        /// Changes the size to `bytes` without checking the limits, because the bytes are already in use. Does nothing
+        /// to a default-constructed or moved-from reservation.
         void resize(std::size_t bytes);
-        /// Enlarges the reservation to `bytes`. Returns false, and changes nothing, if that would exceed a limit.
+        /// Enlarges the reservation to `bytes`, at least size(). Returns false, and changes nothing, if that would
+        /// exceed a limit.
         [[nodiscard]] bool grow(std::size_t bytes);
 
       private:
@@ -41,7 +44,7 @@ class ByteBudget {
       public:
         Account(ByteBudget& budget, std::size_t limit) : budget_(budget), limit_(limit) {}
 
-        /// Reserves bytes; returns nothing if that would exceed the limit of the client or of the budget.
+        /// Reserves bytes. Returns nothing if that would exceed the limit of the client or of the budget.
         std::optional<Reservation> reserve(std::size_t bytes);
         /// Reserves bytes without checking the limits, for data that cannot be refused.
         Reservation forceReserve(std::size_t bytes);

@@ -17,12 +17,12 @@
 
 namespace oval4d::net {
 
-/// The limits of one client. Options has the limits of all clients together.
+/// The limits of one client, all of which are maximum values. Options has the limits of all clients together.
 struct ClientLimits {
     std::size_t connections = 2048;         ///< open connections
     std::size_t sessions = 2500;            ///< open sessions, and closed ones that have not expired
-    double newSessions = 2000;              ///< new sessions per minute, and in one burst
-    double wrongTokens = 20;                ///< wrong tokens per minute, and in one burst
+    double newSessions = 2000;              ///< new sessions per minute; a burst may have as many
+    double wrongTokens = 20;                ///< wrong tokens per minute; a burst may have as many
     double requests = 20'000;               ///< messages and HTTP requests per second; excess ones are delayed
     std::size_t messageBytes = 16U << 20U;  ///< bytes of messages per second; excess messages are delayed
     std::size_t bytes = 1U << 30U;          ///< bytes held for the client (ByteBudget)
@@ -45,7 +45,8 @@ class Client {
 
     /// Counts a wrong token against the rate limit.
     void countWrongToken(Clock::time_point now);
-    /// Returns false for some time after too many wrong tokens; even correct tokens must then be refused.
+    /// Returns whether the client may present a token. After too many wrong tokens, returns false for some time, during
+    /// which the caller must refuse even correct tokens.
     bool mayTryToken(Clock::time_point now) const;
 
     /// Counts a message or an HTTP request against the rate limits, and returns how long to delay it.
@@ -54,39 +55,42 @@ class Client {
     /// Returns the account that counts the bytes held for this client.
     ByteBudget::Account& byteAccount() { return *bytes_; }
 
-    /// These functions return the scheduling identity of this client in the pool of picture workers (`share`) and in
-    /// the pool of file workers (`fileShare`), to which the lanes of its sessions belong.
-    const parallel::WorkerPool::ClientPtr& share() const { return share_; }
-    const parallel::WorkerPool::ClientPtr& fileShare() const { return fileShare_; }
-    /// These functions return the client's lanes in these pools for jobs that belong to no session.
+    /// These functions return this client's identity in the schedulers of the worker pools: share() in the pool of
+    /// picture workers, fileShare() in the pool of file workers. Each session creates lanes for its jobs from them.
+    const parallel::WorkerPool::ClientSharePtr& share() const { return share_; }
+    const parallel::WorkerPool::ClientSharePtr& fileShare() const { return fileShare_; }
+    /// These functions return the client's lanes for jobs that belong to no session: lane() in the pool of picture
+    /// workers, fileLane() in the pool of file workers.
     const parallel::WorkerPool::LanePtr& lane() const { return lane_; }
     const parallel::WorkerPool::LanePtr& fileLane() const { return fileLane_; }
-    /// Returns the client's lane for the jobs that read the files that it loads.
+    /// Returns the client's lane in the pool of load workers, which read the files that clients upload.
     const parallel::WorkerPool::LanePtr& loadingLane() const { return loadingLane_; }
 
-    /// Returns whether all rate limits have fully recovered, so that forgetting the client changes nothing.
+    /// Returns whether all rate limits have fully recovered. A client for which this is true can be deleted and created
+    /// again without effect.
     bool idle(Clock::time_point now) const;
 
   private:
     const std::string name_;
     const std::shared_ptr<ByteBudget::Account> bytes_;
-    const parallel::WorkerPool::ClientPtr share_ = std::make_shared<parallel::WorkerPool::Client>();
+    const parallel::WorkerPool::ClientSharePtr share_ = std::make_shared<parallel::WorkerPool::ClientShare>();
     const parallel::WorkerPool::LanePtr lane_ = std::make_shared<parallel::WorkerPool::Lane>(share_);
-    const parallel::WorkerPool::ClientPtr fileShare_ =
-        std::make_shared<parallel::WorkerPool::Client>();  // in the pool of file workers
+    const parallel::WorkerPool::ClientSharePtr fileShare_ =
+        std::make_shared<parallel::WorkerPool::ClientShare>();  // in the pool of file workers
     const parallel::WorkerPool::LanePtr fileLane_ = std::make_shared<parallel::WorkerPool::Lane>(fileShare_);
     const parallel::WorkerPool::LanePtr loadingLane_ = std::make_shared<parallel::WorkerPool::Lane>(
-        std::make_shared<parallel::WorkerPool::Client>());  // in the pool of load workers
+        std::make_shared<parallel::WorkerPool::ClientShare>());  // in the pool of load workers
     mutable std::mutex mutex_;
     TokenBucket newSessions_, wrongTokens_, requests_, messageBytes_;  // guarded by mutex_
 };
 using ClientPtr = std::shared_ptr<Client>;
 
-/// An IP network such as "10.0.0.0/8" (CIDR notation), or a single address such as "::1".
+/// An IP network in CIDR notation such as "10.0.0.0/8", or a single address such as "::1".
 class Network {
   public:
     /// Parses an address with an optional prefix length. Throws std::invalid_argument if the text is anything else.
     explicit Network(const std::string& text);
+    /// Returns whether the network contains the address. IPv4-mapped IPv6 addresses count as IPv4 addresses.
     bool contains(const boost::asio::ip::address& any) const;
 
   private:
@@ -94,22 +98,22 @@ class Network {
     unsigned bits_;                      // prefix length of first_, from 0 to 128
 };
 
-/// All clients, looked up by address. Every function may be called from any thread.
+/// The known clients, by address. Every function may be called from any thread.
 class Clients {
   public:
-    /// `trustedProxies`: networks of the proxies whose X-Forwarded-For is trusted. `bytes`: the byte budget of all
-    /// clients together.
+    /// `trustedProxies`: networks (see Network) of the proxies whose X-Forwarded-For is trusted. `bytes`: the byte
+    /// budget of all clients together.
     Clients(const ClientLimits& limits, const std::vector<std::string>& trustedProxies, std::size_t bytes);
 
-    /// Returns the client at this address, and creates it if it is not known. Once 65,536 clients are known, all
+    /// Returns the client at this address; creates the client if it is not known. Once 65,536 clients are known, all
     /// unknown addresses share one client, "others".
     ClientPtr at(const boost::asio::ip::address& any);
 
     bool isTrustedProxy(const boost::asio::ip::address& any) const;
 
-    /// Returns the address of the client behind a proxy. Starts with `proxy` and goes backward through the entries of
-    /// X-Forwarded-For as long as the current address is a trusted proxy and the next entry is a valid address; returns
-    /// the last address reached.
+    /// Returns the address of the client behind a proxy. `forwardedFor`: the value of X-Forwarded-For. Starts with
+    /// `proxy` and goes backward through the entries of X-Forwarded-For as long as the current address is a trusted
+    /// proxy and the next entry is a valid address; returns the last address reached.
     boost::asio::ip::address clientAddress(std::string_view forwardedFor, const boost::asio::ip::address& proxy) const;
 
     /// Returns the number of bytes held for all clients together.

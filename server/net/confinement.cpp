@@ -6,8 +6,8 @@ namespace {
 
 using process::SandboxMode;
 
-// Maximum number of file descriptors of a child process: the standard streams, the channel, one received through it,
-// and those that libraries keep open.
+// Maximum number of file descriptors of a child process: the standard streams, the channel, a descriptor that is
+// received over the channel, and those that libraries keep open.
 constexpr std::size_t kOwnFiles = 16;
 
 /// Returns an upper bound of the memory that a rasterizer process needs for pictures within the limits, in bytes of
@@ -15,8 +15,8 @@ constexpr std::size_t kOwnFiles = 16;
 std::size_t drawMemory(const Options& options) {
     if (options.drawMemory > 0) return options.drawMemory;
     // kOwn: bytes of llvmpipe and the C library, with a heap for each thread. kEachPixel: sixteen buffers of four bytes
-    // per pixel. The other constants are for the slices of the largest polytope, each of whose edges a few hyperplanes
-    // cut: kCuts is the number of cuts per vertex, kEachCut the bytes of one cut.
+    // per pixel. The other constants bound the memory for the slices of the largest polytope, of which a few
+    // hyperplanes cut each edge: kCuts is the number of cuts per vertex, kEachCut the bytes of one cut.
     constexpr std::size_t kOwn = std::size_t{3} << 30U, kEachPixel = 64, kEachCut = 1024, kCuts = 16;
     const auto pixels = static_cast<std::size_t>(options.frame.maxPixels);
     return kOwn + kEachPixel * pixels + kEachCut * kCuts * options.session.maxVertices + options.polytopeCache;
@@ -24,14 +24,14 @@ std::size_t drawMemory(const Options& options) {
 
 bool filtered(const Options& options) {
     std::string why;
-    return process::isSandboxed(options.sandbox, why);
+    return process::shouldSandbox(options.sandbox, why);
 }
 
 }  // namespace
 
 std::vector<std::string> childEnvironment(const Options& options, std::size_t workers, std::string& warning) {
     std::string why;
-    const bool sandboxed = process::isSandboxed(options.sandbox, why);
+    const bool sandboxed = process::shouldSandbox(options.sandbox, why);
     if (!sandboxed && options.sandbox == SandboxMode::automatic)
         warning = "the rasterizer and file reader processes are not in a sandbox reason=\"" + why + "\"";
     return {std::string("OVAL4D_SANDBOX=") + (sandboxed ? "required" : "off"),
@@ -44,7 +44,7 @@ process::Confinement rasterizerConfinement(const Options& options) {
     return {filtered(options), drawMemory(options), kOwnFiles + static_cast<std::size_t>(options.workers)};
 }
 
-process::Confinement readingConfinement(const Options& options) {
+process::Confinement fileReaderConfinement(const Options& options) {
     return {filtered(options), options.loadMemory, kOwnFiles};
 }
 

@@ -6,14 +6,15 @@
 
 namespace oval4d::net {
 
-ConnectionRegistry::Slot::Slot(ConnectionRegistry& connections, ClientPtr client) : connections_(connections) {
+ConnectionRegistry::Registration::Registration(ConnectionRegistry& connections, ClientPtr client)
+    : connections_(connections) {
     const std::lock_guard lock(connections_.mutex_);
     number_ = ++connections_.last_;
     ++connections_.counts_[client.get()];
     connections_.entries_.emplace(number_, Entry{std::move(client), nullptr});
 }
 
-ConnectionRegistry::Slot::~Slot() {
+ConnectionRegistry::Registration::~Registration() {
     Entry gone;  // destroyed after the lock is released, because it may own the connection
     const std::lock_guard lock(connections_.mutex_);
     const auto found = connections_.entries_.find(number_);
@@ -23,7 +24,7 @@ ConnectionRegistry::Slot::~Slot() {
     connections_.uncount(gone.client.get());
 }
 
-void ConnectionRegistry::Slot::onEndRequest(EndHandler handler) {
+void ConnectionRegistry::Registration::onEndRequest(EndHandler handler) {
     bool now = false;
     EndReason reason = EndReason::stopping;
     {
@@ -40,13 +41,13 @@ void ConnectionRegistry::Slot::onEndRequest(EndHandler handler) {
     if (now && handler) handler(reason);
 }
 
-void ConnectionRegistry::Slot::setInUse(bool inUse) {
+void ConnectionRegistry::Registration::setInUse(bool inUse) {
     const std::lock_guard lock(connections_.mutex_);
     const auto found = connections_.entries_.find(number_);
     if (found != connections_.entries_.end()) found->second.inUse = inUse;
 }
 
-void ConnectionRegistry::Slot::setClient(const ClientPtr& client) {
+void ConnectionRegistry::Registration::setClient(const ClientPtr& client) {
     ClientPtr before;
     const std::lock_guard lock(connections_.mutex_);
     const auto found = connections_.entries_.find(number_);
@@ -102,7 +103,7 @@ std::size_t ConnectionRegistry::size() const {
 }
 
 void ConnectionRegistry::stopAll() {
-    // Call the handlers without holding the lock: a connection may end immediately and destroy its slot.
+    // Call the handlers without holding the lock: a connection may end immediately and destroy its registration.
     std::vector<EndHandler> ends;
     {
         const std::lock_guard lock(mutex_);

@@ -8,7 +8,8 @@
 
 namespace oval4d::net {
 
-/// Returns a job for a worker pool that builds or reads the object for which the loader is pending.
+/// Returns a job for a worker pool. The job builds or reads the loader's pending object (see
+/// ObjectLoader::loadPendingObject).
 inline std::function<std::monostate(std::size_t worker)> loaderJob(
     const std::shared_ptr<session::ObjectLoader>& loader) {
     return [loader](std::size_t /*worker*/) {

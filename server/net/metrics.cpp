@@ -46,10 +46,10 @@ Metrics::Metrics()
       sessions(gauge(registry_, "oval4d_sessions", "Sessions stored, with or without a client")),
       openSessions(gauge(registry_, "oval4d_open_sessions", "Sessions with a client")),
       jobsWaiting(gauge(registry_, "oval4d_jobs_waiting", "Jobs waiting for a worker")),
-      drawingDeaths(drawingLosses(registry_, "died")),
-      drawingHangs(drawingLosses(registry_, "hung")),
-      readingDeaths(readingLosses(registry_, "died")),
-      readingHangs(readingLosses(registry_, "hung")),
+      rasterizerDeaths(drawingLosses(registry_, "died")),
+      rasterizerHangs(drawingLosses(registry_, "hung")),
+      fileReaderDeaths(readingLosses(registry_, "died")),
+      fileReaderHangs(readingLosses(registry_, "hung")),
       filesUnderWay(gauge(registry_, "oval4d_files_under_way", "Files being made")),
       fileTime(histograms(registry_, "oval4d_file_seconds", "Time to make a file").Add({}, kFileBuckets)),
       memory(gauge(registry_, "process_resident_memory_bytes", "Resident memory of this process")),
@@ -64,7 +64,7 @@ Metrics::Metrics()
           counters(registry_, "oval4d_slow_readers_total", "Clients dropped because they read too slowly").Add({})),
       sessionsTaken(
           counters(registry_, "oval4d_sessions_taken_total", "Sessions taken over by another server").Add({})),
-      storeUp(gauge(registry_, "oval4d_store_up", "1 if the session store works, 0 if it fails")),
+      storeUp(gauge(registry_, "oval4d_store_up", "1 if the session store is available, else 0")),
       unsaved(gauge(registry_, "oval4d_unsaved_sessions", "Sessions with changes not yet written to the store")),
       workers(gauge(registry_, "oval4d_workers", "Threads that slice and draw")),
       workerSeconds(
@@ -93,7 +93,7 @@ void Metrics::countPicture(wire::Stream stream) {
     pictures_.Add({{"stream", stream == wire::Stream::frames ? "frames" : "geometry"}}).Increment();
 }
 
-void Metrics::observe(const pipeline::Times& times) {
+void Metrics::observe(const pipeline::PictureTimes& times) {
     const auto put = [](Histogram& histogram, double seconds) {
         if (seconds > 0) histogram.Observe(seconds);
     };

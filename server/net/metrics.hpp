@@ -23,24 +23,24 @@ class Metrics {
 
     prometheus::Gauge& connections;         ///< open sockets, HTTP and WebSocket
     prometheus::Gauge& webSockets;          ///< open WebSocket connections
-    prometheus::Gauge& sessions;            ///< sessions in the store
+    prometheus::Gauge& sessions;            ///< sessions in the store or in memory
     prometheus::Gauge& openSessions;        ///< sessions with at least one client
     prometheus::Gauge& jobsWaiting;         ///< jobs that wait for a picture worker
-    prometheus::Counter& drawingDeaths;     ///< rasterizer processes that died
-    prometheus::Counter& drawingHangs;      ///< rasterizer processes that hung and were killed
-    prometheus::Counter& readingDeaths;     ///< file reader processes that died
-    prometheus::Counter& readingHangs;      ///< file reader processes that hung and were killed
-    prometheus::Gauge& filesUnderWay;       ///< files being made
-    prometheus::Histogram& fileTime;        ///< seconds to make a file
+    prometheus::Counter& rasterizerDeaths;  ///< rasterizer processes that died
+    prometheus::Counter& rasterizerHangs;   ///< rasterizer processes that hung and were killed
+    prometheus::Counter& fileReaderDeaths;  ///< file reader processes that died
+    prometheus::Counter& fileReaderHangs;   ///< file reader processes that hung and were killed
+    prometheus::Gauge& filesUnderWay;       ///< exported files being made
+    prometheus::Histogram& fileTime;        ///< seconds to make an exported file
     prometheus::Gauge& memory;              ///< resident bytes of this process
     prometheus::Gauge& polytopes;           ///< bytes of cached polytopes
     prometheus::Gauge& bytesHeld;           ///< bytes held for clients (ByteBudget)
-    prometheus::Gauge& clients;             ///< known client addresses
+    prometheus::Gauge& clients;             ///< known clients (Clients::size)
     prometheus::Counter& messagesReceived;  ///< messages received over WebSockets
     prometheus::Counter& bytesSent;         ///< bytes of messages sent over WebSockets
     prometheus::Counter& slowReaders;       ///< clients dropped because they read too slowly
     prometheus::Counter& sessionsTaken;     ///< sessions taken over by other servers
-    prometheus::Gauge& storeUp;             ///< 1 if the store works, else 0
+    prometheus::Gauge& storeUp;             ///< 1 if the store is available, else 0
     prometheus::Gauge& unsaved;             ///< sessions with changes not yet written to the store
     prometheus::Gauge& workers;             ///< picture workers: threads that slice and draw
     prometheus::Counter& workerSeconds;     ///< busy seconds, summed over all picture workers
@@ -50,11 +50,11 @@ class Metrics {
     void countError(ErrorCode code);
     /// Counts an HTTP request that was answered with this status.
     void countRequest(unsigned httpStatus);
-    /// Counts a picture sent to a client of this stream.
+    /// Counts a picture that was sent to a client in this stream.
     void countPicture(wire::Stream stream);
-    /// Records the duration of each step of a picture.
-    void observe(const pipeline::Times& times);
-    /// Records the duration of a store operation, and counts it if it failed.
+    /// Records the duration of each step of a picture; ignores steps that took no time.
+    void observe(const pipeline::PictureTimes& times);
+    /// Records the duration of a store operation, and counts the operation as failed unless `succeeded`.
     void observeStore(const std::string& operation, double seconds, bool succeeded);
 
     /// Returns all metrics in the Prometheus text exposition format.

@@ -11,8 +11,8 @@
 
 namespace oval4d::net {
 
-/// A timer that is a member of the object which it calls. Not thread-safe: use it on the strand given to the
-/// constructor, on which it also calls the owner.
+/// A timer that calls a function of its owner, the object of which the timer is a member. Not thread-safe: use the
+/// timer only on the strand given to the constructor. It calls the owner on the same strand.
 class OneShotTimer {
   public:
     using Clock = std::chrono::steady_clock;
@@ -20,8 +20,9 @@ class OneShotTimer {
     template <typename Strand>
     explicit OneShotTimer(const Strand& strand) : timer_(strand) {}
 
-    /// Calls `expired` with a reference to the owner at `when`, unless the owner has been destroyed by then. Does
-    /// nothing while another call is due. `expired` is a member function of the owner, or a function object.
+    /// Schedules one call of `expired` with a reference to the owner, at the time `when`. The timer does not call it if
+    /// the owner has been destroyed by then. Does nothing if an earlier call is still due. `expired` is a member
+    /// function of the owner, or a function object.
     template <typename Owner, std::invocable<Owner&> Expired>
     void start(std::weak_ptr<Owner> owner, Clock::time_point when, Expired expired) {
         if (running_) return;

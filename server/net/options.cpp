@@ -132,7 +132,7 @@ void addClientLimits(CLI::App& app, Options& options) {
     addBytes(app, "--min-read-rate", options.minReadRate,
              "Bytes per second that a client must read at least; a slower one is dropped");
     add(app, "--spool", options.spool,
-        "Folder for files that clients have not yet read; empty for the system's temporary folder");
+        "Folder for responses that clients have not yet received; if empty, the system's temporary folder is used");
 }
 
 void addSandbox(CLI::App& app, Options& options) {
@@ -185,8 +185,8 @@ void addLimits(CLI::App& app, Options& options) {
         ->check(CLI::Range(1, 16'384));
     add(app, "--max-pixels", options.frame.maxPixels, "Maximum number of pixels of a picture")->check(atLeastOne);
     add(app, "--max-fill", options.maxFill,
-        "Maximum number of steps to fill self-intersecting faces in one picture: n² + n·k for a face of n sides with k "
-        "crossings. Faces beyond the limit are filled approximately")
+        "Maximum number of steps to fill self-intersecting faces in one picture: at most 2 n² + n·k for a face of n "
+        "sides with k crossings. Faces beyond the limit are filled approximately")
         ->check(atLeastOne);
     addFileLimits(app, options.file);
     add(app, "--max-slices", options.session.maxSlices, "Maximum number of slices of a session")

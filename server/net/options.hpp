@@ -30,16 +30,16 @@ struct Options {
     std::uint16_t port = 8080;                           ///< 0: any free port
     std::string webRoot;                                 ///< folder of the built web client
     int workers = 0;                                     ///< threads that slice and draw; 0: one per processor
-    int fileWorkers = 1;                                 ///< threads that make files
-    int loadWorkers = 2;                                 ///< processes that read files concurrently
+    int fileWorkers = 1;                                 ///< threads that make exported files
+    int loadWorkers = 2;                                 ///< processes that read uploaded files concurrently
     int ioThreads = 1;                                   ///< threads that read and write sockets
     std::string logLevel = "info";                       ///< least severe level that is logged; a name of spdlog
 
-    /// Host names that clients may use for the server, origins of foreign pages that may connect (both: see Access),
-    /// and networks of proxies whose X-Forwarded-For is trusted (see Network).
+    /// Host names that clients may use for the server, origins of foreign pages that may connect (both: see
+    /// AccessControl), and networks of proxies whose X-Forwarded-For is trusted (see Network).
     std::vector<std::string> allowedHosts, allowedOrigins, trustedProxies;
-    std::string token;  ///< secret that clients must send; empty: a random one if one is required
-    bool open = false;  ///< require no token, on any address
+    std::string token;  ///< secret that clients must send; empty: a random one, or none on loopback addresses
+    bool open = false;  ///< require no token, even on addresses other than loopback
 
     std::size_t maxMessage = 8U << 20U;        ///< maximum size of a `load` message
     std::size_t maxRequestBytes = 64U << 10U;  ///< maximum size of any other message
@@ -49,8 +49,8 @@ struct Options {
     std::size_t maxConnections = 4096;         ///< maximum number of open connections
     ClientLimits client;                       ///< limits of each client
     std::size_t maxBytes = 2U << 30U;          ///< maximum bytes held for all clients together (ByteBudget)
-    std::size_t minReadRate = 32U << 10U;      ///< bytes per second that a client must read, at least
-    std::string spool;                         ///< folder for unread files; empty: the system's temporary folder
+    std::size_t minReadRate = 32U << 10U;      ///< minimum bytes per second that a client must read
+    std::string spool;                         ///< folder for unread exports; empty: the system's temporary folder
     int maxRequests = 2000;                    ///< messages per second from one connection
     parallel::FairQueue::Limits jobs;          ///< maximum numbers of waiting jobs in each pool of workers
     pipeline::FrameLimits frame;               ///< limits on the size of pictures
@@ -72,14 +72,14 @@ struct Options {
     Seconds loadTimeout{20};      ///< maximum time to read a file; a slower file reader process is killed
     Seconds shownTimeout{1};      ///< time after which a sent picture counts as shown without an acknowledgment
     Seconds writeTimeout{10};     ///< time after which a client that reads nothing is dropped
-    Seconds helloTimeout{10};     ///< time after which a new connection without a request or a hello is closed
-    Seconds idleTimeout{30};      ///< time after which an HTTP connection without a further request is closed
+    Seconds helloTimeout{10};     ///< time after which a new connection is closed if no request or hello arrives
+    Seconds idleTimeout{30};      ///< time after which an HTTP connection is closed if no further request arrives
     Seconds pingInterval{30};     ///< time after which a silent client is pinged; it is dropped after twice this time
     Seconds stopTimeout{4};       ///< time that clients have to disconnect after a signal to stop
 };
 
-/// Adds every option to `app`, which then writes its value to `options`. Each option can also be set by an environment
-/// variable OVAL4D_….
+/// Adds the options of the server to `app`. When `app` parses a command line, it writes the values to `options`. Each
+/// option can also be set by an environment variable OVAL4D_….
 void addOptions(CLI::App& app, Options& options);
 
 /// Returns the limits that clients need to know, as the text of a JSON object for the `welcome` message.

@@ -8,19 +8,20 @@
 
 namespace oval4d::net {
 
-/// Tracks whether the server is ready: every picture worker has drawn a first picture, so that shaders are compiled and
-/// the initial polytope is built. Every function may be called from any thread.
+/// Tracks whether the server is ready. It is ready when every picture worker has drawn a first picture: shaders are
+/// then compiled, and the initial polytope is built. Every function may be called from any thread.
 class Readiness {
   public:
     explicit Readiness(std::size_t workers) : missing_(workers) {}
 
-    /// Draws a first picture; each worker must call this once, before its other jobs. If the picture cannot be drawn,
-    /// logs the error and marks the server as broken: it never becomes ready, although it still serves geometry.
+    /// Draws a first picture. Each worker must call this once, with its own pipeline, before its other jobs. If the
+    /// picture cannot be drawn, logs the error and marks the server as broken: it never becomes ready, although it
+    /// still serves geometry.
     void warmUp(pipeline::Pipeline& pipeline);
 
     /// Returns whether every worker has drawn its first picture.
     bool ready() const { return missing_ == 0; }
-    /// Marks the server as stopping: load balancers should send it no new clients.
+    /// Marks the server as stopping. /readyz then tells load balancers to send no new clients.
     void stop() { stopping_ = true; }
     bool stopping() const { return stopping_; }
     /// Returns whether a worker could not draw its first picture, so that the server will never be ready.

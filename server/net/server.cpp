@@ -19,14 +19,14 @@
 #include <utility>
 #include <variant>
 
-#include "net/awaited.hpp"
+#include "file_reading/file_reader_pool.hpp"
 #include "net/confinement.hpp"
-#include "net/http/http_session.hpp"
-#include "net/processors.hpp"
+#include "net/coroutine_helpers.hpp"
+#include "net/http/http_connection.hpp"
+#include "net/processor_count.hpp"
 #include "net/readiness.hpp"
 #include "polytopes/catalogue/polytope_cache.hpp"
-#include "raster/rasterizer_pool.hpp"
-#include "reading/file_readers.hpp"
+#include "raster/worker_rasterizer.hpp"
 #include "store/open_store.hpp"
 #include "store/secret.hpp"
 
@@ -81,7 +81,7 @@ tcp::acceptor bindAcceptor(asio::io_context& io, const tcp::endpoint& endpoint) 
 /// as ::1 without IPv6, if another one can be bound. Throws std::runtime_error if no address can be bound, or if one
 /// cannot be bound for another reason.
 std::vector<tcp::acceptor> bindAcceptors(asio::io_context& io, const Options& options) {
-    constexpr int kAttempts = 20;  // attempts to find a port that is free at every address, if the port may be any
+    constexpr int kAttempts = 20;  // attempts to find a port that is free at every address, if options.port is 0
     for (int attempt = 1;; ++attempt) {
         std::vector<tcp::acceptor> acceptors;
         std::uint16_t port = options.port;
@@ -127,7 +127,7 @@ class Server {
 
     Options options_;
     Clients clients_;
-    ConnectionRegistry connections_;  // declared before io_, whose coroutines hold slots of the registry
+    ConnectionRegistry connections_;  // declared before io_, whose coroutines hold registrations
     asio::io_context io_;
     std::vector<tcp::acceptor> acceptors_;
     Metrics metrics_;
@@ -136,15 +136,15 @@ class Server {
     std::string sandboxWarning_;
     std::vector<std::string> childEnvironment_;
     Readiness readiness_;
-    raster::RasterizerPool rasterizers_;
-    reading::FileReaders readers_;
+    raster::SharedRasterizerProcess sharedRasterizer_;
+    file_reading::FileReaderPool readers_;
     polytopes::PolytopeCache polytopes_;
     pipeline::PipelinePool pictureWorkers_;
     parallel::WorkerPool fileWorkers_, loadWorkers_;
     Services services_;
     std::shared_ptr<SessionManager> sessions_;
     std::string token_;
-    Access access_;
+    AccessControl access_;
     Routes routes_;
 };
 
@@ -154,15 +154,15 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
       connections_(options_.maxConnections, options_.client.connections),
       acceptors_(bindAcceptors(io_, options_)),
       files_(options_.webRoot),
-      workers_(options_.workers > 0 ? static_cast<std::size_t>(options_.workers) : processors()),
+      workers_(options_.workers > 0 ? static_cast<std::size_t>(options_.workers) : processorCount()),
       childEnvironment_(childEnvironment(options_, workers_, sandboxWarning_)),
       readiness_(workers_),
-      rasterizers_(processors(),
-                   {{options_.maxFill, options_.polytopeCache},
-                    options_.drawTimeout,
-                    [this](const process::ProcessLoss& loss) { onRasterizerLost(loss); },
-                    childEnvironment_},
-                   [this] { return pictureWorkers_.workers().hasStartableJob(); }),
+      sharedRasterizer_(processorCount(),
+                        {{options_.maxFill, options_.polytopeCache},
+                         options_.drawTimeout,
+                         [this](const process::ProcessLoss& loss) { onRasterizerLost(loss); },
+                         childEnvironment_},
+                        [this] { return pictureWorkers_.workers().hasStartableJob(); }),
       readers_({options_.loadTimeout, kReaderIdleTimeout,
                 [this](const process::ProcessLoss& loss) { onReaderLost(loss); }, childEnvironment_,
                 static_cast<std::size_t>(options_.loadWorkers)}),
@@ -172,9 +172,9 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
                        .fillSteps = options_.maxFill,
                        .makeRasterizer =
                            [this](std::stop_token stop) {
-                               return std::make_unique<raster::PooledRasterizer>(rasterizers_, std::move(stop));
+                               return std::make_unique<raster::WorkerRasterizer>(sharedRasterizer_, std::move(stop));
                            },
-                       .first = [this](pipeline::Pipeline& pipeline) { readiness_.warmUp(pipeline); }},
+                       .onThreadStart = [this](pipeline::Pipeline& pipeline) { readiness_.warmUp(pipeline); }},
                       forkJoin, heap),
       fileWorkers_({.threads = static_cast<std::size_t>(options_.fileWorkers),
                     .limits = options_.jobs,
@@ -201,12 +201,12 @@ std::string Server::requiredToken() const {
 }
 
 void Server::onRasterizerLost(const process::ProcessLoss& loss) {
-    (loss.hung ? metrics_.drawingHangs : metrics_.drawingDeaths).Increment();
+    (loss.hung ? metrics_.rasterizerHangs : metrics_.rasterizerDeaths).Increment();
     spdlog::error("a rasterizer process was lost how=\"{}\"", loss.description);
 }
 
 void Server::onReaderLost(const process::ProcessLoss& loss) {
-    (loss.hung ? metrics_.readingHangs : metrics_.readingDeaths).Increment();
+    (loss.hung ? metrics_.fileReaderHangs : metrics_.fileReaderDeaths).Increment();
     spdlog::error("a reader process was lost how=\"{}\"", loss.description);
 }
 
@@ -253,14 +253,14 @@ asio::awaitable<void> Server::listen(tcp::acceptor& acceptor) {
         const auto [fault] = co_await acceptor.async_accept(socket, kAsTuple);
         if (fault == asio::error::operation_aborted) co_return;
         if (fault) {
-            // The most likely reason is that no file descriptor is free; when a connection ends, one is.
+            // The most likely reason is that no file descriptor is free. One becomes free when a connection ends.
             spdlog::warn("cannot accept fault=\"{}\"", fault.message());
             asio::steady_timer pause(io_, 100ms);
             co_await pause.async_wait(kAsTuple);
             continue;
         }
         const auto executor = socket.get_executor();
-        asio::co_spawn(executor, serve(std::move(socket), context), asio::detached);
+        asio::co_spawn(executor, serveHttp(std::move(socket), context), asio::detached);
     }
 }
 
@@ -272,16 +272,16 @@ asio::awaitable<void> Server::stopOnSignal() {
     signals.clear();  // a second signal ends the program immediately
     readiness_.stop();
     for (tcp::acceptor& acceptor : acceptors_) asio::post(acceptor.get_executor(), [&acceptor] { acceptor.close(); });
-    const auto limit = std::chrono::steady_clock::now() + steady(options_.stopTimeout);
+    const auto limit = std::chrono::steady_clock::now() + toSteadyDuration(options_.stopTimeout);
     asio::steady_timer poll(executor);
-    // Save all sessions before clients reconnect to other servers, so that they find there what they have seen here.
+    // Save all sessions before clients reconnect to other servers, so that those servers have the latest changes.
     auto saving = std::make_shared<std::monostate>();
     sessions_->saveAll(saving);
     const std::weak_ptr<std::monostate> saved = std::exchange(saving, nullptr);
     do {
         poll.expires_after(2ms);
         co_await poll.async_wait(kAsTuple);
-    } while (!saved.expired() && std::chrono::steady_clock::now() < limit - steady(options_.stopTimeout) / 2);
+    } while (!saved.expired() && std::chrono::steady_clock::now() < limit - toSteadyDuration(options_.stopTimeout) / 2);
     connections_.stopAll();
     while ((connections_.size() > 0 || sessions_->openCount() > 0) && std::chrono::steady_clock::now() < limit) {
         poll.expires_after(10ms);
@@ -297,7 +297,7 @@ void runServer(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
     raiseFileLimit();
     std::signal(SIGPIPE, SIG_IGN);  // hiredis writes to sockets that may have closed
     std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails, as on a full disk
-    std::signal(SIGCHLD, SIG_DFL);  // if it were ignored, ended children would be reaped and their ids reused
+    std::signal(SIGCHLD, SIG_DFL);  // if it were ignored, the ids of ended children could be reused before waitpid()
     Server(std::move(options), forkJoin, heap).run();
 }
 

@@ -1,16 +1,16 @@
 #pragma once
-// The services that connections and sessions share, and the errors that both send.
+// The services that connections and sessions share, and the errors that both send to clients.
 
 #include <boost/asio/io_context.hpp>
 
 #include "errors/error.hpp"
+#include "file_reading/file_reader_pool.hpp"
 #include "net/clients.hpp"
 #include "net/metrics.hpp"
 #include "net/options.hpp"
 #include "parallel/worker_pool.hpp"
 #include "pipeline/pipeline_pool.hpp"
 #include "polytopes/catalogue/polytope_cache.hpp"
-#include "reading/file_readers.hpp"
 
 namespace oval4d::net {
 
@@ -34,12 +34,12 @@ struct Services {
     const Options& options;
     boost::asio::io_context& io;
     pipeline::PipelinePool& pictureWorkers;  ///< threads that slice and draw pictures
-    parallel::WorkerPool& fileWorkers;       ///< threads that make files, which takes longer
+    parallel::WorkerPool& fileWorkers;       ///< threads that make exported files, which takes longer than pictures
     Metrics& metrics;
     Clients& clients;
-    parallel::WorkerPool& loadWorkers;    ///< threads that wait for file reader processes to read clients' files
-    reading::FileReaders& readers;        ///< the file reader processes
-    polytopes::PolytopeCache& polytopes;  ///< polytopes that were built from their names
+    parallel::WorkerPool& loadWorkers;      ///< threads that wait for file reader processes to read clients' files
+    file_reading::FileReaderPool& readers;  ///< the file reader processes
+    polytopes::PolytopeCache& polytopes;    ///< polytopes that were built from their names
 };
 
 }  // namespace oval4d::net

@@ -6,7 +6,8 @@
 
 namespace oval4d::net {
 
-/// A token bucket: fills at a constant rate, holds at most `burst` tokens, and may be overdrawn. Not thread-safe.
+/// A token bucket. It fills at a constant rate, holds at most `burst` tokens, and may be overdrawn: its level may be
+/// negative. Not thread-safe.
 class TokenBucket {
   public:
     using Clock = std::chrono::steady_clock;
@@ -16,7 +17,7 @@ class TokenBucket {
     TokenBucket(double perSecond, double burst, Clock::time_point now)
         : perSecond_(perSecond), burst_(burst), level_(burst), last_(now) {}
 
-    /// Takes `amount` tokens and returns the new level; a negative level means that the bucket is overdrawn.
+    /// Takes `amount` tokens, even if the bucket holds fewer, and returns the new level.
     double take(double amount, Clock::time_point now) {
         level_ = level(now) - amount;
         last_ = now;

@@ -12,9 +12,10 @@ constexpr Seconds kMinCost{1e-4};  // the minimum cost of a job: no job is free
 
 constexpr double kDecay = 0.75;        // the factor by which each new measurement reduces the weight of earlier ones
 constexpr Seconds kPriorWeight{0.02};  // the prior has the weight of measured jobs whose estimates sum to this time
-// Measured times are clipped to this multiple of the cost, because other programs sometimes delay a job.
+// Corrections are learned from measured times that are clipped to this multiple of the cost, because other programs
+// sometimes delay a job.
 constexpr double kMaxOverrun = 2;
-constexpr double kMaxCorrection = 8;  // the largest factor by which estimates are corrected
+constexpr double kMaxCorrection = 8;  // estimates are multiplied or divided by at most this factor
 
 }  // namespace
 
@@ -36,13 +37,14 @@ Seconds FairQueue::correctedCost(const Lane& lane, Seconds estimate) const {
     return std::max(kMinCost, lane.correction_.factor(ofClient) * estimate);
 }
 
-/// Returns the cost to charge to a class. The weight of a class is its number of active clients.
+/// Returns the cost to charge to a class: the cost of a job divided by the weight of the class, which is its number of
+/// active clients.
 Seconds FairQueue::classCost(JobLength length, Seconds cost) const {
     return cost / std::max<std::size_t>(1, classes_[length].clients.activeFlows());
 }
 
 bool FairQueue::push(Job job, const LanePtr& lane, Seconds estimate, Clock::time_point now) {
-    Client& client = *lane->client_;
+    ClientShare& client = *lane->client_;
     if (waiting_ >= limits_.all || client.waiting_ >= limits_.ofClient) return false;
     ++waiting_;
     ++client.waiting_;
@@ -55,12 +57,12 @@ bool FairQueue::push(Job job, const LanePtr& lane, Seconds estimate, Clock::time
     return true;
 }
 
-std::optional<FairQueue::Begun> FairQueue::pop(Clock::time_point now) {
+std::optional<FairQueue::StartedJob> FairQueue::pop(Clock::time_point now) {
     if (scheduler_.empty()) return std::nullopt;
     const JobLength length = longJobsMustWait(now) ? short_job : scheduler_.next();
     Class& schedulers = classes_[length];
     if (schedulers.clients.empty()) return std::nullopt;
-    const ClientPtr client = schedulers.clients.next();
+    const ClientSharePtr client = schedulers.clients.next();
     const LanePtr lane = client->lanes_[length].next();
     Waiting first = std::move(lane->jobs_.front());
     lane->jobs_.pop_front();
@@ -70,31 +72,31 @@ std::optional<FairQueue::Begun> FairQueue::pop(Clock::time_point now) {
     scheduler_.start(schedulers.state, classCost(length, first.cost));
     schedulers.clients.start(client->states_[length], first.cost);
     client->lanes_[length].start(lane->states_[length], first.cost);
-    client->lanes_[length].dequeue(lane->states_[length]);
+    client->lanes_[length].remove(lane->states_[length]);
     scheduleClient(client, length);
     if (!lane->jobs_.empty()) scheduleLane(lane);
-    return Begun{std::move(first.job), lane, first.estimate, first.cost, length};
+    return StartedJob{std::move(first.job), lane, first.estimate, first.cost, length};
 }
 
-void FairQueue::finished(const Begun& begun, Seconds took) {
-    Lane& lane = *begun.lane;
-    Client& client = *lane.client_;
-    const JobLength length = begun.length;
+void FairQueue::finished(const StartedJob& started, Seconds took) {
+    Lane& lane = *started.lane;
+    ClientShare& client = *lane.client_;
+    const JobLength length = started.length;
     if (length == long_job) --longRunning_;
     for (Correction* each : {&lane.correction_, &client.correction_, &correction_})
-        each->learn(begun.estimate, std::min(took, kMaxOverrun * begun.cost));
-    const Seconds more = took - begun.cost;
+        each->learn(started.estimate, std::min(took, kMaxOverrun * started.cost));
+    const Seconds more = took - started.cost;
     scheduler_.end(classes_[length].state, classCost(length, more));
     classes_[length].clients.end(client.states_[length], more);
     client.lanes_[length].end(lane.states_[length], more);
     if (lane.states_[length].entry) {
-        scheduleLane(begun.lane);
+        scheduleLane(started.lane);
     } else {
         scheduleClient(lane.client_, length);
     }
 }
 
-Seconds FairQueue::nextCost(const Client& client, JobLength length) {
+Seconds FairQueue::nextCost(const ClientShare& client, JobLength length) {
     return client.lanes_[length].next()->jobs_.front().cost;
 }
 
@@ -105,23 +107,24 @@ void FairQueue::scheduleLane(const LanePtr& lane) {
     scheduleClient(lane->client_, first.length);
 }
 
-/// Updates the queue entries of a client and the class after a change of the client's next job of that length.
-void FairQueue::scheduleClient(const ClientPtr& client, JobLength length) {
+/// Updates the queue entries of a client and of the class of this length, after a change of the client's next job of
+/// this length.
+void FairQueue::scheduleClient(const ClientSharePtr& client, JobLength length) {
     Class& schedulers = classes_[length];
     if (client->lanes_[length].empty()) {
-        schedulers.clients.dequeue(client->states_[length]);
+        schedulers.clients.remove(client->states_[length]);
     } else {
         schedulers.clients.enqueue(client->states_[length], client, nextCost(*client, length));
     }
     if (schedulers.clients.empty()) {
-        scheduler_.dequeue(schedulers.state);
+        scheduler_.remove(schedulers.state);
     } else {
         scheduler_.enqueue(schedulers.state, length, classCost(length, nextCost(*schedulers.clients.next(), length)));
     }
 }
 
 /// Records that the lane queues a job of this length. Adds the lane to `active_` unless it has queued a long job within
-/// kActive: threads are kept free only for lanes with short jobs.
+/// kActive, because threads are reserved only for lanes with short jobs.
 void FairQueue::recordActivity(const LanePtr& lane, JobLength length, Clock::time_point now) {
     forgetInactive(now);
     if (length == long_job) lane->lastLong_ = now;
@@ -140,11 +143,12 @@ void FairQueue::forgetInactive(Clock::time_point now) {
     }
 }
 
-/// Returns whether no long job may start now, because the maximum number of long jobs is running.
+/// Returns whether long jobs must wait: long jobs run on all threads that are not reserved, and the next long job may
+/// not start on a reserved one.
 bool FairQueue::longJobsMustWait(Clock::time_point now) {
     if (longRunning_ < maxLongRunning_) return false;
     forgetInactive(now);
-    const FairScheduler<ClientPtr>& clients = classes_[long_job].clients;
+    const FairScheduler<ClientSharePtr>& clients = classes_[long_job].clients;
     return !active_.empty() || (!clients.empty() && nextCost(*clients.next(), long_job) > kVeryLongJob);
 }
 
@@ -156,13 +160,13 @@ std::deque<FairQueue::Job> FairQueue::clear() {
     std::deque<Job> dropped;
     while (!scheduler_.empty()) {
         const JobLength length = scheduler_.next();
-        const ClientPtr client = classes_[length].clients.next();
+        const ClientSharePtr client = classes_[length].clients.next();
         const LanePtr lane = client->lanes_[length].next();
         client->waiting_ -= lane->jobs_.size();
         waiting_ -= lane->jobs_.size();
         for (Waiting& each : lane->jobs_) dropped.push_back(std::move(each.job));
         lane->jobs_.clear();
-        client->lanes_[length].dequeue(lane->states_[length]);
+        client->lanes_[length].remove(lane->states_[length]);
         scheduleClient(client, length);
     }
     return dropped;

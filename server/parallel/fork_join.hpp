@@ -10,8 +10,8 @@
 namespace oval4d::parallel {
 
 /// Runs two independent jobs in parallel: the calling thread runs the first one, and a helper thread runs the second.
-/// If the helper thread is in use, or all processors are busy, the calling thread runs both, which gives a higher total
-/// throughput. Waking the helper thread takes about 10 µs. Thread-safe.
+/// If the helper thread is in use, or all processors are busy, the calling thread runs both jobs, because the total
+/// throughput is then higher. Waking the helper thread takes about 10 µs. Thread-safe.
 class ForkJoin {
   public:
     using Job = std::function<void()>;
@@ -34,8 +34,8 @@ class ForkJoin {
     ForkJoin(const ForkJoin&) = delete;
     ForkJoin& operator=(const ForkJoin&) = delete;
 
-    /// Runs both jobs and returns when both are done. Rethrows the exception of a job; if both jobs throw, that of the
-    /// first. If the first job throws, the second may not have run.
+    /// Runs both jobs and returns when both are done. Rethrows the exception of a job; if both jobs throw, rethrows
+    /// that of the first. If the first job throws, the second may not have run.
     void invoke(const Job& first, const Job& second);
 
   private:
@@ -46,11 +46,11 @@ class ForkJoin {
     std::atomic_flag taken_;  // set while the helper thread serves a caller
     std::mutex mutex_;
     std::condition_variable changed_;
-    // Guarded by mutex_.
-    const Job* job_ = nullptr;
-    std::exception_ptr thrown_;
+    // The next three members are guarded by mutex_.
+    const Job* job_ = nullptr;   // the job for the helper thread; null if there is none
+    std::exception_ptr thrown_;  // what this job threw; null if it threw nothing
     bool ending_ = false;
-    std::thread thread_;
+    std::thread thread_;  // the helper thread; assigned only by the constructor, so reading it needs no lock
 };
 
 /// Runs both jobs, with `forkJoin` if it is not null, else one after the other on the calling thread.

@@ -1,5 +1,6 @@
 #pragma once
-// Assertions that objects are used only by the threads that may use them. With NDEBUG (release builds) they do nothing.
+// Assertions that an object is used only by the threads that may use it. They do nothing in builds with NDEBUG (release
+// builds).
 
 #include <atomic>
 #include <cassert>
@@ -23,10 +24,12 @@ class ThreadOwned {
 #endif
 };
 
-/// Checks that an object is used by at most one thread at a time, which may be any thread. A copy starts as not in use.
+/// Checks that an object is used by at most one thread at a time, which may be any thread. A copy of it starts as not
+/// in use.
 class OneAtATime {
   public:
-    /// Marks the object as in use for the lifetime of the Use; asserts that no other Use of it exists.
+    /// Marks the object as in use as long as this Use exists. The constructor asserts that no other Use of the same
+    /// object exists.
     class Use {
       public:
 #ifdef NDEBUG

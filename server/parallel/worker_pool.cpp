@@ -77,7 +77,7 @@ WorkerPool::Seconds WorkerPool::busyTime() const {
 }
 
 void WorkerPool::run(std::size_t worker) {
-    runJob(options_.first, worker);
+    runJob(options_.onThreadStart, worker);
     std::unique_lock lock(mutex_);
     bool used = true;
     while (!stopping_) {
@@ -94,7 +94,7 @@ void WorkerPool::run(std::size_t worker) {
             if (options_.forkJoin != nullptr) work.emplace(*options_.forkJoin);
             runJob(next->job, worker);
         }
-        next->job = nullptr;  // what the job owns is destroyed outside the lock
+        next->job = nullptr;  // destroys what the job owns while the mutex is not locked
         const Seconds took = Clock::now() - start;
         lock.lock();
         busyTime_ += took;

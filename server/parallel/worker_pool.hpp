@@ -15,7 +15,7 @@
 
 namespace oval4d::parallel {
 
-/// Thrown by callers of WorkerPool::post() when it rejects a job because the queue is full.
+/// Thrown by functions that call WorkerPool::post(), to report that it rejected a job because the queue is full.
 class QueueFull : public std::runtime_error {
   public:
     QueueFull() : std::runtime_error("too many jobs are queued") {}
@@ -28,16 +28,16 @@ class WorkerPool {
     using Argument = std::size_t;  ///< the type of a job's argument: the index of the worker
     using Job = FairQueue::Job;
     using Seconds = FairQueue::Seconds;
-    using Client = FairQueue::Client;
+    using ClientShare = FairQueue::ClientShare;
     using Lane = FairQueue::Lane;
-    using ClientPtr = FairQueue::ClientPtr;
+    using ClientSharePtr = FairQueue::ClientSharePtr;
     using LanePtr = FairQueue::LanePtr;
     using Limits = FairQueue::Limits;
 
     struct Options {
-        std::size_t threads = 1;
-        Limits limits = {};
-        Job first = [](std::size_t) {};  ///< called once by each worker before its other jobs
+        std::size_t threads = 1;                 ///< number of worker threads
+        Limits limits = {};                      ///< on the numbers of waiting jobs
+        Job onThreadStart = [](std::size_t) {};  ///< called once by each worker before its other jobs
         /// Called by a worker that has been idle for kIdleDelay since its last job, to free cached memory.
         std::function<void(std::size_t worker)> whenIdle = [](std::size_t) {};
         ForkJoin* forkJoin = nullptr;  ///< counts a processor as busy during each job; may be null
@@ -52,10 +52,11 @@ class WorkerPool {
     /// drops the job and returns true.
     [[nodiscard]] bool post(Job job, LanePtr lane, Seconds cost);
 
-    /// Makes a worker call `whenIdle` after it has been idle for kIdleDelay, even if it has run no job in between.
+    /// Makes one worker call `whenIdle` after it has been idle for kIdleDelay, even if it has run no job since its last
+    /// call of `whenIdle`.
     void cleanUpWhenIdle();
 
-    /// Drops the waiting jobs, requests the running ones to stop, and waits until all threads have ended.
+    /// Drops the waiting jobs, requests the running jobs to stop, and waits until all threads have ended.
     void stop();
 
     /// Returns the token through which stop() requests a stop. Long jobs should check it and end early.
@@ -77,16 +78,16 @@ class WorkerPool {
     void wait(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker);
 
     const Options options_;
-    const LanePtr common_ = std::make_shared<Lane>(std::make_shared<Client>());  // for jobs without a lane
+    const LanePtr common_ = std::make_shared<Lane>(std::make_shared<ClientShare>());  // for jobs without a lane
     std::stop_source stopSource_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
-    // Guarded by mutex_, like the contents of lanes and clients.
+    // The next four members are guarded by mutex_, and so are the contents of lanes and clients.
     FairQueue queue_;
     Seconds busyTime_{0};
     bool cleanUp_ = false;  // see cleanUpWhenIdle
     bool stopping_ = false;
-    std::vector<std::thread> threads_;
+    std::vector<std::thread> threads_;  // changed only by the constructor and stop()
 };
 
 }  // namespace oval4d::parallel

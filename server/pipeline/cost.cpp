@@ -18,21 +18,21 @@ double met(double n) { return std::pow(n, 2.0 / 3); }
 
 }  // namespace
 
-Seconds frameCost(const session::State& state, scene::Viewport viewport) {
+EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport) {
     const double n = elements(state.object);
     const double pixels = static_cast<double>(viewport.width) * viewport.height;
     const double bodies = state.slices.count * (2e-5 + 1.2e-6 * met(n));
     const double layers = 1 + 0.4 * std::log2(1 + n / 25);  // the number of faces blended over each other at a pixel
-    return Seconds(5e-4 + bodies + 6e-9 * pixels * layers);
+    return EstimatedSeconds(5e-4 + bodies + 6e-9 * pixels * layers);
 }
 
-Seconds geometryCost(const session::State& state) {
+EstimatedSeconds geometryCost(const session::State& state) {
     const double n = elements(state.object);
-    return Seconds(1e-4 + 1e-7 * n + 1e-7 * state.slices.count * met(n));
+    return EstimatedSeconds(1e-4 + 1e-7 * n + 1e-7 * state.slices.count * met(n));
 }
 
-Seconds fileCost(const session::State& state) {
-    return Seconds(0.02 + 5e-6 * state.slices.count * met(elements(state.object)));
+EstimatedSeconds fileCost(const session::State& state) {
+    return EstimatedSeconds(0.02 + 5e-6 * state.slices.count * met(elements(state.object)));
 }
 
 }  // namespace oval4d::pipeline

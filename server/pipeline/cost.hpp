@@ -8,17 +8,17 @@
 
 namespace oval4d::pipeline {
 
-/// An estimated time, correct within a factor of three on one core of a processor of 2020. It depends only on the
-/// number of elements of the object, the number of slices and the size of the picture.
-using Seconds = std::chrono::duration<double>;
+/// An estimated time in seconds, correct within a factor of three on one core of a processor of 2020. It depends only
+/// on the number of elements of the object, the number of slices and the size of the picture.
+using EstimatedSeconds = std::chrono::duration<double>;
 
 /// Returns the estimated time of Pipeline::drawPng.
-Seconds frameCost(const session::State& state, scene::Viewport viewport);
+EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport);
 
 /// Returns the estimated time of Pipeline::slice and Pipeline::writeSlices together.
-Seconds geometryCost(const session::State& state);
+EstimatedSeconds geometryCost(const session::State& state);
 
-/// Returns the estimated time of fileOf.
-Seconds fileCost(const session::State& state);
+/// Returns the estimated time of exportState.
+EstimatedSeconds fileCost(const session::State& state);
 
 }  // namespace oval4d::pipeline

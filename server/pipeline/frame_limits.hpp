@@ -8,7 +8,7 @@
 
 namespace oval4d::pipeline {
 
-/// The allowed sizes of pictures, in pixels.
+/// The allowed sizes of pictures. `minSide` is the minimum width and height. All values are in pixels.
 struct FrameLimits {
     int minSide = 16, maxWidth = 8192, maxHeight = 8192;
     std::int64_t maxPixels = 16'777'216;

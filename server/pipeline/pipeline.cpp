@@ -4,7 +4,7 @@
 
 namespace oval4d::pipeline {
 
-using raster::secondsOf;
+using raster::measureSeconds;
 
 Pipeline::Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin, std::size_t fillSteps)
     : rasterizer_(std::move(rasterizer)), forkJoin_(forkJoin), fillSteps_(fillSteps), memory_(forkJoin) {}
@@ -12,7 +12,8 @@ Pipeline::Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::For
 void Pipeline::slice(const session::State& state, slicing::SliceSet& out) {
     const parallel::OneAtATime::Use use(inUse_);
     times_ = {};
-    times_.slice = secondsOf([&] { memory_.slicer.slice(state.object, state.orientation, state.hyperplanes(), out); });
+    times_.slice =
+        measureSeconds([&] { memory_.slicer.slice(state.object, state.orientation, state.hyperplanes(), out); });
 }
 
 void Pipeline::writeSlices(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
@@ -20,11 +21,11 @@ void Pipeline::writeSlices(const session::State& state, const slicing::SliceSet&
                            std::string& out) {
     const parallel::OneAtATime::Use use(inUse_);
     memory_.composer.limitFill(fillSteps_);
-    times_.compose = secondsOf([&] {
+    times_.compose = measureSeconds([&] {
         memory_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
                                  memory_.scene);
     });
-    times_.write = secondsOf([&] { memory_.slicesWriter.write(memory_.scene, revision, id, encoding, out); });
+    times_.write = measureSeconds([&] { memory_.slicesWriter.write(memory_.scene, revision, id, encoding, out); });
 }
 
 void Pipeline::drawPng(const session::State& state, std::string_view stateText, scene::Viewport viewport,
@@ -33,7 +34,7 @@ void Pipeline::drawPng(const session::State& state, std::string_view stateText, 
     times_ = {};
     const image::ImageView image{viewport.width, viewport.height, rasterizer_->draw(state, viewport, times_)};
     if (drawn) drawn();
-    times_.encode = secondsOf([&] { memory_.encoder.encode(image, stateText, out); });
+    times_.encode = measureSeconds([&] { memory_.encoder.encode(image, stateText, out); });
 }
 
 void Pipeline::freeMemory() {

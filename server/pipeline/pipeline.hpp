@@ -16,12 +16,13 @@
 #include "session/session.hpp"
 #include "slicing/slicer.hpp"
 #include "wire/request.hpp"
-#include "wire/slices.hpp"
+#include "wire/slices_message.hpp"
 
 namespace oval4d::pipeline {
 
-/// The seconds that each step took; in addition to those of raster::Times: writing a message, and encoding a PNG file.
-struct Times : raster::Times {
+/// The seconds that each step of a picture took; 0 for a step that was not run. In addition to the steps of
+/// raster::DrawTimes, these are writing a `slices` message, and encoding a PNG file.
+struct PictureTimes : raster::DrawTimes {
     double write = 0, encode = 0;
 };
 
@@ -30,19 +31,20 @@ struct Times : raster::Times {
 /// pipeline may be used by one thread at a time.
 class Pipeline {
   public:
-    /// The default of `fillSteps`.
+    /// The default of the parameter `fillSteps` of the constructor.
     static constexpr std::size_t kFillSteps = 20'000'000;
 
-    /// Draws frames with `rasterizer`. With `forkJoin`, large objects and pictures are processed on two cores; null: on
-    /// one. `fillSteps` limits the time for filling self-intersecting faces in messages (see slicing::Filler::fill).
+    /// `rasterizer` draws the frames. `forkJoin` processes large objects and pictures on two cores; if it is null, they
+    /// are processed on one. `fillSteps` limits the time for filling self-intersecting faces in messages (see
+    /// slicing::Filler::fill).
     Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin,
              std::size_t fillSteps = kFillSteps);
 
     /// Slices the state's object. Overwrites `out` and reuses its memory.
     void slice(const session::State& state, slicing::SliceSet& out);
 
-    /// Writes the `slices` message of `slices`, which must have been cut from this state. `id` is that of the request
-    /// which the message answers, if any. Overwrites `out`.
+    /// Writes the `slices` message of `slices`, which must have been cut from this state. `id` is the id of the request
+    /// that the message answers; empty if there is none. Overwrites `out`.
     void writeSlices(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
                      std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding, std::string& out);
 
@@ -55,12 +57,13 @@ class Pipeline {
     /// Prepares for drawing, so that the first frame takes no longer than later ones (see Rasterizer::warmUp).
     void warmUp() { rasterizer_->warmUp(); }
 
-    /// Frees cached memory, which has the size of the largest picture so far. Call this when idle: allocating the
-    /// memory again takes a few milliseconds.
+    /// Frees cached memory, which otherwise keeps the size that the largest picture needed. Call this when the pipeline
+    /// is idle, because allocating the memory again takes a few milliseconds.
     void freeMemory();
 
-    /// Returns the times of the last `frame`, or of the last `cut` and the `message` after it.
-    const Times& times() const { return times_; }
+    /// Returns the times of the last calls. slice() and drawPng() reset all times; writeSlices() replaces only those of
+    /// its own steps.
+    const PictureTimes& times() const { return times_; }
 
   private:
     /// Memory that the next call reuses.
@@ -69,7 +72,7 @@ class Pipeline {
         slicing::Slicer slicer;
         scene::Composer composer;
         scene::Scene scene;
-        wire::SlicesWriter slicesWriter;
+        wire::SlicesMessageWriter slicesWriter;
         image::PngEncoder encoder;
     };
 
@@ -77,7 +80,7 @@ class Pipeline {
     parallel::ForkJoin* const forkJoin_;
     const std::size_t fillSteps_;
     Memory memory_;
-    Times times_;
+    PictureTimes times_;
     parallel::OneAtATime inUse_;
 };
 

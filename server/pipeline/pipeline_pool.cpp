@@ -8,11 +8,11 @@ PipelinePool::PipelinePool(Options options, parallel::ForkJoin& forkJoin, proces
     : pipelines_(options.threads),
       workers_({.threads = options.threads,
                 .limits = options.limits,
-                .first =
+                .onThreadStart =
                     [this, options, &forkJoin](std::size_t worker) {
                         pipelines_[worker] = std::make_unique<Pipeline>(options.makeRasterizer(workers_.stopToken()),
                                                                         &forkJoin, options.fillSteps);
-                        options.first(*pipelines_[worker]);
+                        options.onThreadStart(*pipelines_[worker]);
                     },
                 .whenIdle =
                     [this, &heap](std::size_t worker) {

@@ -11,21 +11,24 @@
 
 namespace oval4d::pipeline {
 
-/// A worker pool in which each worker thread has its own Pipeline, which its jobs use. Thread-safe.
+/// A worker pool in which each worker thread has its own Pipeline. A job receives the pipeline of the worker that runs
+/// it. Thread-safe.
 class PipelinePool {
   public:
     using Argument = Pipeline&;  ///< the parameter of a job
     using Job = std::function<void(Pipeline&)>;
 
     struct Options {
-        std::size_t threads = 1;
-        parallel::WorkerPool::Limits limits = {};
-        std::size_t fillSteps = Pipeline::kFillSteps;
+        std::size_t threads = 1;                       ///< number of workers
+        parallel::WorkerPool::Limits limits = {};      ///< on the numbers of waiting jobs
+        std::size_t fillSteps = Pipeline::kFillSteps;  ///< see the constructor of Pipeline
         /// Called once by each worker, to make the rasterizer of its pipeline. `stop`: see WorkerPool::stopToken.
         std::function<std::unique_ptr<raster::Rasterizer>(std::stop_token stop)> makeRasterizer;
-        Job first = [](Pipeline&) {};  ///< run once by each worker before any other job
+        Job onThreadStart = [](Pipeline&) {};  ///< run once by each worker before any other job
     };
 
+    /// The pipelines use `forkJoin`. Idle workers free their memory, and return it to the system with `heap`. Both must
+    /// outlive the pool.
     PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap);
 
     /// See WorkerPool::post.

@@ -43,8 +43,8 @@ struct Measures {
     }
 };
 
-// Measures all cells in linear time: each cell marks its vertices with a number of its own, which shows without a
-// search whether a vertex has already been visited in this cell.
+// Measures all cells in linear time. Each cell marks its vertices with a number of its own. The mark of a vertex shows,
+// without a search, whether the vertex has already been visited in this cell.
 class CellMeasurer {
   public:
     explicit CellMeasurer(const Polytope& polytope) : p_(polytope), markOf_(polytope.vertices.size(), 0) {}
@@ -187,7 +187,7 @@ std::string nameOfCell(const Polytope& p, std::uint32_t cell) {
     const auto faces = p.cells[cell];
     if (faces.size() == 4) return "tetrahedron";
     if (measures.edges.areEqual() && measures.radii.areEqual()) {
-        Shape shape;
+        PolyhedronSignature shape;
         shape.vertices = measures.vertices;
         shape.circumradius = 2 * measures.radii.rootMeanSquare() / measures.edges.rootMeanSquare();
         for (const std::uint32_t f : faces) ++shape.faces[polygonOf(p, p.faces[f])];

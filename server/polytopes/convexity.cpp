@@ -14,7 +14,7 @@ namespace {
 constexpr double kTolerance = 1e-9;                // relative to the extent
 constexpr double kMaxTurn = 3 * std::numbers::pi;  // a sum of angles is 2π (one turn) or at least 4π
 
-// The component of v perpendicular to a unit vector.
+// Returns the component of v perpendicular to a unit vector.
 glm::dvec4 rejection(const glm::dvec4& v, const glm::dvec4& unit) { return v - glm::dot(v, unit) * unit; }
 
 glm::dvec4 mean(const std::vector<glm::dvec4>& points) {
@@ -90,8 +90,8 @@ class ConvexityTest {
         return foot;
     }
 
-    // Applies the test of isConvex to each cell within its hyperplane: no edge is reentrant, and seen from the mean of
-    // the cell's corners, the 2-faces around each vertex make one full turn.
+    // Applies the test of isConvex to each cell within its hyperplane: no edge may be reentrant, and the 2-faces around
+    // each vertex must make one full turn, seen from the mean of the cell's corners.
     bool cellsAreConvex() {
         std::vector<glm::dvec4> feet(p_.faces.size()), centers(p_.faces.size());
         std::vector<std::uint32_t> first(p_.edges.size());
@@ -207,7 +207,7 @@ class ConvexityTest {
     const Polytope& p_;
     double extent_;
     glm::dvec4 center_{0};                    // the mean of the vertices
-    std::vector<glm::dvec4> centers_, feet_;  // by cell, relative to center_
+    std::vector<glm::dvec4> centers_, feet_;  // per cell, relative to center_
     std::vector<glm::dvec4> points_;
 };
 

@@ -5,10 +5,10 @@
 
 namespace oval4d::polytopes {
 
-/// Returns whether `polytope` is the boundary of a convex body. Neighboring cells may lie in one hyperplane. The test
-/// is that the 2-faces and cells are convex, that no 2-face is reentrant (has an inner dihedral angle of more than
-/// 180°), and that the cells, seen from the mean of the vertices, cover the sphere of directions exactly once. Takes
-/// time linear in the number of incidences (pairs of a cell and a 2-face, and of a 2-face and an edge).
+/// Returns whether `polytope` is the boundary of a convex body. Neighboring cells may lie in the same hyperplane. The
+/// test has three parts: all 2-faces and cells must be convex; no 2-face may be reentrant (have an inner dihedral angle
+/// of more than 180°); and the cells, seen from the mean of the vertices, must cover the sphere of directions exactly
+/// once. Takes time linear in the number of incidences (pairs of a cell and a 2-face, and of a 2-face and an edge).
 bool isConvex(const Polytope& polytope);
 
 }  // namespace oval4d::polytopes

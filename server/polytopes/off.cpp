@@ -27,7 +27,7 @@ std::string write4Off(const Polytope& polytope, std::span<const glm::dvec4> vert
                       std::to_string(polytope.cells.size()) + '\n';
     for (const glm::dvec4& v : vertices) {
         for (int axis = 0; axis < 4; ++axis) {
-            out += text::shortest(v[axis]);
+            out += text::shortestDecimal(v[axis]);
             out += axis < 3 ? ' ' : '\n';
         }
     }

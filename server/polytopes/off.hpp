@@ -9,8 +9,9 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the text of a 4OFF file (Geomview's OFF format in four dimensions) with the polytope, but with `vertices` in
-/// place of its own. Coordinates are in the polytope's units. Reading the file gives the same polytope.
+/// Returns the polytope as the text of a 4OFF file (Geomview's OFF format in four dimensions). The file contains
+/// `vertices` instead of the polytope's own vertices. Coordinates are in the polytope's units. Importing the file gives
+/// the polytope with these vertices.
 std::string write4Off(const Polytope& polytope, std::span<const glm::dvec4> vertices);
 
 }  // namespace oval4d::polytopes

@@ -54,60 +54,62 @@ int directionOf(const Polytope& p, std::uint32_t face, std::size_t i) {
     return p.edges[p.faceEdges[face][i]][0] == p.faces[face][i] ? 1 : -1;
 }
 
-// Orients the boundary coherently: assigns a sign to every incidence of a 2-face with a cell such that the vertex loops
-// of a cell, reversed where the sign is negative, traverse each edge of the cell once in each direction, and such that
-// a 2-face has opposite signs in its two cells. A slot is an index into cells.items; it identifies an incidence.
+// Orients the boundary coherently: assigns a sign to every incidence of a 2-face with a cell. If the vertex loops of a
+// cell are reversed where the sign is negative, they traverse each edge of the cell once in each direction. A 2-face
+// has opposite signs in its two cells. An incidence is identified by its index in cells.items.
 class Orienter {
   public:
-    explicit Orienter(Polytope& p) : p_(p), slotsOfFace_(p.faces.size(), {kNone, kNone}), done_(p.cells.size()) {
+    explicit Orienter(Polytope& p) : p_(p), incidencesOfFace_(p.faces.size(), {kNone, kNone}), done_(p.cells.size()) {
         p_.cellSigns.assign(p_.cells.items.size(), 0);
-        cellOfSlot_.resize(p_.cells.items.size());
+        cellOfIncidence_.resize(p_.cells.items.size());
         for (std::uint32_t c = 0; c < p_.cells.size(); ++c) {
-            for (std::uint32_t slot = p_.cells.begin[c]; slot < p_.cells.begin[c + 1]; ++slot) note(c, slot);
+            for (std::uint32_t incidence = p_.cells.begin[c]; incidence < p_.cells.begin[c + 1]; ++incidence)
+                recordIncidence(c, incidence);
         }
-        for (std::size_t f = 0; f < slotsOfFace_.size(); ++f) {
-            if (slotsOfFace_[f][1] == kNone) throw InvalidPolytope(Part::face, f, "does not lie in two cells");
+        for (std::size_t f = 0; f < incidencesOfFace_.size(); ++f) {
+            if (incidencesOfFace_[f][1] == kNone) throw InvalidPolytope(Part::face, f, "does not lie in two cells");
         }
-        for (std::uint32_t slot = 0; slot < p_.cellSigns.size(); ++slot) {
-            if (p_.cellSigns[slot] == 0) orientComponent(slot);
+        for (std::uint32_t incidence = 0; incidence < p_.cellSigns.size(); ++incidence) {
+            if (p_.cellSigns[incidence] == 0) orientComponent(incidence);
         }
-        for (const auto& [one, other] : slotsOfFace_) {
+        for (const auto& [one, other] : incidencesOfFace_) {
             const bool ordered = p_.cellSigns[one] < p_.cellSigns[other];
-            p_.faceCells.push_back({cellOfSlot_[ordered ? one : other], cellOfSlot_[ordered ? other : one]});
+            p_.faceCells.push_back({cellOfIncidence_[ordered ? one : other], cellOfIncidence_[ordered ? other : one]});
         }
     }
 
   private:
     // An edge of a 2-face of the current cell, with the direction (see directionOf) of the 2-face's loop along it.
     struct Side {
-        std::uint32_t edge, slot;
+        std::uint32_t edge, incidence;
         int direction;
     };
 
-    void note(std::uint32_t cell, std::uint32_t slot) {
-        cellOfSlot_[slot] = cell;
-        const std::uint32_t face = p_.cells.items[slot];
-        auto& slots = slotsOfFace_[face];
-        if (slots[1] != kNone) throw InvalidPolytope(Part::face, face, "lies in more than two cells");
-        slots[slots[0] == kNone ? 0 : 1] = slot;
+    void recordIncidence(std::uint32_t cell, std::uint32_t incidence) {
+        cellOfIncidence_[incidence] = cell;
+        const std::uint32_t face = p_.cells.items[incidence];
+        auto& incidences = incidencesOfFace_[face];
+        if (incidences[1] != kNone) throw InvalidPolytope(Part::face, face, "lies in more than two cells");
+        incidences[incidences[0] == kNone ? 0 : 1] = incidence;
     }
 
-    // Orients one connected component of the boundary, beginning with the slot `first`. The outward orientation is the
-    // one with negative signed hypervolume. With it, the slicer's face loops are counterclockwise seen from outside.
+    // Orients one connected component of the boundary, beginning with the incidence `first`. The outward orientation is
+    // the one with negative signed hypervolume. With it, the slicer's face loops are counterclockwise seen from
+    // outside.
     void orientComponent(std::uint32_t first) {
         std::vector<std::uint32_t> cells;
         std::vector<std::uint32_t> waiting{first};
         p_.cellSigns[first] = 1;
         double hypervolume = 0;
         while (!waiting.empty()) {
-            const std::uint32_t slot = waiting.back();
+            const std::uint32_t incidence = waiting.back();
             waiting.pop_back();
-            const std::uint32_t cell = cellOfSlot_[slot];
+            const std::uint32_t cell = cellOfIncidence_[incidence];
             if (!orientCell(cell)) continue;
             cells.push_back(cell);
             hypervolume += coneOver(cell);
             for (std::uint32_t s = p_.cells.begin[cell]; s < p_.cells.begin[cell + 1]; ++s) {
-                const auto& pair = slotsOfFace_[p_.cells.items[s]];
+                const auto& pair = incidencesOfFace_[p_.cells.items[s]];
                 const std::uint32_t other = pair[0] == s ? pair[1] : pair[0];
                 if (p_.cellSigns[other] == 0) {
                     p_.cellSigns[other] = static_cast<std::int8_t>(-p_.cellSigns[s]);
@@ -135,10 +137,10 @@ class Orienter {
         const std::uint32_t end = p_.cells.begin[cell + 1];
         const auto signs = std::span(p_.cellSigns).subspan(begin, end - begin);
         std::vector<Side> sides;
-        for (std::uint32_t slot = begin; slot < end; ++slot) {
-            const std::uint32_t face = p_.cells.items[slot];
+        for (std::uint32_t incidence = begin; incidence < end; ++incidence) {
+            const std::uint32_t face = p_.cells.items[incidence];
             for (std::size_t i = 0; i < p_.faces[face].size(); ++i) {
-                sides.push_back({p_.faceEdges[face][i], slot, directionOf(p_, face, i)});
+                sides.push_back({p_.faceEdges[face][i], incidence, directionOf(p_, face, i)});
             }
         }
         std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.edge < b.edge; });
@@ -154,8 +156,8 @@ class Orienter {
             throw InvalidPolytope(Part::cell, cell, "consists of several disconnected pieces");
         }
         for (std::size_t i = 0; i < sides.size(); i += 2) {
-            if (p_.cellSigns[sides[i].slot] * sides[i].direction +
-                    p_.cellSigns[sides[i + 1].slot] * sides[i + 1].direction !=
+            if (p_.cellSigns[sides[i].incidence] * sides[i].direction +
+                    p_.cellSigns[sides[i + 1].incidence] * sides[i + 1].direction !=
                 0) {
                 throw InvalidPolytope(Part::cell, cell, "is not orientable");
             }
@@ -168,19 +170,20 @@ class Orienter {
     void propagateSigns(const std::vector<Side>& sides, std::uint32_t begin, std::uint32_t end) {
         auto& signs = p_.cellSigns;
         std::vector<std::vector<std::size_t>> sidesOf(end - begin);
-        for (std::size_t i = 0; i < sides.size(); ++i) sidesOf[sides[i].slot - begin].push_back(i);
+        for (std::size_t i = 0; i < sides.size(); ++i) sidesOf[sides[i].incidence - begin].push_back(i);
         std::vector<std::uint32_t> waiting;
-        for (std::uint32_t slot = begin; slot < end; ++slot) {
-            if (signs[slot] != 0) waiting.push_back(slot);
+        for (std::uint32_t incidence = begin; incidence < end; ++incidence) {
+            if (signs[incidence] != 0) waiting.push_back(incidence);
         }
         while (!waiting.empty()) {
-            const std::uint32_t slot = waiting.back();
+            const std::uint32_t incidence = waiting.back();
             waiting.pop_back();
-            for (const std::size_t i : sidesOf[slot - begin]) {
+            for (const std::size_t i : sidesOf[incidence - begin]) {
                 const Side& other = sides[i ^ 1U];
-                if (signs[other.slot] != 0) continue;
-                signs[other.slot] = static_cast<std::int8_t>(-signs[slot] * sides[i].direction * other.direction);
-                waiting.push_back(other.slot);
+                if (signs[other.incidence] != 0) continue;
+                signs[other.incidence] =
+                    static_cast<std::int8_t>(-signs[incidence] * sides[i].direction * other.direction);
+                waiting.push_back(other.incidence);
             }
         }
     }
@@ -193,20 +196,20 @@ class Orienter {
         const glm::dvec4 tip = p_.vertices[p_.faces.items[0]];
         const auto from = [&](std::uint32_t vertex) { return p_.vertices[vertex] - tip; };
         const glm::dvec4 apex = from(p_.faces[p_.cells[cell][0]][0]);
-        for (std::uint32_t slot = p_.cells.begin[cell]; slot < p_.cells.begin[cell + 1]; ++slot) {
-            const auto loop = p_.faces[p_.cells.items[slot]];
+        for (std::uint32_t incidence = p_.cells.begin[cell]; incidence < p_.cells.begin[cell + 1]; ++incidence) {
+            const auto loop = p_.faces[p_.cells.items[incidence]];
             for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-                sum +=
-                    p_.cellSigns[slot] * glm::determinant(glm::dmat4(apex, p_.vertices[loop[0]], p_.vertices[loop[i]],
-                                                                     p_.vertices[loop[i + 1]]));
+                sum += p_.cellSigns[incidence] *
+                       glm::determinant(
+                           glm::dmat4(apex, p_.vertices[loop[0]], p_.vertices[loop[i]], p_.vertices[loop[i + 1]]));
             }
         }
         return sum;
     }
 
     Polytope& p_;
-    std::vector<std::array<std::uint32_t, 2>> slotsOfFace_;
-    std::vector<std::uint32_t> cellOfSlot_;
+    std::vector<std::array<std::uint32_t, 2>> incidencesOfFace_;
+    std::vector<std::uint32_t> cellOfIncidence_;
     std::vector<bool> done_;
 };
 
@@ -240,10 +243,10 @@ void checkIndices(const geometry::JaggedArray& lists, std::size_t below, Part ow
     }
 }
 
-// Builds edgeFaces. A cell has two 2-faces at each of its edges, and the loops of these, oriented outward from the
-// cell, traverse the edge in opposite directions. Going through the cell from one of the two 2-faces to the other, then
-// through the next cell, and so on, gives the cyclic order. If there are several cycles around an edge, they are stored
-// one after another.
+// Builds edgeFaces. At each of its edges, a cell has two 2-faces, whose loops, oriented outward from the cell, traverse
+// the edge in opposite directions. The cyclic order results from going through the cell from one of the two 2-faces to
+// the other, then through the next cell, and so on. If there are several cycles around an edge, they are stored one
+// after another.
 void findFacesAtEdges(Polytope& p) {
     auto& [begin, items] = p.edgeFaces;
     begin.assign(p.edges.size() + 1, 0);
@@ -256,7 +259,7 @@ void findFacesAtEdges(Polytope& p) {
             items[next[p.faceEdges[f][i]]++] = 2 * f + (directionOf(p, f, i) > 0 ? 1 : 0);
         }
     }
-    std::vector<std::uint32_t> entering(p.cells.size());  // by cell: the position in `sides` of the 2-face after it
+    std::vector<std::uint32_t> entering(p.cells.size());  // per cell: the position in `sides` of the 2-face after it
     for (std::size_t e = 0; e < p.edges.size(); ++e) {
         const auto sides = std::span(items).subspan(begin[e], begin[e + 1] - begin[e]);
         const auto cellBefore = [&](std::uint32_t side) { return p.faceCells[side >> 1U][side & 1U]; };

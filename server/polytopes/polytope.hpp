@@ -21,20 +21,21 @@ using geometry::CellType;
 /// A 4-D polytope: its vertices, edges, 2-faces and cells. Made by makePolytope, and not changed once it is in use.
 /// Indices are 0-based and have 32 bits.
 struct Polytope : geometry::ObjectInfo {
-    std::vector<glm::dvec4> vertices;                 ///< polytopes of the catalogue are centered at the origin
+    std::vector<glm::dvec4> vertices;                 ///< polytopes built from names are centered at the origin
     std::vector<std::array<std::uint32_t, 2>> edges;  ///< pairs of vertices, the smaller index first
     geometry::JaggedArray faces;                      ///< the vertex loop of each 2-face
-    geometry::JaggedArray faceEdges;                  ///< edge i of a 2-face joins its vertices i and i + 1
+    geometry::JaggedArray faceEdges;                  ///< the edges of each 2-face; edge i joins the vertices
+                                                      ///< i and i + 1 of its loop
     geometry::JaggedArray edgeFaces;                  ///< the 2-faces around each edge, in cyclic order: 2-face f is
                                                       ///< stored as 2 f + 1 if its vertex loop traverses the edge
-                                                      ///< from its first vertex to its second, else as 2 f. The cell
-                                                      ///< between an entry s and the next one is
+                                                      ///< from the edge's first vertex to its second, else as 2 f.
+                                                      ///< The cell between an entry s and the next entry is
                                                       ///< faceCells[s / 2][1 − s mod 2]
     geometry::JaggedArray cells;                      ///< the 2-faces of each cell
     std::vector<std::int8_t> cellSigns;               ///< parallel to cells.items: +1 if the vertex loop of the 2-face
                                                       ///< is counterclockwise seen from outside the cell, else −1;
                                                       ///< a 2-face has opposite signs in its two cells
-    std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face: first that with sign −1
+    std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face; its sign is −1 in the first
     std::vector<std::uint32_t> typeOfCell;                ///< the type of each cell, an index into `cellTypes`
     bool convexFaces = true;                              ///< whether every 2-face is a convex polygon
 
@@ -60,11 +61,11 @@ class InvalidPolytope : public std::invalid_argument {
 };
 
 /// Builds a polytope with its edges, incidences and orientation from vertices, 2-faces (vertex loops) and cells (lists
-/// of 2-faces). Throws InvalidPolytope unless every cell is a closed orientable surface, every 2-face lies in exactly
-/// two cells, and the boundary is orientable; also if an index is out of range, a coordinate is not finite, or all
-/// vertices are at the origin. `typeOfCell` has a number for each cell, equal for cells of the same type; if it is
-/// empty, cells of the same shape have the same type. The numbers of the types in the result are those of
-/// numberCellTypes.
+/// of 2-faces). Throws InvalidPolytope if a cell is not a closed orientable surface, if a 2-face does not lie in
+/// exactly two cells, or if the boundary is not orientable. Also throws it if an index is out of range, if a coordinate
+/// is not finite, or if all vertices are at the origin. `typeOfCell` holds an arbitrary number for each cell; cells of
+/// the same type have the same number. If it is empty, cells of the same shape have the same type. numberCellTypes
+/// numbers the types of the result.
 Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, geometry::JaggedArray faces,
                       geometry::JaggedArray cells, std::vector<std::uint32_t> typeOfCell = {});
 

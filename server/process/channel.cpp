@@ -43,16 +43,16 @@ bool waitFor(int socket, short event, const Deadline& deadline) {
 /// Repeats `call`, a nonblocking system call that sends or receives, until it succeeds, and sets `moved` to the number
 /// of bytes. Waits for `event` while the call would block.
 template <typename Call>
-Transfer moveSome(int socket, short event, const Deadline& deadline, std::size_t& moved, Call call) {
+TransferResult moveSome(int socket, short event, const Deadline& deadline, std::size_t& moved, Call call) {
     for (;;) {
         const ssize_t result = call();
         if (result > 0) {
             moved = static_cast<std::size_t>(result);
-            return Transfer::complete;
+            return TransferResult::complete;
         }
         if (result < 0 && errno == EINTR) continue;
-        if (result == 0 || errno != EAGAIN) return Transfer::closed;
-        if (!waitFor(socket, event, deadline)) return Transfer::timed_out;
+        if (result == 0 || errno != EAGAIN) return TransferResult::closed;
+        if (!waitFor(socket, event, deadline)) return TransferResult::timed_out;
     }
 }
 
@@ -60,7 +60,7 @@ Transfer moveSome(int socket, short event, const Deadline& deadline, std::size_t
 
 Channel::~Channel() { close(socket_); }
 
-Transfer Channel::send(MessageType type, std::string_view body, int file, const Deadline& deadline) const {
+TransferResult Channel::send(MessageType type, std::string_view body, int file, const Deadline& deadline) const {
     Header header{type, body.size()};
     std::array parts{iovec{&header, sizeof header}, iovec{const_cast<char*>(body.data()), body.size()}};
     msghdr message{};
@@ -79,8 +79,8 @@ Transfer Channel::send(MessageType type, std::string_view body, int file, const 
     const auto call = [&] { return sendmsg(socket_, &message, MSG_NOSIGNAL | MSG_DONTWAIT); };
     for (std::size_t left = sizeof header + body.size(); left > 0;) {
         std::size_t sent = 0;
-        const Transfer transfer = moveSome(socket_, POLLOUT, deadline, sent, call);
-        if (transfer != Transfer::complete) return transfer;
+        const TransferResult transfer = moveSome(socket_, POLLOUT, deadline, sent, call);
+        if (transfer != TransferResult::complete) return transfer;
         left -= sent;
         message.msg_control = nullptr;
         message.msg_controllen = 0;
@@ -90,13 +90,13 @@ Transfer Channel::send(MessageType type, std::string_view body, int file, const 
             sent -= taken;
         }
     }
-    return Transfer::complete;
+    return TransferResult::complete;
 }
 
-Transfer Channel::receive(MessageType& type, std::string& body, int* file, const Deadline& deadline,
-                          std::size_t maxBytes) const {
+TransferResult Channel::receive(MessageType& type, std::string& body, int* file, const Deadline& deadline,
+                                std::size_t maxBytes) const {
     // moveSome() checks the deadline only when it must wait, which never happens if the sender is fast enough.
-    if (Deadline::Clock::now() > deadline.until) return Transfer::timed_out;
+    if (Deadline::Clock::now() > deadline.until) return TransferResult::timed_out;
     if (file != nullptr) *file = kNoFile;
     const auto read = [&](void* to, std::size_t size) {
         for (auto* at = static_cast<char*>(to); size > 0;) {
@@ -111,17 +111,18 @@ Transfer Channel::receive(MessageType& type, std::string& body, int* file, const
             }
             const auto call = [&] { return recvmsg(socket_, &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC); };
             std::size_t got = 0;
-            const Transfer transfer = moveSome(socket_, POLLIN, deadline, got, call);
-            if (transfer != Transfer::complete) return transfer;
+            const TransferResult transfer = moveSome(socket_, POLLIN, deadline, got, call);
+            if (transfer != TransferResult::complete) return transfer;
             if (const cmsghdr* tag = CMSG_FIRSTHDR(&message); tag != nullptr && tag->cmsg_type == SCM_RIGHTS)
                 std::memcpy(file, CMSG_DATA(tag), sizeof *file);
             at += got;
             size -= got;
         }
-        return Transfer::complete;
+        return TransferResult::complete;
     };
     Header header{};
-    if (const Transfer transfer = read(&header, sizeof header); transfer != Transfer::complete) return transfer;
+    if (const TransferResult transfer = read(&header, sizeof header); transfer != TransferResult::complete)
+        return transfer;
     type = header.type;
     if (header.size > maxBytes) throw std::runtime_error("a message between processes is too long");
     body.resize(header.size);

@@ -19,13 +19,14 @@ enum class MessageType : std::uint32_t {
     draw,            ///< raster::DrawRequest; carries the file descriptor of the SharedPixels to draw into
     object,          ///< written by slicing::encodeObject
     object_missing,  ///< empty
-    drawn,           ///< raster::Times
+    drawn,           ///< raster::DrawTimes
     failed,          ///< the reason, as text
-    file,            ///< reading::File
+    file,            ///< file_reading::File
     outcome,         ///< the object that was read, or an error
 };
 
-/// The conditions that end the wait for the other end: a point in time, or a stop request. By default, there are none.
+/// Limits how long an operation of a Channel waits for the other end: until a point in time, or until a stop is
+/// requested. By default, it waits without a limit.
 struct Deadline {
     using Clock = std::chrono::steady_clock;
     Clock::time_point until = Clock::time_point::max();
@@ -33,9 +34,9 @@ struct Deadline {
 };
 
 /// The result of sending or receiving a message. After any result but `complete`, the channel can no longer be used.
-enum class Transfer {
+enum class TransferResult {
     complete,
-    closed,     ///< the other end is closed
+    closed,     ///< the other end of the channel is closed
     timed_out,  ///< the deadline has passed, or a stop was requested
 };
 
@@ -51,15 +52,15 @@ class Channel {
     static constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
     /// Sends a message. Unless `file` is kNoFile, the receiver gets a duplicate of that file descriptor.
-    Transfer send(MessageType type, std::string_view body = {}, int file = kNoFile,
-                  const Deadline& deadline = {}) const;
+    TransferResult send(MessageType type, std::string_view body = {}, int file = kNoFile,
+                        const Deadline& deadline = {}) const;
     /// Receives a message. If `file` is not null, sets `*file` to the file descriptor that was sent with the message,
     /// which the caller must close, or to kNoFile if there was none. Throws std::runtime_error if the body has more
     /// than `maxBytes` bytes.
-    Transfer receive(MessageType& type, std::string& body, int* file = nullptr, const Deadline& deadline = {},
-                     std::size_t maxBytes = kNoLimit) const;
+    TransferResult receive(MessageType& type, std::string& body, int* file = nullptr, const Deadline& deadline = {},
+                           std::size_t maxBytes = kNoLimit) const;
 
-    /// Waits until a message can be received or the other end is closed; returns false if neither happens before the
+    /// Waits until a message can be received or the other end is closed. Returns false if neither happens before the
     /// deadline.
     bool wait(const Deadline& deadline) const;
 

@@ -29,7 +29,7 @@ using Clock = Deadline::Clock;
 constexpr std::size_t kMaxReason = 64U << 10U;
 
 /// The environment of a child process: the variables of this process, without those named OVAL4D_… except OVAL4D_FONT,
-/// and the variables in `added` whose names are not among them.
+/// followed by the variables in `added` whose names are not yet present.
 class Environment {
   public:
     explicit Environment(const std::vector<std::string>& added) {
@@ -99,8 +99,8 @@ void ChildProcess::start() {
     const int error = posix_spawn(&process_, "/proc/self/exe", &files, nullptr, words, environment.data());
     posix_spawn_file_actions_destroy(&files);
     if (error == 0) {
-        // Set by the parent, because the priority must also apply to the start of the child, which is most of the work
-        // of many child processes.
+        // The parent sets the priority, so that it also applies to the start of the child. For many child processes,
+        // the start is most of the work.
         if (options_.niceness > 0) setpriority(PRIO_PROCESS, static_cast<id_t>(process_), options_.niceness);
         return;
     }
@@ -130,36 +130,36 @@ Deadline ChildProcess::deadline(const std::stop_token& stop) const {
     return {Clock::now() + std::chrono::duration_cast<Clock::duration>(options_.timeout), stop};
 }
 
-void ChildProcess::awaitReady(Transfer& transfer, const Deadline& deadline) {
+void ChildProcess::awaitReady(TransferResult& transfer, const Deadline& deadline) {
     MessageType type{};
     std::string reason;
     transfer = channel_->receive(type, reason, nullptr, deadline, kMaxReason);
-    if (transfer != Transfer::complete) return;
+    if (transfer != TransferResult::complete) return;
     if (type != MessageType::ready) throw std::runtime_error(reason);
     ready_ = true;
 }
 
-void ChildProcess::converse(const Talk& talk, const std::stop_token& stop) {
+void ChildProcess::converse(const Conversation& conversation, const std::stop_token& stop) {
     ProcessLoss loss{};
     for (int losses = 0; losses < 2; ++losses) {
         start();
-        auto transfer = Transfer::complete;
+        auto transfer = TransferResult::complete;
         bool talked = false;
         try {
-            // A process that hangs while it starts has not hung because of this conversation: see `talked` below.
+            // If the process hangs while it starts, this conversation is not the cause: `talked` stays false.
             if (!ready_) awaitReady(transfer, deadline(stop));
             talked = ready_;
-            if (talked) transfer = talk(*channel_, deadline(stop));
+            if (talked) transfer = conversation(*channel_, deadline(stop));
         } catch (...) {
             end(true);  // otherwise the next conversation could receive a late answer to this one
             throw;
         }
-        if (transfer == Transfer::complete) return;
-        const std::string how = end(transfer == Transfer::timed_out);
+        if (transfer == TransferResult::complete) return;
+        const std::string how = end(transfer == TransferResult::timed_out);
         if (stop.stop_requested()) throw Canceled();
-        loss = transfer == Transfer::closed
+        loss = transfer == TransferResult::closed
                    ? ProcessLoss{false, "died: " + how}
-                   : ProcessLoss{true, "hung: no answer in " + text::shortest(options_.timeout.count()) + " s"};
+                   : ProcessLoss{true, "hung: no answer in " + text::shortestDecimal(options_.timeout.count()) + " s"};
         options_.onLoss(loss);
         if (loss.hung && talked && !options_.repeatAfterHang)
             throw ProcessLost("a process was lost in this conversation, it " + loss.description, true);

@@ -1,5 +1,5 @@
 #pragma once
-// Child processes that do risky work for the server, which survives if they crash or hang.
+// Child processes that do risky work for the server. The server survives if they crash or hang.
 
 #include <sys/types.h>
 
@@ -16,7 +16,7 @@
 
 namespace oval4d::process {
 
-/// The file descriptor, in a child process, of its end of the channel.
+/// The file descriptor of the channel in a child process.
 inline constexpr int kChildSocket = 3;
 
 using parallel::Canceled;
@@ -31,13 +31,14 @@ struct ProcessLoss {
 struct ChildOptions {
     std::string command;                    ///< the subcommand of this program that the child runs
     std::vector<std::string> environment;   ///< "NAME=value"; a variable that the child inherits takes precedence
-    std::chrono::duration<double> timeout;  ///< for the start and for each conversation; then the child has hung
-    bool repeatAfterHang = true;            ///< after a hang, whether to retry ChildProcess::Talk with a new child
+    std::chrono::duration<double> timeout;  ///< the child has hung if its start or a conversation takes longer
+    bool repeatAfterHang = true;  ///< whether a conversation in which the child hung is repeated with a new child
     std::function<void(const ProcessLoss&)> onLoss;  ///< called when a child is lost, on any thread
-    int niceness = 0;                                ///< scheduling priority, as for nice(1)
+    int niceness = 0;                                ///< nice value of the child: 0 (normal) to 19 (lowest priority)
 };
 
-/// Thrown when a conversation fails because its processes were lost.
+/// Thrown when a conversation fails because the process was lost, or because both the process and its replacement were
+/// lost.
 class ProcessLost : public std::runtime_error {
   public:
     ProcessLost(const std::string& fault, bool hung) : std::runtime_error(fault), hung_(hung) {}
@@ -48,31 +49,33 @@ class ProcessLost : public std::runtime_error {
     bool hung_;
 };
 
-/// A child process that runs this program. It is started on demand, and a new one replaces it if it is lost. It ends
-/// when this object is destroyed or the server ends. Of the server's file descriptors it inherits only standard error
-/// (the log). Of the server's environment variables OVAL4D_… it inherits only OVAL4D_FONT, because others may hold
-/// secrets. Not thread-safe: one thread at a time may use an object.
+/// A child process that runs this program. It is started on demand, and a new process replaces it if it is lost. It
+/// ends when this object is destroyed or the server ends. The process inherits only one file descriptor of the server,
+/// standard error (the log). It inherits the environment variables of the server, but only OVAL4D_FONT of those named
+/// OVAL4D_…, because the others may hold secrets. Not thread-safe: one thread at a time may use an object.
 class ChildProcess {
   public:
     /// A conversation: sends messages to the process and receives its replies before the deadline. Returns the result
     /// of its last transfer.
-    using Talk = std::function<Transfer(const Channel&, const Deadline&)>;
+    using Conversation = std::function<TransferResult(const Channel&, const Deadline&)>;
 
     explicit ChildProcess(ChildOptions options);
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// Starts the process unless it is running, without waiting until it is ready. Throws std::runtime_error if it
-    /// cannot be started.
+    /// Starts the process unless it is running. Does not wait until the process is ready. Throws std::runtime_error if
+    /// it cannot be started.
     void start();
 
-    /// Starts the process if necessary and calls `talk` when it is ready. If the process is lost, repeats this once
-    /// with a new process, unless it hung during `talk` and `repeatAfterHang` is false. Throws Canceled if a stop is
-    /// requested; ProcessLost if the second process is lost, too, or the conversation is not repeated;
-    /// std::runtime_error if the process cannot be started or reports that it failed to start; and what `talk` throws,
-    /// after killing the process.
-    void converse(const Talk& talk, const std::stop_token& stop);
+    /// Starts the process if necessary, and calls `conversation` when the process is ready. If the process is lost,
+    /// repeats this once with a new process, unless the process hung during `conversation` and `repeatAfterHang` is
+    /// false. Throws:
+    /// - Canceled if a stop is requested,
+    /// - ProcessLost if the new process is lost, too, or if the conversation is not repeated,
+    /// - std::runtime_error if the process cannot be started, or reports that it failed to start,
+    /// - what `conversation` throws, after killing the process.
+    void converse(const Conversation& conversation, const std::stop_token& stop);
 
     /// Kills the process if it is running.
     void kill();
@@ -80,13 +83,13 @@ class ChildProcess {
   private:
     std::string end(bool atOnce);
     Deadline deadline(const std::stop_token& stop) const;
-    void awaitReady(Transfer& transfer, const Deadline& deadline);
+    void awaitReady(TransferResult& transfer, const Deadline& deadline);
 
     const ChildOptions options_;
     std::unique_ptr<Channel> channel_;  // null while no process is running
     bool ready_ = false;
     pid_t process_ = 0;
-    std::vector<pid_t> unreaped_;  // processes that were killed, but had not ended after kExitTimeout
+    std::vector<pid_t> unreaped_;  // killed processes that had not ended after kExitTimeout
 };
 
 /// Makes this process end when the server ends, and ignore SIGINT and SIGTERM. A child process must call this first.

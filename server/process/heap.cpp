@@ -8,7 +8,8 @@ namespace oval4d::process {
 
 namespace {
 
-// Thresholds in bytes. glibc raises its own thresholds to these values after blocks of that size have been freed.
+// Thresholds in bytes. If they are not set, glibc raises its own thresholds step by step, to at most these values, when
+// large blocks are freed.
 constexpr int kMapThreshold = 32 << 20;  // each larger block is mapped separately, and unmapped when it is freed
 constexpr int kTrimThreshold = 2 * kMapThreshold;
 

@@ -2,7 +2,7 @@
 
 namespace oval4d::process {
 
-/// Configures the memory allocator of this process (glibc's), and returns free memory to the system. Construct one
+/// Configures glibc's memory allocator for this process, and returns free memory to the operating system. Construct one
 /// object in main(), before the program allocates much memory.
 class Heap {
   public:

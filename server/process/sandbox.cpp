@@ -177,8 +177,8 @@ bool canFilter(std::string& why) {
         why = "this is a build with a sanitizer";
         return false;
     }
-    // Only a trial tells, because a container's own filter may forbid to set another one. The trial sets the filter of
-    // one thread, with which the filter ends.
+    // Only a trial shows whether this works, because the filter of a container may forbid setting another filter. The
+    // trial filter applies to one temporary thread, and ends with this thread.
     std::thread([&why] {
         try {
             Filter filter(SCMP_ACT_ALLOW, false);
@@ -230,7 +230,7 @@ void limitResources(const Confinement& limits) {
 
 bool forbidNewPrivileges() { return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0; }
 
-bool isSandboxed(SandboxMode wanted, std::string& why) {
+bool shouldSandbox(SandboxMode wanted, std::string& why) {
     if (wanted == SandboxMode::off) return false;
     if (canFilter(why)) return true;
     if (wanted == SandboxMode::required) throw std::runtime_error("the sandbox is required, but not available: " + why);

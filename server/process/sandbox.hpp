@@ -11,7 +11,7 @@ namespace oval4d::process {
 /// set-user-ID program. Must be called before threads are started. Returns false if the system does not support it.
 bool forbidNewPrivileges();
 
-/// Whether the server's child processes are sandboxed.
+/// The option that determines whether the server's child processes are sandboxed.
 enum class SandboxMode : std::uint8_t {
     automatic,  ///< sandboxed if the system supports it
     off,        ///< never sandboxed
@@ -19,24 +19,25 @@ enum class SandboxMode : std::uint8_t {
 };
 
 /// Returns whether child processes are to be confined by a filter of system calls. Unless `wanted` is `off`, tries to
-/// set such a filter; if that fails, sets `why` to the reason, and throws std::runtime_error if the sandbox is
-/// required. Builds with a sanitizer have no sandbox, because sanitizers need more system calls.
-bool isSandboxed(SandboxMode wanted, std::string& why);
+/// set such a filter for a temporary thread. If that fails, sets `why` to the reason; throws std::runtime_error if
+/// `wanted` is `required`. Builds with a sanitizer have no sandbox, because sanitizers need more system calls.
+bool shouldSandbox(SandboxMode wanted, std::string& why);
 
 /// The task of a child process, which determines the system calls that its filter allows. Every child may allocate
 /// memory, read the clock, wait, write to standard error (the log), use its channel (kChildSocket), and exit. No child
 /// may open, create, find or change files, use the network, start programs, or access other processes.
 enum class Role : std::uint8_t {
-    draw,  ///< draws pictures; may also start threads, and execute code that it has compiled
-    read,  ///< reads files; may do nothing else
+    draw,  ///< draws pictures; may also start threads, and execute code that the process has compiled
+    read,  ///< parses files that it receives over its channel; may do nothing more
 };
 
 /// The restrictions that a child process applies to itself.
 struct Confinement {
     bool filtered = false;  ///< whether to allow only the system calls that the role needs
-    /// Bytes of address space beyond those already in use; 0: no limit. Ignored in builds with a sanitizer.
+    /// Maximum bytes of address space beyond those already in use; 0: no limit. Ignored in builds with a sanitizer.
     std::size_t memory = 0;
-    /// Number of open file descriptors, including those already open; 0: no limit. Ignored in builds with a sanitizer.
+    /// Maximum number of open file descriptors, including those already open; 0: no limit. Ignored in builds with a
+    /// sanitizer.
     std::size_t files = 0;
 };
 

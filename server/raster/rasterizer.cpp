@@ -7,23 +7,24 @@ void LocalRasterizer::warmUp() {
 }
 
 std::span<const std::uint8_t> LocalRasterizer::draw(const session::State& state, scene::Viewport viewport,
-                                                    Times& times) {
-    memory_.pixels.resize(image::bytesOf(viewport));
+                                                    DrawTimes& times) {
+    memory_.pixels.resize(image::byteCount(viewport));
     draw(state, viewport, memory_.pixels, times);
     return memory_.pixels;
 }
 
 void LocalRasterizer::draw(const session::State& state, scene::Viewport viewport, std::span<std::uint8_t> pixels,
-                           Times& times) {
+                           DrawTimes& times) {
     warmUp();
     Memory& m = memory_;
     m.composer.limitFill(fillSteps_);
-    times.slice = secondsOf([&] { m.slicer.slice(state.object, state.orientation, state.hyperplanes(), m.slices); });
-    times.compose = secondsOf([&] {
+    times.slice =
+        measureSeconds([&] { m.slicer.slice(state.object, state.orientation, state.hyperplanes(), m.slices); });
+    times.compose = measureSeconds([&] {
         m.composer.compose(state.object, state.orientation, m.slices, state.slices.focus, state.look, viewport,
                            m.scene);
     });
-    times.draw = secondsOf([&] { renderer_->draw(m.scene, pixels); });
+    times.draw = measureSeconds([&] { renderer_->draw(m.scene, pixels); });
 }
 
 void LocalRasterizer::freeMemory() {

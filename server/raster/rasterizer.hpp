@@ -16,7 +16,7 @@
 namespace oval4d::raster {
 
 /// The seconds that each step of drawing one picture took: slicing the object, composing the scene, and rendering it.
-struct Times {
+struct DrawTimes {
     double slice = 0, compose = 0, draw = 0;
 };
 
@@ -32,27 +32,31 @@ class Rasterizer {
 
     /// Draws the picture of `state`, sets `times`, and returns the pixels in the format of image::Image, which are
     /// valid until the next call. Throws std::runtime_error if drawing fails.
-    virtual std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, Times& times) = 0;
+    virtual std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport,
+                                               DrawTimes& times) = 0;
 
     /// Frees cached memory.
     virtual void freeMemory() = 0;
 };
 
-/// Draws in this process. The GL context is created by the first warmUp() or draw(), and bound to the calling thread.
+/// A rasterizer that draws in this process. The first call of warmUp() or draw() creates the GL context, which is bound
+/// to the calling thread.
 class LocalRasterizer : public Rasterizer {
   public:
     explicit LocalRasterizer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), memory_(forkJoin) {}
 
-    /// Limits the time for filling self-intersecting faces in one picture; `steps` is that of slicing::Filler::fill.
+    /// Limits the time for filling self-intersecting faces in one picture. `steps`: see slicing::Filler::fill.
     void limitFill(std::size_t steps) { fillSteps_ = steps; }
 
     void warmUp() override;
-    std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, Times& times) override;
-    /// Frees everything but the GL context.
+    std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport,
+                                       DrawTimes& times) override;
+    /// Frees the memory that is reused from picture to picture. Keeps the GL context, the shader programs, and the font
+    /// with its glyphs.
     void freeMemory() override;
 
     /// Draws into `pixels`, whose size must match the viewport.
-    void draw(const session::State& state, scene::Viewport viewport, std::span<std::uint8_t> pixels, Times& times);
+    void draw(const session::State& state, scene::Viewport viewport, std::span<std::uint8_t> pixels, DrawTimes& times);
 
   private:
     /// Memory that the next picture reuses.
@@ -73,7 +77,7 @@ class LocalRasterizer : public Rasterizer {
 
 /// Runs `work` and returns the seconds that it took. This is a template because a std::function would allocate memory.
 template <typename Work>
-double secondsOf(Work&& work) {
+double measureSeconds(Work&& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

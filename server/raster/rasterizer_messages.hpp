@@ -13,14 +13,14 @@ namespace oval4d::raster {
 
 /// Limits on the work and memory of a rasterizer process.
 struct RasterizerLimits {
-    std::size_t fillSteps = 0;    ///< per picture, for slicing::Filler::fill
-    std::size_t objectBytes = 0;  ///< for the objects cached between pictures; the last one is always cached
+    std::size_t fillSteps = 0;    ///< maximum number of steps in one picture: see slicing::Filler::fill
+    std::size_t objectBytes = 0;  ///< maximum size of the object cache; the last object is always cached
 };
 
 /// The request for one picture.
 struct DrawRequest {
-    std::uint64_t object = 0;  ///< its serial number; the object follows only if the receiver lacks it
-    session::State state;      ///< only the members that affect pictures, without the object
+    std::uint64_t object = 0;  ///< serial number of the object, which is sent only if the process lacks it
+    session::State state;      ///< only the members that affect pictures are sent, and not the object
     scene::Viewport viewport;
     RasterizerLimits limits;
 };

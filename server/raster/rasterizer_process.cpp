@@ -12,7 +12,7 @@ namespace oval4d::raster {
 using process::Channel;
 using process::Deadline;
 using process::MessageType;
-using process::Transfer;
+using process::TransferResult;
 
 namespace {
 
@@ -35,33 +35,34 @@ RasterizerProcess::RasterizerProcess(int threads, const RasterizerOptions& optio
     : limits_(options.limits), process_(childOptions(threads, options)) {}
 
 /// Receives messages until `answer_` is `drawn` or `failed`. Sends the object if the process lacks it.
-Transfer RasterizerProcess::receiveAnswer(const session::State& state, const Channel& channel,
-                                          const Deadline& deadline) {
+TransferResult RasterizerProcess::receiveAnswer(const session::State& state, const Channel& channel,
+                                                const Deadline& deadline) {
     for (bool sent = false;; sent = true) {
-        Transfer transfer = channel.receive(answer_, body_, nullptr, deadline, kMaxAnswer);
-        if (transfer != Transfer::complete || answer_ == MessageType::drawn || answer_ == MessageType::failed)
+        TransferResult transfer = channel.receive(answer_, body_, nullptr, deadline, kMaxAnswer);
+        if (transfer != TransferResult::complete || answer_ == MessageType::drawn || answer_ == MessageType::failed)
             return transfer;
         if (answer_ != MessageType::object_missing || sent)
             throw std::runtime_error("a rasterizer process sent an unexpected message");
-        std::string object;  // large and rarely needed
+        std::string object;  // not a member that keeps its memory, because it is large and rarely needed
         slicing::encodeObject(state.object, object);
         transfer = channel.send(MessageType::object, object, Channel::kNoFile, deadline);
-        if (transfer != Transfer::complete) return transfer;
+        if (transfer != TransferResult::complete) return transfer;
     }
 }
 
 void RasterizerProcess::warmUp(const std::stop_token& stop) {
-    process_.converse([](const Channel&, const Deadline&) { return Transfer::complete; }, stop);
+    process_.converse([](const Channel&, const Deadline&) { return TransferResult::complete; }, stop);
 }
 
 std::span<const std::uint8_t> RasterizerProcess::draw(const session::State& state, scene::Viewport viewport,
-                                                      SharedPixels& pixels, Times& times, const std::stop_token& stop) {
+                                                      SharedPixels& pixels, DrawTimes& times,
+                                                      const std::stop_token& stop) {
     encodeRequest(state, viewport, limits_, request_);
-    const auto drawn = pixels.resize(image::bytesOf(viewport));
+    const auto drawn = pixels.resize(image::byteCount(viewport));
     process_.converse(
         [&](const Channel& channel, const Deadline& deadline) {
-            const Transfer sent = channel.send(MessageType::draw, request_, pixels.file(), deadline);
-            return sent == Transfer::complete ? receiveAnswer(state, channel, deadline) : sent;
+            const TransferResult sent = channel.send(MessageType::draw, request_, pixels.file(), deadline);
+            return sent == TransferResult::complete ? receiveAnswer(state, channel, deadline) : sent;
         },
         stop);
     if (answer_ == MessageType::failed) throw std::runtime_error(body_);
@@ -78,7 +79,7 @@ void RasterizerProcess::restartAfterResizes(scene::Viewport viewport) {
     constexpr std::size_t kMost = std::size_t{128} << 20U;
     if (viewport == lastViewport_) return;
     lastViewport_ = viewport;
-    resized_ += image::bytesOf(viewport);
+    resized_ += image::byteCount(viewport);
     if (resized_ < kMost) return;
     resized_ = 0;
     process_.kill();

@@ -19,22 +19,24 @@ namespace oval4d::raster {
 /// Options of rasterizer processes.
 struct RasterizerOptions {
     RasterizerLimits limits;
-    /// The time allowed for starting the process, and for drawing a picture. A slower process counts as hung.
+    /// The time allowed for starting the process, and for drawing a picture. A process that takes longer counts as
+    /// hung.
     std::chrono::duration<double> timeout;
     std::function<void(const process::ProcessLoss&)> onLoss;  ///< called on any thread
     std::vector<std::string> environment;                     ///< see process::ChildOptions
 };
 
-/// A child process that draws pictures for the server. Reasons for separate processes: the server survives a crash of
-/// the OpenGL driver, and each process has its own threads of the software rasterizer llvmpipe, which all GL contexts
-/// of one process would share. May be used by one thread at a time. Functions that wait throw the same exceptions as
-/// process::ChildProcess::converse.
+/// A child process that draws pictures for the server. There are two reasons for separate processes. The server
+/// survives a crash of the OpenGL driver. Each process has its own threads of the software rasterizer llvmpipe; all GL
+/// contexts in one process would share them. May be used by one thread at a time. Functions that wait throw the same
+/// exceptions as process::ChildProcess::converse.
 class RasterizerProcess {
   public:
     /// `threads` is the number of llvmpipe's threads; 0: the main thread of the process does all the drawing.
     RasterizerProcess(int threads, const RasterizerOptions& options);
 
-    /// Starts the process if it is not running, without waiting for it. Throws std::runtime_error.
+    /// Starts the process if it is not running, without waiting until it is ready. Throws std::runtime_error if it
+    /// cannot be started.
     void start() { process_.start(); }
 
     /// Starts the process if it is not running, and waits until it is ready to draw, with its shaders compiled.
@@ -42,18 +44,18 @@ class RasterizerProcess {
 
     /// Like Rasterizer::draw, but draws into the memory of `pixels`, which is resized if necessary.
     std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, SharedPixels& pixels,
-                                       Times& times, const std::stop_token& stop);
+                                       DrawTimes& times, const std::stop_token& stop);
 
   private:
-    process::Transfer receiveAnswer(const session::State& state, const process::Channel& channel,
-                                    const process::Deadline& deadline);
+    process::TransferResult receiveAnswer(const session::State& state, const process::Channel& channel,
+                                          const process::Deadline& deadline);
 
     void restartAfterResizes(scene::Viewport viewport);
 
     const RasterizerLimits limits_;
     process::ChildProcess process_;
     scene::Viewport lastViewport_{0, 0};
-    std::size_t resized_ = 0;  // total bytes of pictures that differed in size from the one before
+    std::size_t resized_ = 0;  // total bytes of those pictures whose size differed from that of the previous one
     process::MessageType answer_{};
     std::string request_, body_;
 };

@@ -20,7 +20,7 @@ namespace oval4d::raster {
 using process::Channel;
 using process::Deadline;
 using process::MessageType;
-using process::Transfer;
+using process::TransferResult;
 
 namespace {
 
@@ -84,7 +84,7 @@ class Service {
             heap_.returnFreeMemory();
         }
         int file = Channel::kNoFile;
-        if (channel_.receive(type, body_, &file) != Transfer::complete) return false;
+        if (channel_.receive(type, body_, &file) != TransferResult::complete) return false;
         if (type != MessageType::draw) return true;
         // The kernel drops a file descriptor if the process has too many open.
         if (file == Channel::kNoFile)
@@ -103,9 +103,9 @@ class Service {
 
     void draw() {
         rasterizer_.limitFill(request_.limits.fillSteps);
-        Times times;
+        DrawTimes times;
         rasterizer_.draw(request_.state, request_.viewport,
-                         pixelFiles_.at(currentFile_)->remap(image::bytesOf(request_.viewport)), times);
+                         pixelFiles_.at(currentFile_)->remap(image::byteCount(request_.viewport)), times);
         channel_.send(MessageType::drawn, {reinterpret_cast<const char*>(&times), sizeof times});
     }
 

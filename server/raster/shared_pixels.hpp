@@ -7,29 +7,30 @@
 
 namespace oval4d::raster {
 
-/// A memory file (memfd_create(2)) and its mapping into this process. Another process can map it, too: it gets the
-/// descriptor over a socket.
+/// A memory file (memfd_create(2)) and its mapping into this process. Another process that receives the file descriptor
+/// over a socket can map the same memory.
 class SharedPixels {
   public:
     /// Creates an empty file. Throws std::system_error.
     SharedPixels();
-    /// Takes the file that another process created, and ownership of its descriptor `file`. Throws std::system_error.
+    /// Takes ownership of `file`, the descriptor of a memory file that another process has created. Throws
+    /// std::system_error.
     explicit SharedPixels(int file);
     ~SharedPixels();
     SharedPixels(const SharedPixels&) = delete;
     SharedPixels& operator=(const SharedPixels&) = delete;
 
-    /// Returns the first `size` bytes, which are valid until the next call. Grows the file if it is smaller, and
-    /// shrinks it to `size` if it is more than 4 times larger. Throws std::system_error.
+    /// Returns the first `size` bytes, which are valid until the next call of resize() or remap(). Grows the file if it
+    /// is smaller, and shrinks it to `size` if it is more than 4 times larger. Throws std::system_error.
     std::span<std::uint8_t> resize(std::size_t size);
 
     /// Maps the whole file again if the other process has resized it. Returns the first `size` bytes, which are valid
-    /// until the next call. Throws std::system_error, also if the file is smaller than `size`.
+    /// until the next call of resize() or remap(). Throws std::system_error, also if the file is smaller than `size`.
     std::span<std::uint8_t> remap(std::size_t size);
 
     /// Returns the file descriptor.
     int file() const { return file_; }
-    /// Returns the inode number, which identifies the file in both processes.
+    /// Returns the inode number of the file, which is the same in both processes.
     std::uint64_t inode() const { return inode_; }
 
   private:

@@ -21,7 +21,7 @@ class Context {
     /// std::runtime_error if the driver does not support pictures of this size.
     void begin(int width, int height, std::uint8_t* pixels);
 
-    /// Makes the driver's threads rasterize what was drawn so far, and returns without waiting for them.
+    /// Makes the driver's threads begin to rasterize what was drawn so far, and returns without waiting for them.
     void start();
 
     /// Waits until the picture is drawn. Must be called only once per picture, because each call copies the picture.

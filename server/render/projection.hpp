@@ -13,7 +13,7 @@ namespace oval4d::render {
 struct Projection {
     float width = 1, height = 1;   ///< size of the picture in pixels
     float scaleX = 1, scaleY = 1;  ///< cotangents of half the horizontal and half the vertical field of view
-    float shiftX = 0, shiftY = 0;  ///< the point of the picture that the view axis meets: −1 … 1, 0 is the center
+    float shiftX = 0, shiftY = 0;  ///< the point where the view axis meets the picture: −1 … 1, 0 is the center
 
     static Projection of(const scene::Camera& camera, scene::Viewport viewport) {
         const auto projection = glm::mat4(camera.projection(static_cast<double>(viewport.width) / viewport.height));
@@ -25,7 +25,7 @@ struct Projection {
                 -projection[2][1]};
     }
 
-    /// Returns the clip coordinates (x, y, w) of a point; their depth is left out.
+    /// Returns the clip coordinates (x, y, w) of a point, without z.
     glm::vec3 clip(const glm::vec3& v) const {
         return {scaleX * v.x - shiftX * v.z, scaleY * v.y - shiftY * v.z, -v.z};
     }

@@ -1,5 +1,6 @@
 #include "render/renderer.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <mutex>
 #include <stdexcept>
@@ -11,6 +12,7 @@
 #include "render/overlay/overlay.hpp"
 #include "render/slices/convex_slices.hpp"
 #include "render/slices/nonconvex_slices.hpp"
+#include "render/slices/projection_painter.hpp"
 #include "render/slices/shape_batch.hpp"
 
 namespace oval4d::render {
@@ -22,13 +24,13 @@ std::string fontFile() {
 
 namespace {
 
-// The number of indices drawn in one batch: while the driver's threads rasterize a batch, this thread prepares the
-// next.
+// The minimum number of indices of a batch. While the driver's threads rasterize one batch, this thread prepares the
+// next one.
 constexpr std::size_t kBatchIndices = 12'000;
 
-/// Returns a lock that every use of Mesa must hold, because all contexts of a process share state: a context that draws
-/// reads the llvmpipe scenes of the other contexts (llvmpipe_is_resource_referenced), and Mesa 22.3 does not guard
-/// these against being freed by another thread.
+/// Returns a lock that every use of Mesa must hold, because all contexts of a process share state. A context that draws
+/// reads the llvmpipe scenes of the other contexts (llvmpipe_is_resource_referenced), which in Mesa 22.3 another thread
+/// may free at the same time.
 std::unique_lock<std::mutex> lockDriver() {
     static std::mutex driver;
     return std::unique_lock(driver);
@@ -38,35 +40,62 @@ std::unique_lock<std::mutex> lockDriver() {
 
 struct Renderer::Impl {
     explicit Impl(const std::string& font)
-        : flatProgram(scene::style(), ShapeProgram::Depth::flat),
-          roundProgram(scene::style(), ShapeProgram::Depth::round),
+        : patchDepthProgram(scene::style(), ShapeProgram::DepthSource::patch),
+          surfaceDepthProgram(scene::style(), ShapeProgram::DepthSource::surface),
           overlay(font) {}
 
-    void drawLayers();
+    void flushShapes();
+    void drawLayers(const scene::Scene& scene);
+    void drawProjection(DepthRange depths);
 
     parallel::ThreadOwned owner;
     Context context;  // before the members that need a current context
-    ShapeProgram flatProgram, roundProgram;
+    ShapeProgram patchDepthProgram, surfaceDepthProgram;
     DensityStrip densityStrip;
     Overlay overlay;
     ShapeBatch shapes;
     ConvexSlicePainter convexPainter;
     NonconvexSlicePainter crossingPainter;
     NonconvexSlicePainter::Layers layers;
+    ProjectionPainter projectionPainter;
+    ProjectionPainter::Layers projectionLayers;
 };
 
-void Renderer::Impl::drawLayers() {
+void Renderer::Impl::flushShapes() {
+    patchDepthProgram.draw(shapes);
+    context.start();
+    shapes.clear();
+}
+
+// Draws slices that need not be convex, with the projection of the whole object if it is shown.
+void Renderer::Impl::drawLayers(const scene::Scene& scene) {
+    DepthRange depths = layers.depths;
+    if (scene.projectionPlacement.shown) {
+        projectionPainter.paint(scene, projectionLayers);
+        const DepthRange more = projectionLayers.depths;
+        depths = {std::min(depths.from, more.from), std::max(depths.to, more.to)};
+    }
     glEnable(GL_DEPTH_TEST);
     glClear(GL_DEPTH_BUFFER_BIT);
     glDisable(GL_BLEND);
-    flatProgram.drawWithDepth(layers.depths, layers.faces);
+    patchDepthProgram.drawWithDepth(depths, layers.faces);
     context.start();
     glEnable(GL_BLEND);
-    roundProgram.drawWithDepth(layers.depths, layers.skeleton);
+    surfaceDepthProgram.drawWithDepth(depths, layers.skeleton);
+    if (scene.projectionPlacement.shown) drawProjection(depths);
     glDepthMask(GL_FALSE);
-    roundProgram.drawWithDepth(layers.depths, layers.faded);
+    surfaceDepthProgram.drawWithDepth(depths, layers.faded);
     glDepthMask(GL_TRUE);
     glDisable(GL_DEPTH_TEST);
+}
+
+// Draws the prepared projection of the whole object. The depth test must be enabled.
+void Renderer::Impl::drawProjection(DepthRange depths) {
+    surfaceDepthProgram.drawWithDepth(depths, projectionLayers.solid);
+    context.start();
+    glDepthMask(GL_FALSE);
+    surfaceDepthProgram.drawWithDepth(depths, projectionLayers.translucent);
+    glDepthMask(GL_TRUE);
 }
 
 Renderer::Renderer(const std::string& font) {
@@ -92,17 +121,19 @@ void Renderer::freeMemory() {
     impl_->convexPainter = {};
     impl_->crossingPainter = {};
     impl_->layers = {};
+    impl_->projectionPainter = {};
+    impl_->projectionLayers = {};
 }
 
 void Renderer::draw(const scene::Scene& scene, image::Image& out) {
     out.width = scene.viewport.width;
     out.height = scene.viewport.height;
-    out.pixels.resize(image::bytesOf(scene.viewport));
+    out.pixels.resize(image::byteCount(scene.viewport));
     draw(scene, std::span(out.pixels));
 }
 
 void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
-    if (pixels.size() != image::bytesOf(scene.viewport))
+    if (pixels.size() != image::byteCount(scene.viewport))
         throw std::invalid_argument("the pixel buffer does not have the size of the viewport");
     ShapeBatch& shapes = impl_->shapes;
     Overlay& overlay = impl_->overlay;
@@ -120,21 +151,27 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     shapes.begin(scene::style());
     overlay.begin(scene.viewport);
     if (!scene.crossing) {
-        impl_->convexPainter.paint(scene, shapes, [this, &shapes] {
-            if (shapes.indices().size() < kBatchIndices) return;
-            impl_->flatProgram.draw(shapes);
-            impl_->context.start();
-            shapes.clear();
-        });
+        const auto painted = [this] {
+            if (impl_->shapes.indices().size() >= kBatchIndices) impl_->flushShapes();
+        };
+        const auto paintProjection = [this, &scene] {
+            impl_->flushShapes();
+            impl_->projectionPainter.paint(scene, impl_->projectionLayers);
+            glEnable(GL_DEPTH_TEST);
+            glClear(GL_DEPTH_BUFFER_BIT);
+            impl_->drawProjection(impl_->projectionLayers.depths);
+            glDisable(GL_DEPTH_TEST);
+        };
+        impl_->convexPainter.paint(scene, shapes, painted, paintProjection);
     } else {
         impl_->crossingPainter.paint(scene, impl_->layers);
-        impl_->drawLayers();
+        impl_->drawLayers(scene);
     }
     paintAxes(scene, shapes, overlay);
     paintCoordinates(scene, overlay);
     paintLabels(scene, overlay);
 
-    impl_->flatProgram.draw(shapes);
+    impl_->patchDepthProgram.draw(shapes);
     impl_->densityStrip.draw(scene);
     overlay.draw();
     impl_->context.finish();

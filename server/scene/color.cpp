@@ -86,6 +86,26 @@ Scale divergingScale() {
     return scale;
 }
 
+// The direction toward the light in four dimensions, after the rotation of the object: from the upper left, from the
+// front, and from the side of large w.
+const glm::dvec4 kLight = glm::normalize(glm::dvec4(-0.35, 0.65, 0.5, 0.6));
+
+// A scale of one hue for the cosine of the angle between a cell's normal and the light, from −1 (turned away) to 1. The
+// lightness falls smoothly on the dark side, too, so that cells there differ from each other.
+Scale lightScale() {
+    constexpr double kHue = 4.2, kDark = 0.3, kRange = 0.58;
+    Scale scale{};
+    for (int i = 0; i < kSteps; ++i) {
+        const double t = static_cast<double>(i) / (kSteps - 1);
+        scale.at(static_cast<std::size_t>(i)) = oklch(kDark + kRange * std::pow(t, 1.3), 0.09, kHue);
+    }
+    return scale;
+}
+
+Color colorAt(const Scale& scale, double value) {
+    return scale.at(static_cast<std::size_t>(std::lround((std::clamp(value, -1.0, 1.0) + 1) / 2 * (kSteps - 1))));
+}
+
 }  // namespace
 
 Color cellTypeColor(std::size_t type, std::size_t count) { return distinct(type, count); }
@@ -101,21 +121,40 @@ void CellColors::paint(const slicing::Object& object, Coloring coloring, const g
     if (changed && coloring == Coloring::cell) paintByCell(object, out);
     if (changed && coloring == Coloring::cell_type) paintByType(object, out);
     if (changed && coloring == Coloring::plain) std::fill(out.begin(), out.end(), oklch(0.72, 0.1, 4.2));
-    if (coloring != Coloring::w) return;
-    if (changed) {
-        slicing::findCellCenters(object, centers_);
-        double farthest = 0;
-        for (const glm::dvec4& center : centers_) farthest = std::max(farthest, glm::length(center));
-        // If all cell centers are at the origin, w is 0 for all of them.
-        for (glm::dvec4& center : centers_) center *= farthest > 1e-9 * info.circumradius ? 1 / farthest : 0;
+    if (coloring == Coloring::w) {
+        if (changed) findCenters(object);
+        static const Scale kScale = divergingScale();
+        paintBy(kScale, orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
+    } else if (coloring == Coloring::light) {
+        if (changed) findNormals(object);
+        static const Scale kScale = lightScale();
+        paintBy(kScale, orientation.inverse()(kLight), out);
     }
-    static const Scale kScale = divergingScale();
-    const glm::dmat4 turn = orientation.matrix();
-    const glm::dvec4 toW(turn[0][3], turn[1][3], turn[2][3], turn[3][3]);
-    for (std::size_t c = 0; c < out.size(); ++c) {
-        const double t = std::clamp(glm::dot(toW, centers_[c]), -1.0, 1.0);
-        out[c] = kScale.at(static_cast<std::size_t>(std::lround((t + 1) / 2 * (kSteps - 1))));
+}
+
+// Sets directions_ to the cells' centers, scaled so that the farthest one has length 1.
+void CellColors::findCenters(const slicing::Object& object) {
+    slicing::findCellCenters(object, directions_);
+    double farthest = 0;
+    for (const glm::dvec4& center : directions_) farthest = std::max(farthest, glm::length(center));
+    // If all cell centers are at the origin, w is 0 for all of them.
+    const bool anyAway = farthest > 1e-9 * slicing::infoOf(object).circumradius;
+    for (glm::dvec4& center : directions_) center *= anyAway ? 1 / farthest : 0;
+}
+
+// Sets directions_ to the cells' unit normals, or 0 for cells that enclose no volume.
+void CellColors::findNormals(const slicing::Object& object) {
+    std::vector<double> offsets;
+    slicing::findCellHyperplanes(object, directions_, offsets);
+    for (glm::dvec4& normal : directions_) {
+        const double length = glm::length(normal);
+        if (length > 0) normal /= length;
     }
+}
+
+// Colors each cell by the product of its direction and `axis`, a unit vector before the rotation of the object.
+void CellColors::paintBy(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const {
+    for (std::size_t c = 0; c < out.size(); ++c) out[c] = colorAt(scale, glm::dot(axis, directions_[c]));
 }
 
 }  // namespace oval4d::scene

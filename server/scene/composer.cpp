@@ -1,6 +1,7 @@
 #include "scene/composer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace oval4d::scene {
@@ -10,8 +11,8 @@ namespace {
 using slicing::Object;
 using slicing::SliceSet;
 
-// Writes to `out`, for each of `elements`, the cell that determines its color. Leaves `out` empty if every source is a
-// cell, because that cell then determines the color.
+// Writes to `out`, for each of `elements`, the cell that determines its color. Leaves `out` empty if the sources of all
+// elements are cells, because these cells then determine the colors.
 template <typename Sources, typename SourceOf>
 void findCells(const Object& object, const slicing::Visibilities& visibilities, const Sources& elements,
                SourceOf sourceOf, std::vector<std::uint32_t>& out) {
@@ -45,6 +46,8 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.ballRadius = ballRadius_ * out.sliceRadius;
     out.barRadius = 0.4 * out.ballRadius;
 
+    if (out.projectionPlacement.shown) projectObject(object, orientation, focus, out);
+
     findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
     out.fill.clear();
     if (out.crossing && look.parts.faces) filler_.fill(slices, info.circumradius, out.fill, fillSteps_);
@@ -52,6 +55,44 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     for (const slicing::Fill::Patch& patch : out.fill.patches)
         out.patchCells.push_back(slicing::coloringCell(object, out.visibilities, patch.source));
     if (out.showsDensity()) measureDensity(orientation, out);
+}
+
+void Composer::projectObject(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
+    // The projection has many more bars in less room than a slice.
+    constexpr double kThickness = 0.55, kSection = 1.2, kThinSection = 0.4;
+    const Look& look = out.look;
+    const SliceSet& slices = *out.slices;
+    const bool perspective = look.projection.kind == ProjectionKind::perspective;
+    const double eye = look.projection.eye;
+    const int focusSlice = focus - slices.planes.first;
+    const bool all = look.parts.sections;
+    const slicing::Projector::Options options{.projection = {perspective ? 1 / (eye * out.circumradius) : 0},
+                                              .cells = look.parts.cells,
+                                              .culled = !look.parts.back,
+                                              .firstSlice = all ? 0 : focusSlice,
+                                              .endSlice = all ? slices.planes.count : focusSlice + 1};
+    ObjectProjection& projection = out.projection;
+    projector_.project(object, orientation, slices, options, projection.elements, projection.faceCells);
+
+    // In perspective, points on the circumscribed sphere appear at most this much farther from the center.
+    const double magnification = perspective ? eye / std::sqrt(eye * eye - 1) : 1;
+    const double radius = out.projectionPlacement.radius / (magnification + kThickness * ballRadius_);
+    projection.scale = radius / out.circumradius;
+    const double ball = kThickness * ballRadius_ * radius, bar = 0.4 * ball;
+    const Style& styles = style();
+    projection.parts.clear();
+    const double barRadius = look.parts.bars ? bar : 0;
+    // Without balls, the bars are joined by balls of their own radius and color, as in slices.
+    projection.parts.push_back({look.parts.balls ? ball : barRadius, barRadius,
+                                look.parts.balls ? styles.ball : styles.bar, styles.bar, 0.25});
+    for (int i = options.firstSlice; i < options.endSlice; ++i) {
+        const bool isFocus = i == focusSlice;
+        const double thickness = (isFocus ? kSection : kThinSection) * bar;
+        const Color color = isFocus ? styles.axisW : styles.bar;
+        const bool filled = isFocus && look.parts.faces && !out.crossing;
+        const bool points = !slices.ballScale.empty();
+        projection.parts.push_back({points ? 1.02 * ball : thickness, thickness, color, color, filled ? 0.5 : 0});
+    }
 }
 
 void Composer::setFilter(const Object& object, const CellTypeFilter& filter) {

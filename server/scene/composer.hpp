@@ -5,27 +5,30 @@
 #include <cstdint>
 
 #include "geometry/rotation.hpp"
-#include "scene/density.hpp"
+#include "scene/density_plot.hpp"
 #include "scene/scene.hpp"
 #include "slicing/object.hpp"
+#include "slicing/projector.hpp"
 
 namespace oval4d::scene {
 
 /// Composes scenes. Keeps data that stay the same from one scene to the next, and working memory. A composer may be
-/// used by one thread at a time. It must always compose into the same Scene, which holds some of the kept data.
+/// used by one thread at a time. The caller must always pass the same Scene to compose(), because that Scene holds some
+/// of the kept data.
 class Composer {
   public:
-    /// Limits the time for filling faces that cross each other. `steps` is the parameter of slicing::Filler::fill.
+    /// Limits the time for filling faces that cross each other: `steps` is passed to slicing::Filler::fill.
     void limitFill(std::size_t steps) { fillSteps_ = steps; }
 
     /// Composes the scene of `slices`, which must have been cut from `object` rotated by `orientation`. `focus` is the
-    /// index n of the focus slice. Overwrites `out` and reuses its memory. `out` refers to `slices`, which must outlive
-    /// it.
+    /// index n of the focus slice. Overwrites `out` and reuses its memory. `out` refers to `slices`, so `slices` must
+    /// outlive `out`.
     void compose(const slicing::Object& object, const geometry::Rotation& orientation, const slicing::SliceSet& slices,
                  int focus, const Look& look, Viewport viewport, Scene& out);
 
   private:
     void setFilter(const slicing::Object& object, const CellTypeFilter& filter);
+    void projectObject(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
     void measureDensity(const geometry::Rotation& orientation, Scene& out);
 
     std::size_t fillSteps_ = slicing::Filler::kNoLimit;
@@ -34,9 +37,10 @@ class Composer {
     std::uint64_t object_ = 0;  // the serial number of the object for which the next three members were computed
     double ballRadius_ = 0;     // as a fraction of the slice radius
     slicing::Visibilities visibilities_;
+    slicing::Projector projector_;
     CellTypeFilter filter_;
 
-    Density density_;
+    DensityPlot density_;
     std::uint64_t densityObject_ = 0;  // the serial number of the object of which the density was measured
     geometry::Rotation densityTurn_;
 };

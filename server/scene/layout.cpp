@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -15,9 +16,9 @@ namespace oval4d::scene {
 namespace {
 
 // The shape of the oval, for a circumradius of 1. The slice with the parameter u (from −1 for the first slice to 1 for
-// the last) is at (halfWidth · u, 0, −depth · u²). The camera looks down at the focus slice by the angle `pitch`
-// (radians) from this distance. The numbers were found by a search for the largest focus slice at which neighboring
-// slices hide little of each other; they differ for wide and tall windows.
+// the last) is at (halfWidth · u, 0, −depth · u²). The camera looks at the focus slice from the distance `distance`,
+// downward by the angle `pitch` (radians). The numbers were found by a search for the largest focus slice at which
+// neighboring slices hide little of each other; they differ for wide and tall windows.
 struct Oval {
     double halfWidth, depth, pitch, distance;
 };
@@ -121,10 +122,70 @@ Rect boundsOf(const std::vector<SlicePlacement>& placements, const ViewSpace& sp
     return bounds;
 }
 
+// Extends `bounds` by the projection of the whole object.
+void include(const ProjectionPlacement& placement, const ViewSpace& space, Rect& bounds) {
+    const double depth = space.depth(placement.position);
+    const double x = placement.position.x / depth, y = space.up(placement.position) / depth;
+    const double r = placement.radius / depth;
+    bounds = {std::min(bounds.left, x - r), std::max(bounds.right, x + r), std::min(bounds.bottom, y - r),
+              std::max(bounds.top, y + r)};
+}
+
+// Places the projection beside the focus slice, whose radius is `reach`, or above it in a tall window.
+ProjectionPlacement besideFocusSlice(double aspect, double reach) {
+    constexpr double kGap = 0.2;
+    const double radius = 1.1 * reach, distance = reach + radius + kGap;
+    return {true, aspect > 1 ? glm::dvec3(distance, 0, 0) : glm::dvec3(0, distance, 0), radius};
+}
+
+// Places the projection in the middle of the oval, above the parabola's axis: where the largest circle on the screen
+// fits between the slices, and below `top`, a height on the plane at distance 1 from the eye.
+ProjectionPlacement insideOval(const std::vector<SlicePlacement>& placements, const Oval& oval, double radius,
+                               double top) {
+    constexpr double kGap = 0.94;
+    const ViewSpace space(oval);
+    const auto radiusAt = [&](double depthOfOval) {
+        const glm::dvec3 p{0, 0, -depthOfOval};
+        const double y = space.up(p) / space.depth(p);
+        double room = top - y;
+        for (std::size_t i = 0; i < placements.size(); ++i) {
+            const double u = parameterOf(i, placements.size());
+            const glm::dvec3& q = placements[i].position;
+            const double depth = space.depth(q);
+            const double r = radius * std::sqrt(1 - u * u) / depth;
+            room = std::min(room, std::hypot(q.x / depth, space.up(q) / depth - y) - r);
+        }
+        return room;
+    };
+    // The room grows with the distance from the focus slice and shrinks with that from the upper end of the oval. So it
+    // has one maximum, which a golden-section search finds.
+    constexpr double kGolden = std::numbers::phi - 1;
+    constexpr int kSteps = 24;
+    double from = 0, to = oval.depth;
+    double left = to - kGolden * (to - from), right = from + kGolden * (to - from);
+    double atLeft = radiusAt(left), atRight = radiusAt(right);
+    for (int step = 0; step < kSteps; ++step) {
+        if (atLeft > atRight) {
+            to = right, right = left, atRight = atLeft;
+            left = to - kGolden * (to - from), atLeft = radiusAt(left);
+        } else {
+            from = left, left = right, atLeft = atRight;
+            right = from + kGolden * (to - from), atRight = radiusAt(right);
+        }
+    }
+    const glm::dvec3 position{0, 0, -(from + to) / 2};
+    return {true, position, kGap * std::max(radiusAt(-position.z), 0.0) * space.depth(position)};
+}
+
+// Returns the magnification at which `bounds` fills `room`.
+double scaleFor(const Rect& bounds, const Rect& room) {
+    return std::min((room.right - room.left) / (bounds.right - bounds.left),
+                    (room.top - room.bottom) / (bounds.top - bounds.bottom));
+}
+
 // Sets the camera's field of view and shift so that `bounds`, magnified by `zoom`, fills `room`.
 void fit(const Rect& bounds, const Rect& room, double aspect, double zoom, Camera& camera) {
-    const double scale = std::min((room.right - room.left) / (bounds.right - bounds.left),
-                                  (room.top - room.bottom) / (bounds.top - bounds.bottom));
+    const double scale = scaleFor(bounds, room);
     camera.fieldOfView = 2 * std::atan(0.5 / (scale * zoom));
     const double x = (room.left + room.right) / 2 - scale * (bounds.left + bounds.right) / 2;
     const double y = (room.bottom + room.top) / 2 - scale * (bounds.bottom + bounds.top) / 2;
@@ -153,7 +214,7 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, const Oval& ova
 }
 
 // Points the camera at the focus slice from the direction that `orbit` specifies, and sets its clipping planes.
-void aim(const Orbit& orbit, const Oval& oval, Camera& camera) {
+void aim(const CameraOrbit& orbit, const Oval& oval, Camera& camera) {
     constexpr double kMaxPitch = 1.55;  // less than π/2, where the up vector would be undefined
     const double pitch = std::clamp(oval.pitch + orbit.elevation, -kMaxPitch, kMaxPitch);
     const glm::dvec3 away{std::sin(orbit.azimuth) * std::cos(pitch), std::sin(pitch),
@@ -165,8 +226,8 @@ void aim(const Orbit& orbit, const Oval& oval, Camera& camera) {
     camera.far = oval.distance + 2 * (oval.depth + oval.halfWidth) + 10;
 }
 
-// Places each label on the outer side of the oval, where there is no neighboring slice, with a preference for places
-// below the slice: below the focus slice, and beside the slices on the arms of the oval.
+// Places each label on the outer side of the oval, where there is no neighboring slice: below the focus slice, and
+// beside and somewhat below the slices on the arms of the oval.
 void placeLabels(const Oval& oval, double radius, const Camera& camera, std::vector<SlicePlacement>& placements) {
     const ViewSpace space(oval);
     const glm::dmat4 view = camera.view();
@@ -211,7 +272,19 @@ void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices
     const double reach = out.sliceRadius * (1 + ballRadius);
     placeSlices(planes, focus, oval, look, out.placements);
     aim(look.orbit, oval, out.camera);
-    fit(boundsOf(out.placements, ViewSpace(oval), reach), room, aspect, look.orbit.zoom, out.camera);
+    Rect bounds = boundsOf(out.placements, ViewSpace(oval), reach);
+    out.projectionPlacement = {};
+    if (look.projection.kind != ProjectionKind::off) {
+        if (single || planes.count == 1) {
+            out.projectionPlacement = besideFocusSlice(aspect, reach);
+            include(out.projectionPlacement, ViewSpace(oval), bounds);
+        } else {
+            const double scale = scaleFor(bounds, room);
+            const double top = (bounds.bottom + bounds.top) / 2 + (room.top - room.bottom) / 2 / scale;
+            out.projectionPlacement = insideOval(out.placements, oval, reach, top);
+        }
+    }
+    fit(bounds, room, aspect, look.orbit.zoom, out.camera);
     placeLabels(oval, reach, out.camera, out.placements);
 }
 

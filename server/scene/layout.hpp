@@ -26,11 +26,11 @@ struct SlicePlacement {
     bool operator==(const SlicePlacement&) const = default;
 };
 
-/// The layout of the parallel coordinates. Vertex i is in row i / perRow and column i % perRow. Its four lines x, y, z
-/// and w extend from the row's zero line up or down by value · amplitude / circumradius. All lengths are fractions of
-/// the viewport's height; positions are measured from the viewport's lower left corner. If there are more than
-/// kMaxVerticesAsLines vertices, a density strip is drawn instead: a single column, whose four lines are axes that
-/// extend from −circumradius to +circumradius.
+/// The layout of the parallel coordinates. Vertex i is in row i / perRow and column i % perRow. The vertex has four
+/// vertical lines, for its x, y, z and w. Each line extends from the row's zero line up or down; a line of length
+/// `amplitude` represents the circumradius. All lengths are fractions of the viewport's height; positions are measured
+/// from the viewport's lower left corner. If there are more than kMaxVerticesAsLines vertices, a density strip is drawn
+/// instead: a single column, whose four lines are axes from −circumradius to +circumradius.
 struct CoordinatesLayout {
     int rows = 1, perRow = 1;
     double left = 0;        ///< the left edge of the first column
@@ -56,11 +56,20 @@ struct AxesLayout {
     bool operator==(const AxesLayout&) const = default;
 };
 
+/// The place of the projection of the whole object.
+struct ProjectionPlacement {
+    bool shown = false;
+    glm::dvec3 position{0};  ///< the position of its center, in world space
+    double radius = 1;       ///< of the sphere that contains it, in world units
+    bool operator==(const ProjectionPlacement&) const = default;
+};
+
 /// The layout of a whole picture.
 struct Layout {
     Camera camera;
     double sliceRadius = 1;  ///< the radius of the object's circumscribed sphere, in world units
     std::vector<SlicePlacement> placements;
+    ProjectionPlacement projectionPlacement;
     CoordinatesLayout coordinates;
     AxesLayout axes;
 };

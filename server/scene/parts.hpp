@@ -9,6 +9,9 @@ namespace oval4d::scene {
 /// Whether each part of a picture is shown.
 struct Parts {
     bool faces = true, bars = true, balls = true, coordinates = true, labels = true;
+    bool cells = false;     ///< in the projection of the whole object: the 2-faces, which bound its cells
+    bool back = true;       ///< in the projection: what the 4-D eye cannot see because cells hide it
+    bool sections = false;  ///< in the projection: the sections of all hyperplanes, not only that of the focus
     bool operator==(const Parts&) const = default;
 };
 
@@ -24,7 +27,10 @@ inline constexpr auto kParts = std::to_array<PartRow>({{"faces", &Parts::faces},
                                                        {"bars", &Parts::bars},
                                                        {"balls", &Parts::balls},
                                                        {"coordinates", &Parts::coordinates},
-                                                       {"labels", &Parts::labels}});
+                                                       {"labels", &Parts::labels},
+                                                       {"cells", &Parts::cells},
+                                                       {"back", &Parts::back},
+                                                       {"sections", &Parts::sections}});
 static_assert(sizeof(Parts) == kParts.size(), "every part has a row");
 
 }  // namespace oval4d::scene

@@ -17,6 +17,22 @@
 
 namespace oval4d::scene {
 
+/// How a part of the projection of the whole object is drawn.
+struct ProjectionPart {
+    double ballRadius = 0, barRadius = 0;  ///< in world units; balls or bars with the radius 0 are not drawn
+    Color ballColor = 0, barColor = 0;
+    double faceOpacity = 0;  ///< 0 … 1
+    bool operator==(const ProjectionPart&) const = default;
+};
+
+/// The projection of the whole object from four to three dimensions, and in it the sections of hyperplanes.
+struct ObjectProjection {
+    slicing::SliceSet elements;            ///< as slicing::Projector writes them: part 0 is the object
+    std::vector<std::uint32_t> faceCells;  ///< for each face of `elements`, the cell that determines its color
+    std::vector<ProjectionPart> parts;     ///< for each part of `elements`
+    double scale = 1;                      ///< world units per unit of the object
+};
+
 /// A picture: its layout, its slices, and how they are drawn.
 struct Scene : Layout {
     const slicing::SliceSet* slices = &slicing::kNoSlices;  ///< never null; must outlive the scene
@@ -27,16 +43,17 @@ struct Scene : Layout {
     double scale = 1;                      ///< world units per unit of the object
     double ballRadius = 0, barRadius = 0;  ///< in world units
     std::vector<Color> cellColors;         ///< one per cell
-    /// For each face of `slices`, the cell that determines its color. Empty if that is SliceSet::faceSource for all
-    /// faces.
+    /// For each face of `slices`, the cell that determines the face's color. Empty if SliceSet::faceSource has the same
+    /// content.
     std::vector<std::uint32_t> faceCells;
     slicing::Visibilities visibilities;
+    ObjectProjection projection;               ///< valid if projectionPlacement.shown
     double faceOpacity = style().faceOpacity;  ///< 0 … 1
     /// Whether faces may cross each other. If so, they are opaque, and `fill` is drawn instead of their loops.
     bool crossing = false;
     slicing::Fill fill;                     ///< the filled faces, if `crossing` is set and faces are shown; else empty
     std::vector<std::uint32_t> patchCells;  ///< for each patch of `fill`, the cell that determines its color
-    std::vector<std::uint8_t> density;      ///< Density::tones() for the density strip; valid if showsDensity()
+    std::vector<std::uint8_t> density;      ///< DensityPlot::tones() for the density strip; valid if showsDensity()
 
     /// Returns the cell that determines the color of a face of `slices`.
     std::uint32_t cellOfFace(std::size_t face) const {

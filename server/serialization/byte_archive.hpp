@@ -1,5 +1,6 @@
 #pragma once
-// Serializes values for messages between processes of the same program on the same machine, in its own byte order.
+// Serializes values for messages between processes of the same program on the same machine, in the machine's byte
+// order.
 
 #include <array>
 #include <cstdint>
@@ -17,7 +18,7 @@ namespace oval4d::serialization {
 template <typename T>
 concept BytewiseCopyable = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
-/// Appends values to a string of bytes. Writes the number of elements before those of a string or a vector.
+/// Appends values to a string of bytes. Writes the number of elements before the elements of a string or a vector.
 class ByteWriter {
   public:
     explicit ByteWriter(std::string& out) : out_(out) {}
@@ -62,12 +63,14 @@ class ByteReader {
     }
 
   private:
+    // Reads the number of elements of a string or vector. `each` is the size of an element in bytes.
     std::size_t count(std::size_t each) {
         std::size_t number = 0;
         (*this)(number);
         if (number > rest_.size() / each) throw std::runtime_error("a message between processes is cut short");
         return number;
     }
+    // Returns the next `size` bytes and skips them.
     const char* take(std::size_t size) {
         if (size > rest_.size()) throw std::runtime_error("a message between processes is cut short");
         const char* at = rest_.data();

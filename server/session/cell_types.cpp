@@ -76,7 +76,7 @@ Result<CellTypeList> findCellTypes(std::string_view text, const geometry::Object
         return Error{ErrorCode::bad_expression, "the number or the name of a kind of cell is expected" +
                                                     (text.empty() ? "" : ", not " + text::inQuotes(text)) +
                                                     "; the kinds of the " + object.name + ", from 0, are " +
-                                                    text::listed(known)};
+                                                    text::commaSeparated(known)};
     }
     if (auto valid = check(*numbers, object); !valid) return valid.error();
     return *numbers;

@@ -27,9 +27,10 @@ scene::CellTypeFilter hide(scene::CellTypeFilter filter, const CellTypeList& cha
 scene::CellTypeFilter fade(scene::CellTypeFilter filter, const CellTypeList& changed);
 scene::CellTypeFilter reveal(scene::CellTypeFilter filter, const CellTypeList& changed);
 
-/// Replaces the lists of hidden and faded cell types in `state` by those that `set` contains. If it contains only one
-/// of the lists, removes this list's cell types from the other list. A cell type in both lists is hidden. Error:
-/// `out_of_range` if the object has no cell type with one of the numbers; `state` is then unchanged.
+/// Replaces the lists of hidden and faded cell types in `state` by those that `set` contains. If `set` contains only
+/// one list, removes the cell types in this list from the other list of `state`. A cell type that is in both lists of
+/// `set` is hidden. Error: `out_of_range` if the object has no cell type with one of the numbers; `state` is then
+/// unchanged.
 Result<std::monostate> setCellTypes(State& state, const Set& set);
 
 }  // namespace oval4d::session

@@ -1,5 +1,6 @@
 #pragma once
-// The commands that change a session. They come from messages, from keys and from the ':' line.
+// The commands that change a session. They come from messages, from keys and from the ':' line, which is the command
+// line of the page.
 
 #include <array>
 #include <cstdint>
@@ -30,28 +31,32 @@ struct Set {
     std::optional<glm::dmat4> orientation;
     std::optional<double> alpha, beta;  ///< the angles of the rotation keys, in radians
     std::optional<double> step;         ///< the change of alpha or beta by the keys k, j, K and J, in radians
-    std::optional<int> count;           ///< the members of SliceSettings; the count is odd
-    std::optional<double> spacing;
-    std::optional<int> focus;
+    std::optional<int> count;           ///< SliceSettings::count, which is odd
+    std::optional<double> spacing;      ///< SliceSettings::spacing
+    std::optional<int> focus;           ///< SliceSettings::focus
     std::optional<scene::View> view;
-    std::optional<bool> turning;                                  ///< continuous turning
-    std::array<std::optional<bool>, scene::kParts.size()> parts;  ///< whether each of scene::kParts is shown
-    std::optional<double> azimuth, elevation, zoom;               ///< the members of scene::Orbit
+    std::optional<bool> turning;                                  ///< whether the object turns continuously
+    std::array<std::optional<bool>, scene::kParts.size()> parts;  ///< per row of scene::kParts: whether it is shown
+    std::optional<double> azimuth, elevation, zoom;               ///< the members of scene::CameraOrbit
     std::optional<scene::Coloring> coloring;
-    std::optional<std::vector<std::uint32_t>> hidden, faded;  ///< cell types, in any order
+    std::optional<scene::ProjectionKind> projection;
+    std::optional<double> eye;                                ///< ProjectionSettings::eye
+    std::optional<std::vector<std::uint32_t>> hidden, faded;  ///< indices of cell types, in any order
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
 };
 /// Loads an object from the text of a file and shows it.
 struct Load {
-    std::string name, format, data;  ///< `data` is the text
+    std::string name;    ///< the name to give to the object
+    std::string format;  ///< the name of the file format: "off", "points" or "cloud"
+    std::string data;    ///< the text of the file
 };
 struct Undo {};
 struct Redo {};
 /// Restores the initial orientation and focus, and stops continuous turning.
 struct Reset {};
-/// Applies a ':' line.
+/// Applies a ':' line; see parseCommandLine().
 struct CommandLine {
-    std::string line;  ///< without the ':'
+    std::string line;  ///< with or without the ':'
 };
 using Command = std::variant<Key, Rotate, Set, Load, Undo, Redo, Reset, CommandLine>;
 

@@ -21,7 +21,8 @@ using Words = std::vector<std::string_view>;
 // A pointer to a member of Set.
 using Member = std::variant<std::optional<double> Set::*, std::optional<int> Set::*, std::optional<bool> Set::*,
                             std::optional<std::string> Set::*, std::optional<scene::View> Set::*,
-                            std::optional<scene::Coloring> Set::*, std::optional<CellTypeList> Set::*>;
+                            std::optional<scene::Coloring> Set::*, std::optional<scene::ProjectionKind> Set::*,
+                            std::optional<CellTypeList> Set::*>;
 /// One setting: its name, and the member of Set that stores it.
 struct Setting {
     std::string_view name;
@@ -40,6 +41,8 @@ const auto kSettings = std::to_array<Setting>({{"polytope", &Set::object},
                                                {"elevation", &Set::elevation},
                                                {"zoom", &Set::zoom},
                                                {"color", &Set::coloring},
+                                               {"projection", &Set::projection},
+                                               {"eye", &Set::eye},
                                                {"hidden", &Set::hidden},
                                                {"faded", &Set::faded}});
 
@@ -94,6 +97,9 @@ struct ValueReader {
     }
     Result<std::monostate> operator()(std::optional<scene::Coloring> Set::* member) const {
         return choose(scene::kColorings, set.*member);
+    }
+    Result<std::monostate> operator()(std::optional<scene::ProjectionKind> Set::* member) const {
+        return choose(scene::kProjectionKinds, set.*member);
     }
     template <typename Choices, typename Value>
     Result<std::monostate> choose(const Choices& choices, std::optional<Value>& into) const {
@@ -157,8 +163,8 @@ Result<Command> rotateLine(std::string_view /*rest*/, const Words& words, const 
     if (words.empty())
         return bad(ErrorCode::bad_expression, "rotate needs planes and angles, such as rotate xw,yz pi/8 pi/5");
     // If no angles are given, use those of the rotation keys.
-    const std::string alpha = text::shortest(state.alpha);
-    const std::string beta = text::shortest(state.beta);
+    const std::string alpha = text::shortestDecimal(state.alpha);
+    const std::string beta = text::shortestDecimal(state.beta);
     Words angles(words.begin() + 1, words.end());
     if (angles.empty()) {
         angles.emplace_back(alpha);
@@ -216,6 +222,7 @@ constexpr auto kVerbs = std::to_array<Verb>(
      {"view", [](std::string_view rest, const Words&, const State&) { return oneSetting("view", rest); }},
      {"focus", [](std::string_view rest, const Words&, const State&) { return oneSetting("focus", rest); }},
      {"color", [](std::string_view rest, const Words&, const State&) { return oneSetting("color", rest); }},
+     {"project", [](std::string_view rest, const Words&, const State&) { return oneSetting("projection", rest); }},
      {"hide", cellTypesLine<hide>},
      {"fade", cellTypesLine<fade>},
      {"show", cellTypesLine<reveal>},
@@ -226,7 +233,7 @@ constexpr auto kVerbs = std::to_array<Verb>(
 
 }  // namespace
 
-std::string settingNames() { return text::listed(names()); }
+std::string settingNames() { return text::commaSeparated(names()); }
 
 Result<std::monostate> putSetting(std::string_view name, std::string_view value, Set& set) {
     for (const Setting& setting : kSettings) {
@@ -251,7 +258,7 @@ Result<Command> parseCommandLine(std::string_view line, const State& state) {
     trim();
     std::vector<std::string_view> verbs;
     for (const Verb& verb : kVerbs) verbs.push_back(verb.name);
-    if (line.empty()) return bad(ErrorCode::unknown_command, "a command is expected: " + text::listed(verbs));
+    if (line.empty()) return bad(ErrorCode::unknown_command, "a command is expected: " + text::commaSeparated(verbs));
 
     const std::size_t end = line.find_first_of(" \t");
     const std::string_view name = line.substr(0, end);
@@ -262,7 +269,7 @@ Result<Command> parseCommandLine(std::string_view line, const State& state) {
     }
     return bad(ErrorCode::unknown_command, "no command is called " + text::inQuotes(name) +
                                                text::didYouMean(name, verbs) + "; the commands are " +
-                                               text::listed(verbs));
+                                               text::commaSeparated(verbs));
 }
 
 }  // namespace oval4d::session

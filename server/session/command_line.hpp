@@ -1,5 +1,5 @@
 #pragma once
-// Sets settings by name, for the ':' line and for queries.
+// Sets settings by name, for the ':' line and for the queries of URLs.
 
 #include <string_view>
 

@@ -123,7 +123,7 @@ class Parser {
         }
         at_ = start;
         fail("nothing is called " + text::inQuotes(name) + text::didYouMean(name, kNames) + "; known names are " +
-             text::listed(kNames));
+             text::commaSeparated(kNames));
     }
 
     bool take(std::string_view token) {
@@ -184,8 +184,9 @@ Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::
         const Result<geometry::Plane> second = planeAt(planes.substr(comma + 1));
         if (!second) return second.error();
         if (*second != geometry::perpendicular(*first)) {
-            return bad(std::string(name(*first)) + " and " + std::string(name(*second)) + " are not perpendicular; " +
-                       std::string(name(*first)) + " goes with " + std::string(name(perpendicular(*first))));
+            return bad(std::string(name(*first)) + " and " + std::string(name(*second)) +
+                       " share an axis; a double rotation needs planes without a common axis: combine " +
+                       std::string(name(*first)) + " with " + std::string(name(perpendicular(*first))));
         }
     }
     if (angles.size() != (doubled ? 2U : 1U)) {

@@ -9,13 +9,13 @@
 
 namespace oval4d::session {
 
-/// Returns the value of an expression, which is finite. An expression consists of + − * / ^, parentheses, decimal
-/// numbers with or without exponent, `pi`, `phi`, and the functions sqrt, sin, cos, tan, asin, acos, atan and deg
-/// (degrees to radians). Error: `bad_expression`, with the position of a syntax error.
+/// Evaluates an expression. It may contain + − * / ^, parentheses, decimal numbers with or without exponent, `pi`,
+/// `phi`, and the functions sqrt, sin, cos, tan, asin, acos, atan and deg (degrees to radians). Error:
+/// `bad_expression`, with the position of a syntax error; also if the value is not finite.
 Result<double> evaluate(std::string_view text);
 
-/// Returns a rotation in one plane, such as "xw", or in two perpendicular planes, such as "xw,yz". `angles` must have
-/// one expression, in radians, for each plane. Error: `bad_expression`.
+/// Returns a rotation. `planes` names one plane, such as "xw", or two perpendicular planes, such as "xw,yz". `angles`
+/// must have one expression for each plane: the angle in radians. Error: `bad_expression`.
 Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles);
 
 /// Parses a rotation given in a query or a command-line option, such as "xw,yz:pi/8,0.2". Error: `bad_expression`.

@@ -10,7 +10,7 @@ namespace oval4d::session {
 namespace {
 
 // Returns `state` with the camera at this orbit.
-State withOrbit(State state, const scene::Orbit& orbit) {
+State withOrbit(State state, const scene::CameraOrbit& orbit) {
     state.look.orbit = orbit;
     return state;
 }
@@ -20,67 +20,67 @@ std::size_t bytesOfFilter(const State& state) {
 }
 
 /// Removes the oldest undo steps until the memory that only undo steps use is at most `maxBytes`. This memory consists
-/// of objects, and of the lists of hidden and faded cell types.
+/// of objects that neither the current state nor `loaded` contains, and of the lists of hidden and faded cell types.
 void limitHistoryBytes(Session& session, std::size_t maxBytes) {
     std::map<const void*, std::size_t> steps;  // the number of steps that use each object
     std::size_t bytes = 0;
     const auto isHeld = [&](const slicing::Object& object) {
-        return object == session.now.object ||
+        return object == session.current.object ||
                std::ranges::any_of(session.loaded, [&](const auto& own) { return own.second == object; });
     };
-    for (const State& step : session.past) {
+    for (const State& step : session.undoSteps) {
         bytes += bytesOfFilter(step);
         if (!isHeld(step.object) && ++steps[slicing::identityOf(step.object)] == 1)
             bytes += slicing::memoryOf(step.object);
     }
-    while (bytes > maxBytes && !session.past.empty()) {
-        const State& oldest = session.past.front();
+    while (bytes > maxBytes && !session.undoSteps.empty()) {
+        const State& oldest = session.undoSteps.front();
         bytes -= bytesOfFilter(oldest);
         const auto held = steps.find(slicing::identityOf(oldest.object));
         if (held != steps.end() && --held->second == 0) bytes -= slicing::memoryOf(oldest.object);
-        session.past.pop_front();
+        session.undoSteps.pop_front();
     }
 }
 
 }  // namespace
 
 void commit(Session& session, State next, const Limits& limits) {
-    if (next == session.now) return;
-    State before = withOrbit(session.now, next.look.orbit);
+    if (next == session.current) return;
+    State before = withOrbit(session.current, next.look.orbit);
     before.turning = before.turning && next.turning;  // stopping belongs to the history step that started turning
     if (before != next) {
-        if (limits.maxUndo > 0) session.past.push_back(session.now);
-        while (session.past.size() > limits.maxUndo) session.past.pop_front();
-        session.future.clear();
+        if (limits.maxUndo > 0) session.undoSteps.push_back(session.current);
+        while (session.undoSteps.size() > limits.maxUndo) session.undoSteps.pop_front();
+        session.redoSteps.clear();
     }
-    session.now = std::move(next);
+    session.current = std::move(next);
     ++session.revision;
-    const bool grows = !session.past.empty() &&
-                       (session.past.back().object != session.now.object || bytesOfFilter(session.past.back()) > 0);
+    const bool grows = !session.undoSteps.empty() && (session.undoSteps.back().object != session.current.object ||
+                                                      bytesOfFilter(session.undoSteps.back()) > 0);
     if (grows) limitHistoryBytes(session, limits.maxUndoBytes);
 }
 
 void forgetOlderHalf(Session& session) {
-    const auto half = static_cast<std::ptrdiff_t>((session.past.size() + 1) / 2);
-    session.past.erase(session.past.begin(), session.past.begin() + half);
+    const auto half = static_cast<std::ptrdiff_t>((session.undoSteps.size() + 1) / 2);
+    session.undoSteps.erase(session.undoSteps.begin(), session.undoSteps.begin() + half);
 }
 
 Result<std::monostate> undo(Session& session) {
-    if (session.past.empty())
+    if (session.undoSteps.empty())
         return Error{ErrorCode::nothing_to_undo, "nothing to undo: the session is at its first state"};
-    session.future.push_back(session.now);
-    session.now = withOrbit(std::move(session.past.back()), session.now.look.orbit);
-    session.past.pop_back();
+    session.redoSteps.push_back(session.current);
+    session.current = withOrbit(std::move(session.undoSteps.back()), session.current.look.orbit);
+    session.undoSteps.pop_back();
     ++session.revision;
     return std::monostate{};
 }
 
 Result<std::monostate> redo(Session& session) {
-    if (session.future.empty())
+    if (session.redoSteps.empty())
         return Error{ErrorCode::nothing_to_undo, "nothing to redo: nothing has been undone since the last change"};
-    session.past.push_back(session.now);
-    session.now = withOrbit(std::move(session.future.back()), session.now.look.orbit);
-    session.future.pop_back();
+    session.undoSteps.push_back(session.current);
+    session.current = withOrbit(std::move(session.redoSteps.back()), session.current.look.orbit);
+    session.redoSteps.pop_back();
     ++session.revision;
     return std::monostate{};
 }

@@ -6,11 +6,11 @@
 namespace oval4d::session {
 
 /// Makes `next` the current state and increases the revision. Adds an undo step and removes all redo steps, unless
-/// `next` differs only by a camera move or by the end of continuous turning. Removes the oldest undo steps that exceed
-/// `limits`. Does nothing if `next` equals the current state.
+/// `next` differs only by a camera move or by the end of continuous turning. Then removes the oldest undo steps until
+/// the history is within `limits`. Does nothing if `next` equals the current state.
 void commit(Session& session, State next, const Limits& limits);
 
-/// Removes the older half of the undo steps.
+/// Removes the older half of the undo steps, to free memory.
 void forgetOlderHalf(Session& session);
 
 /// Undoes or redoes one step. Does not move the camera. Error: `nothing_to_undo` if there is no such step.

@@ -43,7 +43,7 @@ void scaleSpacing(State& state, double factor) {
 Done showNeighbor(ActionContext& c, int by) {
     auto object = neighborOf(c.state.object, by, c.loaded, c.loader);
     if (!object) return object.error();
-    show(c.state, std::move(*object));
+    replaceObject(c.state, std::move(*object));
     return std::monostate{};
 }
 
@@ -94,6 +94,11 @@ constexpr auto kActions = std::to_array<Action>({
     {"polytope_previous", [](ActionContext& c) { return showNeighbor(c, -1); }},
     {"view", always<[](ActionContext& c) {
          c.state.look.view = c.state.look.view == scene::View::oval ? scene::View::single : scene::View::oval;
+     }>},
+    {"projection", always<[](ActionContext& c) {
+         scene::ProjectionKind& kind = c.state.look.projection.kind;
+         kind =
+             static_cast<scene::ProjectionKind>((static_cast<std::size_t>(kind) + 1) % scene::kProjectionKinds.size());
      }>},
     {"undo", nullptr, undo},
     {"redo", nullptr, redo},

@@ -20,8 +20,8 @@ struct ActionContext {
     bool inverse;           ///< whether to apply the inverse rotation
 };
 
-/// An action. Exactly one of the functions is set. If `onState` returns an error, the caller must discard the state
-/// that it passed.
+/// An action. Exactly one of the functions is set. `onState` changes a copy of the current state, which the caller then
+/// commits to the session, or discards if `onState` returns an error. `onSession` changes the session itself.
 struct Action {
     std::string_view name;  ///< the value of "action" in protocol/keymap.json
     Result<std::monostate> (*onState)(ActionContext&) = nullptr;

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "contract/embedded.hpp"
+#include "protocol_data/embedded_files.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::session {
@@ -40,7 +40,7 @@ struct Entry {
 
 std::vector<Entry> readTable() {
     std::vector<Entry> table;
-    const nlohmann::json keymap = nlohmann::json::parse(contract::embedded("keymap.json"));
+    const nlohmann::json keymap = nlohmann::json::parse(protocol_data::embeddedFile("keymap.json"));
     for (const nlohmann::json& row : keymap.at("keys")) {
         Entry entry;
         std::string keys = row.at("key");
@@ -97,7 +97,7 @@ Result<std::optional<Binding>> bindingOf(const Key& key, std::string& pending) {
         }
         begins = begins || (entry.first == wanted.key && !wanted.shift && !wanted.ctrl);
     }
-    if (!pending.empty()) {  // the key does not continue the sequence, so it is handled as if none had begun
+    if (!pending.empty()) {  // the key does not continue the sequence, so it is handled as if no sequence had begun
         std::string alone;
         auto binding = bindingOf(key, alone);
         if (binding) pending = std::move(alone);

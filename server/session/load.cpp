@@ -51,14 +51,14 @@ Result<LoadedObject> readCloud(std::string_view text, const std::string& name, c
             glm::dvec4 point;
             for (int i = 0; i < 4; ++i, word = file.nextOnLine()) {
                 if (word.empty())
-                    polytopes::refuse(file.line(),
-                                      "a point has " + std::to_string(i) + " coordinates; four are needed");
+                    polytopes::throwImportError(file.line(),
+                                                "a point has " + std::to_string(i) + " coordinates; four are needed");
                 point[i] = polytopes::parseCoordinate(word, file.line());
             }
             radii.push_back(word.empty() ? 0 : polytopes::parseCoordinate(word, file.line()));
-            if (radii.back() < 0) polytopes::refuse(file.line(), "a radius is negative");
+            if (radii.back() < 0) polytopes::throwImportError(file.line(), "a radius is negative");
             if (!word.empty() && !(word = file.nextOnLine()).empty())
-                polytopes::refuse(file.line(), polytopes::inQuotes(word) + " follows a point's radius");
+                polytopes::throwImportError(file.line(), polytopes::inQuotes(word) + " follows a point's radius");
             points.push_back(point);
             if (points.size() > limits.maxVertices)
                 return Error{ErrorCode::too_large,
@@ -93,11 +93,11 @@ const FormatRow* formatNamed(std::string_view name) {
 Error unsupported(std::string_view format) {
     std::string allowed;
     for (const FormatRow& row : kFormats) {
-        if (!allowed.empty()) allowed += &row == &kFormats.back() ? " and " : ", ";
+        if (!allowed.empty()) allowed += ", ";
         allowed += row.title;
     }
     return {ErrorCode::unsupported_format,
-            "the format " + text::inQuotes(format) + " cannot be read; allowed are " + allowed};
+            "the format " + text::inQuotes(format) + " cannot be read; allowed formats: " + allowed};
 }
 
 }  // namespace
@@ -108,8 +108,8 @@ Result<LoadedObject> readObject(std::string_view format, std::string_view text, 
     return row == nullptr ? Result<LoadedObject>(unsupported(format)) : row->read(text, name, limits);
 }
 
-std::string_view formatOf(std::string_view text) {
-    if (polytopes::formatOf(text) == polytopes::FileFormat::off4) return "off";
+std::string_view detectFormat(std::string_view text) {
+    if (polytopes::detectFileFormat(text) == polytopes::FileFormat::off4) return "off";
     return isCloudKeyword(polytopes::FileTokenizer(text).next()) ? "cloud" : "points";
 }
 

@@ -66,8 +66,8 @@ std::size_t ObjectLoader::bytesNeeded() const {
 }
 
 std::chrono::duration<double> ObjectLoader::estimatedDuration() const {
-    // Seconds for each element of a polytope that is built, for each byte of a file that lists elements, and for each
-    // byte of a list of points whose convex hull is computed.
+    // Seconds for each element of a polytope that is built, for each byte of a file that lists elements or the points
+    // of a cloud, and for each byte of a list of points whose convex hull is computed.
     constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6;
     double seconds = 2e-4;
     if (const auto* design = std::get_if<polytopes::Design>(&pending_)) {

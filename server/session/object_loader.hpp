@@ -25,9 +25,9 @@ using FileReader = std::function<Result<LoadedObject>(std::string_view format, s
                                                       const std::string& name, const Limits& limits)>;
 
 /// Provides the objects that one command needs. With Mode::immediate, polytopeOf() and objectFrom() build or read the
-/// object before they return. With Mode::deferred, they fail if the object is not available yet, and the object becomes
-/// pending. The caller then calls loadPendingObject(), on any thread, and applies the command again; it repeats this
-/// until nothing is pending.
+/// object before they return. With Mode::deferred, they return an error if the object is not available yet, and the
+/// object becomes pending. The caller then calls loadPendingObject(), on any thread, and applies the command again. The
+/// caller repeats this until nothing is pending.
 class ObjectLoader {
   public:
     enum class Mode : bool { immediate, deferred };
@@ -36,8 +36,8 @@ class ObjectLoader {
     ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache);
     ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Mode mode, FileReader reader);
 
-    /// Returns the polytope of this design. Error: `unknown_polytope` if it cannot be built; the message is only the
-    /// reason.
+    /// Returns the polytope of this design. Error: `unknown_polytope` if it cannot be built; the message gives only the
+    /// reason, not the name.
     Result<slicing::Object> polytopeOf(const polytopes::Design& design);
 
     /// Returns the object read from the data of `load`, which must outlive the loader. Errors: those of checkLoad and

@@ -9,8 +9,8 @@
 namespace oval4d::session {
 
 /// Returns the loaded object with this name or, if there is none, the polytope of this name (see
-/// polytopes::designNamed). Errors: `unknown_polytope`, with the most similar names or with the reason; `too_large`;
-/// those of the loader.
+/// polytopes::designNamed). Errors: `unknown_polytope`, with the most similar names or with the reason; `too_large` if
+/// the polytope would have more than `limits.maxVertices` vertices; those of `loader`.
 Result<slicing::Object> findObject(std::string_view name, const LoadedObjects& loaded, const Limits& limits,
                                    ObjectLoader& loader);
 

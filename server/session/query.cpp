@@ -29,7 +29,7 @@ Result<State> stateFromQuery(const Query& query, const Limits& limits, ObjectLoa
         }
     }
     State state = initialState();
-    if (object) show(state, std::move(*object));
+    if (object) replaceObject(state, std::move(*object));
     for (const geometry::Turn& turn : turns) rotate(state, turn);
     if (auto done = applySet(state, set, {}, limits, loader); !done) return done.error();
     return state;

@@ -34,13 +34,13 @@ class Applier {
     }
     Done operator()(const Rotate& command) {
         if (Done valid = checkTurn(command.turn); !valid) return valid;
-        State next = session_.now;
+        State next = session_.current;
         rotate(next, command.turn);
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
     Done operator()(const Set& command) {
-        State next = session_.now;
+        State next = session_.current;
         if (Done done = applySet(next, command, session_.loaded, limits_, loader_); !done) return done;
         commit(session_, std::move(next), limits_);
         return std::monostate{};
@@ -52,8 +52,8 @@ class Applier {
         }
         const auto reading = loader_.objectFrom(command);
         if (!reading) return reading.error();
-        State next = session_.now;
-        show(next, reading->object);
+        State next = session_.current;
+        replaceObject(next, reading->object);
         session_.loaded.insert_or_assign(command.name, reading->object);
         commit(session_, std::move(next), limits_);
         return std::monostate{};
@@ -61,7 +61,7 @@ class Applier {
     Done operator()(const Undo& /*command*/) { return undo(session_); }
     Done operator()(const Redo& /*command*/) { return redo(session_); }
     Done operator()(const Reset& /*command*/) {
-        State next = session_.now;
+        State next = session_.current;
         next.orientation = {};
         next.slices.focus = 0;
         next.turning = false;
@@ -69,7 +69,7 @@ class Applier {
         return std::monostate{};
     }
     Done operator()(const CommandLine& command) {
-        const auto parsed = parseCommandLine(command.line, session_.now);
+        const auto parsed = parseCommandLine(command.line, session_.current);
         if (!parsed) return parsed.error();
         return std::visit(*this, *parsed);
     }
@@ -77,7 +77,7 @@ class Applier {
   private:
     Done press(const Binding& binding) {
         if (binding.action->onSession != nullptr) return binding.action->onSession(session_);
-        State next = session_.now;
+        State next = session_.current;
         ActionContext context{next,          session_.loaded,          limits_,        loader_,
                               binding.plane, binding.isDoubleRotation, binding.inverse};
         if (Done done = binding.action->onState(context); !done) return done;
@@ -116,7 +116,7 @@ Done apply(Session& session, const Command& command, const Limits& limits, Objec
 }
 
 std::size_t historyBytes(const Session& session) {
-    return sizeof(State) * (session.past.size() + session.future.size());
+    return sizeof(State) * (session.undoSteps.size() + session.redoSteps.size());
 }
 
 std::size_t objectBytes(const Session& session) {
@@ -124,12 +124,12 @@ std::size_t objectBytes(const Session& session) {
     auto add = [&, last = static_cast<const void*>(nullptr)](const slicing::Object& object) mutable {
         const void* identity = slicing::identityOf(object);
         if (identity != std::exchange(last, identity))
-            objects.try_emplace(identity, &object);  // skipped for most states, which have the object of the last one
+            objects.try_emplace(identity, &object);  // skipped if the previous state has the same object, as most do
     };
-    add(session.now.object);
+    add(session.current.object);
     for (const auto& [name, object] : session.loaded) add(object);
-    for (const State& state : session.past) add(state.object);
-    for (const State& state : session.future) add(state.object);
+    for (const State& state : session.undoSteps) add(state.object);
+    for (const State& state : session.redoSteps) add(state.object);
     std::size_t bytes = 0;
     for (const auto& [identity, object] : objects) {
         const geometry::ObjectInfo& info = slicing::infoOf(*object);
@@ -140,9 +140,9 @@ std::size_t objectBytes(const Session& session) {
 }
 
 void advance(Session& session, double seconds) {
-    if (!session.now.turning || !session.now.lastTurn) return;
-    const geometry::Rotation turn(session.now.lastTurn->scaled(kTurnsPerSecond * seconds));
-    session.now.orientation = turn * session.now.orientation;
+    if (!session.current.turning || !session.current.lastTurn) return;
+    const geometry::Rotation turn(session.current.lastTurn->scaled(kTurnsPerSecond * seconds));
+    session.current.orientation = turn * session.current.orientation;
     ++session.revision;
 }
 

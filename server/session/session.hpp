@@ -21,10 +21,10 @@ namespace oval4d::session {
 /// The objects loaded into a session, by name.
 using LoadedObjects = std::map<std::string, slicing::Object, std::less<>>;
 
-/// The hyperplanes that cut the slices: w = n · spacing, for `count` consecutive indices n.
+/// The hyperplanes that cut the object into slices: w = n · spacing, for `count` consecutive integers n.
 struct SliceSettings {
     int count = 21;      ///< odd; n is from focus − h to focus + h, where h = (count − 1) / 2
-    double spacing = 0;  ///< δ, the distance between neighboring hyperplanes, in the polytope's units
+    double spacing = 0;  ///< δ, the distance between neighboring hyperplanes, in the object's units
     int focus = 0;       ///< f, the index of the focus slice
     bool operator==(const SliceSettings&) const = default;
 };
@@ -37,7 +37,7 @@ struct State {
     double step;         ///< the change of alpha or beta by the keys k, j, K and J, in radians
     SliceSettings slices;
     scene::Look look;
-    bool turning = false;                    ///< whether the object turns continuously: advance() repeats `last`
+    bool turning = false;                    ///< whether the object turns continuously: advance() repeats `lastTurn`
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
 
     /// Returns the hyperplanes that `slices` describes.
@@ -66,12 +66,12 @@ struct Limits {
 
 /// A session: the current state, its history, and the loaded objects. Sessions can be copied and compared.
 struct Session {
-    State now = initialState();
-    std::deque<State> past;     ///< undo steps, the oldest first
-    std::vector<State> future;  ///< redo steps, the next one last
+    State current = initialState();
+    std::deque<State> undoSteps;   ///< undo steps, the oldest first
+    std::vector<State> redoSteps;  ///< redo steps, the next one last
     LoadedObjects loaded;
     std::string pendingKey;      ///< the first key of a sequence that has begun, such as the "g" of "gg"; else empty
-    std::uint64_t revision = 0;  ///< counts the changes of `now`
+    std::uint64_t revision = 0;  ///< counts the changes of `current`
     bool operator==(const Session&) const = default;
 };
 
@@ -95,9 +95,10 @@ inline constexpr double kTurnsPerSecond = 6;
 /// turning is one undo step from its start to its end, so this function adds none.
 void advance(Session& session, double seconds);
 
-/// Parses a ':' line, with or without the ':', such as "polytope 24-cell", "set slices=31",
-/// "rotate xw,yz pi/8 pi/sqrt(3)-pi/8" or "reset". Errors: `unknown_command`, `bad_expression`, `out_of_range`,
-/// `unknown_polytope`, `unknown_key`.
+/// Parses a ':' line, with or without the ':', such as "polytope 24-cell", "set slices=31", "rotate xw,yz pi/8 pi/5" or
+/// "reset". `state` is the current state: its angles are used if "rotate" gives none, and "hide", "fade" and "show"
+/// change its lists of cell types. Errors: `unknown_command`, `bad_expression`, `out_of_range`, `unknown_polytope`,
+/// `unknown_key`.
 Result<Command> parseCommandLine(std::string_view line, const State& state);
 
 }  // namespace oval4d::session

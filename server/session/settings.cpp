@@ -25,9 +25,10 @@ struct Bounds {
 Result<std::monostate> put(std::string_view name, std::optional<double> value, Bounds range, double& into) {
     if (!value) return std::monostate{};
     if (!(*value >= range.least && *value <= range.most)) {
-        return Error{ErrorCode::out_of_range, std::string(name) + " must be from " + text::shortest(range.least) +
-                                                  " to " + text::shortest(range.most) + std::string(range.unit) +
-                                                  ", not " + text::shortest(*value)};
+        return Error{ErrorCode::out_of_range, std::string(name) + " must be from " +
+                                                  text::shortestDecimal(range.least) + " to " +
+                                                  text::shortestDecimal(range.most) + std::string(range.unit) +
+                                                  ", not " + text::shortestDecimal(*value)};
     }
     into = *value;
     return std::monostate{};
@@ -63,7 +64,7 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
 
 }  // namespace
 
-void show(State& state, slicing::Object object) {
+void replaceObject(State& state, slicing::Object object) {
     if (object == state.object) return;
     const double radius = slicing::infoOf(object).circumradius;
     const double spacing = state.slices.spacing * (radius / slicing::infoOf(state.object).circumradius);
@@ -88,7 +89,7 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
     if (set.object) {
         auto object = findObject(*set.object, loaded, limits, loader);
         if (!object) return object.error();
-        show(state, std::move(*object));
+        replaceObject(state, std::move(*object));
     }
     if (set.orientation && *set.orientation != state.orientation.matrix()) {
         const auto orientation = geometry::Rotation::fromMatrix(*set.orientation);
@@ -107,13 +108,17 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
          {put("alpha", set.alpha, {-kTwoPi, kTwoPi, " radians"}, state.alpha),
           put("beta", set.beta, {-kTwoPi, kTwoPi, " radians"}, state.beta),
           put("the step", set.step, {kLeastStep, kTwoPi, " radians"}, state.step), setSlices(state, set, limits),
-          put("the camera's azimuth", set.azimuth, {-kMaxOrbit, kMaxOrbit, " radians"}, state.look.orbit.azimuth),
-          put("the camera's elevation", set.elevation, {-kMaxOrbit, kMaxOrbit, " radians"}, state.look.orbit.elevation),
-          put("the camera's zoom", set.zoom, {kMinZoom, kMaxZoom, ""}, state.look.orbit.zoom)}) {
+          put("the camera's azimuth", set.azimuth, {-kMaxOrbitAngle, kMaxOrbitAngle, " radians"},
+              state.look.orbit.azimuth),
+          put("the camera's elevation", set.elevation, {-kMaxOrbitAngle, kMaxOrbitAngle, " radians"},
+              state.look.orbit.elevation),
+          put("the camera's zoom", set.zoom, {kMinZoom, kMaxZoom, ""}, state.look.orbit.zoom),
+          put("the eye", set.eye, {kMinEye, kMaxEye, " circumradii"}, state.look.projection.eye)}) {
         if (!done) return done;
     }
     state.look.view = set.view.value_or(state.look.view);
     for (std::size_t i = 0; i < scene::kParts.size(); ++i) put(set.parts[i], state.look.parts.*scene::kParts[i].flag);
+    state.look.projection.kind = set.projection.value_or(state.look.projection.kind);
     state.look.coloring = set.coloring.value_or(state.look.coloring);
     if (auto done = setCellTypes(state, set); !done) return done;
     put(set.turning, state.turning);
@@ -126,9 +131,9 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
 Result<std::monostate> checkTurn(const geometry::Turn& turn) {
     for (const double angle : {turn.alpha, turn.beta.value_or(0)}) {
         if (!(std::abs(angle) <= kMaxAngle)) {
-            return Error{ErrorCode::out_of_range, "an angle must be from " + text::shortest(-kMaxAngle) + " to " +
-                                                      text::shortest(kMaxAngle) + " radians, not " +
-                                                      text::shortest(angle)};
+            return Error{ErrorCode::out_of_range, "an angle must be from " + text::shortestDecimal(-kMaxAngle) +
+                                                      " to " + text::shortestDecimal(kMaxAngle) + " radians, not " +
+                                                      text::shortestDecimal(angle)};
         }
     }
     return std::monostate{};

@@ -7,30 +7,32 @@
 namespace oval4d::session {
 
 /// Bounds that do not depend on the server's options.
-inline constexpr double kMaxAngle = 1e6;     ///< angle of one rotation in radians; larger doubles are too imprecise
-inline constexpr int kMaxFocus = 1'000'000;  ///< absolute value of the focus index
-inline constexpr double kMinSpacing = 1e-6;  ///< in circumradii
-inline constexpr double kMaxSpacing = 10;    ///< in circumradii
-inline constexpr double kMaxOrbit = 1000;    ///< absolute value of azimuth and elevation in radians
+inline constexpr double kMaxAngle = 1e6;        ///< absolute value of an angle in radians; larger doubles are imprecise
+inline constexpr int kMaxFocus = 1'000'000;     ///< absolute value of the focus index
+inline constexpr double kMinSpacing = 1e-6;     ///< as a multiple of the object's circumradius
+inline constexpr double kMaxSpacing = 10;       ///< as a multiple of the object's circumradius
+inline constexpr double kMaxOrbitAngle = 1000;  ///< absolute value of azimuth and elevation in radians
 inline constexpr double kMinZoom = 0.05, kMaxZoom = 20;
+inline constexpr double kMinEye = 1.05, kMaxEye = 1000;  ///< in circumradii
 
 /// Replaces the object of the state; does nothing if the object is the same. The orientation stays the same, the
 /// spacing keeps its ratio to the circumradius, the focus becomes 0, and all cell types become fully visible.
-void show(State& state, slicing::Object object);
+void replaceObject(State& state, slicing::Object object);
 
 /// Changes the number of slices. If the old and the new count are greater than 1, also changes the spacing, within its
 /// bounds, so that the span (count − 1) · spacing stays the same.
 void setCount(State& state, int count);
 
 /// Applies the settings that are present in `set`. After an error, some of them may already be applied, so callers must
-/// pass a copy of the state.
+/// pass a copy of the state. Errors: those of findObject; `not_a_rotation`; `out_of_range`; `nothing_to_undo` if the
+/// object is to turn continuously before there was a rotation.
 Result<std::monostate> applySet(State& state, const Set& set, const LoadedObjects& loaded, const Limits& limits,
                                 ObjectLoader& loader);
 
 /// Returns the error `out_of_range` unless the angles are finite and within ±kMaxAngle.
 Result<std::monostate> checkTurn(const geometry::Turn& turn);
 
-/// Rotates the object, and stores the rotation as State::last.
+/// Rotates the object, and stores the rotation as State::lastTurn.
 void rotate(State& state, const geometry::Turn& turn);
 
 }  // namespace oval4d::session

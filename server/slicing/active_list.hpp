@@ -10,10 +10,10 @@
 namespace oval4d::slicing {
 
 /// Lists the active elements of one dimension (edges, 2-faces or cells): those that a rising hyperplane currently cuts.
-/// Each element is cut by the hyperplanes from … to − 1 (their indices). To use it, call `clear`, `add` for each
-/// element, `sort` once, and then `advance` as the hyperplane rises. The loops have no branches that depend on whether
-/// an element is cut: the CPU cannot predict these, and a misprediction costs more than the work that a branch saves.
-/// Reuses its memory.
+/// The hyperplanes have consecutive indices; an element is cut by those with the indices in [from, to). To use the
+/// list, call `clear`, `add` for each element, `sort` once, and then `advance` as the hyperplane rises. The loops do
+/// not branch on whether an element is cut: the CPU cannot predict such a branch, and a misprediction costs more time
+/// than the branch saves. Reuses its memory.
 class ActiveList {
   public:
     struct Element {
@@ -27,7 +27,8 @@ class ActiveList {
         end_.assign(planes + 1, 0);
         count_ = activeCount_ = begun_ = 0;
     }
-    /// Adds an element that the hyperplanes from … to − 1 cut. Requires from ≤ to. Ignores an element with from = to.
+    /// Adds an element that the hyperplanes with the indices in [from, to) cut. Requires from ≤ to. Ignores an element
+    /// with from = to.
     void add(std::uint32_t number, std::int32_t from, std::int32_t to) {
         const std::uint32_t one = from < to ? 1 : 0;
         added_[count_] = {{number, to}, from};
@@ -38,8 +39,8 @@ class ActiveList {
     /// hyperplanes in ascending order; it must include the first hyperplane of every element.
     void sort(std::span<const int> steps);
 
-    /// Moves the hyperplane up to `step`. Must be called for the steps of `sort` in their order. Returns the elements
-    /// whose first hyperplane this is.
+    /// Moves the hyperplane up to `step`. Must be called once for each step that `sort` received, in ascending order.
+    /// Returns the elements that become active, which are those whose first hyperplane is `step`.
     std::span<const Element> advance(int step);
     /// Returns the elements that the current hyperplane cuts.
     std::span<const Element> active() const { return {active_.data(), activeCount_}; }
@@ -53,8 +54,10 @@ class ActiveList {
     };
     std::vector<Added> added_;
     std::vector<Element> sorted_, active_;
-    std::vector<std::uint32_t> end_;  // by hyperplane: the number of elements that begin there; once sorted, their end
-    // The number of elements added, of active ones, and of those in sorted_ that have become active so far.
+    // Per hyperplane, for the elements of which it is the first one: their number; after `sort`, the end of their range
+    // in sorted_.
+    std::vector<std::uint32_t> end_;
+    // The number of elements that were added, that are active, and that have become active since `sort`.
     std::uint32_t count_ = 0, activeCount_ = 0, begun_ = 0;
 };
 

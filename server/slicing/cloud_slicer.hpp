@@ -10,8 +10,8 @@
 
 namespace oval4d::slicing {
 
-/// Returns the default radius of a cloud's balls, as a fraction of the circumradius. It falls with the number of
-/// points.
+/// Returns the default radius of a cloud's balls, as a fraction of the circumradius. The radius decreases as the number
+/// of points grows.
 double ballRadius(const geometry::PointCloud& cloud);
 
 /// Slices point clouds. A slice shows each point within half a spacing of its hyperplane as a ball, whose opacity falls
@@ -25,8 +25,8 @@ class CloudSlicer {
                const geometry::Hyperplanes& planes, SliceSet& out);
 
   private:
-    std::vector<std::int32_t> planeOf_;  // by point: the index of its hyperplane; −1: none
-    std::vector<std::uint32_t> next_;    // by hyperplane: the index of the slice vertex to write next
+    std::vector<std::int32_t> planeOf_;  // per point: the index of its hyperplane; −1 for none
+    std::vector<std::uint32_t> next_;    // per hyperplane: the index of the slice vertex to write next
 };
 
 }  // namespace oval4d::slicing

@@ -7,9 +7,9 @@ namespace oval4d::slicing {
 
 namespace {
 
-// Whether two cores are faster than one. A sweep sorts the elements once and writes them for each hyperplane, so its
-// time is proportional to the number of elements times (the number of hyperplanes + a constant). If the product is less
-// than kLarge, waking the other core takes longer than the time saved.
+// Returns whether two cores are faster than one. A sweep sorts the elements once and writes them for each hyperplane,
+// so its time is proportional to the number of elements times (the number of hyperplanes + a constant). If this product
+// is at most kLarge, waking the other core takes longer than the time that it saves.
 bool isWorthTwoCores(const polytopes::Polytope& polytope, int planes) {
     constexpr std::size_t kSorting = 40;  // the time of sorting, as a number of hyperplanes that take the same time
     constexpr std::size_t kLarge = 2'500'000;
@@ -20,11 +20,11 @@ bool isWorthTwoCores(const polytopes::Polytope& polytope, int planes) {
 
 }  // namespace
 
-bool ConvexSlicer::cut(const polytopes::Polytope& polytope, VertexLevels levels, std::span<SliceSet* const> touching,
+bool ConvexSlicer::cut(const polytopes::Polytope& polytope, VertexRanks ranks, std::span<SliceSet* const> touching,
                        SliceSet& out) {
-    if (!levels.anyOnPlane && isWorthTwoCores(polytope, out.planes.count)) return cutHalves(polytope, levels, out);
+    if (!ranks.anyOnPlane && isWorthTwoCores(polytope, out.planes.count)) return cutHalves(polytope, ranks, out);
     Sweep& sweep = lower_.sweep;
-    if (!sweep.begin(polytope, levels, out.planes.count)) return false;
+    if (!sweep.begin(polytope, ranks, out.planes.count)) return false;
     SliceCounts size = sweep.size();
     for (const SliceSet* slice : touching) {
         if (slice != nullptr) size = size + slice->totalCounts();
@@ -38,12 +38,12 @@ bool ConvexSlicer::cut(const polytopes::Polytope& polytope, VertexLevels levels,
 
 // Requires that no vertex lies in a hyperplane. Then the sizes of slices are known before they are cut, so the size of
 // the lower half gives the position of the upper half in `out`.
-bool ConvexSlicer::cutHalves(const polytopes::Polytope& polytope, VertexLevels levels, SliceSet& out) {
-    const auto [least, most] = std::minmax_element(levels.below.begin(), levels.below.end());
+bool ConvexSlicer::cutHalves(const polytopes::Polytope& polytope, VertexRanks ranks, SliceSet& out) {
+    const auto [least, most] = std::minmax_element(ranks.below.begin(), ranks.below.end());
     const std::int32_t middle = (*least + *most) / 2;
     const auto begin = [&](Half& half, std::int32_t first, std::int32_t end) {
-        half.below.resize(levels.below.size());
-        std::transform(levels.below.begin(), levels.below.end(), half.below.begin(),
+        half.below.resize(ranks.below.size());
+        std::transform(ranks.below.begin(), ranks.below.end(), half.below.begin(),
                        [&](std::int32_t below) { return std::clamp(below, first, end) - first; });
         half.sound = half.sweep.begin(polytope, {half.below, half.below, false}, end - first);
     };

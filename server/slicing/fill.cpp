@@ -212,8 +212,8 @@ void Filler::sortActive(double y) {
     }
 }
 
-// Adds the region between two sides in the current strip, which is inside the face: extends an open piece if this keeps
-// it convex, else begins a new piece.
+// Adds a region inside the face, between two sides in the current strip: extends an open piece if this keeps it convex,
+// else begins a new piece.
 void Filler::addSpan(std::uint32_t left, std::uint32_t right, bool positive, double bottom) {
     const Side &l = sides_[left], &r = sides_[right];
     for (Piece& piece : open_) {
@@ -236,7 +236,7 @@ void Filler::addSpan(std::uint32_t left, std::uint32_t right, bool positive, dou
     open_.push_back(piece);
 }
 
-// Whether the piece stays convex if its chains continue along these sides.
+// Returns whether the piece stays convex if its chains continue along these sides.
 bool Filler::canContinue(const Piece& piece, const Side& left, const Side& right, double bottom) const {
     const Side &l = sides_[piece.leftSide], &r = sides_[piece.rightSide];
     const auto follows = [&](const Side& before, const Side& after, double inward) {

@@ -26,7 +26,7 @@ struct Fill {
         glm::dvec3 normal;  ///< unit length, outward; the plane is dot(normal, x) = offset
         double offset;
         std::uint32_t source;               ///< the source number, as in SliceSet::faceSource
-        std::uint32_t firstLoop, lastLoop;  ///< the faces firstLoop … lastLoop − 1 of the SliceSet
+        std::uint32_t firstLoop, lastLoop;  ///< its loops: faces firstLoop … lastLoop − 1 of the SliceSet
         int winding;                        ///< the maximum of |winding number|; 0 if the patch is filled roughly
     };
     std::vector<std::uint32_t> patchBegin, pieceBegin, cornerBegin;
@@ -44,10 +44,10 @@ class Filler {
     static constexpr std::size_t kNoLimit = ~std::size_t{0};
 
     /// Fills the faces of all slices, which were cut from a polytope of this circumradius. Overwrites `out` and reuses
-    /// its memory. `steps` limits the time for all faces together: a face with n sides that cross at k points takes at
-    /// most 2 n² + n · k steps. If too few steps are left for a face, it is filled roughly: each of its loops becomes
-    /// the triangles between the sides of the loop and the mean of its corners. These triangles cover the interior
-    /// exactly if the loop is star-shaped about the mean, as star polygons are.
+    /// its memory. `steps` limits the time for all faces together: a face whose loops have n sides, which cross at k
+    /// points, takes at most 2 n² + n · k steps. If too few steps are left for a face, the face is filled roughly: each
+    /// of its loops becomes the triangles between the sides of the loop and the mean of its corners. These triangles
+    /// cover the interior of the loop exactly if the loop is star-shaped about the mean, as star polygons are.
     void fill(const SliceSet& slices, double circumradius, Fill& out, std::size_t steps = kNoLimit);
 
   private:
@@ -67,7 +67,8 @@ class Filler {
         std::array<glm::dvec2, kMaxCorners> left, right;
         std::size_t leftCount, rightCount;
         std::uint32_t leftSide, rightSide;
-        // Whether the winding number in the piece is positive; whether the piece extends into the current strip.
+        // `positive`: whether the winding number in the piece is positive. `continued`: whether the piece extends into
+        // the current strip.
         bool positive, continued;
     };
     // A plane in space, with orthonormal axes.
@@ -92,8 +93,8 @@ class Filler {
     std::vector<glm::dvec3> points_;
     std::vector<Side> sides_;
     std::vector<double> levels_;          // each y at which a side begins, ends or crosses another, ascending
-    std::vector<std::uint32_t> waiting_;  // sides, sorted by their first level
-    std::vector<std::uint32_t> active_;   // sides through the current strip (between two levels), from left to right
+    std::vector<std::uint32_t> waiting_;  // all sides, sorted by their lower levels
+    std::vector<std::uint32_t> active_;   // sides in the current strip (between two levels), from left to right
     std::vector<Piece> open_;             // pieces that may continue in the next strip
 };
 

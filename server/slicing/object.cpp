@@ -46,6 +46,39 @@ void findCellCenters(const Polytope& p, std::vector<glm::dvec4>& out) {
     }
 }
 
+// Returns the vector that is perpendicular to a, b and c, with the length of the volume that they span.
+glm::dvec4 perpendicularTo(const glm::dvec4& a, const glm::dvec4& b, const glm::dvec4& c) {
+    const auto minor = [&](int i, int j, int k) {
+        return glm::dot(glm::dvec3(a[i], a[j], a[k]),
+                        glm::cross(glm::dvec3(b[i], b[j], b[k]), glm::dvec3(c[i], c[j], c[k])));
+    };
+    return {-minor(1, 2, 3), minor(0, 2, 3), -minor(0, 1, 3), minor(0, 1, 2)};
+}
+
+// A cell's normal is the 4-D counterpart of a polygon's area vector: the sum over its surface's triangles, oriented as
+// seen from outside the cell, of the volumes of the tetrahedra that they span with one point. As the whole boundary is
+// oriented, all normals point to the same side of it.
+void findCellHyperplanes(const Polytope& p, std::vector<glm::dvec4>& normals, std::vector<double>& offsets) {
+    normals.assign(p.cells.size(), glm::dvec4(0));
+    offsets.assign(p.cells.size(), 0);
+    for (std::size_t c = 0; c < normals.size(); ++c) {
+        const glm::dvec4 origin = p.vertices[p.faces[p.cells[c][0]][0]];
+        double surface = 0;  // the sum of the tetrahedra's absolute volumes
+        for (std::uint32_t at = p.cells.begin[c]; at < p.cells.begin[c + 1]; ++at) {
+            const auto loop = p.faces[p.cells.items[at]];
+            const glm::dvec4 first = p.vertices[loop[0]] - origin;
+            for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+                const glm::dvec4 part =
+                    perpendicularTo(first, p.vertices[loop[i]] - origin, p.vertices[loop[i + 1]] - origin);
+                normals[c] += static_cast<double>(p.cellSigns[at]) * part;
+                surface += glm::length(part);
+            }
+        }
+        if (glm::length(normals[c]) <= 1e-9 * surface) normals[c] = glm::dvec4(0);
+        offsets[c] = glm::dot(normals[c], origin);
+    }
+}
+
 }  // namespace
 
 const geometry::ObjectInfo& infoOf(const Object& object) {
@@ -92,6 +125,15 @@ double ballRadius(const Object& object) {
 void findCellCenters(const Object& object, std::vector<glm::dvec4>& out) {
     std::visit(Visitor{[&](const PolytopePtr& p) { findCellCenters(*p, out); },
                        [&](const CloudPtr& /*cloud*/) { out.clear(); }},
+               object);
+}
+
+void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals, std::vector<double>& offsets) {
+    std::visit(Visitor{[&](const PolytopePtr& p) { findCellHyperplanes(*p, normals, offsets); },
+                       [&](const CloudPtr& /*cloud*/) {
+                           normals.clear();
+                           offsets.clear();
+                       }},
                object);
 }
 

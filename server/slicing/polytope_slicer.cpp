@@ -6,12 +6,12 @@
 
 #include <glm/geometric.hpp>
 
-#include "slicing/ranges.hpp"
+#include "slicing/prefix_sums.hpp"
 
-// The polytope is cut just above each hyperplane, where there are no vertices, and the section is then moved down onto
-// the hyperplane: a point on an edge that starts in the hyperplane moves to the vertex where the edge starts, a segment
-// in a 2-face that has an edge in the hyperplane moves to that edge, and elements that shrink to a point are dropped.
-// So vertices in the hyperplane need no special cases, and sections are closed loops even if 2-faces are stars.
+// The polytope is cut just above each hyperplane, where there are no vertices, and the section is then moved down into
+// the hyperplane. A point on an edge that starts in the hyperplane moves to the vertex where the edge starts. A segment
+// in a 2-face that has an edge in the hyperplane moves to this edge. Elements that shrink to a point are removed.
+// Therefore vertices in the hyperplane need no special cases, and sections are closed loops even if 2-faces are stars.
 
 namespace oval4d::slicing {
 
@@ -35,7 +35,7 @@ bool PolytopeSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet& ou
 }
 
 // Cuts separately, by the general method, the slices in hyperplanes that the polytope touches from one side. Returns
-// false if hyperplanes are so close together that vertices lie in two of them.
+// false if hyperplanes are so close together that more than two of them touch the polytope, within the tolerance.
 bool PolytopeSlicer::cutTouching(const polytopes::Polytope& polytope, SliceSet& out) {
     const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
     const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
@@ -146,8 +146,8 @@ void PolytopeSlicer::cutEdges(const polytopes::Polytope& polytope, SliceSet& out
 // Finds the slice edges: the polytope's edges in the hyperplane, and the segments in which 2-faces cross it.
 void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out) {
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
-    levelSum_.resize(below_.size());
-    for (std::size_t v = 0; v < below_.size(); ++v) levelSum_[v] = below_[v] + upTo_[v];
+    rankSum_.resize(below_.size());
+    for (std::size_t v = 0; v < below_.size(); ++v) rankSum_[v] = below_[v] + upTo_[v];
     up_.resize(out.planes.count);
     down_.resize(out.planes.count);
     faceSpan_.resize(faces);
@@ -157,11 +157,11 @@ void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out
     const std::uint32_t* vertex = polytope.faces.items.data();
     for (std::uint32_t f = 0; f < faces; ++f) {
         const std::uint32_t* end = polytope.faces.items.data() + polytope.faces.begin[f + 1];
-        std::int32_t least = levelSum_[*vertex];
+        std::int32_t least = rankSum_[*vertex];
         std::int32_t most = least;
         while (++vertex != end) {
-            least = std::min(least, levelSum_[*vertex]);
-            most = std::max(most, levelSum_[*vertex]);
+            least = std::min(least, rankSum_[*vertex]);
+            most = std::max(most, rankSum_[*vertex]);
         }
         const Span above{least / 2, most / 2};
         const std::int32_t leastUpTo = (least + 1) / 2;
@@ -312,8 +312,8 @@ void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out
     placeLoops(out);
 }
 
-// Joins the segments cut from the cell's 2-faces, each directed by the 2-face's orientation in this cell: the end of
-// one is the start of the next. Then follows these links to find the closed loops.
+// Joins the segments that were cut from the cell's 2-faces, each directed by the orientation of its 2-face in this
+// cell: the end of a segment is the start of the next one. Then follows these links to find the closed loops.
 void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_t cell) {
     const Span span = cellSpan_[cell];
     starts_.clear();
@@ -346,8 +346,8 @@ void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_
 }
 
 // A 2-face in the hyperplane is a face of the slice if one of its cells lies above the hyperplane, or if one of its
-// cells lies in the hyperplane, on top of the polytope. Its loop then has the orientation that it has in that cell. If
-// the polytope only touches the hyperplane, in this 2-face, the 2-face is the whole slice.
+// cells lies in the hyperplane, on top of the polytope. The slice face then has the orientation of the 2-face in this
+// cell. If the polytope only touches the hyperplane in this 2-face, the 2-face is the whole slice.
 void PolytopeSlicer::addLyingFaces(const polytopes::Polytope& polytope, const SliceSet& out) {
     touchingFaces_.clear();
     bounded_.assign(out.planes.count, false);

@@ -34,20 +34,21 @@ class PolytopeSlicer {
     static constexpr std::uint32_t kNone = 0xffffffffU;
     static constexpr std::uint32_t kNewEdge = 0xfffffffeU;  // see Segment
 
-    // The hyperplanes with the indices from … to − 1; none if to ≤ from.
+    // The hyperplanes with the indices in [from, to); none if to ≤ from.
     struct Span {
         std::int32_t from, to;
     };
-    // A segment in which a 2-face crosses the level just above hyperplane `plane`, from the edge where the 2-face's
-    // vertex loop rises through this level to the edge where it descends. `edge` is the slice edge of the segment;
-    // kNone if the segment shrinks to a point when moved down into the hyperplane. Until numberEdges() has set `edge`,
-    // it is kNewEdge for a new slice edge, or the polytope's edge in the hyperplane onto which the segment moves.
+    // A segment in which a 2-face crosses the level just above hyperplane `plane`. It runs from slot `up`, where the
+    // 2-face's vertex loop rises through this level, to slot `down`, where the loop descends (for slots, see
+    // slotBegin_). `edge` is the slice edge of the segment; kNone if the segment shrinks to a point when it is moved
+    // down into the hyperplane. Before numberEdges() runs, `edge` holds kNewEdge if the slice edge is new, or the index
+    // of the polytope's edge onto which the segment moves.
     struct Segment {
         std::int32_t plane;
-        std::uint32_t up, down;  // slots (see slotBegin_)
+        std::uint32_t up, down;
         std::uint32_t edge;
     };
-    // A slice face: a closed loop with `size` corners, which begin at loopCorners_[begin]. `source`: see SliceSet.
+    // A slice face: a closed loop with `size` corners, which begin at loopCorners_[begin]. For `source`, see SliceSet.
     struct Loop {
         std::int32_t plane;
         std::uint32_t source, begin, size;
@@ -55,10 +56,10 @@ class PolytopeSlicer {
     // A point where the vertex loop of a 2-face crosses a hyperplane.
     struct Crossing {
         std::uint32_t slot;
-        double along;  // its position along the line in which the hyperplane cuts the 2-face's plane
+        double along;  // its position along the line where the hyperplane cuts the 2-face's plane
     };
 
-    // Rotates the vertices and counts the hyperplanes below each.
+    // Rotates the vertices and counts the hyperplanes below each vertex.
     void locateVertices(const polytopes::Polytope& polytope, const geometry::Rotation& orientation, SliceSet& out);
     // Cuts all slices by the general method, which also handles nonconvex polytopes.
     void cutGeneral(const polytopes::Polytope& polytope, SliceSet& out);
@@ -88,32 +89,34 @@ class PolytopeSlicer {
 
     ConvexSlicer convexSlicer_;
     std::array<SliceSet, 2> singles_;               // the slices in hyperplanes that the polytope touches from one side
-    std::vector<SliceSet*> touching_;               // by hyperplane: an element of singles_, or null
+    std::vector<SliceSet*> touching_;               // per hyperplane: an element of singles_, or null
     std::vector<std::int32_t> allBelow_, allUpTo_;  // below_ and upTo_ for all hyperplanes, during cutTouching()
-    // By vertex: the number of hyperplanes strictly below it, and the number of those below or through it. The two
-    // differ if the vertex lies in a hyperplane, whose index is then below_.
-    std::vector<std::int32_t> below_, upTo_, levelSum_;  // levelSum_: their sum
-    bool anyOnPlane_ = false;                            // whether any vertex lies in a hyperplane
-    std::vector<std::uint32_t> vertexPoint_;             // by vertex that lies in a hyperplane: its slice vertex
+    // Per vertex: the number of hyperplanes strictly below the vertex, and the number of hyperplanes below or through
+    // it. The two numbers differ if the vertex lies in a hyperplane, whose index is then below_.
+    std::vector<std::int32_t> below_, upTo_, rankSum_;  // rankSum_: below_ + upTo_
+    bool anyOnPlane_ = false;                           // whether any vertex lies in a hyperplane
+    std::vector<std::uint32_t> vertexPoint_;            // per vertex that lies in a hyperplane: its slice vertex
     // A slot is the crossing of an edge with the level just above a hyperplane: for edge e and hyperplane k, its index
     // is slotBegin_[e] + k − below_[lower end]. slotPoint_ is the slice vertex of each slot.
     std::vector<std::uint32_t> slotBegin_, slotPoint_;
     std::vector<std::uint32_t> lyingEdges_;   // edges that lie in a hyperplane
-    std::vector<std::uint32_t> sliceEdgeOf_;  // by edge that lies in a hyperplane: its slice edge
-    std::vector<Segment> segments_;           // those of 2-face f begin at segmentBegin_[f]
+    std::vector<std::uint32_t> sliceEdgeOf_;  // per edge that lies in a hyperplane: its slice edge
+    std::vector<Segment> segments_;           // the segments of 2-face f begin at segmentBegin_[f]
     std::vector<std::uint32_t> segmentBegin_;
-    std::vector<Span> faceSpan_, cellSpan_;       // by element: the hyperplanes with its vertices on both sides
-    std::vector<std::int32_t> lyingIn_;           // by 2-face: the hyperplane that contains all of it, or kNoPlane
-    std::vector<std::uint32_t> next_, nextEdge_;  // by slot: the next slot around the cell's section, the edge to it
-    // The hyperplane and the slot of each link in next_ that belongs to the current cell.
+    std::vector<Span> faceSpan_, cellSpan_;  // per element: the hyperplanes with vertices on both sides
+    std::vector<std::int32_t> lyingIn_;      // per 2-face: the hyperplane that contains all of it, or kNoPlane
+    // Per slot, while a cell is traced: the next slot around the cell's section, and the slice edge that leads there.
+    // kNone in next_ for a slot that has no next slot or has already been traced.
+    std::vector<std::uint32_t> next_, nextEdge_;
+    // The slots that have a next slot in the current cell, each after its hyperplane: the loops are traced from these.
     std::vector<std::pair<std::int32_t, std::uint32_t>> starts_;
     std::vector<std::uint32_t> touchingFaces_;  // 2-faces in which the polytope touches a hyperplane
-    std::vector<bool> bounded_;                 // by hyperplane: whether a 2-face in it bounds its slice
+    std::vector<bool> bounded_;                 // per hyperplane: whether a 2-face in it is a slice face
     std::vector<Loop> loops_;
-    std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // slice vertex, slice edge to the next one
-    std::vector<std::uint32_t> cursor_, cornerCursor_;       // by hyperplane: where to write the next element
-    std::vector<std::uint32_t> up_, down_;  // by hyperplane: the slots where a convex 2-face's loop rises, descends
-    std::vector<Crossing> ups_, downs_;     // in one hyperplane: where a nonconvex 2-face's loop rises, descends
+    std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // slice vertex, slice edge to the next corner
+    std::vector<std::uint32_t> cursor_, cornerCursor_;       // per hyperplane: where to write the next element
+    std::vector<std::uint32_t> up_, down_;  // per hyperplane: the slots where a convex 2-face's loop rises and descends
+    std::vector<Crossing> ups_, downs_;     // in one hyperplane: where a nonconvex 2-face's loop rises and descends
 };
 
 }  // namespace oval4d::slicing

@@ -27,8 +27,8 @@ struct SliceCounts {
 };
 
 /// The slices of an object, stored as a structure of arrays. Slice i has the vertices with the indices vertexBegin[i] …
-/// vertexBegin[i + 1] − 1, and likewise edges and faces. Vertex indices in `edges` and `corners` count from the slice's
-/// own first vertex, edge indices in `cornerEdges` from its own first edge.
+/// vertexBegin[i + 1] − 1, and likewise edges and faces. The vertex indices in `edges` and `corners` are relative to
+/// the first vertex of the slice, the edge indices in `cornerEdges` to its first edge.
 ///
 /// The source number of a slice element tells from which element of the polytope it was cut. For a polytope with E
 /// edges, F 2-faces and C cells, `vertexSource` is the index of the edge that was cut, or E + v if polytope vertex v
@@ -39,16 +39,16 @@ struct SliceSet {
     geometry::Hyperplanes planes;
     std::vector<glm::dvec4> rotatedVertices;  ///< all vertices of the polytope, or points, rotated
 
-    std::vector<std::uint32_t> vertexBegin, edgeBegin, faceBegin;  ///< planes.count + 1 each
+    std::vector<std::uint32_t> vertexBegin, edgeBegin, faceBegin;  ///< planes.count + 1 entries each
     std::vector<glm::dvec3> vertices;
     std::vector<std::uint32_t> vertexSource;
-    /// By vertex: the radius of its ball relative to the usual radius, and the opacity of its ball. Empty if all are 1.
+    /// Per vertex: the radius of its ball relative to the usual radius, and the ball's opacity. Empty if all are 1.
     std::vector<float> ballScale, ballOpacity;
     std::vector<std::array<std::uint32_t, 2>> edges;
     std::vector<std::uint32_t> edgeSource;
-    std::vector<std::uint32_t> cornerBegin;  ///< by face: the index of its first corner; then the total
-    std::vector<std::uint32_t> corners;      ///< the faces' loops: vertices, counterclockwise from outside
-    std::vector<std::uint32_t> cornerEdges;  ///< the slice edge from corner i to the next corner of the loop
+    std::vector<std::uint32_t> cornerBegin;  ///< per face: the index of its first corner; then their number
+    std::vector<std::uint32_t> corners;      ///< the loop of each face: vertices, counterclockwise from outside
+    std::vector<std::uint32_t> cornerEdges;  ///< entry i: the slice edge from corner i to the next in its loop
     std::vector<std::uint32_t> faceSource;
 
     std::size_t vertexCount(int slice) const { return vertexBegin[slice + 1] - vertexBegin[slice]; }

@@ -18,8 +18,8 @@ void copyChunk(const std::byte* from, std::byte* to) {
 }
 
 // Repeats the block of `size` items that begins at `begin`, so that it occurs `times` times in succession. Makes the
-// first few copies of a small block inline, where a call of memcpy would take longer than the copying. Then doubles the
-// copied range with each call of memcpy.
+// first few copies of a small block inline, because each call of memcpy would take longer than the copying. Then
+// doubles the copied range with each call of memcpy.
 template <typename Item>
 void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::size_t times) {
     constexpr std::size_t kSmall = 256, kFew = 8;
@@ -56,8 +56,8 @@ SliceCounts insert(const SliceSet& slice, SliceCounts at, SliceSet& out) {
 
 }  // namespace
 
-bool Sweep::begin(const polytopes::Polytope& polytope, VertexLevels levels, int planes) {
-    levels_ = levels;
+bool Sweep::begin(const polytopes::Polytope& polytope, VertexRanks ranks, int planes) {
+    ranks_ = ranks;
     findSteps(polytope, planes);
     return findElements(polytope, planes);
 }
@@ -91,12 +91,12 @@ bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> 
 // Finds the hyperplanes at which the set of cut elements may change.
 void Sweep::findSteps(const polytopes::Polytope& polytope, int planes) {
     vertexPosition_.assign(planes + 1, VertexPosition::none);
-    for (const std::int32_t below : levels_.below) vertexPosition_[below] = VertexPosition::between;
-    if (levels_.anyOnPlane) {
-        for (std::size_t v = 0; v < levels_.below.size(); ++v) {
-            if (levels_.below[v] != levels_.upTo[v]) vertexPosition_[levels_.below[v]] = VertexPosition::inside;
+    for (const std::int32_t below : ranks_.below) vertexPosition_[below] = VertexPosition::between;
+    if (ranks_.anyOnPlane) {
+        for (std::size_t v = 0; v < ranks_.below.size(); ++v) {
+            if (ranks_.below[v] != ranks_.upTo[v]) vertexPosition_[ranks_.below[v]] = VertexPosition::inside;
         }
-        collapse_.begin(polytope, levels_);
+        collapse_.begin(polytope, ranks_);
     }
     steps_.assign(1, 0);
     for (int k = 1; k < planes; ++k) {
@@ -107,7 +107,7 @@ void Sweep::findSteps(const polytopes::Polytope& polytope, int planes) {
 
 // Finds the hyperplanes that cut each element, and the total size of the slices.
 bool Sweep::findElements(const polytopes::Polytope& polytope, int planes) {
-    const std::int32_t* below = levels_.below.data();
+    const std::int32_t* below = ranks_.below.data();
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
@@ -158,9 +158,9 @@ bool Sweep::findElements(const polytopes::Polytope& polytope, int planes) {
     line_.resize(edges);
     vertex_.resize(edges);
     sliceEdge_.resize(faces);
-    end_.resize(2 * std::size_t{faces});
-    next_.resize(2 * std::size_t{faces});
-    startEnd_.resize(cells);
+    edgeOfEnd_.resize(2 * std::size_t{faces});
+    nextEnd_.resize(2 * std::size_t{faces});
+    firstEnd_.resize(cells);
     size_ = total;
     return true;
 }
@@ -174,7 +174,7 @@ void Sweep::advance(const polytopes::Polytope& polytope, const std::vector<glm::
 // Makes an edge active: computes its line, and links the sections of the 2-faces and cells around it.
 inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t e,
                              const std::vector<glm::dvec4>& rotatedVertices) {
-    const std::int32_t* below = levels_.below.data();
+    const std::int32_t* below = ranks_.below.data();
     const auto& edge = polytope.edges[e];
     const std::uint32_t rises = below[edge[0]] < below[edge[1]] ? 1 : 0;
     const glm::dvec4& at = rotatedVertices[edge[1 - rises]];
@@ -187,9 +187,9 @@ inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t 
     for (const std::uint32_t side : around) {
         const std::uint32_t here = side ^ rises;
         const std::uint32_t out = rises != 0 ? last : here, into = rises != 0 ? here : last;
-        end_[here] = e;
-        next_[out] = into ^ 1U;
-        startEnd_[polytope.faceCells[here >> 1U][here & 1U]] = here;
+        edgeOfEnd_[here] = e;
+        nextEnd_[out] = into ^ 1U;
+        firstEnd_[polytope.faceCells[here >> 1U][here & 1U]] = here;
         last = here;
     }
 }
@@ -235,7 +235,7 @@ void Sweep::writeVertices(int plane, int end, SliceCounts at, SliceSet& out) {
 void Sweep::writeEdges(SliceCounts at, SliceSet& out) {
     const auto cut = faces_.active();
     const std::uint32_t* vertices = vertex_.data();
-    const std::uint32_t* ends = end_.data();
+    const std::uint32_t* ends = edgeOfEnd_.data();
     auto* edges = out.edges.data() + at.edges;
     std::uint32_t* edgeSource = out.edgeSource.data() + at.edges;
     std::uint32_t* sliceEdges = sliceEdge_.data();
@@ -250,7 +250,7 @@ void Sweep::writeEdges(SliceCounts at, SliceSet& out) {
 bool Sweep::writeFaces(SliceCounts at, SliceSet& out) const {
     const auto cut = cells_.active();
     const std::uint32_t* sliceEdges = sliceEdge_.data();
-    const std::uint32_t* next = next_.data();
+    const std::uint32_t* next = nextEnd_.data();
     const auto* edges = out.edges.data() + at.edges;
     const std::uint32_t* edgeSource = out.edgeSource.data() + at.edges;
     std::uint32_t* faceSource = out.faceSource.data() + at.faces;
@@ -262,7 +262,7 @@ bool Sweep::writeFaces(SliceCounts at, SliceSet& out) const {
     for (std::size_t i = 0; i < cut.size(); ++i) {
         faceSource[i] = cut[i].number;
         cornerBegin[i] = corner;
-        const std::uint32_t start = startEnd_[cut[i].number];
+        const std::uint32_t start = firstEnd_[cut[i].number];
         const std::uint32_t first = sliceEdges[start >> 1U];
         // If the 2-face is no longer cut, the cell is not convex.
         if (first >= faces_.size() || edgeSource[first] != start >> 1U) return false;

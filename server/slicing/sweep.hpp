@@ -13,6 +13,7 @@
 #include "slicing/active_list.hpp"
 #include "slicing/degeneracy_collapse.hpp"
 #include "slicing/slice_set.hpp"
+#include "slicing/vertex_ranks.hpp"
 
 namespace oval4d::slicing {
 
@@ -24,34 +25,36 @@ namespace oval4d::slicing {
 /// change. Reuses its scratch memory between calls.
 class Sweep {
   public:
-    /// Prepares the sweep of a polytope by `planes` hyperplanes: finds the elements that each of them cuts. `levels`
-    /// describes only these hyperplanes; its arrays must outlive the call of `cut`. Returns false if rounding errors in
-    /// the vertices make a hyperplane cut a 2-face or a cell twice.
-    bool begin(const polytopes::Polytope& polytope, VertexLevels levels, int planes);
+    /// Prepares the sweep of a polytope by `planes` hyperplanes: finds the elements that each hyperplane cuts. `ranks`
+    /// locates the vertices relative to these hyperplanes; its arrays must outlive the call of `cut`. Returns false if
+    /// rounding errors in the vertices make a hyperplane cut a 2-face or a cell twice.
+    bool begin(const polytopes::Polytope& polytope, VertexRanks ranks, int planes);
 
-    /// Returns an upper bound of the total size of the slices, without those that are passed to `cut` in `touching`. It
-    /// is not exact if vertices lie in hyperplanes, because the slices there become smaller (see DegeneracyCollapse).
+    /// Returns an upper bound of the total size of the slices, without those that are passed to `cut` in `touching`.
+    /// The bound is not exact if vertices lie in hyperplanes, because slices through vertices become smaller (see
+    /// DegeneracyCollapse).
     SliceCounts size() const { return size_; }
 
     /// Writes the slices to `out`. The first one becomes slice number `first` of `out`, and its elements begin at
     /// position `at`; sets `at` to the position after the last slice. `out` must contain the rotated vertices, and its
-    /// arrays must be large enough. `touching` has an entry for each hyperplane: a set with only the slice there if the
-    /// polytope touches the hyperplane from one side, else null. It may be empty if all entries would be null. Returns
-    /// false in the same case as `begin`.
+    /// arrays must be large enough. `touching` has an entry for each hyperplane. If the polytope touches the hyperplane
+    /// from one side, the entry is a set that contains only the slice in this hyperplane; otherwise, the entry is null.
+    /// `touching` may be empty if all entries would be null. Returns false in the same case as `begin`.
     bool cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, SliceCounts& at,
              SliceSet& out);
 
   private:
-    // The line through an edge; its point with the w coordinate w is at + (w − at.w) · slope.
+    // The line through an edge: at w, its x, y and z are those of at + (w − at.w) · slope.
     struct alignas(16) Line {
         glm::dvec4 at;
         glm::dvec3 slope;
     };
+    // The hyperplanes with the indices in [from, to).
     struct Span {
         std::int32_t from, to;
     };
-    // Where vertices lie: in a hyperplane (inside), only between it and the hyperplane below (between), or in neither
-    // place.
+    // Where vertices lie, as seen from a hyperplane: at least one in it (inside); none in it, but at least one between
+    // it and the hyperplane below (between); or none in either place (none).
     enum class VertexPosition : std::uint8_t { none, between, inside };
     void findSteps(const polytopes::Polytope& polytope, int planes);
     bool findElements(const polytopes::Polytope& polytope, int planes);
@@ -64,21 +67,24 @@ class Sweep {
     void writeEdges(SliceCounts at, SliceSet& out);
     bool writeFaces(SliceCounts at, SliceSet& out) const;
 
-    VertexLevels levels_;
+    VertexRanks ranks_;
     SliceCounts size_;
-    int first_ = 0;
+    int first_ = 0;  // the slice number in `out` of hyperplane 0
     ActiveList edges_, faces_, cells_;
-    std::vector<Span> faceSpan_;
-    std::vector<VertexPosition> vertexPosition_;  // by hyperplane
-    std::vector<int> steps_;                // hyperplane 0, the others with a vertexPosition_, and the end of the range
-    std::vector<Line> line_;                // by active edge
-    std::vector<std::uint32_t> vertex_;     // by active edge: its slice vertex
-    std::vector<std::uint32_t> sliceEdge_;  // by active 2-face: its slice edge
-    // The section of 2-face f has two ends, numbered 2 f and 2 f + 1: the 2-face's vertex loop rises through the
-    // hyperplane at edge end_[2 f] and descends at edge end_[2 f + 1]. In cell faceCells[f][i], the cell's section
-    // traverses 2-face f toward the end 2 f + i, and then the next 2-face toward the end next_[2 f + i].
-    std::vector<std::uint32_t> end_, next_;
-    std::vector<std::uint32_t> startEnd_;  // by active cell: an end at which tracing its section starts
+    std::vector<Span> faceSpan_;                  // per 2-face
+    std::vector<VertexPosition> vertexPosition_;  // per hyperplane
+    // The hyperplanes at which elements may become active or inactive: hyperplane 0, and all others whose
+    // vertexPosition_ is not `none`; then the number of hyperplanes.
+    std::vector<int> steps_;
+    std::vector<Line> line_;                // per active edge
+    std::vector<std::uint32_t> vertex_;     // per active edge: its slice vertex
+    std::vector<std::uint32_t> sliceEdge_;  // per active 2-face: its slice edge
+    // The hyperplane cuts 2-face f in a segment with two ends: end 2 f lies on edge edgeOfEnd_[2 f], where the vertex
+    // loop of f rises through the hyperplane, and end 2 f + 1 on edge edgeOfEnd_[2 f + 1], where the loop descends. An
+    // end also stands for the directed segment (half-edge) that runs toward it: end 2 f + i belongs to the boundary
+    // loop of the section of cell faceCells[f][i], and nextEnd_[2 f + i] is the next half-edge of that loop.
+    std::vector<std::uint32_t> edgeOfEnd_, nextEnd_;
+    std::vector<std::uint32_t> firstEnd_;  // per active cell: an end at which tracing its section starts
     DegeneracyCollapse collapse_;
 };
 

@@ -9,6 +9,7 @@
 
 namespace oval4d::slicing {
 
+/// How a slice element is drawn: not at all, partly transparent, or normally.
 enum class Visibility : std::uint8_t { hidden, faded, full };
 
 /// Returns the factor by which a visibility multiplies the opacity of a shape.
@@ -30,12 +31,12 @@ struct Visibilities {
     Visibility face(std::uint32_t source) const { return faces.empty() ? Visibility::full : faces[source]; }
 };
 
-/// Derives the visibilities of all elements from those of the cell types: `ofType` is indexed by cell type. Overwrites
+/// Derives the visibilities of all elements from the visibilities of the cell types, which `ofType` lists. Overwrites
 /// `out`.
 void findVisibilities(const Object& object, std::span<const Visibility> ofType, Visibilities& out);
 
-/// Returns the cell that gives its color to the slice face with this source number: the cell that was cut or, for a
-/// 2-face in the hyperplane, the first of its two cells that is not hidden.
+/// Returns the cell that determines the color of the slice face with this source number. This is the cell that was cut
+/// or, for a 2-face in the hyperplane, the first of its two cells that is not hidden.
 std::uint32_t coloringCell(const Object& object, const Visibilities& visibilities, std::uint32_t source);
 
 }  // namespace oval4d::slicing

@@ -29,7 +29,7 @@ class DepthLimiter : public json::json_sax_t {
     bool end_object() override { return --depth_, true; }
     bool end_array() override { return --depth_, true; }
     bool parse_error(std::size_t /*position*/, const std::string& /*token*/, const json::exception& fault) override {
-        refuse(fault.what());
+        throwUnreadable(fault.what());
     }
 
   private:
@@ -38,43 +38,43 @@ class DepthLimiter : public json::json_sax_t {
 
 }  // namespace
 
-void refuse(const std::string& what) { throw Unreadable(what); }
+void throwUnreadable(const std::string& what) { throw UnreadableRecord(what); }
 
-std::string bytesOf(const json& value) {
+std::string encodeCbor(const json& value) {
     std::string bytes;
     json::to_cbor(value, bytes);
     return bytes;
 }
 
-json parsedRecord(std::string_view bytes) {
+json parseRecord(std::string_view bytes) {
     DepthLimiter limiter;
-    if (!json::sax_parse(bytes, &limiter, json::input_format_t::cbor)) refuse("it is nested too deeply");
+    if (!json::sax_parse(bytes, &limiter, json::input_format_t::cbor)) throwUnreadable("it is nested too deeply");
     json value = json::from_cbor(bytes);
-    if (!value.is_array() || value.empty()) refuse("it is not a session record");
+    if (!value.is_array() || value.empty()) throwUnreadable("it is not a session record");
     if (value.at(0) != kRecordVersion) {
-        refuse("it has version " + value.at(0).dump() + ", and this program reads version " +
-               std::to_string(kRecordVersion));
+        throwUnreadable("it has version " + value.at(0).dump() + ", and this program reads version " +
+                        std::to_string(kRecordVersion));
     }
     return value;
 }
 
-double number(const json& value, double least, double most) {
+double readNumber(const json& value, double least, double most) {
     const auto found = value.get<double>();
-    if (!(found >= least && found <= most)) refuse("a number is out of range");
+    if (!(found >= least && found <= most)) throwUnreadable("a number is out of range");
     return found;
 }
 
-double number(const json& value, double most) { return number(value, -most, most); }
+double readNumber(const json& value, double most) { return readNumber(value, -most, most); }
 
-std::vector<std::uint32_t> integersIn(const json& value) {
+std::vector<std::uint32_t> readIntegers(const json& value) {
     std::vector<std::uint32_t> list;
-    for (const json& each : value) list.push_back(integer<std::uint32_t>(each));
+    for (const json& each : value) list.push_back(readInteger<std::uint32_t>(each));
     return list;
 }
 
-std::string textIn(const json& value) {
+std::string readName(const json& value) {
     auto text = value.get<std::string>();
-    if (text.size() > kMaxNameBytes || !text::isUtf8(text)) refuse("a name is too long or is not UTF-8");
+    if (text.size() > kMaxNameBytes || !text::isUtf8(text)) throwUnreadable("a name is too long or is not UTF-8");
     return text;
 }
 

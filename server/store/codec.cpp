@@ -31,15 +31,15 @@ constexpr std::size_t kMaxTotalVertices = 10'000'000;  // of all polytopes of a 
 constexpr std::uint64_t kMaxRevision = 1ULL << 53U;    // JSON readers represent integers exactly up to this one
 
 std::uint64_t revisionIn(const json& value) {
-    const auto revision = integer<std::uint64_t>(value);
-    if (revision > kMaxRevision) refuse("the revision is out of range");
+    const auto revision = readInteger<std::uint64_t>(value);
+    if (revision > kMaxRevision) throwUnreadable("the revision is out of range");
     return revision;
 }
 
 template <typename Enum>
 Enum enumerator(const json& value, Enum last) {
-    const auto found = integer<unsigned>(value);
-    if (found > static_cast<unsigned>(last)) refuse("an enumerator is out of range: " + std::to_string(found));
+    const auto found = readInteger<unsigned>(value);
+    if (found > static_cast<unsigned>(last)) throwUnreadable("an enumerator is out of range: " + std::to_string(found));
     return static_cast<Enum>(found);
 }
 
@@ -51,19 +51,19 @@ glm::dquat quaternionIn(const json& value) {
 
 // --- Objects
 
-/// Returns the polytope with this name, and subtracts its number of vertices from `vertexBudget`. Throws Unreadable if
-/// the budget is too small.
+/// Returns the polytope with this name, and subtracts its number of vertices from `vertexBudget`. Throws
+/// UnreadableRecord if the budget is too small.
 slicing::Object rebuilt(const std::string& name, polytopes::PolytopeCache& cache, std::size_t& vertexBudget) {
     const auto named = polytopes::designNamed(name, kMaxVertices);
     const auto* design = std::get_if<polytopes::Design>(&named);
-    if (design == nullptr) refuse("the catalogue has no polytope called " + text::inQuotes(name));
+    if (design == nullptr) throwUnreadable("the catalogue has no polytope called " + text::inQuotes(name));
     const std::size_t vertices = polytopes::elementCounts(*design).vertices;
-    if (vertices > vertexBudget) refuse("its polytopes have too many vertices");
+    if (vertices > vertexBudget) throwUnreadable("its polytopes have too many vertices");
     vertexBudget -= vertices;
     try {
         return cache.get(*design);
     } catch (const std::invalid_argument& fault) {
-        refuse("a polytope cannot be built: " + std::string(fault.what()));
+        throwUnreadable("a polytope cannot be built: " + std::string(fault.what()));
     }
 }
 
@@ -98,19 +98,19 @@ ObjectList objectsIn(const json& list, const ObjectLookup& objectOf, polytopes::
     std::size_t vertexBudget = kMaxTotalVertices;
     for (const json& entry : list) {
         if (entry.size() == 1) {
-            objects.push_back(rebuilt(textIn(entry.at(0)), cache, vertexBudget));
-        } else if (auto object = objectOf(textIn(entry.at(1)))) {
+            objects.push_back(rebuilt(readName(entry.at(0)), cache, vertexBudget));
+        } else if (auto object = objectOf(readName(entry.at(1)))) {
             objects.push_back(std::move(*object));
         } else {
-            refuse("an object is missing");
+            throwUnreadable("an object is missing");
         }
     }
     return objects;
 }
 
 const slicing::Object& objectAt(const json& number, const ObjectList& objects) {
-    const auto index = integer<std::size_t>(number);
-    if (index >= objects.size()) refuse("an object is missing");
+    const auto index = readInteger<std::size_t>(number);
+    if (index >= objects.size()) throwUnreadable("an object is missing");
     return objects[index];
 }
 
@@ -124,22 +124,29 @@ json encoded(const std::optional<geometry::Turn>& turn) {
 
 std::optional<geometry::Turn> turnIn(const json& value) {
     if (value.is_null()) return std::nullopt;
-    geometry::Turn turn{enumerator(value.at(0), geometry::Plane::zw), number(value.at(1), session::kMaxAngle), {}};
-    if (!value.at(2).is_null()) turn.beta = number(value.at(2), session::kMaxAngle);
+    geometry::Turn turn{enumerator(value.at(0), geometry::Plane::zw), readNumber(value.at(1), session::kMaxAngle), {}};
+    if (!value.at(2).is_null()) turn.beta = readNumber(value.at(2), session::kMaxAngle);
     return turn;
 }
 
 json encoded(const scene::Look& look) {
-    const auto& [view, parts, orbit, coloring, cellTypes] = look;
+    const auto& [view, parts, orbit, coloring, cellTypes, projection] = look;
     const auto& [azimuth, elevation, zoom] = orbit;
     const auto& [hidden, faded] = cellTypes;
     json flags = json::array();
     for (const scene::PartRow& part : scene::kParts) flags.push_back(parts.*part.flag);
-    return {static_cast<unsigned>(view),     std::move(flags), {azimuth, elevation, zoom},
-            static_cast<unsigned>(coloring), hidden,           faded};
+    const auto& [kind, eye] = projection;
+    return {static_cast<unsigned>(view),
+            std::move(flags),
+            {azimuth, elevation, zoom},
+            static_cast<unsigned>(coloring),
+            hidden,
+            faded,
+            static_cast<unsigned>(kind),
+            eye};
 }
 
-/// A record written by an earlier version of the program has fewer flags; the parts without a flag are shown.
+/// A record written by an earlier version of the program has fewer flags; the other parts keep their defaults.
 scene::Parts partsIn(const json& value) {
     scene::Parts parts;
     for (std::size_t i = 0; i < std::min(value.size(), scene::kParts.size()); ++i)
@@ -148,24 +155,29 @@ scene::Parts partsIn(const json& value) {
 }
 
 std::vector<std::uint32_t> cellTypesIn(const json& value, std::size_t count) {
-    std::vector<std::uint32_t> kinds = integersIn(value);
+    std::vector<std::uint32_t> kinds = readIntegers(value);
     const auto unsorted = std::ranges::adjacent_find(kinds, std::greater_equal<>());
     if (unsorted != kinds.end() || (!kinds.empty() && kinds.back() >= count))
-        refuse("the hidden or faded cell types are not in order or out of range");
+        throwUnreadable("the hidden or faded cell types are not in order or out of range");
     return kinds;
 }
 
 scene::Look lookIn(const json& value, std::size_t kinds) {
     const json& orbit = value.at(2);
-    scene::Look look{enumerator(value.at(0), scene::View::single),
-                     partsIn(value.at(1)),
-                     {number(orbit.at(0), session::kMaxOrbit), number(orbit.at(1), session::kMaxOrbit),
-                      number(orbit.at(2), session::kMinZoom, session::kMaxZoom)},
-                     enumerator(value.at(3), scene::Coloring::plain),
-                     {cellTypesIn(value.at(4), kinds), cellTypesIn(value.at(5), kinds)}};
+    scene::Look look{
+        enumerator(value.at(0), scene::View::single),
+        partsIn(value.at(1)),
+        {readNumber(orbit.at(0), session::kMaxOrbitAngle), readNumber(orbit.at(1), session::kMaxOrbitAngle),
+         readNumber(orbit.at(2), session::kMinZoom, session::kMaxZoom)},
+        enumerator(value.at(3), scene::Coloring::light),
+        {cellTypesIn(value.at(4), kinds), cellTypesIn(value.at(5), kinds)},
+        {}};
+    if (value.size() > 6)  // a record written by an earlier version of the program has no projection
+        look.projection = {enumerator(value.at(6), scene::ProjectionKind::orthogonal),
+                           readNumber(value.at(7), session::kMinEye, session::kMaxEye)};
     const auto& [hidden, faded] = look.cellTypes;
     if (std::ranges::any_of(hidden, [&](auto kind) { return std::ranges::binary_search(faded, kind); }))
-        refuse("a cell type is both hidden and faded");
+        throwUnreadable("a cell type is both hidden and faded");
     return look;
 }
 
@@ -188,7 +200,7 @@ State stateIn(const json& value, const ObjectList& objects) {
     const slicing::Object& object = objectAt(value.at(0), objects);
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     const auto orientation = geometry::Rotation::fromQuaternions(quaternionIn(value.at(1)), quaternionIn(value.at(2)));
-    if (!orientation) refuse("an orientation is not a rotation");
+    if (!orientation) throwUnreadable("an orientation is not a rotation");
     const json& angles = value.at(3);
     const json& slices = value.at(4);
     constexpr double kTwoPi = 2 * std::numbers::pi;
@@ -197,21 +209,21 @@ State stateIn(const json& value, const ObjectList& objects) {
     constexpr double kSlack = 1e-9;
     State state{object,
                 *orientation,
-                number(angles.at(0), kTwoPi),
-                number(angles.at(1), kTwoPi),
-                number(angles.at(2), std::numeric_limits<double>::min(), kTwoPi),
-                {integer<int>(slices.at(0)),
-                 number(slices.at(1), session::kMinSpacing * radius * (1 - kSlack),
-                        session::kMaxSpacing * radius * (1 + kSlack)),
-                 integer<int>(slices.at(2))},
+                readNumber(angles.at(0), kTwoPi),
+                readNumber(angles.at(1), kTwoPi),
+                readNumber(angles.at(2), std::numeric_limits<double>::min(), kTwoPi),
+                {readInteger<int>(slices.at(0)),
+                 readNumber(slices.at(1), session::kMinSpacing * radius * (1 - kSlack),
+                            session::kMaxSpacing * radius * (1 + kSlack)),
+                 readInteger<int>(slices.at(2))},
                 lookIn(value.at(5), info.cellTypes.size()),
                 value.at(6).get<bool>(),
                 turnIn(value.at(7))};
     const auto& [count, spacing, focus] = state.slices;
     if (count < 1 || count > kMaxSlices || count % 2 == 0 || !(spacing > 0))
-        refuse("the number of slices or their spacing is not allowed");
-    if (focus < -session::kMaxFocus || focus > session::kMaxFocus) refuse("the focus is out of range");
-    if (state.turning && !state.lastTurn) refuse("a state is turning, but has no last rotation");
+        throwUnreadable("the number of slices or their spacing is not allowed");
+    if (focus < -session::kMaxFocus || focus > session::kMaxFocus) throwUnreadable("the focus is out of range");
+    if (state.turning && !state.lastTurn) throwUnreadable("a state is turning, but has no last rotation");
     return state;
 }
 
@@ -229,41 +241,41 @@ json history(const States& states, std::size_t maxCount, ObjectTable& objects) {
 
 std::string encodeHead(const Session& session, const ObjectKeyLookup& keyOf) {
     ObjectTable objects(keyOf);
-    json now = encoded(session.now, objects);
-    return bytesOf({kRecordVersion, session.revision, objects.list, std::move(now)});
+    json current = encoded(session.current, objects);
+    return encodeCbor({kRecordVersion, session.revision, objects.list, std::move(current)});
 }
 
 std::string encodeWhole(const Session& session, std::size_t maxUndo, const ObjectKeyLookup& keyOf) {
-    const auto& [now, past, future, loaded, pendingKey, revision] = session;
+    const auto& [current, undoSteps, redoSteps, loaded, pendingKey, revision] = session;
     ObjectTable objects(keyOf);
-    json state = encoded(now, objects);
-    json before = history(past, maxUndo, objects);
-    json after = history(future, maxUndo, objects);
+    json state = encoded(current, objects);
+    json before = history(undoSteps, maxUndo, objects);
+    json after = history(redoSteps, maxUndo, objects);
     json own = json::array();
     for (const auto& [name, object] : loaded) own.push_back({name, objects.number(object)});
-    return bytesOf({kRecordVersion, revision, objects.list, std::move(state), std::move(before), std::move(after),
-                    std::move(own), pendingKey});
+    return encodeCbor({kRecordVersion, revision, objects.list, std::move(state), std::move(before), std::move(after),
+                       std::move(own), pendingKey});
 }
 
 Session decode(std::string_view whole, std::string_view head, const ObjectLookup& objectOf,
                polytopes::PolytopeCache& cache) {
     return translatingErrors([&] {
-        const json value = parsedRecord(whole);
+        const json value = parseRecord(whole);
         const ObjectList objects = objectsIn(value.at(2), objectOf, cache);
         Session session;
         session.revision = revisionIn(value.at(1));
-        session.now = stateIn(value.at(3), objects);
-        for (const json& state : value.at(4)) session.past.push_back(stateIn(state, objects));
-        for (const json& state : value.at(5)) session.future.push_back(stateIn(state, objects));
-        for (const json& own : value.at(6)) session.loaded[textIn(own.at(0))] = objectAt(own.at(1), objects);
-        session.pendingKey = textIn(value.at(7));
+        session.current = stateIn(value.at(3), objects);
+        for (const json& state : value.at(4)) session.undoSteps.push_back(stateIn(state, objects));
+        for (const json& state : value.at(5)) session.redoSteps.push_back(stateIn(state, objects));
+        for (const json& own : value.at(6)) session.loaded[readName(own.at(0))] = objectAt(own.at(1), objects);
+        session.pendingKey = readName(value.at(7));
         if (head.empty()) return session;
-        const json newer = parsedRecord(head);
+        const json newer = parseRecord(head);
         const auto revision = revisionIn(newer.at(1));
         if (revision <= session.revision) return session;
-        session.past.push_back(std::move(session.now));
-        session.future.clear();
-        session.now = stateIn(newer.at(3), objectsIn(newer.at(2), objectOf, cache));
+        session.undoSteps.push_back(std::move(session.current));
+        session.redoSteps.clear();
+        session.current = stateIn(newer.at(3), objectsIn(newer.at(2), objectOf, cache));
         session.revision = revision;
         session.pendingKey.clear();
         return session;

@@ -8,26 +8,27 @@
 
 #include "polytopes/catalogue/polytope_cache.hpp"
 #include "session/session.hpp"
-#include "store/unreadable.hpp"
+#include "store/unreadable_record.hpp"
 
 namespace oval4d::store {
 
-/// Returns the key under which an object is stored. Called for objects that are not built from their names. Keys are
-/// unique within the record of one session.
+/// Returns the key under which an object is stored. Called only for objects that cannot be rebuilt from their names.
+/// Keys are unique within the record of one session.
 using ObjectKeyLookup = std::function<std::string(const slicing::Object&)>;
-/// Returns the stored object with this key; nothing if there is none. May throw Unreadable.
+/// Returns the stored object with this key; nothing if there is none. May throw UnreadableRecord.
 using ObjectLookup = std::function<std::optional<slicing::Object>(const std::string&)>;
 
-/// Encodes the head of a session: its current state and revision, which every command changes. Takes a few hundred
-/// bytes.
+/// Encodes the head of a session: its current state and revision, which every command changes. The result has a few
+/// hundred bytes.
 std::string encodeHead(const session::Session& session, const ObjectKeyLookup& keyOf);
 
 /// Encodes the whole session, with at most `maxUndo` undo steps and at most `maxUndo` redo steps.
 std::string encodeWhole(const session::Session& session, std::size_t maxUndo, const ObjectKeyLookup& keyOf);
 
 /// Decodes a session from the results of encodeWhole and encodeHead. If `head` has a later revision than `whole`, the
-/// state in `head` becomes the current one, and the state in `whole` becomes its undo step. An empty `head` is ignored.
-/// Takes objects that are built from their names from `cache`, and others from `objectOf`. Throws Unreadable.
+/// state in `head` becomes the current one, and the state in `whole` becomes the latest undo step. An empty `head` is
+/// ignored. Objects that can be rebuilt from their names come from `cache`, all others from `objectOf`. Throws
+/// UnreadableRecord if a record is invalid or an object is missing.
 session::Session decode(std::string_view whole, std::string_view head, const ObjectLookup& objectOf,
                         polytopes::PolytopeCache& cache);
 

@@ -30,7 +30,7 @@ std::optional<Record> MemoryStore::claim(const std::string& id) {
 /// Returns an upper bound of the size after the updates: also counts the bytes that they replace.
 std::size_t MemoryStore::bytesWith(std::span<const RecordUpdate> updates) const {
     std::size_t bytes = bytes_;
-    for (const RecordUpdate& update : updates) bytes += bytesOf(update);
+    for (const RecordUpdate& update : updates) bytes += estimateStoredSize(update);
     return bytes;
 }
 
@@ -49,7 +49,7 @@ std::vector<SaveResult> MemoryStore::save(std::span<const RecordUpdate> updates)
         results.push_back(SaveResult::saved);
         Entry& entry = entries_[update.credentials.id];
         if (known) bytes_ -= entry.bytes();
-        if (!known) entry.tokenHash = hashOf(update.credentials.token);
+        if (!known) entry.tokenHash = hashToken(update.credentials.token);
         entry.fence = update.fence;
         entry.touched = Clock::now();
         entry.changed = update.changed;

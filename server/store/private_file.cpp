@@ -101,7 +101,7 @@ void makePrivateIfExists(const std::string& path) { checkFile(path, Permissions:
 
 void refuseUnsafe(const std::string& path) { checkFile(path, Permissions::leave); }
 
-std::string identityOf(const std::string& path) {
+std::string fileIdentity(const std::string& path) {
     struct stat status{};
     if (lstat(path.c_str(), &status) != 0) return {};
     return std::to_string(status.st_dev) + ":" + std::to_string(status.st_ino);

@@ -34,8 +34,8 @@ return {fence, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 // The script that saves a session. KEYS: as above. ARGV: the name of this server, the expiry period, the fence, the
 // hash of the token, the token or an empty text, head, whole, 1 if no client has the session open anymore, the number
 // of objects to add, their keys and bytes, the keys of the objects to drop. Returns a SaveResult. Two servers have
-// equal fences only if Redis has lost writes; then the save of the owner is accepted. A save of the head alone does not
-// restart the expiry period, because a save of the whole session follows within a second.
+// equal fences only if Redis has lost writes; then only the save of the owner is accepted. A save of the head alone
+// does not restart the expiry period, because a save of the whole session follows within a second.
 constexpr const char* kSave = R"(
 local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
 local mine = tonumber(ARGV[3])
@@ -72,9 +72,10 @@ local owner = redis.call('HGET', KEYS[1], 'owner')
 if owner and owner ~= '' and owner ~= ARGV[1] then return end
 redis.call('DEL', KEYS[1], KEYS[2]))";
 
-// kOlderSave is the SHA-1 of the save script of version 0.1.0: if Redis knows that script, servers of that version use
-// this Redis. kHashedSince is the key of the time, in milliseconds of Redis's clock, at which a server of a later
-// version first noticed that; kNoteSince is the script that sets it once and returns it.
+// kOlderSave is the SHA-1 of the save script of version 0.1.0: if Redis knows that script, servers of version 0.1.0 use
+// this Redis. kHashedSince is a key in Redis. Its value is the time, in milliseconds of Redis's clock, at which a
+// server of a later version first noticed servers of version 0.1.0. kNoteSince is the script that sets this value if it
+// is not set yet, and returns it.
 constexpr const char* kOlderSave = "3f542d461100cccfdf5dc6b4716be03d88d48eae";
 constexpr const char* kHashedSince = "oval4d:tokens_hashed_since";
 constexpr const char* kNoteSince = R"(#!lua flags=allow-oom
@@ -221,7 +222,7 @@ std::optional<std::string> RedisStore::tokenHash(const std::string& id) {
     const bool plain = token.type == REDIS_REPLY_STRING;
     if (hash.type == REDIS_REPLY_STRING && (!plain || storesPlainTokens())) return textOf(hash);
     if (!plain) return std::nullopt;
-    std::string made = hashOf(textOf(token));
+    std::string made = hashToken(textOf(token));
     ask(hashScript_, id, {textOf(token), made, storesPlainTokens() ? "0" : "1"});
     return made;
 }
@@ -252,11 +253,11 @@ std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) 
                           self_,
                           std::to_string(expiry_.count()),
                           std::to_string(update.fence),
-                          hashOf(update.credentials.token),
+                          hashToken(update.credentials.token),
                           storesPlainTokens() ? update.credentials.token : "",
                           update.head,
                           update.whole,
-                          update.last ? "1" : "0",
+                          update.closed ? "1" : "0",
                           std::to_string(update.objects.size())};
         for (const auto& [key, bytes] : update.objects) {
             command.push_back(key);

@@ -11,11 +11,12 @@ struct redisReply;    // NOLINT(readability-identifier-naming)
 namespace oval4d::store {
 
 /// Stores each session in one Redis hash and its objects in another; Redis itself expires both. Operations that must be
-/// atomic (a claim, which increments the fence, and a save, which compares it) are Lua scripts. Each server has a Redis
-/// list, to which other servers add the ids of the sessions that they claim from it. Requires Redis 7 or later.
+/// atomic are Lua scripts: a claim, which increments the fence, and a save, which compares the fence. Each server has a
+/// Redis list, to which other servers add the ids of the sessions that they claim from this server. Requires Redis 7 or
+/// later.
 class RedisStore final : public Store {
   public:
-    /// Does not connect: the first operation does. Throws std::invalid_argument unless `options.url` is
+    /// Does not connect; the first operation connects. Throws std::invalid_argument unless `options.url` is
     /// redis://[user:password@]host[:port][/database]. The password is not percent-decoded.
     explicit RedisStore(const StoreOptions& options);
     ~RedisStore() override;
@@ -53,7 +54,7 @@ class RedisStore final : public Store {
     std::string host_, user_, password_, database_;
     int port_ = 6379;
     const Milliseconds expiry_, timeout_;
-    const std::string self_;  ///< random name by which Redis knows this server
+    const std::string self_;  ///< random name of this server in Redis
     std::unique_ptr<redisContext, Closer> context_;
     std::string claimScript_, saveScript_, hashScript_, removeScript_;  ///< SHA-1 digests of the loaded scripts
     /// Until this time, tokens are also stored as plain text, for servers of version 0.1.0.

@@ -41,7 +41,7 @@ std::string randomName(std::size_t bytes) {
     return name;
 }
 
-std::string hashOf(std::string_view token) {
+std::string hashToken(std::string_view token) {
     makeReady();
     std::array<unsigned char, crypto_generichash_BYTES> hash{};
     crypto_generichash(hash.data(), hash.size(), bytesIn(token), token.size(), nullptr, 0);
@@ -51,7 +51,7 @@ std::string hashOf(std::string_view token) {
     return text;
 }
 
-std::string digestOf(std::span<const std::string_view> parts) {
+std::string recordDigest(std::span<const std::string_view> parts) {
     makeReady();
     crypto_generichash_state state{};
     std::string digest(crypto_generichash_BYTES_MIN, '\0');

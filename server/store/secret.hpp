@@ -15,12 +15,13 @@ std::string randomName(std::size_t bytes);
 /// Returns the hash that stores keep in place of a token: 256 bits of BLAKE2b in lower-case hexadecimal. A fast hash
 /// without salt is sufficient, because a token is 160 random bits and cannot be found by brute force, unlike a
 /// password.
-std::string hashOf(std::string_view token);
+std::string hashToken(std::string_view token);
 
 /// Returns a digest that detects damaged records: 128 bits of BLAKE2b over `parts` and their lengths, as 16 bytes.
-std::string digestOf(std::span<const std::string_view> parts);
+std::string recordDigest(std::span<const std::string_view> parts);
 
-/// Returns whether two secrets are equal. Takes the same time wherever they differ, so that timing reveals nothing.
+/// Returns whether two secrets are equal. For secrets of equal length, the time that this takes does not depend on
+/// where they differ, so that timing reveals nothing about them.
 bool equalInConstantTime(std::string_view given, std::string_view expected);
 
 }  // namespace oval4d::store

@@ -30,7 +30,7 @@ void answer(sqlite3_context* context, Make make) {
 
 void hashFunction(sqlite3_context* context, int /*count*/, sqlite3_value** values) {
     answer(context, [&] {
-        const std::string hash = hashOf(bytesOf(values[0]));
+        const std::string hash = hashToken(bytesOf(values[0]));
         sqlite3_result_text64(context, hash.data(), hash.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
     });
 }
@@ -39,7 +39,7 @@ void digestFunction(sqlite3_context* context, int count, sqlite3_value** values)
     answer(context, [&] {
         std::vector<std::string_view> parts;
         for (int i = 0; i < count; ++i) parts.push_back(bytesOf(values[i]));
-        const std::string digest = digestOf(parts);
+        const std::string digest = recordDigest(parts);
         sqlite3_result_blob64(context, digest.data(), digest.size(), SQLITE_TRANSIENT);
     });
 }
@@ -57,7 +57,8 @@ Database::Database(std::string path) : path_(std::move(path)) {
         // The file may be damaged or forged: do not trust its schema.
         sqlite3_db_config(handle_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
         sqlite3_db_config(handle_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-        // These statements do not read the file.
+        // These statements do not read the file, so they do not fail if the file is damaged. The caller needs an open
+        // database even then, to copy the intact sessions.
         run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA cell_size_check = ON;"
             "PRAGMA secure_delete = ON; PRAGMA foreign_keys = ON");
     } catch (...) {
@@ -103,47 +104,47 @@ void Database::run(const char* sql) {
 }
 
 std::int64_t Database::number(const char* sql) {
-    Query query(*this, sql);
-    return query.row() ? query.numberAt(0) : 0;
+    Statement statement(*this, sql);
+    return statement.row() ? statement.numberAt(0) : 0;
 }
 
 void Database::keepWriteAheadLog() { sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr); }
 
-Query::Query(Database& database, const char* sql) : database_(database) {
+Statement::Statement(Database& database, const char* sql) : database_(database) {
     if (sqlite3_prepare_v2(database.handle_, sql, -1, &statement_, nullptr) != SQLITE_OK) database.fail(sql);
 }
 
-Query::~Query() { sqlite3_finalize(statement_); }
+Statement::~Statement() { sqlite3_finalize(statement_); }
 
-Query& Query::text(std::string_view value) {
+Statement& Statement::text(std::string_view value) {
     return bound(sqlite3_bind_text64(statement_, ++bound_, value.data(), value.size(), SQLITE_STATIC, SQLITE_UTF8));
 }
 
-Query& Query::blob(std::string_view value) {
+Statement& Statement::blob(std::string_view value) {
     // SQLite would bind a null pointer as NULL, not as an empty blob.
     return bound(
         sqlite3_bind_blob64(statement_, ++bound_, value.empty() ? "" : value.data(), value.size(), SQLITE_STATIC));
 }
 
-Query& Query::number(std::int64_t value) { return bound(sqlite3_bind_int64(statement_, ++bound_, value)); }
+Statement& Statement::number(std::int64_t value) { return bound(sqlite3_bind_int64(statement_, ++bound_, value)); }
 
-bool Query::row() {
+bool Statement::row() {
     const int status = sqlite3_step(statement_);
     if (status != SQLITE_ROW && status != SQLITE_DONE) database_.fail(sqlite3_sql(statement_));
     return status == SQLITE_ROW;
 }
 
-std::string Query::bytesAt(int column) const {
+std::string Statement::bytesAt(int column) const {
     const void* bytes = sqlite3_column_blob(statement_, column);
     const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
     return bytes == nullptr ? std::string() : std::string(static_cast<const char*>(bytes), size);
 }
 
-std::int64_t Query::numberAt(int column) const { return sqlite3_column_int64(statement_, column); }
+std::int64_t Statement::numberAt(int column) const { return sqlite3_column_int64(statement_, column); }
 
-std::size_t Query::changes() const { return static_cast<std::size_t>(sqlite3_changes(database_.handle_)); }
+std::size_t Statement::changes() const { return static_cast<std::size_t>(sqlite3_changes(database_.handle_)); }
 
-Query& Query::bound(int status) {
+Statement& Statement::bound(int status) {
     if (status != SQLITE_OK) database_.fail("binding a value");
     return *this;
 }

@@ -20,18 +20,19 @@ class CorruptDatabase : public StoreError {
 };
 
 /// A connection to a database file, which it locks exclusively from the first read on. Provides two SQL functions,
-/// hash_of(token) and digest_of(part, …), which call hashOf and digestOf of secret.hpp.
+/// hash_of(token) and digest_of(part, …), which call hashToken and recordDigest of secret.hpp.
 class Database {
   public:
-    /// Opens an existing file; throws StoreError if there is none. Does not read the file: the first statement does.
+    /// Opens an existing file; throws StoreError if there is none. Does not read the file, so it does not notice
+    /// damage; the first statement that is executed reads the file.
     explicit Database(std::string path);
     Database(const Database&) = delete;
     Database& operator=(const Database&) = delete;
     ~Database();
 
     const std::string& path() const { return path_; }
-    /// Executes statements whose results are ignored. Like all functions that execute a statement, throws NotWritable
-    /// if the file cannot be written, CorruptDatabase if it is damaged, and StoreError for any other error.
+    /// Executes one or more statements and ignores their results. Like all functions that execute a statement, throws
+    /// NotWritable if the file cannot be written, CorruptDatabase if it is damaged, and StoreError for any other error.
     void run(const char* sql);
     /// Executes a query and returns the first value of its first row, or 0 if there are no rows.
     std::int64_t number(const char* sql);
@@ -39,7 +40,7 @@ class Database {
     void keepWriteAheadLog();
 
   private:
-    friend class Query;
+    friend class Statement;
     friend class Transaction;
     [[noreturn]] void fail(const char* what) const;
 
@@ -48,17 +49,17 @@ class Database {
 };
 
 /// A prepared statement that is executed once. Values bound to it are not copied and must outlive it.
-class Query {
+class Statement {
   public:
-    Query(Database& database, const char* sql);
-    Query(const Query&) = delete;
-    Query& operator=(const Query&) = delete;
-    ~Query();
+    Statement(Database& database, const char* sql);
+    Statement(const Statement&) = delete;
+    Statement& operator=(const Statement&) = delete;
+    ~Statement();
 
     /// These functions bind a value to the next parameter of the statement.
-    Query& text(std::string_view value);
-    Query& blob(std::string_view value);
-    Query& number(std::int64_t value);
+    Statement& text(std::string_view value);
+    Statement& blob(std::string_view value);
+    Statement& number(std::int64_t value);
 
     /// Executes the statement up to its next row; returns false if there is none.
     bool row();
@@ -69,7 +70,7 @@ class Query {
     std::size_t changes() const;
 
   private:
-    Query& bound(int status);
+    Statement& bound(int status);
 
     Database& database_;
     sqlite3_stmt* statement_ = nullptr;

@@ -8,9 +8,9 @@ namespace oval4d::store {
 
 namespace {
 
-/// Finds the ids of all sessions. Reading a table in order stops at a damaged page, but reading it from beyond that
-/// page may find ids that were missed. If the first scan fails, the constructor therefore scans from many starting
-/// points in both directions, and also scans an index, which is stored on other pages.
+/// Finds the ids of all sessions. A scan of a table in order stops at a damaged page, but a scan that starts after this
+/// page may find further ids. If the first scan fails, the constructor therefore scans from many starting points in
+/// both directions. It also scans an index and the table of objects, which are stored on other pages.
 class IdScan {
   public:
     explicit IdScan(Database& from) : from_(from) {
@@ -40,9 +40,9 @@ class IdScan {
     /// Adds the ids that the query returns to `found`. Returns false if an error ended it early.
     bool walk(const char* sql, const std::vector<std::string>& bounds) {
         try {
-            Query query(from_, sql);
-            for (const std::string& bound : bounds) query.text(bound);
-            while (query.row()) found.insert(query.bytesAt(0));
+            Statement statement(from_, sql);
+            for (const std::string& bound : bounds) statement.text(bound);
+            while (statement.row()) found.insert(statement.bytesAt(0));
             return true;
         } catch (const StoreError&) {
             return false;
@@ -60,9 +60,10 @@ struct Row {
 /// Reads a session; returns nothing if it is missing or damaged. `hashed`: whether the file has the schema of version
 /// 2, with hashed tokens and digests.
 std::optional<Row> rowOf(Database& from, bool hashed, const std::string& id) {
-    Query session(from, hashed ? "SELECT token_hash, whole, head, fence, touched, changed FROM session WHERE id = ?1 "
-                                 "AND digest = digest_of(id, token_hash, whole) AND head_digest = digest_of(id, head)"
-                               : "SELECT hash_of(token), whole, head, fence, touched, 1 FROM session WHERE id = ?1");
+    Statement session(from, hashed
+                                ? "SELECT token_hash, whole, head, fence, touched, changed FROM session WHERE id = ?1 "
+                                  "AND digest = digest_of(id, token_hash, whole) AND head_digest = digest_of(id, head)"
+                                : "SELECT hash_of(token), whole, head, fence, touched, 1 FROM session WHERE id = ?1");
     if (!session.text(id).row()) return std::nullopt;
     Row row{session.bytesAt(0),
             session.bytesAt(1),
@@ -71,7 +72,7 @@ std::optional<Row> rowOf(Database& from, bool hashed, const std::string& id) {
             session.numberAt(4),
             session.numberAt(5),
             {}};
-    Query polytopes(
+    Statement polytopes(
         from, hashed ? "SELECT key, bytes, digest = digest_of(session, key, bytes) FROM polytope WHERE session = ?"
                      : "SELECT key, bytes, 1 FROM polytope WHERE session = ?");
     polytopes.text(id);
@@ -83,19 +84,19 @@ std::optional<Row> rowOf(Database& from, bool hashed, const std::string& id) {
 }
 
 void insert(Database& to, const std::string& id, const Row& row) {
-    Query session(to,
-                  "INSERT INTO session VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, digest_of(?1, ?2, ?6), digest_of(?1, ?7))");
+    Statement session(
+        to, "INSERT INTO session VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, digest_of(?1, ?2, ?6), digest_of(?1, ?7))");
     session.text(id).text(row.tokenHash).number(row.fence).number(row.touched).number(row.changed);
     session.blob(row.whole).blob(row.head).row();
     for (const auto& [key, bytes] : row.objects) {
-        Query polytope(to, "INSERT INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");
+        Statement polytope(to, "INSERT INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");
         polytope.text(id).text(key).blob(bytes).row();
     }
 }
 
 bool isHashed(Database& from) {
     try {
-        const Query query(from, "SELECT token_hash FROM session");
+        const Statement statement(from, "SELECT token_hash FROM session");
         return true;
     } catch (const StoreError&) {
         return false;

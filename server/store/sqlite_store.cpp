@@ -33,7 +33,7 @@ std::int64_t pagesFor(std::span<const RecordUpdate> updates) {
     std::size_t pages = 8;  // interior pages of tables and indices
     std::size_t small = 0;
     for (const RecordUpdate& update : updates) {
-        const std::size_t bytes = bytesOf(update);
+        const std::size_t bytes = estimateStoredSize(update);
         if (bytes < kPageSize / 4) {
             small += 2 * bytes;
         } else {
@@ -44,8 +44,8 @@ std::int64_t pagesFor(std::span<const RecordUpdate> updates) {
 }
 
 /// Throws StoreError if the file exists and is not a store of oval4d, so that the server neither changes nor renames
-/// it. A store has our application_id or, in version 1, the names of our tables on its first page. A database without
-/// tables is accepted, because its tables may still be in the write-ahead log. So is an empty file.
+/// it. The first page of a store contains our application_id or, in version 1, the names of our tables. An empty file
+/// is accepted. So is a database without tables, because its tables may still be in the write-ahead log.
 void refuseForeignFile(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::string start(kPageSize, '\0');
@@ -105,7 +105,7 @@ void SqliteStore::open() {
     refuseForeignFile(path_);
     makePrivate(path_);
     for (const char* beside : {"-wal", "-shm", "-journal"}) makePrivateIfExists(path_ + beside);
-    const std::string identity = identityOf(path_);
+    const std::string identity = fileIdentity(path_);
     database_ = std::make_unique<Database>(path_);
     try {
         std::string damage;
@@ -115,7 +115,7 @@ void SqliteStore::open() {
             damage = fault.what();
         }
         // Another server may have renamed the file after this one opened it.
-        if (identityOf(path_) != identity) {
+        if (fileIdentity(path_) != identity) {
             throw StoreError(path_ + " is in use by another server; each server needs its own file");
         }
         if (damage.empty()) {
@@ -140,7 +140,7 @@ void SqliteStore::check() {
         throw StoreError(path_ + " is the database of another program; it was not changed: give another path");
     }
     // Unlike quick_check, this also compares the indices with the tables.
-    Query check(*database_, "PRAGMA integrity_check(1)");
+    Statement check(*database_, "PRAGMA integrity_check(1)");
     const std::string result = check.row() ? check.bytesAt(0) : "the integrity check returned nothing";
     if (result != "ok") throw CorruptDatabase(path_ + ": " + result);
     if (tables > 0 && ours < 2) throw CorruptDatabase(path_ + ": a table is missing");
@@ -161,9 +161,10 @@ void SqliteStore::setUp() {
     database_->run(("PRAGMA journal_size_limit = " + std::to_string(logPages * std::int64_t{kPageSize})).c_str());
     logDamagedRecords();
     {
-        Query query(*database_,
-                    "UPDATE session SET touched = ?1 WHERE touched > ?1");  // a time in the future would delay expiry
-        query.number(now()).row();
+        Statement statement(
+            *database_,
+            "UPDATE session SET touched = ?1 WHERE touched > ?1");  // a time in the future would delay expiry
+        statement.number(now()).row();
     }
     if (const auto count = evictUntilFits(0, [](const std::string&) { return false; }); count > 0) {
         spdlog::warn("sessions evicted, the store exceeds its quota count={} store={}", count, name());
@@ -242,19 +243,20 @@ void SqliteStore::repair(const std::string& why) {
 /// errors within a record. The damaged records are kept for inspection.
 void SqliteStore::logDamagedRecords() {
     std::set<std::string> damaged;
-    Query query(
+    Statement statement(
         *database_,
         "SELECT id FROM session WHERE digest <> digest_of(id, token_hash, whole) OR head_digest <> digest_of(id, head)"
         " UNION SELECT session FROM polytope WHERE digest <> digest_of(session, key, bytes)");
-    while (query.row()) damaged.insert(query.bytesAt(0));
+    while (statement.row()) damaged.insert(statement.bytesAt(0));
     if (damaged.empty()) return;
     const auto all = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));
     spdlog::error("sessions damaged, and lost store={} kept={} lost={} lost_sessions={}", name(),
                   all - std::min(all, damaged.size()), damaged.size(), listed(damaged));
 }
 
-/// Calls `work` and returns its result. If `work` finds that the file is damaged, this call fails and the next one
-/// repairs the file first: the caller learns that the store failed, and saves the open sessions again once it works.
+/// Calls `work` and returns its result. If `work` finds that the file is damaged, this call throws, and the next call
+/// repairs the file first. WriteBehindStore therefore notices the failure and saves all open sessions again, because
+/// the repair may lose some of them.
 template <typename Work>
 auto SqliteStore::withRepair(Work work) {
     if (!database_) {
@@ -272,34 +274,35 @@ auto SqliteStore::withRepair(Work work) {
 
 std::optional<std::string> SqliteStore::tokenHash(const std::string& id) {
     return withRepair([&]() -> std::optional<std::string> {
-        Query query(*database_, "SELECT token_hash FROM session WHERE id = ?");
-        return query.text(id).row() ? std::optional(query.bytesAt(0)) : std::nullopt;
+        Statement statement(*database_, "SELECT token_hash FROM session WHERE id = ?");
+        return statement.text(id).row() ? std::optional(statement.bytesAt(0)) : std::nullopt;
     });
 }
 
 bool SqliteStore::isDamaged(const std::string& id) {
     return withRepair([&] {
-        Query query(*database_, "SELECT 1 FROM session WHERE id = ? AND digest <> digest_of(id, token_hash, whole)");
-        return query.text(id).row();
+        Statement statement(*database_,
+                            "SELECT 1 FROM session WHERE id = ? AND digest <> digest_of(id, token_hash, whole)");
+        return statement.text(id).row();
     });
 }
 
 std::optional<Record> SqliteStore::claim(const std::string& id) {
     return withRepair([&]() -> std::optional<Record> {
         try {
-            Query query(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
-            query.number(now()).text(id).row();
+            Statement statement(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
+            statement.number(now()).text(id).row();
         } catch (const NotWritable&) {
-            // Without the new fence, the record can still be read, and no other server uses this file.
+            // The record can still be read. It does not need the new fence, because no other server uses this file.
         }
-        Query query(*database_,
-                    "SELECT whole, head, fence, digest = digest_of(id, token_hash, whole) AND "
-                    "head_digest = digest_of(id, head) FROM session WHERE id = ?");
-        if (!query.text(id).row()) return std::nullopt;
-        Record record{query.bytesAt(0), query.bytesAt(1), {}, static_cast<Fence>(query.numberAt(2)), {}};
-        if (query.numberAt(3) == 0) record.damage = "its record in the store is damaged";
-        Query polytopes(*database_,
-                        "SELECT key, bytes, digest = digest_of(session, key, bytes) FROM polytope WHERE session = ?");
+        Statement statement(*database_,
+                            "SELECT whole, head, fence, digest = digest_of(id, token_hash, whole) AND "
+                            "head_digest = digest_of(id, head) FROM session WHERE id = ?");
+        if (!statement.text(id).row()) return std::nullopt;
+        Record record{statement.bytesAt(0), statement.bytesAt(1), {}, static_cast<Fence>(statement.numberAt(2)), {}};
+        if (statement.numberAt(3) == 0) record.damage = "its record in the store is damaged";
+        Statement polytopes(
+            *database_, "SELECT key, bytes, digest = digest_of(session, key, bytes) FROM polytope WHERE session = ?");
         polytopes.text(id);
         while (polytopes.row()) {
             record.objects.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
@@ -328,13 +331,13 @@ SaveResult SqliteStore::saveOne(const RecordUpdate& update) {
     const std::int64_t changed = update.changed ? 1 : 0;
     std::size_t written = 0;
     if (!update.whole.empty()) {
-        const std::string hash = hashOf(update.credentials.token);
-        Query query(
+        const std::string hash = hashToken(update.credentials.token);
+        Statement statement(
             *database_,
             "INSERT INTO session VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, digest_of(?1, ?2, ?6), digest_of(?1, ?7)) "
             "ON CONFLICT (id) DO UPDATE SET token_hash = ?2, fence = ?3, touched = ?4, changed = ?5, whole = ?6, "
             "head = ?7, digest = digest_of(?1, ?2, ?6), head_digest = digest_of(?1, ?7) WHERE fence <= ?3");
-        query.text(id)
+        statement.text(id)
             .text(hash)
             .number(fence)
             .number(now())
@@ -342,26 +345,26 @@ SaveResult SqliteStore::saveOne(const RecordUpdate& update) {
             .blob(update.whole)
             .blob(update.head)
             .row();
-        written = query.changes();
+        written = statement.changes();
     } else {
-        Query query(
+        Statement statement(
             *database_,
             "UPDATE session SET fence = ?1, touched = ?2, changed = ?3, head = ?4, head_digest = digest_of(id, ?4) "
             "WHERE id = ?5 AND fence <= ?1");
-        query.number(fence).number(now()).number(changed).blob(update.head).text(id).row();
-        written = query.changes();
+        statement.number(fence).number(now()).number(changed).blob(update.head).text(id).row();
+        written = statement.changes();
     }
     if (written == 0) {
-        Query query(*database_, "SELECT 1 FROM session WHERE id = ?");
-        return query.text(id).row() ? SaveResult::claimed : SaveResult::missing;
+        Statement statement(*database_, "SELECT 1 FROM session WHERE id = ?");
+        return statement.text(id).row() ? SaveResult::claimed : SaveResult::missing;
     }
     for (const auto& [key, bytes] : update.objects) {
-        Query query(*database_, "INSERT OR REPLACE INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");
-        query.text(id).text(key).blob(bytes).row();
+        Statement statement(*database_, "INSERT OR REPLACE INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");
+        statement.text(id).text(key).blob(bytes).row();
     }
     for (const std::string& key : update.dropped) {
-        Query query(*database_, "DELETE FROM polytope WHERE session = ? AND key = ?");
-        query.text(id).text(key).row();
+        Statement statement(*database_, "DELETE FROM polytope WHERE session = ? AND key = ?");
+        statement.text(id).text(key).row();
     }
     return SaveResult::saved;
 }
@@ -375,15 +378,15 @@ std::size_t SqliteStore::evictUntilFits(std::int64_t pagesNeeded, const IsPinned
     if (fits()) return 0;
     std::vector<std::string> candidates;
     {
-        Query query(*database_, "SELECT id FROM session ORDER BY changed, touched");
-        while (query.row()) candidates.push_back(query.bytesAt(0));
+        Statement statement(*database_, "SELECT id FROM session ORDER BY changed, touched");
+        while (statement.row()) candidates.push_back(statement.bytesAt(0));
     }
     std::size_t count = 0;
     Transaction all(*database_);
     for (const std::string& id : candidates) {
         if (isPinned(id)) continue;
-        Query query(*database_, "DELETE FROM session WHERE id = ?");
-        query.text(id).row();
+        Statement statement(*database_, "DELETE FROM session WHERE id = ?");
+        statement.text(id).row();
         ++count;
         if (fits()) break;
     }
@@ -395,8 +398,8 @@ void SqliteStore::remove(std::span<const std::string> ids) {
     withRepair([&] {
         Transaction all(*database_);
         for (const std::string& id : ids) {
-            Query query(*database_, "DELETE FROM session WHERE id = ?");
-            query.text(id).row();
+            Statement statement(*database_, "DELETE FROM session WHERE id = ?");
+            statement.text(id).row();
         }
         all.commit();
     });
@@ -406,8 +409,8 @@ void SqliteStore::touch(std::span<const std::string> ids) {
     withRepair([&] {
         Transaction all(*database_);
         for (const std::string& id : ids) {
-            Query query(*database_, "UPDATE session SET touched = ? WHERE id = ?");
-            query.number(now()).text(id).row();
+            Statement statement(*database_, "UPDATE session SET touched = ? WHERE id = ?");
+            statement.number(now()).text(id).row();
         }
         all.commit();
     });
@@ -415,9 +418,9 @@ void SqliteStore::touch(std::span<const std::string> ids) {
 
 std::size_t SqliteStore::expire(Milliseconds age) {
     return withRepair([&] {
-        Query query(*database_, "DELETE FROM session WHERE touched < ?");
-        query.number(now() - age.count()).row();
-        return query.changes();
+        Statement statement(*database_, "DELETE FROM session WHERE touched < ?");
+        statement.number(now() - age.count()).row();
+        return statement.changes();
     });
 }
 

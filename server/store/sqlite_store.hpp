@@ -9,10 +9,10 @@
 
 namespace oval4d::store {
 
-/// Keeps records in an SQLite file, which outlives the server. Only one server can use the file, and no other user can
-/// read it. Saved records survive if the process is killed at any time, because each commit is in the write-ahead log.
-/// The log is not flushed to the disk at each commit (synchronous = NORMAL): a power failure may lose the latest
-/// commits, but does not damage the file.
+/// Keeps records in an SQLite file, which outlives the server. Only one server can use the file, and no other user of
+/// the system can read it. Saved records survive if the process is killed at any time, because each commit is in the
+/// write-ahead log. The log is not flushed to the disk at each commit (synchronous = NORMAL): a power failure may lose
+/// the latest commits, but does not damage the file.
 ///
 /// Records contain digests, and the whole file is checked when it is opened. If pages are found to be damaged, then or
 /// later, the intact sessions are copied into a new file, and the damaged file is renamed to PATH.damaged-TIME. A

@@ -30,10 +30,10 @@ using Fence = std::uint64_t;
 
 /// A stored session.
 struct Record {
-    /// The results of encodeWhole and, after a later change, of encodeHead (codec.hpp). `head` is empty if there is
-    /// none.
+    /// `whole` is the result of encodeWhole (codec.hpp). `head` is the result of encodeHead after a later change; empty
+    /// if `whole` is the newest state.
     std::string whole, head;
-    /// The objects that are not built from their names, as pairs (key, encoded object).
+    /// The objects that cannot be rebuilt from their names, as pairs (key, encoded object).
     std::vector<std::pair<std::string, std::string>> objects;
     Fence fence = 0;
     std::string damage;  ///< says which part does not match its digest; empty if the record is intact
@@ -44,11 +44,11 @@ struct RecordUpdate {
     SessionCredentials credentials;
     Fence fence = 0;
     std::string head;                                          ///< as in Record; empty: unchanged
-    std::string whole;                                         ///< empty: unchanged; else also replaces `head`
+    std::string whole;                                         ///< empty: unchanged; otherwise, `head` is replaced, too
     std::vector<std::pair<std::string, std::string>> objects;  ///< (key, encoded object) pairs to add
     std::vector<std::string> dropped;                          ///< keys of objects to remove
-    bool last = false;                                         ///< no client has the session open anymore
-    bool changed = true;                                       ///< the session has changed since its creation
+    bool closed = false;                                       ///< whether no client has the session open anymore
+    bool changed = true;                                       ///< whether the session has changed since its creation
 };
 
 /// The result of saving one update.
@@ -71,8 +71,8 @@ class NotWritable : public StoreError {
 };
 
 /// Stores the records of sessions by session id. Every function may block. Every function throws StoreError if the
-/// store fails; the operation has then had its effect in full, in part or not at all, and may be repeated. Not
-/// thread-safe: one thread at a time may call its functions.
+/// store is unavailable or reports an error. The operation may then have had all of its effect, a part of it or none,
+/// and it may be repeated. Not thread-safe: one thread at a time may call its functions.
 class Store {
   public:
     Store() = default;
@@ -84,15 +84,15 @@ class Store {
     enum class WritePolicy : std::uint8_t {
         at_close,  ///< when the last client leaves the session
         soon,      ///< within a second
-        at_once,   ///< before the change is acknowledged, because another server may have to take over
+        at_once,   ///< before the change is acknowledged, because another server may have to take the session over
     };
     virtual WritePolicy writePolicy() const = 0;
 
     /// Returns the name of the store for logs, without passwords, such as "sqlite:/var/lib/oval4d/sessions.sqlite".
     virtual std::string name() const = 0;
 
-    /// Returns the hash of a stored session's token (hashOf in secret.hpp), or nothing if the session is not stored. No
-    /// store keeps the token itself, except Redis while servers of version 0.1.0 may still use it.
+    /// Returns the hash of a stored session's token (hashToken in secret.hpp), or nothing if the session is not stored.
+    /// No store keeps the token itself, except Redis while servers of version 0.1.0 may still use it.
     virtual std::optional<std::string> tokenHash(const std::string& id) = 0;
 
     /// Returns whether a session's record is known to be damaged, so that even the correct token may not match its
@@ -109,10 +109,10 @@ class Store {
 
     /// Returns whether the session with this id must not be evicted.
     using IsPinned = std::function<bool(const std::string& id)>;
-    /// Evicts sessions until `updates` fit within the quota, and returns the number of evicted sessions: first those
-    /// that were never changed, then those that were not saved or touched for the longest time. Evicts none if the
-    /// updates already fit, so that a failure for another reason than the quota, such as a full disk, deletes no
-    /// sessions.
+    /// Evicts sessions that are not pinned until `updates` fit within the quota, and returns the number of evicted
+    /// sessions. Evicts first the sessions that were never changed, then those that were not saved, claimed or touched
+    /// for the longest time. Evicts none if the updates already fit: the save then failed for another reason, such as a
+    /// full disk, and deleting sessions would not help.
     virtual std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) = 0;
 
     /// Removes sessions, except those that another server has claimed.
@@ -134,7 +134,7 @@ class Store {
 };
 
 /// Returns an estimate of the maximum number of bytes that an update adds to a store.
-inline std::size_t bytesOf(const RecordUpdate& update) {
+inline std::size_t estimateStoredSize(const RecordUpdate& update) {
     constexpr std::size_t kOverhead = 640;  // id, hash, times and index entries of a row
     std::size_t bytes = kOverhead + update.head.size() + update.whole.size();
     for (const auto& [key, object] : update.objects) bytes += kOverhead + object.size();

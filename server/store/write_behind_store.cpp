@@ -21,14 +21,14 @@ namespace {
 
 constexpr std::size_t kIdBytes = 10, kTokenBytes = 20, kKeyBytes = 10;
 constexpr std::size_t kBatch = 256;                         // maximum number of sessions in one write
-constexpr std::size_t kBatchBytes = std::size_t{8} << 20U;  // no session is added to a write of this size
+constexpr std::size_t kBatchBytes = std::size_t{8} << 20U;  // once a write has this size, no session is added
 constexpr auto kPollInterval = 500ms;
-constexpr auto kMinRetryPause = 100ms, kMaxRetryPause = 5000ms;  // between attempts while the store fails
+constexpr auto kMinRetryPause = 100ms, kMaxRetryPause = 5000ms;  // between attempts while the store is unavailable
 constexpr auto kMaxRefreshInterval = 60s;
 
 const Error kNotFound{ErrorCode::not_found, "there is no such session; it may have expired"};
 const Error kBadToken{ErrorCode::bad_token, "this token does not open the session"};
-const Error kNoAnswer{ErrorCode::internal, "stored sessions cannot be loaded at present; try again"};
+const Error kNoAnswer{ErrorCode::internal, "this session cannot be opened right now; try again"};
 
 /// Returns an estimate of a session's memory in bytes, including objects that it shares with other sessions.
 std::size_t bytesOf(const Session& session) {
@@ -42,9 +42,9 @@ std::size_t bytesOf(const Session& session) {
         bytes += sizeof state +
                  (state.look.cellTypes.hidden.size() + state.look.cellTypes.faded.size()) * sizeof(std::uint32_t);
     };
-    addObject(session.now.object);
-    for (const session::State& state : session.past) add(state);
-    for (const session::State& state : session.future) add(state);
+    addObject(session.current.object);
+    for (const session::State& state : session.undoSteps) add(state);
+    for (const session::State& state : session.redoSteps) add(state);
     for (const auto& [name, object] : session.loaded) addObject(object);
     for (const auto& [identity, object] : objects) bytes += slicing::memoryOf(*object);
     return bytes;
@@ -98,7 +98,7 @@ void WriteBehindStore::fetch(SessionCredentials credentials, std::function<void(
     wake_.notify_one();
 }
 
-void WriteBehindStore::setStoredKeys(const std::string& id, Keys keys) {
+void WriteBehindStore::setStoredKeys(const std::string& id, KeysBySerial keys) {
     const std::lock_guard lock(mutex_);
     tasks_.emplace_back([this, id, keys = std::move(keys)] {
         ObjectKeys& stored = keys_[id];
@@ -138,15 +138,17 @@ void WriteBehindStore::close(const std::string& id, Session value) {
         enqueue(id, cached);
         if (!lastError_.empty()) evicted = evictClosed();
     }
-    if (!evicted.empty()) spdlog::warn("sessions evicted from memory while the store fails count={}", evicted.size());
+    if (!evicted.empty())
+        spdlog::warn("sessions evicted from memory while the store is unavailable count={}", evicted.size());
     for (const CachedSession& cached : evicted) {
         for (const Written& written : cached.waiting) written(false);
     }
     wake_.notify_one();
 }
 
-/// Removes closed sessions from memory until the remaining ones fit within the quota, and returns them: first those
-/// that were never changed, then those that were closed first. Skips sessions that are being written.
+/// Removes closed sessions from memory until the remaining ones fit within the quota, and returns the removed ones.
+/// Removes sessions that were never changed first, then those that were closed first. Skips sessions that are being
+/// written.
 std::vector<WriteBehindStore::CachedSession> WriteBehindStore::evictClosed() {
     std::size_t bytes = 0;
     std::vector<decltype(cached_)::iterator> closed;
@@ -207,7 +209,7 @@ void WriteBehindStore::release(const std::string& id) {
 
 std::size_t WriteBehindStore::count() const {
     const std::lock_guard lock(mutex_);
-    // If servers share the store (at_once), its size does not tell the load of this server.
+    // If servers share the store (at_once), the number of stored sessions says nothing about the load of this server.
     return writePolicy_ == Store::WritePolicy::at_once ? cached_.size() : kept_ + created_;
 }
 
@@ -301,7 +303,8 @@ void WriteBehindStore::storeFailed(const std::exception& fault) {
     retryAt_ = pollAt_ = Clock::now() + pause;
     readAt_ = readable ? Clock::time_point() : retryAt_;
     recount();
-    if (lastError_.empty()) spdlog::error("store fails, changes stay in memory until it works fault=\"{}\"", why);
+    if (lastError_.empty())
+        spdlog::error("store unavailable, changes stay in memory until it is available again fault=\"{}\"", why);
     lastError_ = why;
 }
 
@@ -312,7 +315,7 @@ void WriteBehindStore::storeWorked() {
         if (lastError_.empty()) return;
         lastError_.clear();
     }
-    spdlog::info("store works again store={}", name_);
+    spdlog::info("store available again store={}", name_);
     listener_.recovered();
 }
 
@@ -341,7 +344,7 @@ void WriteBehindStore::takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate
             updates.push_back({cached.credentials, cached.fence, {}, {}, {}, {}, cached.closed, true});
         }
         encode(jobs.back(), updates.back());
-        bytes += store::bytesOf(updates.back());
+        bytes += store::estimateStoredSize(updates.back());
     }
 }
 
@@ -369,8 +372,8 @@ void WriteBehindStore::write() {
     if (std::ranges::all_of(results, [](const auto& one) { return one.has_value(); })) storeWorked();
 }
 
-/// Saves the updates, and evicts closed sessions if the store is full. If an update does not fit even then, its result
-/// is empty and storeFailed() is called; the other updates are saved.
+/// Saves the updates. If the store is full, evicts closed sessions from it. If an update does not fit even then, its
+/// result is empty and storeFailed() is called; the other updates are saved.
 std::vector<std::optional<SaveResult>> WriteBehindStore::saveOrEvict(std::span<const RecordUpdate> updates) {
     std::vector<std::optional<SaveResult>> results;
     try {
@@ -413,8 +416,8 @@ void WriteBehindStore::writeRemovals() {
     pollAt_ = Clock::time_point();  // poll now, to update the number of stored sessions
 }
 
-/// Encodes a job as an update. An object is written only once, and dropped from the store when the session no longer
-/// has it.
+/// Encodes a job as an update. An object is written only once. It is dropped from the store when the session no longer
+/// contains it.
 void WriteBehindStore::encode(Job& job, RecordUpdate& update) {
     ObjectKeys& keys = keys_[job.id];
     std::set<std::uint64_t> used;
@@ -423,7 +426,7 @@ void WriteBehindStore::encode(Job& job, RecordUpdate& update) {
         auto& [key, stored] = keys[serial];
         if (key.empty()) key = randomName(kKeyBytes);
         if (used.insert(serial).second && !stored) {
-            update.objects.emplace_back(key, encodeObject(object));
+            update.objects.emplace_back(key, encodeObjectRecord(object));
             job.added.push_back(serial);
         }
         return key;
@@ -467,8 +470,8 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
     for (const Written& written : job.waiting) written(result == SaveResult::saved);
 }
 
-/// Makes the changes of a failed job pending again, unless newer ones are pending already. While the store fails, also
-/// queues them and calls their callbacks, so that no caller waits for the store.
+/// Makes the changes of a failed job pending again, unless newer ones are pending already. While the store is
+/// unavailable, also queues them and calls their callbacks, so that no caller waits for the store.
 void WriteBehindStore::requeue(Job& job) {
     std::vector<Written> released;
     {
@@ -526,7 +529,7 @@ void WriteBehindStore::poll() {
         recount();
         waiting = !queue_.empty() || !removals_.empty();
     }
-    if (!waiting) storeWorked();  // otherwise the next write decides, because a full store can be polled, too
+    if (!waiting) storeWorked();  // otherwise the next write shows whether the store works: a full store can be polled
 }
 
 /// Restarts the expiry period of open sessions, and deletes sessions whose expiry period has ended.
@@ -580,8 +583,8 @@ WriteBehindStore::FetchResult WriteBehindStore::claimOrFind(const SessionCredent
     }
     const auto hash = timed("token", [&] { return store_->tokenHash(credentials.id); });
     if (!hash) return kNotFound;
-    if (!equalInConstantTime(hashOf(credentials.token), *hash)) {
-        // The token may be correct, but the stored hash damaged.
+    if (!equalInConstantTime(hashToken(credentials.token), *hash)) {
+        // The token may be correct, if the stored hash is damaged.
         return timed("token", [&] { return store_->isDamaged(credentials.id); }) ? kNotFound : kBadToken;
     }
     auto record = timed("claim", [&] { return store_->claim(credentials.id); });

@@ -1,6 +1,6 @@
 #pragma once
-// A write-behind cache of sessions, which uses the store on a thread of its own, so that no other thread waits for a
-// disk or a network.
+// A write-behind cache of sessions. It uses the store on a thread of its own, so that no other thread waits for a disk
+// or a network.
 
 #include <atomic>
 #include <condition_variable>
@@ -24,40 +24,43 @@ namespace oval4d::store {
 /// whose last change is not yet in the store. Only the cache's own thread uses the store. Of several pending changes to
 /// a session, it writes only the newest one.
 ///
-/// While the store fails, changes wait in memory, the cache retries with growing pauses (exponential backoff), and no
-/// caller waits for the store. If the store is full, sessions that no client has open are evicted from it. If the
-/// closed sessions that wait for a failing store take more memory than `Settings::quota`, some of them are evicted from
-/// memory. An open session is never evicted.
+/// The store counts as unavailable after a failed operation, such as a write for which it has no room, until it works
+/// again. While the store is unavailable, changes wait in memory, and no caller waits for the store; the cache retries
+/// with growing pauses (exponential backoff). If the store is full, sessions that no client has open are evicted from
+/// it. If the store is unavailable and the closed sessions in memory take more than `Settings::quota`, some of them are
+/// evicted from memory. An open session is never evicted.
 ///
-/// Thread-safe. Callbacks run on the cache's thread or on that of the caller during the call, and must return quickly.
+/// Thread-safe. Callbacks must return quickly: they run on the cache's thread, or during a call on the caller's thread.
 class WriteBehindStore {
   public:
     struct Settings {
         Milliseconds expiry{1'800'000};  ///< time after which a session that no client has open is deleted
         std::size_t maxUndo = 100;       ///< maximum number of undo steps, and of redo steps, to store with a session
-        /// Maximum estimated memory, in bytes, of the closed sessions that wait for a failing store.
+        /// Maximum estimated memory, in bytes, of the closed sessions that wait while the store is unavailable.
         std::size_t quota = kDefaultQuota;
     };
     /// Callbacks for events of the store.
     struct Listener {
         /// Called when another server has claimed a session that is open on this server.
         std::function<void(const std::string& id)> claimed;
-        /// Called when the store does not have this session; the listener must save it with SaveScope::whole.
+        /// Called when only the current state of a session was to be saved, but the store has no record of the session.
+        /// The listener must save the session with SaveScope::whole.
         std::function<void(const std::string& id)> missing;
-        /// Called when the store works again. It may have lost data, so the listener must save all open sessions.
+        /// Called when the store is available again. The listener must save all open sessions, because the store may
+        /// have lost data.
         std::function<void()> recovered;
         /// Called when an operation of the store has ended, for metrics.
         std::function<void(const char* operation, double seconds, bool succeeded)> operationEnded;
     };
-    /// A fetched session. `session` has the session if it was still in memory; otherwise it is empty, and `record` is
-    /// the stored record, to be decoded with codec.hpp.
+    /// A fetched session. If the session was still in memory, `session` has it. Otherwise `session` is empty, and
+    /// `record` is the stored record, which the caller must decode with codec.hpp.
     struct Fetched {
         std::optional<session::Session> session;
         Record record;
     };
     using FetchResult = Result<Fetched>;
     /// The keys under which a session's objects are stored, by ObjectInfo::serial.
-    using Keys = std::map<std::uint64_t, std::string>;
+    using KeysBySerial = std::map<std::uint64_t, std::string>;
     /// A callback for the end of a save: see save().
     using Written = std::function<void(bool)>;
     /// The part of a session to save: the result of encodeHead or of encodeWhole (codec.hpp).
@@ -76,38 +79,39 @@ class WriteBehindStore {
     SessionCredentials create();
 
     /// Claims a session for this server. Calls `done` with the session, or with an error: `not_found`, `bad_token`, or
-    /// `internal` if the store does not answer. After a fetch with a record, the caller must decode the record, and
-    /// then call setStoredKeys() or, if it cannot be decoded, release().
+    /// `internal` if the session cannot be fetched now. After a fetch with a record, the caller must decode the record,
+    /// and then call setStoredKeys() or, if the record cannot be decoded, release().
     void fetch(SessionCredentials credentials, std::function<void(FetchResult)> done);
 
     /// Records which objects of a fetched session the store already has, so that they are not written again.
-    void setStoredKeys(const std::string& id, Keys keys);
+    void setStoredKeys(const std::string& id, KeysBySerial keys);
 
-    /// Queues a session to be written: the whole session, or with SaveScope::head only its current state. Calls
-    /// `written` with true once the session is in the store, or immediately if the store fails; with false if this
-    /// server no longer owns the session.
+    /// Queues the whole session for writing, or only its current state (SaveScope::head). Then calls `written`: with
+    /// true when the session is stored; also with true, at once, while the store is unavailable, so that clients are
+    /// not kept waiting; with false if the session will not be stored, because another server has taken it over or
+    /// because it was removed.
     void save(const std::string& id, session::Session value, SaveScope scope, Written written = {});
 
     /// Queues the last write of a session that no client has open anymore. The session stays in memory until it is
     /// written.
     void close(const std::string& id, session::Session value);
 
-    /// Deletes a closed session from memory and from the store; while the store fails, the deletion is pending. Does
-    /// nothing if a client has the session open, on this server or another.
+    /// Deletes a closed session from memory and from the store. While the store is unavailable, the deletion from the
+    /// store is pending. Does nothing if a client has the session open, on this server or another.
     void remove(const std::string& id);
 
     /// Drops a fetched session from memory, without changing its record, because the record could not be decoded.
     void release(const std::string& id);
 
-    /// Returns the approximate number of sessions in the store and in memory; only of those in memory if servers share
-    /// the store.
+    /// Returns the approximate number of sessions in the store and in memory. If servers share the store, returns only
+    /// the number of sessions in this server's memory.
     std::size_t count() const;
     /// Returns the number of sessions with changes that are not known to be in the store.
     std::size_t unsaved() const;
-    /// Returns the last error of the store; an empty text while the store works.
+    /// Returns the last error of the store; an empty text while the store is available.
     std::string lastError() const;
 
-    /// Writes the pending changes, which takes at most about `limit`, and ends the thread.
+    /// Writes pending changes for at most about `limit`, and then ends the cache's thread.
     void stop(Milliseconds limit);
 
   private:
@@ -119,12 +123,12 @@ class WriteBehindStore {
         Fence fence = 1;
         Value head, whole;             ///< changes to be written; null if there are none
         std::vector<Written> waiting;  ///< callbacks to call when these changes are written
-        bool saved = false;            ///< the session has been in the store
-        bool queued = false;           ///< its id is in queue_
-        bool inFlight = false;         ///< it is being written
-        bool closed = false;           ///< no client has it open; it is dropped once it is written
-        Clock::time_point closedAt;
-        std::size_t bytes = 0;  ///< estimated memory, if it is closed
+        bool saved = false;            ///< whether the session has ever been in the store
+        bool queued = false;           ///< whether the session's id is in queue_
+        bool inFlight = false;         ///< whether the session is being written
+        bool closed = false;           ///< whether no client has the session open; it is dropped once it is written
+        Clock::time_point closedAt;    ///< the time of close(), if `closed`
+        std::size_t bytes = 0;         ///< estimated memory of the session, if `closed`
     };
     /// An object's key, and whether the store has the object.
     struct ObjectKey {
@@ -160,7 +164,7 @@ class WriteBehindStore {
     void storeFailed(const std::exception& fault);
     void storeWorked();
 
-    // These require that mutex_ is cached.
+    // The caller of these functions must hold mutex_.
     void enqueue(const std::string& id, CachedSession& cached);
     void recount();
     std::vector<CachedSession> evictClosed();
@@ -194,7 +198,7 @@ class WriteBehindStore {
     Clock::time_point refreshAt_;
     std::minstd_rand random_;
 
-    std::thread thread_;  // last: it uses the other members
+    std::thread thread_;  // the last member, so that the others are initialized before the thread uses them
 };
 
 }  // namespace oval4d::store

@@ -8,14 +8,14 @@
 namespace oval4d::text {
 
 /// A row of a table of choices: a value and its name in messages, queries and on the command line. A value may have
-/// several rows: the first one has its name, the others have aliases.
+/// several rows: the first row has its name, the other rows have aliases.
 template <typename Value>
 struct Choice {
     std::string_view name;
     Value value;
 };
 
-/// Returns the value with this name or alias; nothing if the table has none.
+/// Returns the value with this name or alias; nothing if the table does not contain the name.
 template <typename Choices>
 constexpr auto valueNamed(const Choices& choices, std::string_view name)
     -> std::optional<decltype(choices.begin()->value)> {
@@ -25,7 +25,7 @@ constexpr auto valueNamed(const Choices& choices, std::string_view name)
     return {};
 }
 
-/// Returns the name of this value, that of its first row; empty if the table does not contain the value.
+/// Returns the name of this value, not an alias; empty if the table does not contain the value.
 template <typename Choices, typename Value>
 constexpr std::string_view nameOf(const Choices& choices, const Value& value) {
     for (const auto& choice : choices) {

@@ -27,7 +27,8 @@ constexpr std::array<std::uint64_t, 10'000> smallIntegerTexts() {
     return all;
 }
 
-// The JSON text after a number: a comma within a vector; after its last number, the text up to the next vector.
+// The JSON text after a number: a comma within a vector; after the last number of a vector, the text up to the next
+// vector.
 struct Separator {
     char text[4];
     std::size_t length;
@@ -76,7 +77,7 @@ using Bits = std::int32_t __attribute__((vector_size(16)));
 // depend on each other.
 constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // kBlock: a multiple of 3 and 4, the sizes of vectors
 
-// The text of each number of a block: `head` is the text up to the second decimal, of `headLength` bytes, and `digits`
+// The text of each number of a block: `head` is the text up to the second decimal and has `headLength` bytes. `digits`
 // are the next eight decimals, including trailing zeros, as bytes from 0 to 9. `plain` marks a group in which a number
 // is too small or too large for this form, or is a multiple of 1/100; putPlain writes all numbers of such a group.
 struct Block {
@@ -85,11 +86,12 @@ struct Block {
 };
 
 // The method: a float from 2^e to 2^(e + 1) is rounded to an integer multiple of 10^−p, where 10^−p is the largest
-// power of ten below the spacing 2^(e − 23) of these floats. The nearest multiple therefore reads back as the same
-// float. At most one multiple of 10^(1 − p) reads back as the same float, too; if there is one, it is shorter and is
-// used instead. The method is valid for e from −10 to 5, where p is from 10 to 6. The lower bound: the spacing of the
-// floats below a power of two is half of the spacing above it, so a power of two must be written exactly, and from e =
-// −10 on it has at most p decimals. The upper bound: numbers have at most two digits before the point.
+// power of ten below the spacing 2^(e − 23) of these floats. The nearest multiple is therefore read back as the same
+// float. At most one multiple of 10^(1 − p) is read back as the same float, too; if there is one, it is shorter and is
+// used instead. The method is valid for e from −10 to 5, where p is from 10 to 6. Reason for the lower bound: the
+// spacing of the floats below a power of two is half of the spacing above it, so a power of two must be written
+// exactly; for e from −10 on, it has at most p decimals. Reason for the upper bound: the form allows at most two digits
+// before the point.
 constexpr std::int32_t kMinExponent = -10, kExponents = 16;
 // kExponentMask selects the exponent bits of a float; subtracting kHalfSpacing from them yields 2^(e − 24), half of the
 // float's spacing.

@@ -20,13 +20,15 @@ inline bool isExactInteger(double number) {
     return std::abs(number) <= 0x1p53 && std::trunc(number) == number && !(number == 0 && std::signbit(number));
 }
 
-/// The bytes of buffer that each number needs, including the brackets and commas after it. The buffer must have room
-/// for one number more than it is to contain, because these functions may write beyond the end of the text.
+/// The number of bytes to reserve in the buffer for each number, including the brackets and commas after it. The buffer
+/// must have room for one number more than will be written, because the following functions may write beyond the end of
+/// the text.
 inline constexpr std::size_t kBytesPerNumber = 20;
 
 /// Writes vectors as JSON at `at`, such as "[1,0.5,0.25],[1,1,0]"; writes nothing for an empty list. Returns the end of
-/// the text. Rounds each number to a float and writes the fewest digits that read back as the same float, in rare cases
-/// one more. Writes integers within ±2^53 with all their digits and without an exponent. All numbers must be finite.
+/// the text. Rounds each number to a float and writes the fewest digits from which the same float can be read back, in
+/// rare cases one digit more. Writes integers within ±2^53 with all their digits and without an exponent. All numbers
+/// must be finite.
 char* putVectors(char* at, std::span<const glm::dvec3> list);
 char* putVectors(char* at, std::span<const glm::dvec4> list);
 
@@ -37,7 +39,7 @@ extern const std::array<std::uint64_t, 10'000> kSmallIntegerTexts;
 /// Writes an integer from 10,000 on, and returns the end of the text. Called by putInteger().
 char* putLargeInteger(char* at, std::uint32_t number);
 
-/// Writes an integer at `at`, and returns the end of the text. May write up to 7 bytes beyond it.
+/// Writes an integer at `at`, and returns the end of the text. May overwrite up to 7 bytes after the end.
 inline char* putInteger(char* at, std::uint32_t number) {
     static_assert(std::endian::native == std::endian::little, "the low byte comes first");
     if (number >= kSmallIntegerTexts.size()) return putLargeInteger(at, number);

@@ -54,12 +54,13 @@ std::size_t characterAt(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-std::string_view nearest(std::string_view text, std::span<const std::string_view> candidates) {
+std::string_view closestMatch(std::string_view text, std::span<const std::string_view> candidates) {
     text = text.substr(0, kMaxQuotedBytes);
     std::string_view best;
     std::size_t least = 2 * kMaxQuotedBytes;
     for (const std::string_view candidate : candidates) {
-        // Among equals, prefer the same length: "25-cell" is more likely to mean 24-cell than 5-cell.
+        // Among candidates at the same distance, prefer one of the same length: "25-cell" more likely means 24-cell
+        // than 5-cell.
         const std::size_t d = 2 * distance(text, candidate) + (candidate.size() == text.size() ? 0 : 1);
         if (d < least && d <= candidate.size() + 1) {
             least = d;
@@ -70,11 +71,11 @@ std::string_view nearest(std::string_view text, std::span<const std::string_view
 }
 
 std::string didYouMean(std::string_view text, std::span<const std::string_view> candidates) {
-    const std::string_view name = nearest(text, candidates);
+    const std::string_view name = closestMatch(text, candidates);
     return name.empty() ? std::string{} : " (did you mean '" + std::string(name) + "'?)";
 }
 
-std::string listed(std::span<const std::string_view> names) {
+std::string commaSeparated(std::span<const std::string_view> names) {
     std::string list;
     for (const std::string_view name : names) {
         if (!list.empty()) list += ", ";
@@ -84,8 +85,8 @@ std::string listed(std::span<const std::string_view> names) {
 }
 
 std::string alternatives(std::span<const std::string_view> names) {
-    if (names.size() < 2) return listed(names);
-    return listed(names.first(names.size() - 1)) + " or " + std::string(names.back());
+    if (names.size() < 2) return commaSeparated(names);
+    return commaSeparated(names.first(names.size() - 1)) + " or " + std::string(names.back());
 }
 
 bool isUtf8(std::string_view text) {
@@ -112,7 +113,7 @@ std::string printable(std::string_view text, std::size_t maxBytes) {
     return shown;
 }
 
-std::string shortest(double value) {
+std::string shortestDecimal(double value) {
     if (isExactInteger(value)) return std::to_string(static_cast<std::int64_t>(value));
     std::array<char, 32> buffer;
     const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);

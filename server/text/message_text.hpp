@@ -8,16 +8,17 @@
 
 namespace oval4d::text {
 
-/// Returns the candidate with the smallest edit distance (Levenshtein) from `text`. Of several such candidates, returns
-/// the first one that is as long as `text`, else the first one. Returns an empty text if the distance is more than
-/// about half of the candidate's length.
-std::string_view nearest(std::string_view text, std::span<const std::string_view> candidates);
+/// Returns the candidate with the smallest edit distance (Levenshtein) from `text`. If several candidates have this
+/// distance, returns the first of them that is as long as `text`, or if there is none, the first of them. Returns an
+/// empty text if the distance is more than about half of the candidate's length.
+std::string_view closestMatch(std::string_view text, std::span<const std::string_view> candidates);
 
-/// Returns " (did you mean 'x'?)" with the candidate x that nearest() returns, or an empty string if there is none.
+/// Returns " (did you mean 'x'?)" with the candidate x that closestMatch() returns, or an empty string if there is
+/// none.
 std::string didYouMean(std::string_view text, std::span<const std::string_view> candidates);
 
 /// Returns the names separated by commas: "a, b, c".
-std::string listed(std::span<const std::string_view> names);
+std::string commaSeparated(std::span<const std::string_view> names);
 
 /// Returns the names as alternatives: "a", "a or b", "a, b or c".
 std::string alternatives(std::span<const std::string_view> names);
@@ -32,7 +33,8 @@ std::string inQuotes(std::string_view text);
 /// `maxBytes` bytes is cut off there, after a whole character, and "…" is appended.
 std::string printable(std::string_view text, std::size_t maxBytes);
 
-/// Returns the shortest decimal text that reads back as the same double; all digits for an integer within ±2^53.
-std::string shortest(double value);
+/// Returns the shortest decimal text from which the same double can be read back. Writes all digits of an integer
+/// within ±2^53.
+std::string shortestDecimal(double value);
 
 }  // namespace oval4d::text

@@ -16,8 +16,8 @@ std::vector<std::string> wordsOf(std::string_view text);
 /// Returns words[first] … words[end − 1], separated by spaces.
 std::string joined(const std::vector<std::string>& words, std::size_t first, std::size_t end);
 
-/// Returns the text in lower case, without white space, hyphens and underscores. Names are equal if their folded texts
-/// are.
+/// Returns the text in lower case, without white space, hyphens and underscores. Two names denote the same thing if
+/// their folded texts are equal.
 std::string folded(std::string_view text);
 
 /// Returns the text without spaces and tabs at its ends.

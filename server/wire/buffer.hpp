@@ -9,7 +9,8 @@
 namespace oval4d::wire {
 
 /// Overwrites a string through a pointer. Enlarges the string as needed; the destructor truncates it to the bytes that
-/// were written. Writing to the same string again avoids allocating it and filling it with zeros again.
+/// were written. A string that is written again keeps its memory, which saves an allocation and filling the memory with
+/// zeros.
 class Buffer {
   public:
     explicit Buffer(std::string& out);
@@ -21,9 +22,9 @@ class Buffer {
     void reserve(std::size_t size) {
         if (static_cast<std::size_t>(end_ - at_) < size) grow(size);
     }
-    /// Returns the current end of the text, where reserved bytes can be written directly.
+    /// Returns a pointer to the current end of the text. The reserved bytes can be written there directly.
     char* at() { return at_; }
-    /// Sets the end of the text after bytes were written directly.
+    /// Sets the end of the text to `at`, after bytes were written directly.
     void moveTo(char* at) { at_ = at; }
     /// Appends one character.
     void put(char c) {

@@ -1,5 +1,5 @@
 #pragma once
-// A cache for a text that is often written for the same value.
+// A cache for the text of a value that is often written several times in a row.
 
 #include <string>
 #include <string_view>

@@ -41,8 +41,8 @@ class CborWriter {
     void raw(std::string_view text) { buffer_.put(text); }
 
     // Typed arrays (RFC 8746), little-endian. `doubles` writes double precision; `vectors` and `floats` write single
-    // precision; the others write integers of 8, 16 or 32 bits, whichever is the least that all of them fit into.
-    // Vectors, pairs and triples are flattened.
+    // precision; `pairs`, `triples` and `numbers` write integers of 8, 16 or 32 bits, the smallest size that is
+    // sufficient for all numbers of the array. Vectors, pairs and triples are flattened.
     void doubles(std::span<const double> list);
     void vectors(std::span<const glm::dvec3> list);
     void vectors(std::span<const glm::dvec4> list);

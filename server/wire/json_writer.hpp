@@ -52,7 +52,7 @@ class JsonWriter {
     /// Appends JSON text unchanged: a value, or members of an object.
     void raw(std::string_view text);
 
-    // Arrays of numbers. Coordinates of vectors have the precision of a float.
+    // Arrays of numbers. Coordinates of vectors are rounded to single precision.
     void vector(const glm::dvec3& v);
     void vectors(std::span<const glm::dvec3> list);
     void vectors(std::span<const glm::dvec4> list);

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "contract/embedded.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
+#include "protocol_data/embedded_files.hpp"
 #include "scene/color.hpp"
 #include "slicing/object.hpp"
 #include "wire/json_writer.hpp"
@@ -116,6 +116,8 @@ void stateMessage(const session::State& state, std::uint64_t revision, std::opti
     w.member("zoom", state.look.orbit.zoom);
     w.endObject();
     w.member("color", text::nameOf(scene::kColorings, state.look.coloring));
+    w.member("projection", text::nameOf(scene::kProjectionKinds, state.look.projection.kind));
+    w.member("eye", state.look.projection.eye);
     w.key("hidden");
     w.numbers(state.look.cellTypes.hidden);
     w.key("faded");
@@ -218,7 +220,8 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
 }
 
 std::string keymapMessage(std::optional<double> id) {
-    static const nlohmann::ordered_json table = nlohmann::ordered_json::parse(contract::embedded("keymap.json"));
+    static const nlohmann::ordered_json table =
+        nlohmann::ordered_json::parse(protocol_data::embeddedFile("keymap.json"));
     static const std::string groups = table.at("groups").dump();
     static const std::string keys = table.at("keys").dump();
     std::string out;

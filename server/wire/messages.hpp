@@ -1,5 +1,6 @@
 #pragma once
-// Writes the messages from the server to clients, except `slices`, as JSON text.
+// Writes the messages from the server to clients, except `slices`, as JSON text. `id` is the id of the request that the
+// message answers; it is absent if the message answers no request, or one without an id.
 
 #include <cstdint>
 #include <optional>
@@ -13,7 +14,7 @@
 
 namespace oval4d::wire {
 
-/// Returns the `state` message of a state. Frames contain the same text.
+/// Returns the `state` message of a state. The PNG files of frames contain the same text.
 std::string stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id = {});
 /// Writes the `state` message to `out`. Overwrites `out` and reuses its memory.
 void stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id, std::string& out);
@@ -28,7 +29,8 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
 /// Returns the `keymap` message, the key table of protocol/keymap.json.
 std::string keymapMessage(std::optional<double> id);
 
-/// Returns the `welcome` message. `limits` is the text of a JSON object.
+/// Returns the `welcome` message. `session` is the id of the session, and `token` its secret token. `limits` is the
+/// text of a JSON object.
 std::string welcomeMessage(std::string_view session, std::string_view token, std::string_view limits,
                            std::optional<double> id);
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "text/message_text.hpp"
-#include "wire/json_text.hpp"
+#include "wire/json_parser.hpp"
 #include "wire/schema.hpp"
 
 namespace oval4d::wire {
@@ -97,6 +97,8 @@ session::Set setOf(const json& message) {
         take(*camera, "zoom", set.zoom);
     }
     choose(message, "color", scene::kColorings, set.coloring);
+    choose(message, "projection", scene::kProjectionKinds, set.projection);
+    take(message, "eye", set.eye);
     take(message, "hidden", set.hidden);
     take(message, "faded", set.faded);
     if (const auto last = message.find("last"); last != message.end() && !last->is_null())
@@ -110,7 +112,7 @@ exports::ExportRequest exportRequestOf(const json& message) {
     const std::string& format = message.at("format").get_ref<const std::string&>();
     request.format = exports::formatNamed(format);
     if (request.format == nullptr) {
-        throw InvalidRequest{"get: /format must be " + text::listed(exports::formatNames()) + ", not " +
+        throw InvalidRequest{"get: /format must be " + text::commaSeparated(exports::formatNames()) + ", not " +
                              text::inQuotes(format)};
     }
     choose(message, "of", exports::kSliceSelections, request.extent);
@@ -194,7 +196,7 @@ class Peek : public nlohmann::json_sax<json> {
     std::size_t depth_ = 0;
 };
 
-std::variant<Request, BadRequest> requestOf(JsonText&& read) {
+std::variant<Request, BadRequest> requestOf(ParsedJson&& read) {
     const json& message = read.value;
     const bool object = message.is_object() && (read.fault.empty() || read.repaired);
     std::optional<double> id;
@@ -211,15 +213,15 @@ std::variant<Request, BadRequest> requestOf(JsonText&& read) {
     const auto type = message.find("type");
     if (type == message.end() || !type->is_string()) {
         return refuse(ErrorCode::bad_message,
-                      "a message must have a member \"type\", one of " + text::listed(requestTypes()));
+                      "a message must have a member \"type\", one of " + text::commaSeparated(requestTypes()));
     }
     const std::string& name = type->get_ref<const std::string&>();
     bool known = false;
     for (const std::string_view request : requestTypes()) known = known || request == name;
     if (!known) {
         return refuse(ErrorCode::unknown_type, "no message has the type " + text::inQuotes(name) +
-                                                   text::didYouMean(name, requestTypes()) + "; allowed are " +
-                                                   text::listed(requestTypes()));
+                                                   text::didYouMean(name, requestTypes()) +
+                                                   "; allowed types: " + text::commaSeparated(requestTypes()));
     }
     if (std::optional<Error> error = validationError(name, message)) {
         if (read.repaired) error->message += " (" + read.fault + ")";
@@ -236,7 +238,7 @@ std::variant<Request, BadRequest> requestOf(JsonText&& read) {
 }  // namespace
 
 std::variant<Request, BadRequest> parseRequest(std::string_view text, int maxDepth) {
-    return requestOf(readJson(text, maxDepth));
+    return requestOf(parseJson(text, maxDepth));
 }
 
 RequestPeek peekRequest(std::string_view beginning) {
@@ -248,7 +250,7 @@ RequestPeek peekRequest(std::string_view beginning) {
 
 Result<session::Set> setFromState(std::string_view text) {
     constexpr int kDepth = 8;
-    JsonText read = readJson(text, kDepth);
+    ParsedJson read = parseJson(text, kDepth);
     if (read.value.is_object()) {
         const auto type = read.value.find("type");
         if (type == read.value.end() || *type != "state") {

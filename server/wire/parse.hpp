@@ -30,8 +30,8 @@ struct RequestPeek {
 /// Reads the type and the id from the beginning of a message. The message may be incomplete, or invalid after them.
 RequestPeek peekRequest(std::string_view beginning);
 
-/// Parses a `state` message, such as that in a frame's iTXt chunk, and returns the command that restores this state.
-/// Errors: `bad_json`, `bad_message`, `out_of_range`.
+/// Parses a `state` message, such as the one in the iTXt chunk of a frame's PNG file. Returns the command that restores
+/// this state. Errors: `bad_json`, `bad_message`, `out_of_range`.
 Result<session::Set> setFromState(std::string_view text);
 
 }  // namespace oval4d::wire

@@ -14,9 +14,12 @@
 
 namespace oval4d::wire {
 
-/// The form in which the server sends the picture after each change of a session: not at all, as a `slices` message, or
-/// as a frame (PNG).
-enum class Stream : std::uint8_t { none, geometry, frames };
+/// What the server sends to a connection after each change of the session, in addition to the new state.
+enum class Stream : std::uint8_t {
+    none,      ///< nothing
+    geometry,  ///< a `slices` message, from which the client draws the picture
+    frames,    ///< a frame: the picture as a PNG file
+};
 inline constexpr auto kStreams = std::to_array<text::Choice<Stream>>(
     {{"none", Stream::none}, {"geometry", Stream::geometry}, {"frames", Stream::frames}});
 
@@ -47,7 +50,7 @@ struct Get {
     std::optional<scene::Viewport> viewport;  ///< for slices and frames; if absent, the connection's viewport is used
     exports::ExportRequest file;              ///< the options of the export, for GetTarget::file
 };
-/// Reports the revision of the picture that the client has presented.
+/// Reports that the client has shown the picture with this revision.
 struct ShownRevision {
     std::uint64_t revision = 0;
 };

@@ -13,7 +13,7 @@
 #include <valijson/validation_results.hpp>
 #include <valijson/validator.hpp>
 
-#include "contract/embedded.hpp"
+#include "protocol_data/embedded_files.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::wire {
@@ -35,9 +35,10 @@ struct MessageSchema {
 
 json readSchema(const std::string& file);
 
-// Replaces references to other schemas by the contents of those schemas.
+// Replaces references to other schemas by the contents of those schemas. valijson resolves those within a schema
+// ("#/…").
 void resolveReferences(json& schema) {
-    if (schema.is_object() && schema.contains("$ref")) {
+    if (schema.is_object() && schema.contains("$ref") && !schema.at("$ref").get<std::string>().starts_with('#')) {
         json merged = readSchema(schema.at("$ref"));
         schema.erase("$ref");
         merged.update(schema);  // keywords beside $ref
@@ -48,7 +49,7 @@ void resolveReferences(json& schema) {
 }
 
 json readSchema(const std::string& file) {
-    json schema = json::parse(contract::embedded("schema/" + file));
+    json schema = json::parse(protocol_data::embeddedFile("schema/" + file));
     resolveReferences(schema);
     return schema;
 }
@@ -102,8 +103,8 @@ std::string membersFault(const json& schema, const json& value, const std::strin
         if (properties.contains(name)) continue;
         std::vector<std::string_view> known;
         for (const auto& [property, ignored] : properties.items()) known.emplace_back(property);
-        return (path.empty() ? "there" : path + ": there") + " is no member " + text::inQuotes(name) +
-               text::didYouMean(name, known) + "; allowed are " + text::listed(known);
+        return (path.empty() ? "" : path + ": ") + "unknown member " + text::inQuotes(name) +
+               text::didYouMean(name, known) + "; allowed members: " + text::commaSeparated(known);
     }
     return {};
 }

@@ -20,8 +20,8 @@ std::span<const T> part(const std::vector<T>& all, std::uint32_t begin, std::uin
     return std::span<const T>(all).subspan(begin, end - begin);
 }
 
-// The source numbers of the elements of one or several slices: which element of the polytope each was cut from (see
-// SliceSet).
+// The sources of the elements of one or several slices: for each element, the index of the polytope's element that it
+// was cut from (see SliceSet).
 struct Sources {
     Numbers vertices, edges, faces;
 };
@@ -45,13 +45,13 @@ void writeSources(W& w, const Sources& of) {
     w.endObject();
 }
 
-// Writes the cell that determines each face's color, unless that is the source of every face.
+// Writes the cell that determines each face's color, unless this is the face's source for every face.
 template <typename W>
-void writeTints(W& w, const Scene& scene, std::size_t from, std::size_t to) {
-    if (scene.faceCells.empty()) return;
-    const SliceSet& slices = *scene.slices;
+void writeTints(W& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells, std::size_t from,
+                std::size_t to) {
+    if (faceCells.empty()) return;
     const Numbers sources = part(slices.faceSource, slices.faceBegin[from], slices.faceBegin[to]);
-    const Numbers cells = part(scene.faceCells, slices.faceBegin[from], slices.faceBegin[to]);
+    const Numbers cells = part(faceCells, slices.faceBegin[from], slices.faceBegin[to]);
     if (std::ranges::equal(sources, cells)) return;
     w.key("tints");
     w.numbers(cells);
@@ -145,12 +145,11 @@ void writePlacement(JsonWriter&& w, const SlicePlacement& placement) {
     w.member("drawn", placement.drawn);
 }
 
-void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, std::size_t i) {
-    const SliceSet& slices = *scene.slices;
+// Writes the elements of one slice, or of one part of a projection.
+void writeElements(JsonWriter& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells,
+                   const slicing::Visibilities& visibilities, std::size_t i) {
     const std::uint32_t f0 = slices.faceBegin[i], f1 = slices.faceBegin[i + 1];
     const Sources of = sourcesOf(slices, i, i + 1);
-    w.beginObject();
-    w.raw(placement);
     w.key("vertices");
     w.vectors(part(slices.vertices, slices.vertexBegin[i], slices.vertexBegin[i + 1]));
     w.key("edges");
@@ -159,9 +158,15 @@ void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, s
     w.lists(
         {part(slices.cornerBegin, f0, f1 + 1), part(slices.corners, slices.cornerBegin[f0], slices.cornerBegin[f1])});
     writeSources(w, of);
-    writeTints(w, scene, i, i + 1);
+    writeTints(w, slices, faceCells, i, i + 1);
     writeBalls(w, slices, i, i + 1);
-    writeVisibilities(w, scene.visibilities, of);
+    writeVisibilities(w, visibilities, of);
+}
+
+void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, std::size_t i) {
+    w.beginObject();
+    w.raw(placement);
+    writeElements(w, *scene.slices, scene.faceCells, scene.visibilities, i);
     if (!scene.fill.empty() && scene.fill.patchBegin[i] != scene.fill.patchBegin[i + 1]) {
         Fill fill;
         addFill(scene, i, fill);
@@ -207,6 +212,15 @@ void writePlacements(CborWriter&& w, const std::vector<SlicePlacement>& placemen
     writeColumn(w, "drawn", placements, [](const SlicePlacement& placement) { return placement.drawn; });
 }
 
+template <typename W>
+void writePart(W& w, const scene::ProjectionPart& part) {
+    w.member("ball", part.ballRadius);
+    w.member("bar", part.barRadius);
+    w.member("ball_color", part.ballColor);
+    w.member("bar_color", part.barColor);
+    w.member("opacity", part.faceOpacity);
+}
+
 }  // namespace
 
 void SliceListWriter::write(JsonWriter& w, const Scene& scene) {
@@ -228,13 +242,10 @@ void SliceListWriter::writeSizes(CborWriter& w, std::string_view name, Numbers b
     w.numbers(sizes_);
 }
 
-void SliceListWriter::write(CborWriter& w, const Scene& scene) {
-    const SliceSet& slices = *scene.slices;
-    const std::size_t count = scene.placements.size();
+void SliceListWriter::writeElements(CborWriter& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells,
+                                    const slicing::Visibilities& visibilities) {
+    const std::size_t count = slices.vertexBegin.size() - 1;
     const Sources of = sourcesOf(slices, 0, count);
-    w.beginObject();
-    w.raw(columns_.textFor(scene.placements,
-                           [&](std::string& out) { writePlacements(CborWriter(out), scene.placements); }));
     w.key("counts");
     w.beginObject();
     writeSizes(w, "vertices", slices.vertexBegin);
@@ -249,9 +260,17 @@ void SliceListWriter::write(CborWriter& w, const Scene& scene) {
     w.key("corners");
     w.numbers(slices.corners);
     writeSources(w, of);
-    writeTints(w, scene, 0, count);
+    writeTints(w, slices, faceCells, 0, count);
     writeBalls(w, slices, 0, count);
-    writeVisibilities(w, scene.visibilities, of);
+    writeVisibilities(w, visibilities, of);
+}
+
+void SliceListWriter::write(CborWriter& w, const Scene& scene) {
+    const std::size_t count = scene.placements.size();
+    w.beginObject();
+    w.raw(columns_.textFor(scene.placements,
+                           [&](std::string& out) { writePlacements(CborWriter(out), scene.placements); }));
+    writeElements(w, *scene.slices, scene.faceCells, scene.visibilities);
     if (!scene.fill.empty()) {
         Fill fill;
         std::vector<std::uint32_t> points{0}, triangles{0};
@@ -270,6 +289,33 @@ void SliceListWriter::write(CborWriter& w, const Scene& scene) {
         writeFill(w, fill, scene.visibilities);
         w.endObject();
     }
+    w.endObject();
+}
+
+void SliceListWriter::writeProjection(JsonWriter& w, const Scene& scene) {
+    const scene::ObjectProjection& projection = scene.projection;
+    w.beginArray();
+    for (std::size_t i = 0; i < projection.parts.size(); ++i) {
+        w.beginObject();
+        writePart(w, projection.parts[i]);
+        wire::writeElements(w, projection.elements, projection.faceCells, scene.visibilities, i);
+        w.endObject();
+    }
+    w.endArray();
+}
+
+void SliceListWriter::writeProjection(CborWriter& w, const Scene& scene) {
+    const scene::ObjectProjection& projection = scene.projection;
+    w.beginObject();
+    w.key("looks");
+    w.beginArray();
+    for (const scene::ProjectionPart& part : projection.parts) {
+        w.beginObject();
+        writePart(w, part);
+        w.endObject();
+    }
+    w.endArray();
+    writeElements(w, projection.elements, projection.faceCells, scene.visibilities);
     w.endObject();
 }
 

@@ -20,8 +20,15 @@ class SliceListWriter {
   public:
     void write(JsonWriter& w, const scene::Scene& scene);
     void write(CborWriter& w, const scene::Scene& scene);
+    /// Writes the projection of the whole object: each ProjectionPart with its vertices, edges and faces. As with
+    /// slices, CBOR has one array per property, with the values of all parts, instead of one object per part.
+    void writeProjection(JsonWriter& w, const scene::Scene& scene);
+    void writeProjection(CborWriter& w, const scene::Scene& scene);
 
   private:
+    // Writes the elements of all slices, or of all parts of a projection.
+    void writeElements(CborWriter& w, const slicing::SliceSet& slices, const std::vector<std::uint32_t>& faceCells,
+                       const slicing::Visibilities& visibilities);
     // Writes the lengths of consecutive ranges. `begin` has the beginning of each range and the end of the last one.
     void writeSizes(CborWriter& w, std::string_view name, std::span<const std::uint32_t> begin);
 

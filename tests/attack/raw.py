@@ -1,4 +1,4 @@
-"""HTTP/1.1 and WebSocket on plain sockets: sends any bytes, valid or not, and parses what the server sends strictly."""
+"""HTTP/1.1 and WebSocket on plain sockets: sends any bytes, valid or not, and parses responses strictly."""
 
 import base64
 import hashlib
@@ -15,7 +15,7 @@ GUID = b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11"  # RFC 6455, section 1.3
 CONTINUATION, TEXT, BINARY, CLOSE, PING, PONG = 0, 1, 2, 8, 9, 10
 
 
-class Ended(Exception):
+class ConnectionEnded(Exception):
     """Raised if the peer ends the connection before the expected data has arrived."""
 
 
@@ -51,7 +51,7 @@ class Socket:
         except ConnectionError:
             pass
 
-    def more(self):
+    def receive(self):
         """Reads once into the buffer; returns False at the end of the connection, including a reset."""
         try:
             data = self.socket.recv(1 << 20)
@@ -60,28 +60,28 @@ class Socket:
         self.buffer += data
         return bool(data)
 
-    def take(self, count):
+    def read_exactly(self, count):
         while len(self.buffer) < count:
-            if not self.more():
-                raise Ended(f"{count} octets expected, {bytes(self.buffer[:200])!r} came")
+            if not self.receive():
+                raise ConnectionEnded(f"expected {count} bytes, received {bytes(self.buffer[:200])!r}")
         data = bytes(self.buffer[:count])
         del self.buffer[:count]
         return data
 
-    def take_until(self, mark):
+    def read_until(self, mark):
         while mark not in self.buffer:
-            if not self.more():
-                raise Ended(f"{mark!r} expected, {bytes(self.buffer[:200])!r} came")
-        return self.take(self.buffer.index(mark) + len(mark))
+            if not self.receive():
+                raise ConnectionEnded(f"expected {mark!r}, received {bytes(self.buffer[:200])!r}")
+        return self.read_exactly(self.buffer.index(mark) + len(mark))
 
-    def ends(self):
+    def read_until_end(self):
         """Waits for the end of the connection; returns the data that arrived before it."""
-        while self.more():
+        while self.receive():
             pass
-        return self.take(len(self.buffer))
+        return self.read_exactly(len(self.buffer))
 
     def is_silent(self, seconds):
-        """Returns whether neither data nor the end of the connection arrives for so many seconds."""
+        """Returns whether neither data nor the end of the connection arrives within `seconds`."""
         return not self.buffer and not select.select([self.socket], [], [], seconds)[0]
 
     def reset(self):
@@ -92,26 +92,26 @@ class Socket:
     def half_close(self):
         self.socket.shutdown(socket.SHUT_WR)
 
-    def answer(self, method="GET"):
-        return Answer(self, method)
+    def read_response(self, method="GET"):
+        return Response(self, method)
 
-    def answers(self, method="GET"):
+    def read_responses(self, method="GET"):
         """Returns all responses until the connection ends, which it must."""
         found = []
-        while self.buffer or self.more():
-            found.append(Answer(self, method))
+        while self.buffer or self.receive():
+            found.append(Response(self, method))
         return found
 
-    def flood(self, data, most):
+    def flood(self, data, max_bytes):
         """Sends the data repeatedly until the server ends the connection; returns the number of bytes sent, or None if
-        the server accepted `most` bytes."""
+        the server accepted `max_bytes` bytes."""
         self.socket.setblocking(False)
-        sent, limit, rest = 0, time.monotonic() + DEADLINE, b""
+        sent, deadline, rest = 0, time.monotonic() + DEADLINE, b""
         try:
-            while sent < most:
-                assert time.monotonic() < limit, f"the connection is still open after {sent} octets"
+            while sent < max_bytes:
+                assert time.monotonic() < deadline, f"the connection is still open after {sent} bytes"
                 readable, writable, _ = select.select([self.socket], [self.socket], [], 0.1)
-                if readable and not self.more():
+                if readable and not self.receive():
                     return sent
                 if writable:
                     rest = rest or data
@@ -124,11 +124,11 @@ class Socket:
             self.socket.settimeout(DEADLINE)
 
 
-class Answer:
-    """An HTTP response, framed as in RFC 9112; asserts that it keeps the rules."""
+class Response:
+    """An HTTP response, framed as in RFC 9112; asserts that it is well-formed."""
 
     def __init__(self, raw, method):
-        head = raw.take_until(b"\r\n\r\n").decode("latin-1")
+        head = raw.read_until(b"\r\n\r\n").decode("latin-1")
         first, *lines = head[:-4].split("\r\n")
         version, status, self.reason = first.split(" ", 2)
         assert version == "HTTP/1.1" and len(status) == 3, first
@@ -139,21 +139,21 @@ class Answer:
             assert colon and name and name == name.strip(), line
             self.fields.append((name.lower(), value.strip()))
         self.body = b""
-        assert not self.all("transfer-encoding"), "no answer needs one"
-        lengths = self.all("content-length")
+        assert not self.values_of("transfer-encoding"), "the server sends no Transfer-Encoding"
+        lengths = self.values_of("content-length")
         assert len(lengths) <= 1
         if self.status < 200:
             assert not lengths
         elif method != "HEAD" and self.status not in (204, 304):
-            assert lengths, "the end of the answer cannot be told"
-            self.body = raw.take(int(lengths[0]))
+            assert lengths, "the response has no length"
+            self.body = raw.read_exactly(int(lengths[0]))
 
-    def all(self, name):
+    def values_of(self, name):
         return [value for found, value in self.fields if found == name]
 
     def get(self, name):
         """Returns the value of a field that must not be repeated, or None."""
-        values = self.all(name.lower())
+        values = self.values_of(name.lower())
         assert len(values) <= 1, self.fields
         return values[0] if values else None
 
@@ -169,16 +169,16 @@ def request(target="/healthz", *fields, method="GET", version="HTTP/1.1", host="
     return "".join(line + "\r\n" for line in lines).encode("latin-1") + b"\r\n"
 
 
-def ask(server, target, *fields, method="GET", host="localhost", source=None):
+def fetch(server, target, *fields, method="GET", host="localhost", source=None):
     """Sends one request on its own connection; returns the response."""
     with Socket(server, source) as raw:
         raw.send(request(target, *fields, method=method, host=host, close=True))
-        return raw.answer(method)
+        return raw.read_response(method)
 
 
 # --- WebSocket
 
-def xor(data, mask):
+def xor_with_mask(data, mask):
     if mask == b"\0\0\0\0":
         return data
     repeated = mask * (len(data) // 4 + 1)
@@ -186,14 +186,14 @@ def xor(data, mask):
     return number.to_bytes(len(data), "little")
 
 
-def frame(opcode, payload=b"", final=True, reserved=0, mask=b"\x37\xfa\x21\x3d", form=None, announced=None):
-    """Returns a frame. `form` is the number of bits of the length field, 7, 16 or 64 (by default the least possible);
-    `announced` replaces the length in the header; without a `mask`, the payload is not masked."""
-    size = len(payload) if announced is None else announced
-    form = form or (7 if size < 126 else 16 if size < 1 << 16 else 64)
-    code, length = {7: (size, b""), 16: (126, size.to_bytes(8, "big")[6:]), 64: (127, size.to_bytes(8, "big"))}[form]
+def frame(opcode, payload=b"", final=True, reserved=0, mask=b"\x37\xfa\x21\x3d", length_bits=None, announced_length=None):
+    """Returns a frame. `length_bits` is the size of the length field, 7, 16 or 64 (by default the least possible);
+    `announced_length` replaces the length in the header; without a `mask`, the payload is not masked."""
+    size = len(payload) if announced_length is None else announced_length
+    length_bits = length_bits or (7 if size < 126 else 16 if size < 1 << 16 else 64)
+    code, length = {7: (size, b""), 16: (126, size.to_bytes(8, "big")[6:]), 64: (127, size.to_bytes(8, "big"))}[length_bits]
     head = bytes([(0x80 if final else 0) | reserved << 4 | opcode, (0x80 if mask is not None else 0) | code])
-    return head + length + (mask or b"") + (payload if mask is None else xor(payload, mask))
+    return head + length + (mask or b"") + (payload if mask is None else xor_with_mask(payload, mask))
 
 
 def close_frame(code=None, reason=b""):
@@ -208,7 +208,7 @@ def handshake(target="/ws", *fields, key=None, host="localhost", protocol="oval4
                    f"Sec-WebSocket-Key: {key}", *offered, *fields, host=host)
 
 
-def accept_for(key):
+def accept_value(key):
     return base64.b64encode(hashlib.sha1(key.encode() + GUID).digest()).decode()
 
 
@@ -219,27 +219,27 @@ class WebSocket(Socket):
         super().__init__(server, source, receive_buffer)
         self.pongs, self.number = [], 0
         self.send(handshake(target, *fields))
-        self.upgraded = self.answer()
-        if self.upgraded.status != 101:
+        self.handshake_response = self.read_response()
+        if self.handshake_response.status != 101:
             self.socket.close()
-            raise Ended(f"no WebSocket: {self.upgraded}")
+            raise ConnectionEnded(f"no WebSocket: {self.handshake_response}")
 
     def next_frame(self):
-        """Returns (opcode, payload, final) of the next frame; asserts that it keeps the rules for servers."""
-        first, second = self.take(2)
+        """Returns (opcode, payload, final) of the next frame; asserts that a server may send it."""
+        first, second = self.read_exactly(2)
         assert not first & 0x70, "reserved bits are set"
         assert not second & 0x80, "a server's frame is masked"
         opcode, final, size = first & 15, bool(first & 0x80), second & 127
         assert opcode in (CONTINUATION, TEXT, BINARY, CLOSE, PING, PONG)
         if size == 126:
-            size = int.from_bytes(self.take(2), "big")
-            assert size >= 126, "a length that is longer than need be"
+            size = int.from_bytes(self.read_exactly(2), "big")
+            assert size >= 126, "the length is not encoded minimally"
         elif size == 127:
-            size = int.from_bytes(self.take(8), "big")
-            assert 1 << 16 <= size < 1 << 63, "a length that is longer than need be"
+            size = int.from_bytes(self.read_exactly(8), "big")
+            assert 1 << 16 <= size < 1 << 63, "the length is not encoded minimally"
         if opcode >= CLOSE:
             assert final and size <= 125
-        return opcode, self.take(size), final
+        return opcode, self.read_exactly(size), final
 
     def next_message(self):
         """Returns (opcode, payload) of the next message or close frame. Joins fragments and collects pongs."""
@@ -255,33 +255,33 @@ class WebSocket(Socket):
                 payload[2:].decode()
                 return CLOSE, payload
             else:
-                assert (kind is None) == (opcode != CONTINUATION), "fragments of messages are mixed"
+                assert (kind is None) == (opcode != CONTINUATION), "fragments of two messages are mixed"
                 kind = opcode if kind is None else kind
                 pieces.append(payload)
                 if final:
                     return kind, b"".join(pieces)
 
-    def say(self, **members):
+    def send_message(self, **members):
         self.send(frame(TEXT, json.dumps(members).encode()))
 
-    def answer_to(self, number):
+    def wait_for_answer(self, number):
         """Waits for the message with this id."""
         while True:
             opcode, payload = self.next_message()
             if opcode == CLOSE:
-                raise Ended(f"closed with {int.from_bytes(payload[:2], 'big')} {payload[2:]}")
+                raise ConnectionEnded(f"closed with {int.from_bytes(payload[:2], 'big')} {payload[2:]}")
             if opcode == TEXT:
                 message = json.loads(payload)
                 if message.get("id") == number:
                     return message
 
-    def ask(self, **members):
+    def request(self, **members):
         """Sends a request; returns its answer, which may be an error."""
         self.number += 1
-        self.say(**members, id=self.number)
-        return self.answer_to(self.number)
+        self.send_message(**members, id=self.number)
+        return self.wait_for_answer(self.number)
 
-    def pong(self):
+    def next_pong(self):
         """Returns the payload of the first pong not returned yet."""
         while not self.pongs:
             opcode, payload, _ = self.next_frame()
@@ -290,7 +290,7 @@ class WebSocket(Socket):
             assert opcode != CLOSE, payload
         return self.pongs.pop(0)
 
-    def closed(self, answers=True):
+    def wait_for_close_code(self, answers=True):
         """Waits for the server's close frame, answers it, and asserts that the connection ends; returns the close code,
         None if there is none."""
         while True:
@@ -298,16 +298,16 @@ class WebSocket(Socket):
             if opcode == CLOSE:
                 if answers:
                     self.try_send(frame(CLOSE, payload[:2]))
-                assert self.ends() == b"", "something follows the close frame"
+                assert self.read_until_end() == b"", "something follows the close frame"
                 return int.from_bytes(payload[:2], "big") if payload else None
 
-    def fails(self):
+    def wait_for_failure_code(self):
         """Waits until the server fails the connection; returns the close code, which must be present."""
-        code = self.closed()
+        code = self.wait_for_close_code()
         assert code is not None
         return code
 
-    def refuses_its_size(self):
+    def refuses_message_as_too_large(self):
         """Returns whether the message just sent is refused as too large, by an error or the end of the connection;
         asserts that it is not executed."""
         try:
@@ -318,31 +318,31 @@ class WebSocket(Socket):
                 message = json.loads(payload)
                 if message["type"] == "error":
                     return message["code"] == "too_large"
-                assert message.get("id") is None and message["type"] != "welcome", "it was executed"
-        except Ended:
+                assert message.get("id") is None and message["type"] != "welcome", "the message was executed"
+        except ConnectionEnded:
             return True  # the server reset the connection during the transmission
 
-    def end_time(self):
+    def wait_for_end_time(self):
         """Waits until the server ends the connection; returns the time."""
         try:
             while self.next_message()[0] != CLOSE:
                 pass
-        except Ended:
+        except ConnectionEnded:
             pass
         return time.monotonic()
 
 
-class Session:
+class SharedSession:
     """A session that all connections of a test join."""
 
     def __init__(self, server):
         self.server = server
         with WebSocket(server) as socket_:
-            welcome = socket_.ask(type="hello")
+            welcome = socket_.request(type="hello")
         self.name, self.token = welcome["session"], welcome["token"]
 
     def join(self, **keywords):
         socket_ = WebSocket(self.server, f"/ws/{self.name}", **keywords)
-        welcome = socket_.ask(type="hello", token=self.token)
+        welcome = socket_.request(type="hello", token=self.token)
         assert welcome["type"] == "welcome", welcome
         return socket_

@@ -18,15 +18,15 @@ seccomp.seccomp_init.restype = ctypes.c_void_p
 seccomp.seccomp_arch_native.restype = ctypes.c_uint32
 
 
-class Argument(ctypes.Structure):
+class ArgumentComparison(ctypes.Structure):
     _fields_ = [("number", ctypes.c_uint), ("compare", ctypes.c_int), ("a", ctypes.c_uint64), ("b", ctypes.c_uint64)]
 
 
-def number_of(name):
+def syscall_number(name):
     return seccomp.seccomp_syscall_resolve_name(name.encode())
 
 
-def children(server):
+def child_processes(server):
     """Returns the server's live child processes: process ID to subcommand ("draw" or "read")."""
     found = {}
     for file in Path("/proc").glob("[0-9]*/stat"):
@@ -36,79 +36,80 @@ def children(server):
             if int(fields[1]) == server.process.pid and fields[0] != "Z" and words[0] == b"oval4d":
                 found[int(file.parent.name)] = words[1].decode()
         except (OSError, IndexError):
-            continue  # it has ended in the meantime, or has not called exec yet
+            continue  # the process has ended in the meantime, or has not called exec yet
     return found
 
 
-def status(pid, name, thread=None):
+def status_value(pid, name, thread=None):
     """Returns a number of /proc/PID/status."""
     place = f"/proc/{pid}/task/{thread}/status" if thread else f"/proc/{pid}/status"
     found = re.search(rf"^{name}:\s+(\d+)", Path(place).read_text(encoding="ascii"), re.M)
     return int(found.group(1))
 
 
-def limit(pid, name):
+def soft_limit(pid, name):
     """Returns a soft resource limit, None if it is unlimited."""
     line = next(line for line in Path(f"/proc/{pid}/limits").read_text().splitlines() if line.startswith(name))
     value = line[len(name):].split()[0]
     return None if value == "unlimited" else int(value)
 
 
-class Filter:
+class SeccompFilter:
     """The seccomp filter that a process has installed last, read with ptrace."""
 
     def __init__(self, pid):
         self.pid = pid
-        self.check(libc.ptrace(PTRACE_SEIZE, pid, None, None))
+        self.check_result(libc.ptrace(PTRACE_SEIZE, pid, None, None))
         try:
-            self.check(libc.ptrace(PTRACE_INTERRUPT, pid, None, None))
+            self.check_result(libc.ptrace(PTRACE_INTERRUPT, pid, None, None))
             os.waitpid(pid, WALL)
-            size = self.check(libc.ptrace(PTRACE_SECCOMP_GET_FILTER, pid, 0, None))
-            code = ctypes.create_string_buffer(8 * size)
-            self.check(libc.ptrace(PTRACE_SECCOMP_GET_FILTER, pid, 0, ctypes.cast(code, ctypes.c_void_p)))
+            size = self.check_result(libc.ptrace(PTRACE_SECCOMP_GET_FILTER, pid, 0, None))
+            buffer = ctypes.create_string_buffer(8 * size)
+            self.check_result(libc.ptrace(PTRACE_SECCOMP_GET_FILTER, pid, 0, ctypes.cast(buffer, ctypes.c_void_p)))
         finally:
             libc.ptrace(PTRACE_DETACH, pid, None, None)
-        self.code = list(struct.iter_unpack("=HBBI", code.raw))
+        self.instructions = list(struct.iter_unpack("=HBBI", buffer.raw))
 
     @staticmethod
-    def check(result):
+    def check_result(result):
         if result < 0:
             raise OSError(ctypes.get_errno(), os.strerror(ctypes.get_errno()))
         return result
 
-    def __call__(self, name, *arguments, arch=None):
+    def evaluate(self, name, *arguments, arch=None):
         """Returns what the filter does with this system call: (KILL, ERRNO or ALLOW, error number)."""
         arguments = [x & 0xFFFFFFFFFFFFFFFF for x in arguments] + [0] * (6 - len(arguments))
-        data = struct.pack("=iIQ6Q", number_of(name), arch or seccomp.seccomp_arch_native(), 0, *arguments)
-        at, a, memory = 0, 0, {}
+        data = struct.pack("=iIQ6Q", syscall_number(name), arch or seccomp.seccomp_arch_native(), 0, *arguments)
+        position, accumulator, memory = 0, 0, {}
         while True:
-            code, if_true, if_false, k = self.code[at]
-            at += 1
-            if code == 0x20:  # ld [k]
-                a = struct.unpack_from("=I", data, k)[0]
-            elif code == 0x60:  # ld M[k]
-                a = memory[k]
-            elif code == 0x02:  # st M[k]
-                memory[k] = a
-            elif code == 0x54:  # and
-                a &= k
-            elif code == 0x05:  # ja
-                at += k
-            elif code in (0x15, 0x25, 0x35, 0x45):
-                holds = {0x15: a == k, 0x25: a > k, 0x35: a >= k, 0x45: a & k != 0}[code]
-                at += if_true if holds else if_false
-            elif code == 0x06:  # ret
+            opcode, if_true, if_false, k = self.instructions[position]
+            position += 1
+            if opcode == 0x20:  # ld [k]
+                accumulator = struct.unpack_from("=I", data, k)[0]
+            elif opcode == 0x60:  # ld M[k]
+                accumulator = memory[k]
+            elif opcode == 0x02:  # st M[k]
+                memory[k] = accumulator
+            elif opcode == 0x54:  # and
+                accumulator &= k
+            elif opcode == 0x05:  # ja
+                position += k
+            elif opcode in (0x15, 0x25, 0x35, 0x45):
+                holds = {0x15: accumulator == k, 0x25: accumulator > k, 0x35: accumulator >= k,
+                         0x45: accumulator & k != 0}[opcode]
+                position += if_true if holds else if_false
+            elif opcode == 0x06:  # ret
                 return k & 0xFFFF0000, k & 0xFFFF
             else:
-                raise AssertionError(f"unknown BPF instruction: {code:#x}")
+                raise AssertionError(f"unknown BPF instruction: {opcode:#x}")
 
 
-def forbid_filters():
+def forbid_seccomp_filters():
     """Called in a child process before exec: forbids further filters, as some container profiles do."""
     libc.prctl(38, 1, 0, 0, 0)  # PR_SET_NO_NEW_PRIVS, without which only root may install a filter
     context = ctypes.c_void_p(seccomp.seccomp_init(ALLOW))
-    refuse = ctypes.c_uint32(ERRNO | 1)
-    one = (Argument * 1)(Argument(0, 4, 22, 0))  # SCMP_CMP_EQ, PR_SET_SECCOMP
-    assert seccomp.seccomp_rule_add_array(context, refuse, number_of("seccomp"), 0, None) == 0
-    assert seccomp.seccomp_rule_add_array(context, refuse, number_of("prctl"), 1, one) == 0
+    action = ctypes.c_uint32(ERRNO | 1)
+    comparison = (ArgumentComparison * 1)(ArgumentComparison(0, 4, 22, 0))  # SCMP_CMP_EQ, PR_SET_SECCOMP
+    assert seccomp.seccomp_rule_add_array(context, action, syscall_number("seccomp"), 0, None) == 0
+    assert seccomp.seccomp_rule_add_array(context, action, syscall_number("prctl"), 1, comparison) == 0
     assert seccomp.seccomp_load(context) == 0

@@ -19,27 +19,28 @@ from harness import SLOW, Server
 from wire import Client, Refused
 
 HEAVY = "omnitruncated 120-cell"
-VICTIM = "127.0.0.1"
-OTHERS = [f"127.0.0.{n}" for n in range(2, 12)]
-ALONE, BESIDE = 1 * SLOW, 3 * SLOW  # seconds of measuring
+VICTIM_ADDRESS = "127.0.0.1"
+OTHER_ADDRESSES = [f"127.0.0.{n}" for n in range(2, 12)]
+ALONE_SECONDS, ATTACKED_SECONDS = 1 * SLOW, 3 * SLOW  # durations of the measurements, in seconds
 
 
-def distribution(seconds):
+def median_p99_and_maximum(seconds):
+    """Returns the median, the 99th percentile and the maximum."""
     ordered = sorted(seconds)
     return statistics.median(ordered), ordered[int(0.99 * (len(ordered) - 1))], ordered[-1]
 
 
-async def press(server, seconds, address=VICTIM):
+async def measure_key_latencies(server, seconds, address=VICTIM_ADDRESS):
     """Turns the 5-cell key by key; returns the seconds from each key to its frame."""
     latencies = []
     async with Client(server, stream="frames", width=1280, height=720, address=address) as client:
-        await client.frame_of(0)
+        await client.wait_for_frame(0)
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             pressed = time.monotonic()
             client.messages.clear()
             done = await client.request("key", key="r")
-            await client.frame_of(done["revision"])
+            await client.wait_for_frame(done["revision"])
             latencies.append(time.monotonic() - pressed)
     return latencies
 
@@ -47,41 +48,42 @@ async def press(server, seconds, address=VICTIM):
 # --- Attacks: coroutine functions (server, address, …), which are repeated until their process is killed
 
 
-async def new_session_for_each(server, address, polytope, side=2048):
+async def new_session_per_frame(server, address, polytope, side=2048):
     async with Client(server, stream="none", address=address) as client:
         await client.request("set", polytope=polytope)
-        await client.frame(width=side, height=side)
+        await client.request_frame(width=side, height=side)
 
 
-async def kept_session(server, address, polytope, side=2048):
+async def frames_of_one_session(server, address, polytope, side=2048):
     async with Client(server, stream="none", address=address) as client:
         await client.request("set", polytope=polytope)
         while True:
             client.messages.clear()
             await client.request("key", key="r")
-            await client.frame(width=side, height=side)
+            await client.request_frame(width=side, height=side)
 
 
-async def stream(server, address, polytope, kind, side=2048):
+async def turning_stream(server, address, polytope, kind, side=2048):
     async with Client(server, stream=kind, width=side, height=side, address=address) as client:
         await client.request("set", polytope=polytope)
         while True:
             done = await client.request("key", key="r")
-            await client.slices(done["revision"]) if kind == "geometry" else await client.frame_of(done["revision"])
+            wait = client.wait_for_slices if kind == "geometry" else client.wait_for_frame
+            await wait(done["revision"])
             del client.messages[:-20]
 
 
-async def over_http(server, address, polytope, side=2048):
-    def ask():
+async def frames_over_http(server, address, polytope, side=2048):
+    def request_frame():
         connection = http.client.HTTPConnection(server.host, server.port, timeout=60, source_address=(address, 0))
         with contextlib.closing(connection):
             name = polytope.replace(" ", "%20")
             connection.request("GET", f"/api/v1/frame.png?polytope={name}&width={side}&height={side}")
             connection.getresponse().read()
-    await asyncio.to_thread(ask)
+    await asyncio.to_thread(request_frame)
 
 
-def points(count):
+def sphere_points(count):
     """Returns points that are evenly but irregularly distributed on the 3-sphere, as text."""
     golden = [0.8566748838545029, 0.733891856627126, 0.6287067210378087]
     rows = []
@@ -93,10 +95,10 @@ def points(count):
     return "\n".join(rows)
 
 
-POINTS = points(600)
+POINTS = sphere_points(600)
 
 
-async def loads(server, address):
+async def repeated_loads(server, address):
     async with Client(server, stream="none", address=address) as client:
         for number in itertools.count():
             client.messages.clear()
@@ -104,7 +106,7 @@ async def loads(server, address):
                 await client.request("load", name=f"mine {number % 3}", format="points", data=POINTS)
 
 
-async def repeat(attack, server, address, arguments):
+async def repeat_attack(attack, server, address, arguments):
     while True:
         try:
             await attack(server, address, *arguments)
@@ -112,23 +114,23 @@ async def repeat(attack, server, address, arguments):
             await asyncio.sleep(0.05)
 
 
-def attackers(address, attack, arguments, host_and_port, count):
+def run_attackers(address, attack, arguments, host_and_port, count):
     """Runs `count` attackers; the main function of an attacking process."""
-    class Place:
+    class ServerAddress:
         host, port = host_and_port
 
-    async def all_of_them():
-        await asyncio.gather(*(repeat(attack, Place, address, arguments) for _ in range(count)))
-    asyncio.run(all_of_them())
+    async def run_all():
+        await asyncio.gather(*(repeat_attack(attack, ServerAddress, address, arguments) for _ in range(count)))
+    asyncio.run(run_all())
 
 
 @contextlib.contextmanager
-def attacked(server, parties):
-    """Runs attackers during the `with` block, one process per party."""
+def under_attack(server, attacks):
+    """Runs attackers during the `with` block, one process for each entry of `attacks`."""
     context = multiprocessing.get_context("spawn")
-    processes = [context.Process(target=attackers, daemon=True,
+    processes = [context.Process(target=run_attackers, daemon=True,
                                  args=(address, attack, arguments, (server.host, server.port), count))
-                 for address, attack, arguments, count in parties]
+                 for address, attack, arguments, count in attacks]
     for process in processes:
         process.start()
     try:
@@ -139,69 +141,71 @@ def attacked(server, parties):
             process.join()
 
 
-def measure(parties, options=()):
+def measure_latencies(attacks, options=()):
+    """Returns median_p99_and_maximum of a session alone and during the attacks, and its number of pictures then."""
     with Server(*options) as server:
-        asyncio.run(press(server, 0.5))  # warm-up
-        alone = asyncio.run(press(server, ALONE))
-        with attacked(server, parties):
+        asyncio.run(measure_key_latencies(server, 0.5))  # warm-up
+        alone = asyncio.run(measure_key_latencies(server, ALONE_SECONDS))
+        with under_attack(server, attacks):
             time.sleep(1.5 * SLOW)  # gives the attackers time to begin
-            beside = asyncio.run(press(server, BESIDE))
-    return distribution(alone), distribution(beside), len(beside)
+            attacked = asyncio.run(measure_key_latencies(server, ATTACKED_SECONDS))
+    return median_p99_and_maximum(alone), median_p99_and_maximum(attacked), len(attacked)
 
 
-def same(attack, arguments, count):
-    return [(VICTIM, attack, arguments, count)]
+def from_victim_address(attack, arguments, count):
+    return [(VICTIM_ADDRESS, attack, arguments, count)]
 
 
-def others(attack, arguments, count):
-    return [(address, attack, arguments, 1) for address in OTHERS[:count]]
+def from_other_addresses(attack, arguments, count):
+    return [(address, attack, arguments, 1) for address in OTHER_ADDRESSES[:count]]
 
 
 ATTACKS = {
-    "three sessions for each frame, heavy": same(new_session_for_each, (HEAVY,), 3),
-    "six sessions for each frame, 5-cell": same(new_session_for_each, ("5-cell",), 6),
-    "three addresses, sessions for each frame, heavy": others(new_session_for_each, (HEAVY,), 3),
-    "six addresses, sessions for each frame, 5-cell": others(new_session_for_each, ("5-cell",), 6),
-    "ten kept sessions": same(kept_session, (HEAVY,), 10),
-    "streams of frames": same(stream, (HEAVY, "frames"), 6),
-    "streams of slices": same(stream, (HEAVY, "geometry"), 6),
-    "small streams of slices": same(stream, ("5-cell", "geometry"), 8),
-    "frames over HTTP, one address": [(OTHERS[0], over_http, (HEAVY,), 8)],
-    "frames over HTTP, six addresses": others(over_http, ("5-cell",), 6),
-    "loads": same(loads, (), 4),
+    "new session per frame, heavy polytope, 3 clients": from_victim_address(new_session_per_frame, (HEAVY,), 3),
+    "new session per frame, 5-cell, 6 clients": from_victim_address(new_session_per_frame, ("5-cell",), 6),
+    "new session per frame, heavy polytope, 3 addresses": from_other_addresses(new_session_per_frame, (HEAVY,), 3),
+    "new session per frame, 5-cell, 6 addresses": from_other_addresses(new_session_per_frame, ("5-cell",), 6),
+    "frames of 10 sessions": from_victim_address(frames_of_one_session, (HEAVY,), 10),
+    "6 streams of frames": from_victim_address(turning_stream, (HEAVY, "frames"), 6),
+    "6 streams of slices": from_victim_address(turning_stream, (HEAVY, "geometry"), 6),
+    "8 streams of slices of the 5-cell": from_victim_address(turning_stream, ("5-cell", "geometry"), 8),
+    "frames over HTTP, 1 address": [(OTHER_ADDRESSES[0], frames_over_http, (HEAVY,), 8)],
+    "frames over HTTP, 6 addresses": from_other_addresses(frames_over_http, ("5-cell",), 6),
+    "4 clients that load points": from_victim_address(repeated_loads, (), 4),
 }
 
 
 @pytest.mark.parametrize("name", ATTACKS)
-def test_another_session_goes_on_beside(name):
+def test_a_session_stays_responsive_during_an_attack(name):
     for _ in range(2):  # another program may have disturbed the first attempt
-        alone, beside, count = measure(ATTACKS[name])
+        alone, attacked, count = measure_latencies(ATTACKS[name])
         print(json.dumps({"attack": name, "alone ms": [round(1e3 * x, 1) for x in alone],
-                          "beside ms": [round(1e3 * x, 1) for x in beside], "pictures": count}))
-        if beside[0] <= 5 * alone[0] and beside[1] <= 20 * alone[0]:
+                          "attacked ms": [round(1e3 * x, 1) for x in attacked], "pictures": count}))
+        if attacked[0] <= 5 * alone[0] and attacked[1] <= 20 * alone[0]:
             return
-    assert beside[0] <= 5 * alone[0], f"the median is {beside[0] / alone[0]:.1f} times its own alone"
-    assert beside[1] <= 20 * alone[0], f"the 99th percentile is {beside[1] / alone[0]:.1f} times the median alone"
+    assert attacked[0] <= 5 * alone[0], f"the median latency is {attacked[0] / alone[0]:.1f} times that without attack"
+    assert attacked[1] <= 20 * alone[0], f"the 99th percentile is {attacked[1] / alone[0]:.1f} times the median without attack"
 
 
-def test_twenty_heavy_sessions_leave_room():
+def test_a_session_stays_responsive_beside_twenty_heavy_sessions():
     for _ in range(2):
-        alone, beside, count = measure(same(kept_session, (HEAVY, 4096), 20))
-        print(json.dumps({"attack": "twenty of 4096²", "alone ms": [round(1e3 * x, 1) for x in alone],
-                          "beside ms": [round(1e3 * x, 1) for x in beside], "pictures": count}))
-        if beside[1] < 0.5 * SLOW:
+        alone, attacked, count = measure_latencies(from_victim_address(frames_of_one_session, (HEAVY, 4096), 20))
+        print(json.dumps({"attack": "20 sessions with frames of 4096 × 4096 pixels",
+                          "alone ms": [round(1e3 * x, 1) for x in alone],
+                          "attacked ms": [round(1e3 * x, 1) for x in attacked], "pictures": count}))
+        if attacked[1] < 0.5 * SLOW:
             return
-    assert beside[1] < 0.5 * SLOW
+    assert attacked[1] < 0.5 * SLOW
 
 
 @pytest.mark.parametrize("option", ["--max-jobs", "--max-client-jobs"])
-def test_as_many_jobs_wait_as_may(option):
+def test_requests_beyond_the_job_limit_are_refused(option):
     """Requests beyond the limit on queued jobs are refused; pictures of a session's stream are only delayed."""
     path = f"/api/v1/frame.png?polytope={HEAVY.replace(' ', '%20')}&width=1024&height=1024"
     with Server("--workers", 1, option, 2) as server:
         with ThreadPoolExecutor(12) as pool:
             answers = [pool.submit(server.get, path) for _ in range(12)]
-            latencies = asyncio.run(press(server, 0.5))
+            latencies = asyncio.run(measure_key_latencies(server, 0.5))
             answers = [answer.result() for answer in answers]
         refused = [answer for answer in answers if answer.status == 503]
         # The number of refusals depends on timing: the polytope must be built, and the stream occupies a place.

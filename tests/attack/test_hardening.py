@@ -5,20 +5,20 @@ import re
 import subprocess
 
 import pytest
-from harness import PROGRAM, sanitized
+from harness import PROGRAM, is_sanitizer_build
 
-pytestmark = pytest.mark.skipif(sanitized(), reason="sanitizers are built without")
+pytestmark = pytest.mark.skipif(is_sanitizer_build(), reason="sanitizer builds are not hardened")
 
 
-def told_by(tool, *words):
-    return subprocess.run([tool, *words], capture_output=True, text=True, check=True).stdout
+def output_of(tool, *arguments):
+    return subprocess.run([tool, *arguments], capture_output=True, text=True, check=True).stdout
 
 
 def readelf(*options, file=PROGRAM):
-    return told_by("readelf", "--wide", *options, str(file))
+    return output_of("readelf", "--wide", *options, str(file))
 
 
-def symbols(file, defined):
+def dynamic_symbols(file, defined):
     """Returns the names of defined or undefined dynamic symbols, without versions."""
     names = set()
     for line in readelf("--dyn-syms", file=file).splitlines():
@@ -28,12 +28,12 @@ def symbols(file, defined):
     return names
 
 
-def test_it_lies_at_any_address():
+def test_the_executable_is_position_independent():
     assert re.search(r"Type:\s+DYN", readelf("--file-header"))
     assert re.search(r"FLAGS_1.*\bPIE\b", readelf("--dynamic"))
 
 
-def test_addresses_of_functions_are_read_only():
+def test_relocation_tables_are_read_only():
     dynamic, segments = readelf("--dynamic"), readelf("--segments")
     assert re.search(r"\(FLAGS\).*\bBIND_NOW\b", dynamic) and re.search(r"FLAGS_1.*\bNOW\b", dynamic)
     relro = re.search(r"GNU_RELRO\s+0x\S+\s+(0x\S+)\s+0x\S+\s+0x\S+\s+(0x\S+)", segments)
@@ -45,7 +45,7 @@ def test_addresses_of_functions_are_read_only():
         assert begin <= int(at, 16) and int(at, 16) + int(length, 16) <= begin + size, name
 
 
-def test_nothing_is_written_and_run():
+def test_no_segment_is_writable_and_executable():
     """No segment is both writable and executable, not even the stack."""
     flags = re.findall(r"^\s+(LOAD|GNU_STACK)\s+(?:0x\S+\s+){5}([RWE ]+?)\s+0x", readelf("--segments"), re.M)
     assert ("GNU_STACK", "RW") in flags and len(flags) > 3
@@ -53,27 +53,27 @@ def test_nothing_is_written_and_run():
     assert "TEXTREL" not in readelf("--dynamic")
 
 
-@pytest.mark.skipif(platform.machine() not in ("x86_64", "aarch64"), reason="not of this processor")
-def test_indirect_jumps_end_where_they_may():
-    mark, places = (("IBT, SHSTK", "endbr64") if platform.machine() == "x86_64" else ("", "bti|paciasp"))
-    assert mark in readelf("--notes")
-    code = told_by("objdump", "--disassemble=main", "--no-show-raw-insn", str(PROGRAM))
+@pytest.mark.skipif(platform.machine() not in ("x86_64", "aarch64"), reason="only x86-64 and AArch64 have branch tracking")
+def test_indirect_branch_tracking_is_enabled():
+    property_, landing_pads = (("IBT, SHSTK", "endbr64") if platform.machine() == "x86_64" else ("", "bti|paciasp"))
+    assert property_ in readelf("--notes")
+    code = output_of("objdump", "--disassemble=main", "--no-show-raw-insn", str(PROGRAM))
     first = next(line for line in code.splitlines() if re.match(r"\s+[0-9a-f]+:\s", line))
-    assert re.search(places, first), first
+    assert re.search(landing_pads, first), first
 
 
-def test_stacks_are_guarded_and_copies_checked():
-    called = symbols(PROGRAM, defined=False)
+def test_stack_protector_and_checked_copies_are_used():
+    called = dynamic_symbols(PROGRAM, defined=False)
     assert "__stack_chk_fail" in called
     assert {"__memcpy_chk", "__snprintf_chk"} & called
-    # Unchecked functions, which the compiler leaves where it does not know the size of the buffer: there are none.
+    # The compiler keeps calls of these unchecked functions if it does not know the size of the buffer.
     assert not {"gets", "strcpy", "strcat", "sprintf", "vsprintf"} & called
 
 
-def test_no_library_is_loaded_that_nothing_is_used_of():
+def test_every_linked_library_is_used():
     needed = re.findall(r"\(NEEDED\).*\[(.+)\]", readelf("--dynamic"))
-    places = dict(re.findall(r"(\S+) => (\S+)", told_by("ldd", str(PROGRAM))))
-    called = symbols(PROGRAM, defined=False)
+    paths = dict(re.findall(r"(\S+) => (\S+)", output_of("ldd", str(PROGRAM))))
+    called = dynamic_symbols(PROGRAM, defined=False)
     assert len(needed) > 5
     for library in needed:
-        assert symbols(places[library], defined=True) & called, library
+        assert dynamic_symbols(paths[library], defined=True) & called, library

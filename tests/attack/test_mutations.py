@@ -9,7 +9,7 @@ import os
 import random
 
 from harness import Server
-from raw import CLOSE, TEXT, Ended, WebSocket, frame
+from raw import CLOSE, TEXT, ConnectionEnded, WebSocket, frame
 
 COUNT = int(os.environ.get("OVAL4D_MUTATIONS", "20000"))
 SEED = int(os.environ.get("OVAL4D_SEED", "4"))
@@ -33,26 +33,26 @@ REQUESTS = [
     {"type": "get", "what": "file", "format": "off", "of": "focus", "body": "solid", "size": 60, "label": "none"},
     {"type": "get", "what": "file", "format": "csv"}, {"type": "get", "what": "keymap"}, {"type": "shown", "revision": 7},
 ]
-ODD = [None, True, False, 0, -1, 1, 0.5, 1e308, -1e308, 1e-320, 2**31, 2**32, 2**53, 2**63, 2**64, -2**63, 10**40, "", "\0", "x" * 5000,
-       "\ud7ff\ue000\U0010ffff", "../../etc/passwd", "%n%s%x", "'; DROP TABLE sessions;--", "NaN", "1e999", [], {}, [[]], [None] * 100,
-       {"type": "hello"}, "{5,5/2,5}", "x3o3o *b3o", "5/0,5-duoprism", "99999-gonal prism prism", "(" * 500, "1+" * 400 + "1", "-" * 900]
+UNUSUAL_VALUES = [None, True, False, 0, -1, 1, 0.5, 1e308, -1e308, 1e-320, 2**31, 2**32, 2**53, 2**63, 2**64, -2**63, 10**40, "", "\0", "x" * 5000,
+                  "\ud7ff\ue000\U0010ffff", "../../etc/passwd", "%n%s%x", "'; DROP TABLE sessions;--", "NaN", "1e999", [], {}, [[]], [None] * 100,
+                  {"type": "hello"}, "{5,5/2,5}", "x3o3o *b3o", "5/0,5-duoprism", "99999-gonal prism prism", "(" * 500, "1+" * 400 + "1", "-" * 900]
 
 
-def places(value, path=()):
+def value_paths(value, path=()):
     """Yields the path of each value in a message, the message itself included."""
     yield path
     items = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     for key, inner in items:
-        yield from places(inner, (*path, key))
+        yield from value_paths(inner, (*path, key))
 
 
-def put(message, path, value):
+def set_value(message, path, value):
     for key in path[:-1]:
         message = message[key]
     message[path[-1]] = value
 
 
-def at(message, path):
+def value_at(message, path):
     for key in path:
         message = message[key]
     return message
@@ -61,43 +61,43 @@ def at(message, path):
 DEEP = "nested deeply"  # replaced by nested brackets in the text of the message
 
 
-def mutated(numbers, broken):
-    """Returns a damaged message as bytes. It may be valid by chance; if `broken`, it may not even be JSON."""
-    message = copy.deepcopy(numbers.choice(REQUESTS))
-    message["id"] = numbers.randrange(1000)
-    for _ in range(numbers.choice([1, 1, 1, 2, 3])):
-        where = numbers.choice([path for path in places(message) if path])
-        value, kind = at(message, where), numbers.randrange(10)
+def mutated_request(rng, may_break_json):
+    """Returns a damaged message as bytes. It may be valid by chance; if `may_break_json`, it need not be JSON."""
+    message = copy.deepcopy(rng.choice(REQUESTS))
+    message["id"] = rng.randrange(1000)
+    for _ in range(rng.choice([1, 1, 1, 2, 3])):
+        path = rng.choice([path for path in value_paths(message) if path])
+        value, kind = value_at(message, path), rng.randrange(10)
         if kind <= 3:
-            value = copy.deepcopy(numbers.choice(ODD))
+            value = copy.deepcopy(rng.choice(UNUSUAL_VALUES))
         elif kind == 4:
             value = DEEP
         elif kind == 5:
-            value = at(message, numbers.choice(list(places(message))))  # a value from another place in the message
+            value = value_at(message, rng.choice(list(value_paths(message))))  # of another member
             value = copy.deepcopy(value)
         elif kind == 6 and isinstance(value, str) and value:
-            cut = numbers.randrange(len(value))
-            value = value[:cut] + numbers.choice(["", "9" * 400, "\n", "#", "-", "1e9", "é", "\0", value]) + value[cut + 1:]
+            cut = rng.randrange(len(value))
+            value = value[:cut] + rng.choice(["", "9" * 400, "\n", "#", "-", "1e9", "é", "\0", value]) + value[cut + 1:]
         elif kind == 7 and isinstance(value, (int, float)):
-            value = min(value * numbers.choice([-1, 0, 1e9, 1e300, 0.1]), 1e308)
-        elif kind == 8:
-            put(message, (*where[:-1], numbers.choice(["typ", "key", "x" * 300, ""])), value) if isinstance(where[-1], str) else None
-        put(message, where, value)
-    text = json.dumps(message, ensure_ascii=numbers.random() < 0.5)
-    depth = numbers.choice([5, 30, 31, 32, 33, 100, 30_000])
+            value = min(value * rng.choice([-1, 0, 1e9, 1e300, 0.1]), 1e308)
+        elif kind == 8 and isinstance(path[-1], str):
+            set_value(message, (*path[:-1], rng.choice(["typ", "key", "x" * 300, ""])), value)
+        set_value(message, path, value)
+    text = json.dumps(message, ensure_ascii=rng.random() < 0.5)
+    depth = rng.choice([5, 30, 31, 32, 33, 100, 30_000])
     text = text.replace(f'"{DEEP}"', "[" * depth + "]" * depth)
-    kind = numbers.randrange(4) if broken else numbers.choice([0, 4, 4, 4, 4, 4, 4, 4])
+    kind = rng.randrange(4) if may_break_json else rng.choice([0, 4, 4, 4, 4, 4, 4, 4])
     if kind == 0:  # repeats a member
         text = text[:-1] + "," + text[1:]
     data = bytearray(text.encode("utf-8", "surrogatepass"))
     if kind == 1:
-        for _ in range(numbers.choice([1, 1, 3])):
-            data[numbers.randrange(len(data))] ^= 1 << numbers.randrange(8)
+        for _ in range(rng.choice([1, 1, 3])):
+            data[rng.randrange(len(data))] ^= 1 << rng.randrange(8)
     if kind == 2:
-        del data[numbers.randrange(len(data)):]
+        del data[rng.randrange(len(data)):]
     if kind == 3:
-        start = numbers.randrange(len(data))
-        data[start:start] = data[start:start + numbers.randrange(60)] * numbers.randrange(1, 20)
+        start = rng.randrange(len(data))
+        data[start:start] = data[start:start + rng.randrange(60)] * rng.randrange(1, 20)
     return bytes(data)
 
 
@@ -111,13 +111,13 @@ class Sender:
     def connect(self):
         if self.session is None:
             self.peer = WebSocket(self.server)
-            self.session = self.peer.ask(type="hello")
+            self.session = self.peer.request(type="hello")
         else:
             self.peer = WebSocket(self.server, f"/ws/{self.session['session']}")
-            welcome = self.peer.ask(type="hello", token=self.session["token"])
+            welcome = self.peer.request(type="hello", token=self.session["token"])
             assert welcome["type"] == "welcome", welcome
 
-    def note(self, message):
+    def count_error(self, message):
         if message["type"] == "error":
             self.codes[message["code"]] = self.codes.get(message["code"], 0) + 1
 
@@ -125,8 +125,8 @@ class Sender:
         """Sends the messages, then a valid request; waits until that is answered or the connection ends."""
         if self.peer is None:
             self.connect()
-        good = b'{"type":"get","what":"keymap","id":123456789}'
-        self.peer.try_send(b"".join(frame(TEXT, data) for data in [*messages, good]))
+        valid_request = b'{"type":"get","what":"keymap","id":123456789}'
+        self.peer.try_send(b"".join(frame(TEXT, data) for data in [*messages, valid_request]))
         try:
             while True:
                 opcode, payload = self.peer.next_message()
@@ -136,30 +136,30 @@ class Sender:
                     break
                 if opcode == TEXT:
                     message = json.loads(payload)
-                    self.note(message)
+                    self.count_error(message)
                     if message.get("id") == 123456789 and message["type"] == "keymap":
                         return
-        except Ended:
+        except ConnectionEnded:
             self.closes[None] = self.closes.get(None, 0) + 1
         self.peer.socket.close()
         self.peer = None
 
 
-def test_damaged_requests_harm_nobody():
-    numbers = random.Random(SEED)
+def test_mutated_requests_do_not_affect_other_clients():
+    rng = random.Random(SEED)
     with Server("--max-requests", 1_000_000, "--max-width", 1280, "--max-height", 720, "--max-file-time", 1, "--max-vertices", 2000,
                 "--max-slices", 31) as server:
         with WebSocket(server) as bystander:
-            welcome = bystander.ask(type="hello")
-            assert bystander.ask(type="command", line="polytope 16-cell")["type"] == "done"
-            assert bystander.ask(type="key", key="y")["type"] == "done"
-            before = bystander.ask(type="get", what="state")
+            welcome = bystander.request(type="hello")
+            assert bystander.request(type="command", line="polytope 16-cell")["type"] == "done"
+            assert bystander.request(type="key", key="y")["type"] == "done"
+            before = bystander.request(type="get", what="state")
             senders = [Sender(server) for _ in range(4)]
             for batch in range(COUNT // 10):
-                senders[batch % 4].send([mutated(numbers, number == 9) for number in range(10)])
+                senders[batch % 4].send([mutated_request(rng, number == 9) for number in range(10)])
                 if batch % 200 == 0:
-                    assert bystander.ask(type="get", what="state")["orientation"] == before["orientation"]
-            after = bystander.ask(type="get", what="state")
+                    assert bystander.request(type="get", what="state")["orientation"] == before["orientation"]
+            after = bystander.request(type="get", what="state")
             assert {**after, "id": 0} == {**before, "id": 0}
         codes = {code: sum(sender.codes.get(code, 0) for sender in senders) for sender in senders for code in sender.codes}
         closes = {code: sum(sender.closes.get(code, 0) for sender in senders) for sender in senders for code in sender.closes}
@@ -170,7 +170,7 @@ def test_damaged_requests_harm_nobody():
         assert codes.keys() >= {"bad_json", "bad_message", "unknown_type", "unknown_key", "unknown_polytope", "unknown_command",
                                 "bad_expression", "out_of_range", "not_a_rotation", "bad_polytope", "unsupported_format"}, codes
         with WebSocket(server, f"/ws/{welcome['session']}") as again:
-            assert again.ask(type="hello", token=welcome["token"])["type"] == "welcome"
-            assert again.ask(type="undo")["type"] == "done"
+            assert again.request(type="hello", token=welcome["token"])["type"] == "welcome"
+            assert again.request(type="undo")["type"] == "done"
         assert server.metric('oval4d_errors_total{code="internal"}') == 0
         assert "fault=" not in server.log() and server.process.poll() is None

@@ -2,7 +2,7 @@
 
 import pytest
 from harness import Server
-from raw import Ended, Socket, WebSocket, ask, handshake, request
+from raw import ConnectionEnded, Socket, WebSocket, fetch, handshake, request
 
 REFUSED = (400, 403, 421)
 PICTURE = "/api/v1/frame.png?width=64&height=64"
@@ -10,31 +10,31 @@ FILE = "/api/v1/file.csv"
 COSTLY = [PICTURE, FILE, "/api/v1/file.stl", "/api/v1/file.svg"]
 
 
-@pytest.fixture(name="allowing", scope="module")
-def a_server_that_allows_a_page():
+@pytest.fixture(name="server_with_allowed_origin", scope="module")
+def start_server_with_allowed_origin():
     with Server("--allow-origin", "https://pages.example") as server:
         yield server
 
 
-def status_of_socket(server, *fields, host="localhost", target="/ws", source=None):
+def handshake_status(server, *fields, host="localhost", target="/ws", source=None):
     """Returns the HTTP status of a WebSocket handshake."""
     with Socket(server, source) as raw:
         raw.send(handshake(target, *fields, host=host))
-        return raw.answer().status
+        return raw.read_response().status
 
 
-def status_of(server, target, *fields, host="localhost"):
-    return ask(server, target, *fields, host=host).status
+def response_status(server, target, *fields, host="localhost"):
+    return fetch(server, target, *fields, host=host).status
 
 
 # --- Hosts
 
 @pytest.mark.parametrize("host", ["localhost", "LOCALHOST", "LocalHost", "localhost:80", "localhost:1", "localhost:65535", "127.0.0.1",
                                   "127.0.0.1:8080", "[::1]", "[::1]:8080"])
-def test_hosts_that_are_this_machine(server, host):
-    assert status_of(server, "/api/v1/keymap", host=host) == 200
-    assert status_of_socket(server, host=host) == 101
-    assert status_of_socket(server, f"Origin: http://{host}", host=host) == 101
+def test_hosts_that_name_this_machine_are_accepted(server, host):
+    assert response_status(server, "/api/v1/keymap", host=host) == 200
+    assert handshake_status(server, host=host) == 101
+    assert handshake_status(server, f"Origin: http://{host}", host=host) == 101
 
 
 @pytest.mark.parametrize("host", [
@@ -48,16 +48,16 @@ def test_hosts_that_are_this_machine(server, host):
     "localho%73t", "*", ".", "..", "localhost..", ".localhost", "_", "null", "\u212aocalhost".encode().decode("latin-1"),
     "localhost\u00a0".encode().decode("latin-1"), "x" * 5000,
 ], ids=lambda host: ascii(host)[:40])
-def test_hosts_that_are_not(server, host):
-    assert status_of(server, "/api/v1/keymap", host=host) in REFUSED
-    assert status_of(server, "/", host=host) in REFUSED
-    assert status_of(server, PICTURE, f"Origin: http://{host}", host=host) in REFUSED
-    assert status_of_socket(server, host=host) in REFUSED
+def test_other_hosts_are_refused(server, host):
+    assert response_status(server, "/api/v1/keymap", host=host) in REFUSED
+    assert response_status(server, "/", host=host) in REFUSED
+    assert response_status(server, PICTURE, f"Origin: http://{host}", host=host) in REFUSED
+    assert handshake_status(server, host=host) in REFUSED
 
 
 @pytest.mark.parametrize("host", ["localhost.", "localhost:", "[0:0:0:0:0:0:0:1]", "[::1]:", "localhost:080"])
-def test_hosts_that_may_be_either(server, host):
-    assert status_of(server, "/api/v1/keymap", host=host) in (200, *REFUSED)
+def test_unusual_names_of_this_machine_are_accepted_or_refused(server, host):
+    assert response_status(server, "/api/v1/keymap", host=host) in (200, *REFUSED)
 
 
 # --- Origins
@@ -66,10 +66,10 @@ def test_hosts_that_may_be_either(server, host):
     ("http://localhost:81", "localhost:81"), ("https://localhost:81", "localhost:81"), ("http://LOCALHOST:81", "localhost:81"),
     ("http://127.0.0.1:81", "127.0.0.1:81"), ("http://[::1]:81", "[::1]:81"), ("http://localhost", "localhost"),
 ])
-def test_the_server_s_own_page(server, origin, host):
-    assert status_of_socket(server, f"Origin: {origin}", host=host) == 101
+def test_the_origin_of_the_server_is_accepted(server, origin, host):
+    assert handshake_status(server, f"Origin: {origin}", host=host) == 101
     for target in ["/api/v1/keymap", *COSTLY]:
-        assert status_of(server, target, f"Origin: {origin}", host=host) == 200
+        assert response_status(server, target, f"Origin: {origin}", host=host) == 200
 
 
 FOREIGN = [
@@ -90,29 +90,30 @@ FOREIGN = [
 
 
 @pytest.mark.parametrize("origin", FOREIGN, ids=ascii)
-def test_foreign_origins(server, origin):
-    assert status_of_socket(server, f"Origin: {origin}", host="localhost:81") in REFUSED
+def test_foreign_origins_are_refused(server, origin):
+    assert handshake_status(server, f"Origin: {origin}", host="localhost:81") in REFUSED
     for target in ("/api/v1/keymap", PICTURE, FILE):
-        assert status_of(server, target, f"Origin: {origin}", host="localhost:81") in REFUSED
+        assert response_status(server, target, f"Origin: {origin}", host="localhost:81") in REFUSED
 
 
-@pytest.fixture(name="open_to_all", scope="module")
-def a_server_of_any_name():
+@pytest.fixture(name="server_for_any_host", scope="module")
+def start_server_for_any_host():
     with Server("--allow-host", "*") as server:
         yield server
 
 
 @pytest.mark.parametrize("port", ["abc", "99999", "65536", "-1", "81x", "+81", "8 1", "0x51", "99999999999999999999", "81:81", "81@x"])
-def test_origins_whose_ports_are_none_though_the_host_has_the_same(open_to_all, port):
+def test_origins_with_an_invalid_port_are_refused_even_if_the_host_matches(server_for_any_host, port):
     """The origin is checked as strictly if every host is allowed."""
     for scheme in ("http", "https"):
-        assert status_of_socket(open_to_all, f"Origin: {scheme}://localhost:{port}", host=f"localhost:{port}") in REFUSED
+        origin = f"Origin: {scheme}://localhost:{port}"
+        assert handshake_status(server_for_any_host, origin, host=f"localhost:{port}") in REFUSED
 
 
 @pytest.mark.parametrize("scheme", ["file", "chrome-extension", "ws", "ftp", ""])
-def test_origins_of_other_schemes_though_the_host_is_the_same(open_to_all, scheme):
-    assert status_of_socket(open_to_all, "Origin: http://any.example:81", host="any.example:81") == 101
-    assert status_of_socket(open_to_all, f"Origin: {scheme}://any.example:81", host="any.example:81") in REFUSED
+def test_origins_with_another_scheme_are_refused_even_if_the_host_matches(server_for_any_host, scheme):
+    assert handshake_status(server_for_any_host, "Origin: http://any.example:81", host="any.example:81") == 101
+    assert handshake_status(server_for_any_host, f"Origin: {scheme}://any.example:81", host="any.example:81") in REFUSED
 
 
 @pytest.mark.parametrize("origin, allowed", [
@@ -121,8 +122,9 @@ def test_origins_of_other_schemes_though_the_host_is_the_same(open_to_all, schem
     ("https://pages.examplex", False), ("https://xpages.example", False), ("https://pages.example/", False),
     ("https://pages.example@evil.example", False), ("null", False), ("https://pages.example, https://evil.example", False),
 ])
-def test_pages_that_are_allowed(allowing, origin, allowed):
-    statuses = [status_of_socket(allowing, f"Origin: {origin}"), status_of(allowing, PICTURE, f"Origin: {origin}")]
+def test_only_the_allowed_origin_is_accepted(server_with_allowed_origin, origin, allowed):
+    statuses = [handshake_status(server_with_allowed_origin, f"Origin: {origin}"),
+                response_status(server_with_allowed_origin, PICTURE, f"Origin: {origin}")]
     assert statuses == [101, 200] if allowed else all(status in REFUSED for status in statuses)
 
 
@@ -137,83 +139,83 @@ LINK = ["Sec-Fetch-Mode: navigate", "Sec-Fetch-Dest: document", "Sec-Fetch-User:
 @pytest.mark.parametrize("target", COSTLY)
 @pytest.mark.parametrize("kind", [IMAGE, FETCH, [], ["Sec-Fetch-Mode: no-cors", "Sec-Fetch-Dest: script"],
                                   ["Sec-Fetch-Mode: navigate", "Sec-Fetch-Dest: iframe"]], ids=["image", "fetch", "bare", "script", "iframe"])
-def test_foreign_pages_cause_no_work(server, target, kind):
+def test_cross_site_requests_for_pictures_and_files_are_refused(server, target, kind):
     for method in ("GET", "HEAD"):
         with Socket(server) as raw:
             raw.send(request(target, CROSS, *kind, method=method, close=True))
-            assert raw.answer(method).status == 403
+            assert raw.read_response(method).status == 403
 
 
-def test_a_foreign_page_that_is_refused_costs_nothing(server):
+def test_refused_cross_site_requests_cause_no_work(server):
     """The server neither draws pictures nor creates files for it."""
-    def work():
+    def work_counters():
         return [server.metric('oval4d_picture_step_seconds_count{step="slice"}'), server.metric("oval4d_file_seconds_count")]
 
-    before = work()
+    before = work_counters()
     for target in (PICTURE, FILE):
-        ask(server, target)
-    assert all(then < now for then, now in zip(before, work()))
-    before = work()
+        fetch(server, target)
+    assert all(then < now for then, now in zip(before, work_counters()))
+    before = work_counters()
     for target in 3 * COSTLY:
-        ask(server, target, CROSS, *IMAGE)
-    assert work() == before
+        fetch(server, target, CROSS, *IMAGE)
+    assert work_counters() == before
 
 
 @pytest.mark.parametrize("site", ["same-origin", "none"])
 @pytest.mark.parametrize("target", ["/", "/api/v1/keymap", PICTURE, FILE])
-def test_the_page_itself_and_the_user_may(server, site, target):
-    assert status_of(server, target, f"Sec-Fetch-Site: {site}", *FETCH) == 200
+def test_same_origin_and_user_initiated_requests_are_served(server, site, target):
+    assert response_status(server, target, f"Sec-Fetch-Site: {site}", *FETCH) == 200
 
 
-def test_a_link_leads_to_the_page(server):
+def test_cross_site_links_to_the_page_are_served(server):
     for target in ("/", "/?polytope=24-cell"):
-        answer = ask(server, target, CROSS, *LINK)
+        answer = fetch(server, target, CROSS, *LINK)
         assert answer.status == 200 and answer.body.lower().startswith(b"<!doctype html>")
 
 
-def test_probes_are_answered_wherever_they_come_from(server):
-    assert status_of(server, "/healthz", CROSS) == status_of(server, "/readyz", CROSS) == 200
+def test_cross_site_health_probes_are_answered(server):
+    assert response_status(server, "/healthz", CROSS) == response_status(server, "/readyz", CROSS) == 200
 
 
 @pytest.mark.parametrize("target", [PICTURE, FILE])
-def test_an_allowed_page_may_cause_work(allowing, target):
-    assert status_of(allowing, target, CROSS, *FETCH, "Origin: https://pages.example") == 200
-    assert status_of(allowing, target, CROSS, *FETCH, "Origin: https://evil.example") in REFUSED
-    assert status_of(allowing, target, CROSS, *IMAGE) == 403
+def test_an_allowed_origin_may_request_pictures_and_files(server_with_allowed_origin, target):
+    assert response_status(server_with_allowed_origin, target, CROSS, *FETCH, "Origin: https://pages.example") == 200
+    assert response_status(server_with_allowed_origin, target, CROSS, *FETCH, "Origin: https://evil.example") in REFUSED
+    assert response_status(server_with_allowed_origin, target, CROSS, *IMAGE) == 403
 
 
-def test_sockets_of_foreign_pages(server, allowing):
+def test_cross_site_websockets_need_an_allowed_origin(server, server_with_allowed_origin):
     mode = ["Sec-Fetch-Mode: websocket", "Sec-Fetch-Dest: websocket"]
-    assert status_of_socket(server, CROSS, *mode) == 403
-    assert status_of_socket(server, CROSS, *mode, "Origin: http://evil.example") in REFUSED
-    assert status_of_socket(allowing, CROSS, *mode, "Origin: https://pages.example") == 101
-    assert status_of_socket(server, "Sec-Fetch-Site: same-origin", *mode, "Origin: http://localhost") == 101
+    assert handshake_status(server, CROSS, *mode) == 403
+    assert handshake_status(server, CROSS, *mode, "Origin: http://evil.example") in REFUSED
+    assert handshake_status(server_with_allowed_origin, CROSS, *mode, "Origin: https://pages.example") == 101
+    assert handshake_status(server, "Sec-Fetch-Site: same-origin", *mode, "Origin: http://localhost") == 101
 
 
 # --- Security headers of all responses
 
-def answers_of_every_kind(server):
-    tag = ask(server, "/").get("ETag")
-    yield ask(server, "/")
-    yield ask(server, "/", f"If-None-Match: {tag}")
+def responses_of_every_kind(server):
+    tag = fetch(server, "/").get("ETag")
+    yield fetch(server, "/")
+    yield fetch(server, "/", f"If-None-Match: {tag}")
     for target in ("/healthz", "/readyz", "/metrics", "/api/v1/keymap", "/api/v1/catalogue", PICTURE, FILE, "/nothing",
                    "/api/v1/frame.png?width=x", "/%zz"):
-        yield ask(server, target)
-    yield ask(server, "/", method="POST")
-    yield ask(server, "/", host="evil.example")
-    yield ask(server, "/", "Origin: null")
-    yield ask(server, PICTURE, CROSS)
-    yield ask(server, "/ws")
+        yield fetch(server, target)
+    yield fetch(server, "/", method="POST")
+    yield fetch(server, "/", host="evil.example")
+    yield fetch(server, "/", "Origin: null")
+    yield fetch(server, PICTURE, CROSS)
+    yield fetch(server, "/ws")
     for data in (b"nonsense\r\n\r\n", request("/", "X: " + "x" * 20_000), request("/", "Transfer-Encoding: x"),
                  handshake("/nothing"), handshake(protocol="other")):
         with Socket(server) as raw:
             raw.try_send(data)
-            yield raw.answer()
+            yield raw.read_response()
 
 
-def test_every_answer_keeps_to_its_own_origin(server):
+def test_every_response_has_cross_origin_headers(server):
     seen = set()
-    for answer in answers_of_every_kind(server):
+    for answer in responses_of_every_kind(server):
         assert answer.get("Cross-Origin-Resource-Policy") == "same-origin", answer
         assert answer.get("Cross-Origin-Opener-Policy") == "same-origin", answer
         assert answer.get("X-Content-Type-Options") == "nosniff" and answer.get("Referrer-Policy") == "no-referrer"
@@ -227,8 +229,8 @@ def test_every_answer_keeps_to_its_own_origin(server):
 SECRET = "open-sesame"
 
 
-@pytest.fixture(name="guarded", scope="module")
-def a_guarded_server():
+@pytest.fixture(name="server_with_token", scope="module")
+def start_server_with_token():
     with Server("--host", "0.0.0.0", "--token", SECRET) as server:
         server.host = "127.0.0.1"
         yield server
@@ -239,85 +241,86 @@ def a_guarded_server():
     ("/api/v1/keymap", [f"Authorization: Bearer {SECRET}"]), ("/api/v1/keymap", [f"authorization: bearer {SECRET}"]),
     ("/api/v1/keymap", [f"Cookie: oval4d_token={SECRET}"]), ("/api/v1/keymap", [f"Cookie: a=b; oval4d_token={SECRET}; c=d"]),
 ])
-def test_right_tokens(guarded, target, lines):
-    assert ask(guarded, target, *lines).status == 200
-    assert status_of_socket(guarded, *lines, target=target.replace("/api/v1/keymap", "/ws")) == 101
+def test_the_correct_token_is_accepted(server_with_token, target, lines):
+    assert fetch(server_with_token, target, *lines).status == 200
+    assert handshake_status(server_with_token, *lines, target=target.replace("/api/v1/keymap", "/ws")) == 101
 
 
-WRONG = ["", "x", SECRET[:-1], SECRET + "x", "x" + SECRET, SECRET.upper(), SECRET + "%00", "%00" + SECRET, SECRET * 2, "*", "x" * 4000]
+WRONG_TOKENS = ["", "x", SECRET[:-1], SECRET + "x", "x" + SECRET, SECRET.upper(), SECRET + "%00", "%00" + SECRET, SECRET * 2, "*", "x" * 4000]
 
 
-@pytest.mark.parametrize("number", range(len(WRONG)), ids=lambda number: WRONG[number][:30])
-def test_wrong_tokens(guarded, number):
+@pytest.mark.parametrize("number", range(len(WRONG_TOKENS)), ids=lambda number: WRONG_TOKENS[number][:30])
+def test_wrong_tokens_are_refused(server_with_token, number):
     # Each test has its own address, because wrong tokens are counted by address.
-    token, source = WRONG[number], f"127.0.1.{number + 1}"
+    token, source = WRONG_TOKENS[number], f"127.0.1.{number + 1}"
     for target, lines in ((f"/api/v1/keymap?token={token}", []), ("/api/v1/keymap", [f"Authorization: Bearer {token}"]),
                           ("/api/v1/keymap", [f"Cookie: oval4d_token={token}"])):
-        answer = ask(guarded, target, *lines, source=source)
+        answer = fetch(server_with_token, target, *lines, source=source)
         assert answer.status == 401 and answer.get("WWW-Authenticate") == "Bearer"
-        assert not answer.all("Set-Cookie")
-        assert status_of_socket(guarded, *lines, target=target.replace("/api/v1/keymap", "/ws"), source=source) == 401
+        assert not answer.values_of("Set-Cookie")
+        assert handshake_status(server_with_token, *lines, target=target.replace("/api/v1/keymap", "/ws"), source=source) == 401
 
 
-def test_without_a_token_nothing_is_told(guarded):
-    answers = {ask(guarded, target).body for target in ("/", "/nothing", "/metrics", PICTURE, "/api/v1/keymap", "/app.js")}
-    assert len(answers) == 1, "what there is can be told from what there is not"
+def test_responses_without_a_token_reveal_nothing(server_with_token):
+    targets = ("/", "/nothing", "/metrics", PICTURE, "/api/v1/keymap", "/app.js")
+    answers = {fetch(server_with_token, target).body for target in targets}
+    assert len(answers) == 1, "the responses reveal which paths exist"
     for line in ("Authorization: Basic eDp5", "Authorization: Bearer", "Authorization:", "Cookie: oval4d_token", "Cookie: =",
                  f"Cookie: xoval4d_token={SECRET}", f"X-Token: {SECRET}"):
-        assert ask(guarded, "/api/v1/keymap", line).status == 401, line
+        assert fetch(server_with_token, "/api/v1/keymap", line).status == 401, line
 
 
-def test_the_cookie_is_for_the_page_alone(guarded):
-    cookie = ask(guarded, f"/?token={SECRET}").get("Set-Cookie")
+def test_the_token_cookie_is_http_only_and_same_site(server_with_token):
+    cookie = fetch(server_with_token, f"/?token={SECRET}").get("Set-Cookie")
     words = [word.strip().lower() for word in cookie.split(";")]
     assert "httponly" in words and "samesite=strict" in words
 
 
-def test_the_token_is_not_in_the_log(guarded):
-    ask(guarded, f"/?token={SECRET}")
-    ask(guarded, "/?token=wrong-guess")
-    assert SECRET not in guarded.log().split("\n", 1)[1] and "wrong-guess" not in guarded.log()
+def test_tokens_are_not_logged(server_with_token):
+    fetch(server_with_token, f"/?token={SECRET}")
+    fetch(server_with_token, "/?token=wrong-guess")
+    assert SECRET not in server_with_token.log().split("\n", 1)[1] and "wrong-guess" not in server_with_token.log()
 
 
 # --- Guessing the server's token
 
-def guess(server, kind, token, source):
+def status_with_token(server, kind, token, source):
     """Returns the HTTP status of a request with this token."""
     if kind == "query":
-        return ask(server, f"/api/v1/keymap?token={token}", source=source).status
+        return fetch(server, f"/api/v1/keymap?token={token}", source=source).status
     if kind == "socket":
         with Socket(server, source) as raw:
             raw.send(handshake(f"/ws?token={token}"))
-            return raw.answer().status
+            return raw.read_response().status
     line = f"Authorization: Bearer {token}" if kind == "bearer" else f"Cookie: oval4d_token={token}"
-    return ask(server, "/api/v1/keymap", line, source=source).status
+    return fetch(server, "/api/v1/keymap", line, source=source).status
 
 
 @pytest.mark.parametrize("kind", ["query", "bearer", "cookie", "socket"])
-def test_who_guesses_is_soon_not_listened_to(kind):
+def test_an_address_that_guesses_tokens_is_blocked(kind):
     good = 101 if kind == "socket" else 200
     with Server("--host", "0.0.0.0", "--token", SECRET, "--max-wrong-tokens", 10) as server:
         server.host = "127.0.0.1"
-        statuses = [guess(server, kind, f"guess-{number}", "127.0.0.2") for number in range(30)]
+        statuses = [status_with_token(server, kind, f"guess-{number}", "127.0.0.2") for number in range(30)]
         assert statuses[:5] == [401] * 5
         assert set(statuses[15:]) <= {403, 429, 503}, statuses
-        assert guess(server, kind, SECRET, "127.0.0.2") != good, "who guesses right at last is let in"
-        assert guess(server, kind, SECRET, "127.0.0.3") == good, "others are shut out"
-        assert ask(server, "/healthz", source="127.0.0.2").status == 200
+        assert status_with_token(server, kind, SECRET, "127.0.0.2") != good, "the correct token is accepted after many wrong ones"
+        assert status_with_token(server, kind, SECRET, "127.0.0.3") == good, "another address is blocked"
+        assert fetch(server, "/healthz", source="127.0.0.2").status == 200
 
 
-def test_who_guesses_a_session_s_token_is_soon_not_listened_to():
+def test_an_address_that_guesses_session_tokens_is_blocked():
     with Server("--max-wrong-tokens", 10) as server:
         with WebSocket(server, source="127.0.0.3") as owner:
-            welcome = owner.ask(type="hello")
+            welcome = owner.request(type="hello")
         path = f"/ws/{welcome['session']}"
 
         def join(token, source):
             try:
                 with WebSocket(server, path, source=source) as peer:
-                    answer = peer.ask(type="hello", token=token)
+                    answer = peer.request(type="hello", token=token)
                     return answer.get("code", answer["type"])
-            except Ended:
+            except ConnectionEnded:
                 return "ended"
 
         answers = [join(f"guess-{number}", "127.0.0.2") for number in range(30)]

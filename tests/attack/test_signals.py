@@ -9,7 +9,7 @@ import time
 
 import pytest
 from harness import SLOW, Server
-from raw import CLOSE, Ended, Socket, WebSocket, ask, request
+from raw import CLOSE, ConnectionEnded, Socket, WebSocket, fetch, request
 
 LONG_FILE = "/api/v1/file.stl?polytope=120-cell&of=oval&body=frame"  # takes seconds to export
 
@@ -21,15 +21,15 @@ def close_code(peer):
             opcode, payload = peer.next_message()
             if opcode == CLOSE:
                 return int.from_bytes(payload[:2], "big")
-    except Ended:
+    except ConnectionEnded:
         return None
 
 
 @pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGTERM, signal.SIGINT])
-def test_a_signal_is_a_graceful_stop(number):
+def test_a_signal_stops_the_server_gracefully(number):
     with Server() as server, WebSocket(server) as one, WebSocket(server) as two, Socket(server) as idle:
-        one.ask(type="hello", stream="geometry")
-        two.ask(type="hello")
+        one.request(type="hello", stream="geometry")
+        two.request(type="hello")
         with concurrent.futures.ThreadPoolExecutor(3) as pool:
             codes = [pool.submit(close_code, peer) for peer in (one, two)]
             stopped = pool.submit(server.stop, number)
@@ -38,31 +38,31 @@ def test_a_signal_is_a_graceful_stop(number):
             two.socket.close()
             status, _ = stopped.result()
         assert status == 0 and "stopped" in server.log()
-        assert idle.ends() == b""
+        assert idle.read_until_end() == b""
 
 
 @pytest.mark.parametrize("number", [signal.SIGHUP, signal.SIGTERM])
-def test_what_was_done_is_kept_when_a_signal_stops_the_server(number, tmp_path):
+def test_sessions_are_saved_when_a_signal_stops_the_server(number, tmp_path):
     store = f"sqlite:{tmp_path / 'sessions.sqlite'}"
     with Server("--store", store) as server, WebSocket(server) as peer:
-        welcome = peer.ask(type="hello")
+        welcome = peer.request(type="hello")
         for _ in range(5):
-            assert peer.ask(type="key", key="y")["type"] == "done"
+            assert peer.request(type="key", key="y")["type"] == "done"
         server.process.send_signal(number)
         assert close_code(peer) == 1012
         peer.socket.close()
         assert server.process.wait(20 * SLOW) == 0
     with Server("--store", store) as server, WebSocket(server, f"/ws/{welcome['session']}") as peer:
-        assert peer.ask(type="hello", token=welcome["token"])["type"] == "welcome"
-        assert peer.ask(type="get", what="state")["revision"] == 5
+        assert peer.request(type="hello", token=welcome["token"])["type"] == "welcome"
+        assert peer.request(type="get", what="state")["revision"] == 5
 
 
-def points_of_a_sphere(count):
+def sphere_points(count):
     """Returns points whose convex hull takes some time to compute, as text."""
-    numbers = random.Random(4)
+    rng = random.Random(4)
     lines = []
     for _ in range(count):
-        point = [numbers.gauss(0, 1) for _ in range(4)]
+        point = [rng.gauss(0, 1) for _ in range(4)]
         size = sum(x * x for x in point) ** 0.5
         lines.append(" ".join(f"{x / size:.17g}" for x in point))
     return "\n".join(lines)
@@ -70,10 +70,10 @@ def points_of_a_sphere(count):
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 @pytest.mark.parametrize("work", ["files", "files by websocket", "loads", "pictures", "slow readers"])
-def test_work_under_way_delays_no_stop(number, work):
+def test_running_work_does_not_delay_a_stop(number, work):
     timeout = 1
     with Server("--stop-timeout", timeout, "--max-file-triangles", 100_000_000) as server, contextlib.ExitStack() as stack:
-        points = points_of_a_sphere(6000) if work == "loads" else ""
+        points = sphere_points(6000) if work == "loads" else ""
         peers = []
         for _ in range(4):
             if work in ("files", "slow readers"):
@@ -82,15 +82,15 @@ def test_work_under_way_delays_no_stop(number, work):
                 continue
             peer = stack.enter_context(WebSocket(server))
             peers.append(peer)
-            peer.ask(type="hello", stream="frames" if work == "pictures" else "none", width=4096, height=4096)
+            peer.request(type="hello", stream="frames" if work == "pictures" else "none", width=4096, height=4096)
             if work == "files by websocket":
-                peer.ask(type="command", line="polytope 120-cell")
-                peer.say(type="get", what="file", format="stl", of="oval", body="frame")
+                peer.request(type="command", line="polytope 120-cell")
+                peer.send_message(type="get", what="file", format="stl", of="oval", body="frame")
             if work == "loads":
-                peer.say(type="load", name="mine", format="points", data=points)
+                peer.send_message(type="load", name="mine", format="points", data=points)
             if work == "pictures":
-                peer.say(type="command", line="polytope omnitruncated 120-cell")
-                peer.say(type="command", line="rotate xw,yz 0.3 0.2")
+                peer.send_message(type="command", line="polytope omnitruncated 120-cell")
+                peer.send_message(type="command", line="rotate xw,yz 0.3 0.2")
         if "files" in work:
             server.wait_for(lambda: server.metric("oval4d_files_under_way") >= 1)
         if work == "slow readers":
@@ -103,7 +103,7 @@ def test_work_under_way_delays_no_stop(number, work):
 
 def test_a_second_signal_ends_the_server_at_once():
     with Server("--stop-timeout", 1000) as server, WebSocket(server) as peer:
-        peer.ask(type="hello")
+        peer.request(type="hello")
         server.process.send_signal(signal.SIGTERM)
         server.wait_for(lambda: "stopping" in server.log())
         server.process.send_signal(signal.SIGTERM)
@@ -121,31 +121,31 @@ def has_ipv6():
 
 
 @pytest.mark.skipif(not has_ipv6(), reason="this machine has no IPv6 loopback")
-def test_the_other_loopback_is_served_too(server):
+def test_both_loopback_addresses_are_served(server):
     for host in ("127.0.0.1", "::1"):
         for name in ("localhost", "[::1]", "127.0.0.1"):
             with Socket(server, host=host) as raw:
                 raw.send(request("/api/v1/keymap", host=f"{name}:{server.port}", close=True))
-                assert raw.answer().status == 200
+                assert raw.read_response().status == 200
     with Socket(server, host="::1") as raw:
         raw.send(request("/api/v1/keymap", host="evil.example", close=True))
-        assert raw.answer().status == 403
+        assert raw.read_response().status == 403
 
 
 @pytest.mark.skipif(not has_ipv6(), reason="this machine has no IPv6 loopback")
-def test_an_address_that_is_asked_for_is_the_only_one():
+def test_the_server_listens_only_on_the_given_host():
     for asked, other in (("127.0.0.1", "::1"), ("::1", "127.0.0.1")):
         with Server("--host", asked) as server:
-            assert ask(server, "/healthz", host="localhost").status == 200
+            assert fetch(server, "/healthz", host="localhost").status == 200
             with pytest.raises(ConnectionRefusedError):
                 Socket(server, host=other)
 
 
-def test_the_port_is_free_again_at_once():
+def test_the_port_can_be_reused_at_once_after_a_stop():
     with Server() as server:
         port = server.port
         with WebSocket(server) as peer:
-            peer.ask(type="hello")
+            peer.request(type="hello")
             assert server.stop()[0] == 0
     with Server("--port", port) as again:
-        assert ask(again, "/healthz").status == 200
+        assert fetch(again, "/healthz").status == 200

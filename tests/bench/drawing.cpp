@@ -82,8 +82,8 @@ class Drawer {
         const scene::Viewport viewport;
         image.width = viewport.width;
         image.height = viewport.height;
-        image.pixels.resize(image::bytesOf(viewport));
-        raster::Times times;
+        image.pixels.resize(image::byteCount(viewport));
+        raster::DrawTimes times;
         rasterizer_.draw(state_, viewport, image.pixels, times);
     }
     void encode() { encoder_.encode(image, "", png_); }
@@ -97,7 +97,7 @@ class Drawer {
     std::vector<std::uint8_t> png_;
 };
 
-/// Draws pictures for so many seconds after `begun` is set, and appends their latencies.
+/// Waits until `begun` is set, then draws pictures during `seconds`, and appends their latencies.
 void draw(const session::State& state, parallel::ForkJoin& forkJoin, bool pipelined, std::atomic<int>& cold,
           const std::atomic<bool>& begun, double seconds, std::vector<double>& latencies) {
     Drawer drawer(state, forkJoin);

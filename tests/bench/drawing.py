@@ -5,7 +5,7 @@ import os
 import statistics
 import subprocess
 
-# Number of processes, drawing threads in each, whether separate threads encode, LP_NUM_THREADS (None: unset).
+# By name: number of processes, drawing threads per process, 1 if separate threads encode, LP_NUM_THREADS (None: unset).
 WAYS = {
     "one, threads unset": (1, 1, 0, None), "one, 0 threads": (1, 1, 0, 0), "one, 1 thread": (1, 1, 0, 1),
     "one, 2 threads": (1, 1, 0, 2),
@@ -35,7 +35,8 @@ def run(program, polytope, processes, drawers, encoders, threads):
 
 
 def rows(program, polytope):
-    """Returns for each way: its name, pictures per second, their ratio to the first way's, milliseconds per picture."""
+    """Returns a row for each entry of WAYS: name, pictures per second, this rate relative to that of the first entry,
+    milliseconds per picture."""
     turns = [{name: run(program, polytope, *way) for name, way in WAYS.items()} for _ in range(TURNS)]
     first = next(iter(WAYS))
     return [[name, statistics.median(turn[name][0] for turn in turns),

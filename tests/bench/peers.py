@@ -1,4 +1,4 @@
-"""Runs the programs with which oval4d is compared: VTK from Python, and JavaScript. Results are in milliseconds."""
+"""Runs the programs that oval4d is compared with, one in Python with VTK and one in JavaScript. Times are in ms."""
 
 import json
 import os

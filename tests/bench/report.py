@@ -31,7 +31,7 @@ QUICK_TURNS = 11  # for operations of less than a millisecond
 
 
 def number(value):
-    """Formats a number with three significant digits, None as a dash."""
+    """Formats a number with three significant digits, numbers from 100 on as integers, and None as a dash."""
     if value is None:
         return "—"
     return f"{value:,.0f}" if abs(value) >= 100 else f"{value:.3g}"
@@ -53,7 +53,7 @@ def pictures(polytope, slices=21, width=1280, height=720, frames=40):
 
 
 def exponent(points):
-    """The slope of the least-squares line through (log size, log time)."""
+    """Returns the slope of the least-squares line through the points (log size, log time)."""
     xs, ys = [math.log(size) for size, _ in points], [math.log(ms) for _, ms in points]
     x0, y0 = statistics.mean(xs), statistics.mean(ys)
     return sum((x - x0) * (y - y0) for x, y in zip(xs, ys)) / sum((x - x0) ** 2 for x in xs)
@@ -102,7 +102,7 @@ class Turns:
         with_vtk = not peers.why_no_vtk()
         for _ in range(TURNS):
             ours, theirs = {}, {}
-            for name in REGULAR:  # the compared programs run one right after the other
+            for name in REGULAR:  # one right after the other, because the machine's speed changes
                 ours[name] = pictures(name)
                 theirs.update({(name, way): peers.vtk(name, way) for way in peers.VTK if with_vtk})
             self.frames.append(ours)
@@ -110,7 +110,8 @@ class Turns:
 
     @staticmethod
     def compare(ours, theirs):
-        """Returns the medians of ours, theirs, and theirs ÷ ours of each turn; None if theirs were not measured."""
+        """Returns the medians of `ours`, of `theirs`, and of the ratio theirs ÷ ours in each turn. The last two are
+        None if `theirs` were not measured."""
         if None in theirs:
             return statistics.median(ours), None, None
         return (statistics.median(ours), statistics.median(theirs),
@@ -179,7 +180,7 @@ def targets(turns, loaded):
     for what in ("frame", "state to json", "state to cbor"):
         worst = max(turn[name]["allocations"][what] for turn in turns.frames for name in REGULAR)
         at_most(f"allocations, {what}", 0, math.floor(worst), "")
-    print("\n## Targets\n\nRatios are how many times faster oval4d is; for sizes, its part of the other's.")
+    print("\n## Targets\n\nA ratio says how many times faster oval4d is; for sizes, it is oval4d's size divided by the other's.")
     table(["", "target", "oval4d", "other", "ratio", "reached"], rows)
 
 
@@ -245,9 +246,9 @@ def polytopes():
 
 def two_cores():
     """Prints the pictures per second for each way to use several cores."""
-    print("\n## Drawing: state to PNG, as fast as can be\n\nThreads are llvmpipe's own.")
+    print("\n## Drawing: state to PNG, as fast as possible\n\nThreads are llvmpipe's own.")
     for polytope in ("5-cell", "600-cell"):
-        table([polytope, "pictures a second", "of the first way's", "ms a picture"],
+        table([polytope, "pictures a second", "relative to the first row", "ms a picture"],
               drawing.rows(BIN / "bench_drawing", polytope))
 
 
@@ -264,7 +265,7 @@ def under_load(loaded):
           [[row["what"], row["pictures"], row["sent"], row["seen"]] for row in floods])
     idle, after = loaded["1000 idle sessions"], loaded["memory after all that"]["after"]
     print(f"\nMemory: {idle['before']:.0f} MB at the start, {idle['more']:.0f} MB more with 1000 idle sessions, "
-          f"{after:.0f} MB when all clients have left.")
+          f"{after:.0f} MB after all clients have left.")
 
 
 def main():

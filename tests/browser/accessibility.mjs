@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { openPage, openWithScript, ready } from "./support/browser.mjs";
+import { decode, distance, pixelAt } from "./support/pixels.mjs";
 
 /** The dialogs, with the key that opens each. */
 const dialogs = { picker: "s", export: "x", help: "?" };
@@ -55,6 +56,37 @@ test("accessibility: every control has a name", async () => {
             "the drawing under the dialog is not reachable",
         );
     });
+    await close();
+});
+
+test("accessibility: the name of a control contains its visible label", async () => {
+    const { page, close } = await openWithScript();
+    const session = await page.context().newCDPSession(page);
+    const normalized = (text) => text.toLowerCase().match(/[\p{L}\p{N}]+/gu)?.join(" ") ?? "";
+    /** The text of a button without its key, which is not part of the name. */
+    const labelOf = (button) => {
+        const keys = [...button.querySelectorAll("kbd[aria-hidden=true]")];
+        for (const key of keys) key.style.display = "none";
+        const label = button.innerText;
+        for (const key of keys) key.style.removeProperty("display");
+        return label;
+    };
+    /** The buttons whose accessible name does not contain their label, like axe's label-content-name-mismatch. */
+    const mismatches = async () => {
+        const { root } = await session.send("DOM.getDocument");
+        const { nodeIds } = await session.send("DOM.querySelectorAll", { nodeId: root.nodeId, selector: "button" });
+        const found = [];
+        for (const [i, nodeId] of nodeIds.entries()) {
+            const { nodes } = await session.send("Accessibility.getPartialAXTree", { nodeId, fetchRelatives: false });
+            if (nodes[0].ignored) continue;
+            const text = await page.locator("button").nth(i).evaluate(labelOf);
+            const name = nodes[0].name.value;
+            if (!normalized(name).includes(normalized(text))) found.push(`${text}: ${name}`);
+        }
+        return found;
+    };
+    assert.deepEqual(await mismatches(), []);
+    await withDialogs(page, async (id) => assert.deepEqual(await mismatches(), [], id));
     await close();
 });
 
@@ -186,5 +218,28 @@ test("accessibility: text has enough contrast", async () => {
     await page.setInputFiles("#file", { name: "a.off", mimeType: "", buffer: Buffer.from("4OFF\n1 2 three\n") });
     await page.waitForSelector("#loading[data-outcome=failed]");
     assert.deepEqual(await faintTexts(page), []);
+    await close();
+});
+
+test("accessibility: forced colors show which controls are pressed and which row is active", async () => {
+    const { page, close } = await openWithScript({ forcedColors: "active", viewport: { width: 1280, height: 1100 } });
+    /** The color of an element inside its lower left corner. */
+    const groundOf = async (selector) => {
+        const picture = decode(await page.locator(selector).first().screenshot({ animations: "disabled" }));
+        return pixelAt(picture, 7, picture.height - 4);
+    };
+    const differs = async (chosen, other) => {
+        assert.ok(distance(await groundOf(chosen), await groundOf(other)) > 40, `${chosen} looks like ${other}`);
+    };
+    await page.waitForSelector("[data-action=faces][aria-pressed=true]");
+    await differs("[data-action=faces]", "[data-action=view]");
+    await differs("[data-page-tool=geometry]", "[data-page-tool=frames]");
+    await differs("#tools label:has([value=cell]) span", "#tools label:has([value=plain]) span");
+    await differs(".presence label:has([value=shown])", ".presence label:has([value=hidden])");
+    await differs(".presence .shown", ".presence .hidden");
+    await withDialogs(page, async (id) => {
+        if (id === "picker") await differs("[role=option][aria-selected=true]", "[role=option][aria-selected=false]");
+        if (id === "export") await differs("#export :checked + span", "#export input:not(:checked) + span");
+    });
     await close();
 });

@@ -1,5 +1,6 @@
 // Runs all tests in one process, so that they share a browser and do not compete for the processors.
 import "./picture.mjs";
+import "./projection.mjs";
 import "./keys.mjs";
 import "./buttons.mjs";
 import "./client.mjs";

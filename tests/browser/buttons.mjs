@@ -15,11 +15,16 @@ asking.leave();
 
 const comparable = ({ id, revision, ...state }) => state;
 
+const kShown = {
+    ...{ faces: true, bars: true, balls: true, coordinates: true, labels: true },
+    ...{ cells: true, back: true, sections: false },
+};
+
 /** The state after `act`, starting from the same state for each comparison. */
 async function outcome(script, { action }, act) {
-    await script.request({ type: "set", polytope: "16-cell", view: "oval", turning: false, alpha: 0.3, beta: 0.2 });
+    await script.request({ type: "set", polytope: "16-cell", view: "oval", projection: "off", turning: false });
     await script.request({ type: "reset" });
-    await script.request({ type: "set", shown: { faces: true, bars: true, balls: true, coordinates: true, labels: true } });
+    await script.request({ type: "set", alpha: 0.3, beta: 0.2, shown: kShown });
     await script.request({ type: "set", slices: { count: 21, spacing: 0.14, focus: 2 } });
     await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.25, 0.5] });
     if (action === "redo") await script.request({ type: "undo" });
@@ -28,7 +33,7 @@ async function outcome(script, { action }, act) {
     return comparable(await script.until((one) => one.revision > revision, `a change by ${action}`));
 }
 
-test("buttons: each does what its key does", async () => {
+test("buttons: each button does what its key does", async () => {
     const { page, script, errors, close } = await openWithScript();
     for (const binding of table.filter(({ client, action }) => !client && action !== "turn")) {
         const { key, ctrl = false, action, name, shift } = binding;
@@ -52,7 +57,7 @@ test("buttons: each does what its key does", async () => {
     await close();
 });
 
-test("buttons: the button starts and stops turning, and shows which", async () => {
+test("buttons: the turn button starts and stops turning, and shows whether the polytope turns", async () => {
     const { page, script, press, close } = await openWithScript();
     await press("4");
     const button = page.locator('[data-action="turn"]');
@@ -86,10 +91,10 @@ test("buttons: the reset buttons restore the orientation and the viewpoint", asy
     const { orientation } = await script.state();
     await press("4");
     await script.request({ type: "set", camera: { azimuth: 1, zoom: 2 } });
-    await page.click("[data-own=reset]");
+    await page.click("[data-page-tool=reset]");
     const turned = await script.until((one) => one.orientation[0][0] === 1, "the initial orientation");
     assert.deepEqual(turned.orientation, orientation);
-    await page.click("[data-own=reset-view]");
+    await page.click("[data-page-tool=reset-view]");
     await script.until(({ camera }) => camera.azimuth === 0 && camera.zoom === 1, "the initial viewpoint");
     await close();
 });
@@ -98,7 +103,7 @@ test("buttons: the picture is saved as a PNG file that contains the state", asyn
     const { page, script, press, close } = await openWithScript();
     const state = await press("y");
     const saving = page.waitForEvent("download");
-    await page.click("[data-own=save]");
+    await page.click("[data-page-tool=save]");
     const download = await saving;
     assert.equal(download.suggestedFilename(), "5-cell.png");
     const png = await bytesOf(download);

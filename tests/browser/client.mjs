@@ -81,7 +81,7 @@ test("client: errors are RequestErrors with their code", async () => {
     await assert.rejects(script.state(), { code: "not_connected" });
 });
 
-test("client: it reconnects to its session automatically", async () => {
+test("client: the client reconnects to its session automatically", async () => {
     const proxy = await startProxy(url, "/under");
     const { client, next } = listen({ url: proxy.url });
     const opened = next("open");

@@ -24,7 +24,7 @@ test("colors: the coloring can be chosen, is visible, and follows the session", 
     const { page, script, errors, close } = await openKinds();
     assert.equal(await checked(page, "color"), "cell");
     const pictures = [await shot(page)];
-    for (const color of ["kind", "w", "plain"]) {
+    for (const color of ["kind", "w", "plain", "light"]) {
         await choose(page, "color", color);
         const { revision } = await script.until((one) => one.color === color, color);
         await presented(page, revision);
@@ -96,10 +96,10 @@ test("colors: changes are announced", async () => {
         page.waitForFunction((wanted) => document.getElementById("spoken").textContent.includes(wanted), text);
     await spoken("truncated 5-cell");
     await choose(page, "color", "w");
-    await spoken("colors by w");
+    await spoken("colored by w");
     await choose(page, "kind-1", "faded");
     await spoken(`${kinds[1].name} faded`);
     await choose(page, "kind-1", "shown");
-    await spoken("all kinds shown");
+    await spoken("all kinds of cells shown");
     await close();
 });

@@ -13,7 +13,7 @@ async function type(page, line) {
     await page.keyboard.press("Enter");
 }
 
-test("command line: executes what is typed, and returns the focus", async () => {
+test("command line: executes the typed command, and returns the focus", async () => {
     const { page, script, close } = await openWithScript();
     await type(page, "polytope 24-cell");
     await script.until((one) => one.polytope.name === "24-cell", "the 24-cell");
@@ -102,7 +102,7 @@ test("help: the sheet lists every key of the table, and the same key opens and c
     await close();
 });
 
-test("help: a button opens it too", async () => {
+test("help: a button opens the list of keys", async () => {
     const { page, close } = await openPage();
     await ready(page);
     await page.click("#help-button");

@@ -48,13 +48,44 @@ test("connection: a lost connection is reported and restored, and the session co
     await proxy.stop();
 });
 
+test("connection: the page says that the server does not answer, or that the network is offline", async () => {
+    const { url } = await common();
+    const proxy = await startProxy(url, "/frozen");
+    const { page, errors, close } = await openPage({ url: proxy.url });
+    await ready(page);
+    const actions = [
+        () => page.keyboard.press("y"),
+        () => page.mouse.wheel(0, 100),
+        () => page.evaluate(() => window.dispatchEvent(new Event("offline"))),
+    ];
+    await page.hover("#drawing");
+    await page.focus("#drawing");
+    for (const act of actions) {
+        proxy.freeze();
+        await act();
+        await page.waitForSelector("#connection[data-kind=late]", { timeout: 5000 });
+        assert.equal(await connection(page), "Waiting…");
+        assert.equal(await page.locator("#spoken").textContent(), "Waiting…");
+        proxy.thaw();
+        await isOpen(page);
+        assert.equal(await connection(page), "Connected");
+    }
+    assert.deepEqual(errors, []);
+    proxy.freeze();
+    await page.evaluate(() => window.dispatchEvent(new Event("offline")));
+    await page.waitForSelector("#connection[data-kind=waiting]", { timeout: 15_000 });
+    assert.match(await connection(page), /does not answer|No answer/);
+    await close();
+    await proxy.stop();
+});
+
 test("connection: behind a path prefix, all requests are under the prefix", async () => {
     const proxy = await startProxy((await common()).url, "/maths/oval");
     const { page, errors, close } = await openPage({ url: `${proxy.url}?polytope=8-cell` });
     await ready(page);
     await named(page, "8-cell");
     const saving = page.waitForEvent("download");
-    await page.click("[data-own=save]");
+    await page.click("[data-page-tool=save]");
     await saving;
     assert.deepEqual(proxy.outside, []);
     assert.deepEqual(errors, []);
@@ -67,9 +98,9 @@ test("connection: the page works under a strict content security policy", async 
     const proxy = await startProxy((await common()).url, "/strict", policy);
     const { page, errors, close } = await openPage({ url: proxy.url });
     await ready(page);
-    await page.click("[data-own=frames]");
+    await page.click("[data-page-tool=frames]");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
-    for (const press of ["[data-own=save]", "#export-submit"]) {
+    for (const press of ["[data-page-tool=save]", "#export-submit"]) {
         const saving = page.waitForEvent("download");
         if (press === "#export-submit") await page.click("[data-action=export]");
         await page.click(press);

@@ -84,10 +84,10 @@ test("export: size, body and slices are as chosen", async () => {
     const solid = await exported(page, { format: "stl" }, { size: 80 });
     boxOf(solid.bytes).forEach((side) => assert.ok(Math.abs(side - 40) < 0.01, `a side of ${side} mm`));
     assert.equal(solid.name, "8-cell-w-0.stl");
-    const frame = await exported(page, { body: "frame" }); // the other choices are remembered
-    assert.equal(frame.name, "8-cell-w-0-frame.stl");
+    const skeleton = await exported(page, { body: "skeleton" }); // the other choices are remembered
+    assert.equal(skeleton.name, "8-cell-w-0-skeleton.stl");
     assert.ok(
-        boxOf(frame.bytes).every((side) => side > 40.5 && side < 50),
+        boxOf(skeleton.bytes).every((side) => side > 40.5 && side < 50),
         "balls protrude at the corners",
     );
     const oval = await exported(page, { body: "solid", of: "oval" });
@@ -130,10 +130,10 @@ test("export: works with the keyboard alone", async () => {
     assert.equal(await page.evaluate(() => document.activeElement.name), "of");
     await page.keyboard.press("Tab");
     await page.keyboard.press("ArrowRight");
-    assert.equal(await page.locator("#export [name=body]:checked").inputValue(), "frame");
+    assert.equal(await page.locator("#export [name=body]:checked").inputValue(), "skeleton");
     const saving = page.waitForEvent("download");
     await page.keyboard.press("Enter");
-    assert.match((await saving).suggestedFilename(), /frame\.stl$/);
+    assert.match((await saving).suggestedFilename(), /skeleton\.stl$/);
     await openExport(page);
     await page.keyboard.press("Escape");
     assert.equal(await page.locator("#export").isVisible(), false);
@@ -167,7 +167,7 @@ test("export: an error is shown in the dialog, and the choices stay", async () =
     const { page, script, errors, close } = await openWithScript({ url: server.url });
     await openExport(page);
     await choose(page, "format", "stl");
-    await choose(page, "body", "frame");
+    await choose(page, "body", "skeleton");
     await page.click("#export-submit");
     await page.waitForFunction(() =>
         /triangles.*1000.*allowed/.test(document.getElementById("export-error").textContent),

@@ -55,6 +55,10 @@ const effects = {
     polytope_next: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
     polytope_previous: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
     view: (_, after) => assert.equal(after.view, "single"),
+    projection: (_, after) => assert.equal(after.projection, "perspective"),
+    cells: toggles("cells"),
+    back: toggles("back"),
+    sections: toggles("sections"),
     coordinates: toggles("coordinates"),
     labels: toggles("labels"),
     faces: toggles("faces"),
@@ -70,11 +74,16 @@ function strokes({ key, code, ctrl }, inverse = false) {
     return [inverse ? (code ? `Shift+${code}` : `Shift+${key.toUpperCase()}`) : name];
 }
 
+const kShown = {
+    ...{ faces: true, bars: true, balls: true, coordinates: true, labels: true },
+    ...{ cells: true, back: true, sections: false },
+};
+
 /** Sets the same state before each key: rotated, focus not at w = 0, with something to undo or redo. */
 async function prepare(script, { action }) {
-    await script.request({ type: "set", polytope: "24-cell", view: "oval", turning: false });
+    await script.request({ type: "set", polytope: "24-cell", view: "oval", projection: "off", turning: false });
     await script.request({ type: "reset" });
-    await script.request({ type: "set", shown: { faces: true, bars: true, balls: true, coordinates: true, labels: true } });
+    await script.request({ type: "set", shown: kShown });
     await script.request({ type: "set", alpha: 0.3, beta: 0.2, slices: { count: 21, spacing: 0.2, focus: 2 } });
     await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.25, 0.5] });
     if (action === "redo") await script.request({ type: "undo" });
@@ -88,7 +97,7 @@ asking.leave();
 
 test("keys: the table is complete", () => {
     const names = table.map(({ name }) => name).sort();
-    const expected = [..."234567rtykjKJlh0Gu.[]{}sinNopafbex:?", "gg", "Ctrl-r", "Space"].sort();
+    const expected = [..."234567rtykjKJlh0Gu.[]{}sinNopafbwcWCex:?", "gg", "Ctrl-r", "Space"].sort();
     assert.deepEqual(names, expected);
 });
 
@@ -108,7 +117,7 @@ for (const binding of table.filter(({ client }) => !client)) {
         assert.ok(Math.abs(parseFloat(shown.alpha) - (after.alpha * 180) / Math.PI) <= 0.005, shown.alpha);
         assert.ok(Math.abs(parseFloat(shown.beta) - (after.beta * 180) / Math.PI) <= 0.005, shown.beta);
         const w = after.slices.focus * after.slices.spacing;
-        assert.ok(Math.abs(Number(shown.w.replace("\u2212", "-")) - w) <= 0.01 * Math.abs(w), shown.w);
+        assert.ok(Math.abs(Number(shown.w.replace("\u2212", "-")) - w) <= 0.005, shown.w);
         if (binding.shift === "inverse") {
             const back = await press(...strokes(binding, true));
             assertMatrix(back.orientation, before.orientation);
@@ -122,6 +131,16 @@ for (const binding of table.filter(({ client }) => !client)) {
         assert.deepEqual(errors, []);
     });
 }
+
+test("keys: w changes from the perspective to the orthogonal projection, and then ends the projection", async () => {
+    const { script, press, errors, close: end } = await openWithScript();
+    assert.equal((await script.state()).projection, "off");
+    const kinds = [];
+    for (let i = 0; i < 4; ++i) kinds.push((await press("w")).projection);
+    assert.deepEqual(kinds, ["perspective", "orthogonal", "off", "perspective"]);
+    assert.deepEqual(errors, []);
+    await end();
+});
 
 /** Sends a key event as a keyboard with another layout does. */
 async function dispatch(page, event) {
@@ -189,7 +208,7 @@ test("keys: other keys are left to the browser", async () => {
     await end();
 });
 
-test("keys: they act only while the drawing has the focus, as it has at the start", async () => {
+test("keys: keys act only while the drawing has the focus, which it has at the start", async () => {
     const { page, script, press, close: end } = await openWithScript();
     assert.equal(await page.evaluate(() => document.activeElement.id), "drawing");
     const { revision } = await press("k");

@@ -32,9 +32,13 @@ test("links: a query opens its view", async () => {
     await close();
 });
 
-test("links: an error in a query is reported, and the rest of the query applies", async () => {
-    const { page, errors, close } = await openPage({ url: `${url}?polytope=25-cell&slices=11` });
-    await page.waitForFunction(() => /25-cell/.test(document.getElementById("notice").textContent));
+test("links: all errors in a query are reported, and the rest of the query applies", async () => {
+    const { page, errors, close } = await openPage({ url: `${url}?polytope=25-cell&alpha=two&slices=11&sides=3` });
+    await page.waitForFunction(() => /“set sides=3”/.test(document.getElementById("notice").textContent));
+    const lines = (await page.locator("#notice").textContent()).split("\n");
+    assert.equal(lines.length, 3);
+    const faults = ["polytope 25-cell", "set alpha=two", "set sides=3"];
+    faults.forEach((fault, i) => assert.ok(lines[i].includes(`“${fault}”`), lines[i]));
     await page.waitForFunction(() => document.querySelector("[data-reading=slices]").textContent === "11");
     assert.deepEqual(errors, []);
     await close();
@@ -43,7 +47,7 @@ test("links: an error in a query is reported, and the rest of the query applies"
 test("links: a shared link joins the session, and both see every change", async () => {
     const first = await openWithScript({ permissions: ["clipboard-read", "clipboard-write"] });
     await first.press("4");
-    await first.page.click("[data-own=share]");
+    await first.page.click("[data-page-tool=share]");
     await first.page.waitForFunction(() => /copied/.test(document.getElementById("notice").textContent));
     const link = await first.page.evaluate(() => navigator.clipboard.readText());
     const second = await openPage({ url: link });
@@ -58,6 +62,28 @@ test("links: a shared link joins the session, and both see every change", async 
     await named(first.page, after.polytope.name);
     await second.close();
     await first.close();
+});
+
+test("links: a link pasted into an open tab joins its session", async () => {
+    const { script, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "24-cell" });
+    const { session, token } = script.client.credentials;
+    const { page, errors, close: closeOther } = await openPage();
+    await ready(page);
+    await page.evaluate(() => void (window.stays = true));
+    await page.goto(`${url}#session=${session}&token=${token}`);
+    await named(page, "24-cell");
+    assert.equal(page.url(), url, "the token does not stay in the URL");
+    const { revision } = await script.request({ type: "rotate", planes: ["xy"], angles: [1] });
+    await presented(page, revision);
+
+    await page.goto(`${url}#session=${session}&token=wrong`);
+    await page.waitForFunction(() => /cannot be opened/.test(document.getElementById("notice").textContent));
+    await named(page, "5-cell");
+    assert.equal(await page.evaluate(() => window.stays), true, "the page is not loaded again");
+    assert.deepEqual(errors, []);
+    await closeOther();
+    await close();
 });
 
 test("links: a session that cannot be opened is reported, and a new one begins", async () => {

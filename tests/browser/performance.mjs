@@ -1,4 +1,5 @@
-// The cost of showing a stream, measured by counting operations instead of time, and the page's latency measurements.
+// The cost of showing a stream, measured as the number of operations instead of time; and the page's own measurements
+// of latency.
 import assert from "node:assert/strict";
 
 import { common, openPage, openWithScript, presented, ready } from "./support/browser.mjs";
@@ -88,7 +89,7 @@ test("performance: frames are decoded off the page's thread, and acknowledged af
             };
         },
     });
-    await page.click("[data-own=frames]");
+    await page.click("[data-page-tool=frames]");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
     await page.evaluate(() => void (window.log.length = 0));
     for (let i = 0; i < 5; ++i) {
@@ -124,11 +125,11 @@ test("performance: the time from key to picture is shown and saved on request", 
     await page.waitForSelector("#drawing:focus");
     for (const key of ["y", "y", "4", "]", "n"]) await press(key);
     await page.waitForFunction(() => /5 measured/.test(document.getElementById("latency").textContent));
-    assert.match(await output.textContent(), /Key to picture [\d.]+ ms · median [\d.]+ ms · 99th percentile [\d.]+ ms/);
+    assert.match(await output.textContent(), /Key-to-picture latency [\d.]+ ms · median [\d.]+ ms · 99th percentile [\d.]+ ms/);
     await press("0", "4"); // the focus is at 0 already: no picture, nothing to measure
     await page.waitForFunction(() => /6 measured/.test(document.getElementById("latency").textContent));
 
-    await page.click("[data-own=frames]");
+    await page.click("[data-page-tool=frames]");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
     await page.focus("#drawing");
     await press("y");

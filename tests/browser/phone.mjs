@@ -1,8 +1,8 @@
-// The page on the small touch screen of a phone.
+// The page in small windows: on the touch screen of a phone, zoomed in, and on a small desktop.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { openWithScript } from "./support/browser.mjs";
+import { openWithScript, presented } from "./support/browser.mjs";
 import { covered, decode } from "./support/pixels.mjs";
 
 const phone = { viewport: { width: 375, height: 667 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
@@ -54,11 +54,52 @@ test("phone: a tap on a button turns the polytope", async () => {
     await close();
 });
 
-test("phone: it is usable in landscape orientation", async () => {
+test("phone: the page is usable in landscape orientation", async () => {
     const { page, close } = await openWithScript({ ...phone, viewport: { width: 667, height: 375 } });
     const { width, height } = await page.locator("#drawing").boundingBox();
     assert.ok(width >= 375 && height >= 280, `${width} × ${height}`);
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0);
+    await close();
+});
+
+test("phone: zoomed to 400%, the picture is as wide as the window, and every control can be reached", async () => {
+    const viewport = { width: 320, height: 256 }; // CSS pixels of a window of 1280 × 1024
+    const { page, script, errors, close } = await openWithScript({ viewport });
+    const { width, height } = await page.locator("#drawing").boundingBox();
+    assert.ok(width === 320 && height >= 180, `${width} × ${height}`);
+    assert.ok(covered(decode(await page.locator("#drawing").screenshot()), [16, 20, 28]) > 0.02);
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0);
+    await page.locator(".tabs button", { hasText: "More" }).click();
+    await page.click("[data-action=export]");
+    await page.click("#export [data-close]");
+    await page.locator(".tabs button", { hasText: "Turn" }).click();
+    await page.click('[data-action="rotate"][data-key="y"]');
+    await script.until((one) => one.last !== null, "the rotation");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("phone: the header is not cut at any width", async () => {
+    const { page, script, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "omnitruncated 120-cell", alpha: 2.1432, beta: 2.9876 });
+    await script.request({ type: "set", slices: { spacing: 0.0123, focus: -7 } });
+    const { revision } = await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [2.1432, 2.9876] });
+    await presented(page, revision);
+    for (const width of [320, 480, 768, 1000, 1024, 1200, 1201, 1280, 1440]) {
+        await page.setViewportSize({ width, height: 768 });
+        const cut = await page.evaluate(() => {
+            const header = document.querySelector("header").getBoundingClientRect();
+            const parts = [...document.querySelectorAll("header > :not(#readings), #readings button")];
+            const boxes = parts.map((one) => one.getBoundingClientRect());
+            const isWithin = ({ left, right, bottom }) => left >= 0 && right <= innerWidth && bottom <= header.bottom;
+            const overlap = (a, b) =>
+                a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1;
+            return parts
+                .filter((_, i) => !isWithin(boxes[i]) || boxes.some((other, k) => k > i && overlap(boxes[i], other)))
+                .map((one) => one.textContent);
+        });
+        assert.deepEqual(cut, [], `${width} pixels wide`);
+    }
     await close();
 });
 

@@ -147,3 +147,23 @@ test("picker: reports a missing connection", async () => {
     script.leave();
     await close();
 });
+
+test("picker: says that the server cannot be reached, and lists the polytopes once it can be", async () => {
+    const proxy = await startProxy((await common()).url, "/cut");
+    const { page, script, close } = await openWithScript({ url: proxy.url });
+    proxy.cut();
+    await page.waitForSelector("#connection[data-kind=waiting]");
+    await page.focus("#drawing");
+    await page.keyboard.press("s");
+    await page.waitForFunction(() => /cannot be reached/.test(document.getElementById("picker-error").textContent));
+    assert.equal(await page.locator("#picker-found").textContent(), "");
+    await page.keyboard.type("24");
+    assert.match(await page.locator("#picker-error").textContent(), /cannot be reached/);
+    proxy.restore();
+    await page.waitForSelector('#picker-list [data-name="24-cell"]');
+    assert.equal(await page.locator("#picker-error").textContent(), "");
+    assert.match(await page.locator("#picker-found").textContent(), /^\d+ polytopes$/);
+    script.leave();
+    await close();
+    await proxy.stop();
+});

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { openPage, openWithScript, presented } from "./support/browser.mjs";
+import { openPage, openWithScript, presented, readings } from "./support/browser.mjs";
 import { compare, decode, distance, pixelAt } from "./support/pixels.mjs";
 import { project, rgb, worldPoints } from "./support/scene.mjs";
 
@@ -18,7 +18,7 @@ async function picture(page) {
 
 /** Switches the rendering mode and waits for a picture rendered in that mode. */
 async function drawBy(page, mode) {
-    await page.click(`[data-own=${mode}]`);
+    await page.click(`[data-page-tool=${mode}]`);
     await page.waitForSelector(`#drawing[data-drawn-by=${mode}]`);
 }
 
@@ -112,6 +112,12 @@ const views = [
     { name: "with a kind faded", settings: { polytope: "cantellated 5-cell", color: "w", faded: [0, 1] } },
     { name: "a star", settings: { polytope: "great stellated 120-cell" }, mean: 1.6, far: 0.015 },
     { name: "a star alone", settings: { polytope: "small stellated 120-cell", view: "single" }, mean: 1.6, far: 0.015 },
+    { name: "a perspective projection", settings: { polytope: "24-cell", projection: "perspective" } },
+    {
+        name: "an orthogonal projection with many bars behind one another",
+        settings: { polytope: "600-cell", projection: "orthogonal" },
+        ...{ mean: 1.6, far: 0.008 },
+    },
     { name: "faces alone", settings: { polytope: "8-cell", shown: { bars: false, balls: false, coordinates: false } } },
 ];
 for (const { name, settings, mean: most = 1, far: allowed = 0.005 } of views) {
@@ -172,5 +178,20 @@ test("picture: a high-resolution screen gets a high-resolution picture in either
     assert.deepEqual(await sizes(), [0, 0]);
     await drawBy(page, "frames");
     assert.deepEqual(await sizes(), [0, 0]);
+    await close();
+});
+
+test("picture: the header rounds w like the label of the focus slice", async () => {
+    const { page, script, close } = await openWithScript();
+    for (const [spacing, focus] of [[0.3, 1], [0.2, -2], [0.125, 1], [0.125, -3], [0.05, 2], [0.0123, 3], [0.1, 0]]) {
+        await script.request({ type: "set", slices: { spacing, focus } });
+        const { slices } = await script.request({ type: "get", what: "slices" });
+        const { label } = slices.find((slice) => slice.focus);
+        await page.waitForFunction(
+            (value) => document.querySelector("[data-reading=w]").textContent === value,
+            label.replace("w = ", ""),
+        );
+        assert.equal(`w = ${(await readings(page)).w}`, label);
+    }
     await close();
 });

@@ -20,7 +20,7 @@ test("pointer: dragging orbits the view, at once and in the session", async () =
     const after = await shot(page);
     assert.ok(compare(before, after).mean > 1);
     // The server's picture of that state is the same.
-    await page.click("[data-own=frames]");
+    await page.click("[data-page-tool=frames]");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
     await page.locator("#drawing").focus();
     assert.ok(compare(await shot(page), after).mean < 1);

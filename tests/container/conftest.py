@@ -6,11 +6,11 @@ import image
 import pytest
 
 
-@pytest.fixture(scope="session", name="built")
-def built_image():
-    why = image.missing()
-    if why:
-        warnings.warn(f"THE CONTAINER IS NOT TESTED: {why}")
-        pytest.skip(why)
-    with image.Built(image.Builder()) as built:
-        yield built
+@pytest.fixture(scope="session", name="built_image")
+def build_image():
+    reason = image.reason_to_skip()
+    if reason:
+        warnings.warn(f"THE CONTAINER IS NOT TESTED: {reason}")
+        pytest.skip(reason)
+    with image.BuiltImage(image.ImageBuilder()) as built_image:
+        yield built_image

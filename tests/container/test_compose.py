@@ -12,20 +12,20 @@ import pytest
 
 sys.path.insert(0, str(image.ROOT / "tests/failover"))
 sys.path.insert(0, str(image.ROOT / "tests/service"))
-from harness import DEADLINE, until  # noqa: E402
-from sessions import Session, all_press  # noqa: E402
+from harness import DEADLINE, wait_until  # noqa: E402
+from pressing_clients import PressingClient, wait_until_all_press  # noqa: E402
 
 SESSIONS = 40
 
 
-@pytest.fixture(name="composed")
-def running_composition(built, tmp_path):
-    why = composition.missing()
-    if why:
-        warnings.warn(f"COMPOSE IS NOT TESTED: {why}")
-        pytest.skip(why)
-    with composition.Composition(tmp_path, built.files, built.variables) as composed:
-        yield composed
+@pytest.fixture(name="running_composition")
+def start_composition(built_image, tmp_path):
+    reason = composition.reason_to_skip()
+    if reason:
+        warnings.warn(f"COMPOSE IS NOT TESTED: {reason}")
+        pytest.skip(reason)
+    with composition.Composition(tmp_path, built_image.files, built_image.variables) as running_composition:
+        yield running_composition
 
 
 def metric(server, name):
@@ -34,11 +34,11 @@ def metric(server, name):
     return next(float(line.rsplit(" ", 1)[1]) for line in lines if line.rsplit(" ", 1)[0] == name)
 
 
-def open_sessions(composed):
-    return [metric(server, "oval4d_open_sessions") for server in composed.servers()]
+def open_session_counts(running_composition):
+    return [metric(server, "oval4d_open_sessions") for server in running_composition.servers()]
 
 
-def has_page(proxy):
+def serves_page(proxy):
     try:
         with urllib.request.urlopen(f"http://{proxy.host}:{proxy.port}/", timeout=DEADLINE) as answer:
             return b"<title>" in answer.read()
@@ -46,55 +46,55 @@ def has_page(proxy):
         return False  # the proxy has not found the servers yet
 
 
-async def scene(composed):
-    servers = composed.servers()
-    sessions, tasks = [], []
+async def add_stop_and_kill_servers(running_composition):
+    servers = running_composition.servers()
+    clients, tasks = [], []
     in_thread = asyncio.get_running_loop().run_in_executor
 
-    def begin():
-        sessions.append(Session(len(sessions), composed.proxy))
-        tasks.append(asyncio.ensure_future(sessions[-1].run()))
+    def start_session():
+        clients.append(PressingClient(len(clients), running_composition.proxy))
+        tasks.append(asyncio.ensure_future(clients[-1].run()))
 
-    async def begin_until_shared(by):
-        while min(metric(server, "oval4d_open_sessions") for server in by) == 0:
-            begin()
-            await all_press(sessions)
-            assert len(sessions) < 5 * SESSIONS
+    async def start_sessions_until_shared(servers_):
+        while min(metric(server, "oval4d_open_sessions") for server in servers_) == 0:
+            start_session()
+            await wait_until_all_press(clients)
+            assert len(clients) < 5 * SESSIONS
             await asyncio.sleep(0.2)
 
     try:
         for _ in range(SESSIONS):
-            begin()
-        await all_press(sessions)
+            start_session()
+        await wait_until_all_press(clients)
         # The proxy may have found only one of the servers when the first sessions began.
-        await begin_until_shared(servers)
-        assert sum(open_sessions(composed)) == len(sessions)
+        await start_sessions_until_shared(servers)
+        assert sum(open_session_counts(running_composition)) == len(clients)
 
         # The proxy finds an added server through the service's name, and sends it new sessions.
-        added = composed.scale()
-        await in_thread(None, until, lambda: added.answers(8080), "the server added")
-        await begin_until_shared([added])
+        added = running_composition.add_server()
+        await in_thread(None, wait_until, lambda: added.is_listening(8080), "the added server")
+        await start_sessions_until_shared([added])
 
         # One server is stopped: its sessions continue at once on the others, from the last acknowledged state.
         assert await in_thread(None, servers[0].stop) == 0
-        composed.gone(servers[0])
-        await all_press(sessions)
-        moved = [session for session in sessions if session.away]
-        assert moved and sum(open_sessions(composed)) == len(sessions)
+        running_composition.remove_container(servers[0])
+        await wait_until_all_press(clients)
+        moved = [client for client in clients if client.interruptions]
+        assert moved and sum(open_session_counts(running_composition)) == len(clients)
 
         # One server is killed, and its address remains in the name server.
         await in_thread(None, servers[1].stop, signal.SIGKILL)
-        await all_press(sessions)
-        for session in sessions:
-            session.ended = True
+        await wait_until_all_press(clients)
+        for client in clients:
+            client.stopping = True
         await asyncio.wait_for(asyncio.gather(*tasks), DEADLINE)
     finally:
         for task in tasks:
             task.cancel()
 
 
-def test_sessions_go_on_while_servers_come_and_go(composed):
-    until(lambda: has_page(composed.proxy), "the page through the proxy")
-    asyncio.run(scene(composed))
-    for server in composed.servers():
+def test_sessions_continue_while_servers_are_added_stopped_and_killed(running_composition):
+    wait_until(lambda: serves_page(running_composition.proxy), "the page through the proxy")
+    asyncio.run(add_stop_and_kill_servers(running_composition))
+    for server in running_composition.servers():
         assert "fault=" not in server.log()

@@ -20,18 +20,18 @@ from wire import Client  # noqa: E402
 SIZE = {"width": 320, "height": 180}
 
 
-def test_its_configuration(built):
-    config = built.config
+def test_the_image_configuration(built_image):
+    config = built_image.config
     assert config["User"] == "999"
     assert config["Entrypoint"] == ["oval4d"]
     assert "8080/tcp" in config["ExposedPorts"] and "/var/lib/oval4d" in config["Volumes"]
     assert config["StopSignal"] == "SIGTERM"
     assert config["Labels"]["org.opencontainers.image.licenses"] == "MIT"
-    assert "readyz" in built.said["Docker"]["config"]["Healthcheck"]["Test"][-1]
+    assert "readyz" in built_image.description["Docker"]["config"]["Healthcheck"]["Test"][-1]
 
 
-def test_it_holds_what_the_server_needs_and_no_tools(built):
-    files = built.files
+def test_the_image_contains_the_server_and_no_build_tools(built_image):
+    files = built_image.files
     for tool in ("gcc", "g++", "cc", "c++", "clang", "make", "cmake", "ninja", "node", "npm", "git", "curl", "wget", "python3"):
         for folder in ("usr/bin", "usr/local/bin", "bin"):
             assert not (files / folder / tool).is_symlink() and not (files / folder / tool).exists(), tool
@@ -39,8 +39,8 @@ def test_it_holds_what_the_server_needs_and_no_tools(built):
     assert (files / "usr/share/oval4d/web_client/index.html").is_file()
 
 
-def test_its_size_is_told(built):
-    files = built.files
+def test_the_size_of_the_image_is_limited(built_image):
+    files = built_image.files
     status = (files / "var/lib/dpkg/status").read_text(encoding="utf-8")
     sizes = {}
     for entry in status.split("\n\n"):
@@ -58,14 +58,14 @@ def test_its_size_is_told(built):
     assert whole < 600
 
 
-class Contained(harness.Server):
+class ContainedServer(harness.Server):
     """Runs the image's entry point without options, as the image's user, with all files read-only except the volume."""
 
     def __init__(self, files, variables):
         self.files = files
         super().__init__(**variables)
 
-    def start(self, words, environment):
+    def start(self, command, environment):
         script = f"""
             mount --bind {self.files} {self.files} && mount -o remount,bind,ro {self.files} &&
             mount -t tmpfs -o mode=700,uid=999,gid=999 none {self.files}/var/lib/oval4d &&
@@ -76,32 +76,32 @@ class Contained(harness.Server):
                                 env=environment, stderr=self.log_file, stdin=subprocess.DEVNULL)
 
     def stop(self, *_):
-        os.kill(self.inside(), signal.SIGTERM)
+        os.kill(self.server_pid(), signal.SIGTERM)
         return self.process.wait(harness.DEADLINE), 0
 
-    def inside(self):
+    def server_pid(self):
         """Returns the process ID of the server; the test's own child process is unshare, which waits for it."""
         return int(image.run("pgrep", "-P", self.process.pid))
 
 
-def test_the_server_in_it_draws_what_the_one_outside_draws(built):
-    files, environment = built.files, built.variables
+def test_the_server_in_the_image_draws_the_same_pictures(built_image):
+    files, environment = built_image.files, built_image.variables
 
-    async def picture(server):
+    async def state_and_pixels(server):
         async with Client(server, stream="none", **SIZE) as client:
             await client.request("set", polytope="24-cell")
             for key in "yrtk2":
                 await client.request("key", key=key)
             state = await client.request("get", what="state")
-            return {**state, "id": 0}, png.pixels(await client.frame())
+            return {**state, "id": 0}, png.pixels(await client.request_frame())
 
     with contextlib.ExitStack() as stack:
         inside = stack.enter_context(
-            Contained(files, {**environment, "OVAL4D_PORT": str(harness.free_port()), "OVAL4D_HOST": "127.0.0.1"}))
+            ContainedServer(files, {**environment, "OVAL4D_PORT": str(harness.free_port()), "OVAL4D_HOST": "127.0.0.1"}))
         outside = stack.enter_context(harness.Server())
-        status = Path(f"/proc/{inside.inside()}/status").read_text(encoding="ascii")
+        status = Path(f"/proc/{inside.server_pid()}/status").read_text(encoding="ascii")
         assert re.search(r"^Uid:\s+999\s+999", status, re.MULTILINE)
-        assert asyncio.run(picture(inside)) == asyncio.run(picture(outside))
+        assert asyncio.run(state_and_pixels(inside)) == asyncio.run(state_and_pixels(outside))
         assert b"<title>" in inside.get("/").body
         healthcheck = re.search(r'CMD (\["bash".*\])', (image.ROOT / "docker/Dockerfile").read_text(encoding="utf-8"))
         done = subprocess.run(["chroot", "--userspec=999:999", files, *json.loads(healthcheck[1])], check=False,

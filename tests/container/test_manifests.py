@@ -11,49 +11,49 @@ ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "docker/kubernetes"
 
 
-def objects():
+def kubernetes_objects():
     files = yaml.safe_load((FOLDER / "kustomization.yaml").read_text(encoding="utf-8"))["resources"]
     assert sorted(files) == sorted(path.name for path in FOLDER.glob("*.yaml") if path.name != "kustomization.yaml")
-    return [each for file in files for each in yaml.safe_load_all((FOLDER / file).read_text(encoding="utf-8"))]
+    return [item for file in files for item in yaml.safe_load_all((FOLDER / file).read_text(encoding="utf-8"))]
 
 
-def one(kind, name="oval4d"):
-    return next(each for each in objects() if (each["kind"], each["metadata"]["name"]) == (kind, name))
+def find_object(kind, name="oval4d"):
+    return next(item for item in kubernetes_objects() if (item["kind"], item["metadata"]["name"]) == (kind, name))
 
 
-def faults(checked):
-    done = subprocess.run(["node", ROOT / "tests/container/manifests.mjs"], input=json.dumps(checked), text=True,
+def schema_errors(checked_objects):
+    done = subprocess.run(["node", ROOT / "tests/container/validate_manifests.mjs"], input=json.dumps(checked_objects), text=True,
                           capture_output=True, check=False)
     assert not done.stderr, done.stderr
     return done.stdout
 
 
-def test_every_object_is_as_the_api_has_it():
-    assert faults(objects()) == ""
-    wrong = one("Deployment")
+def test_objects_match_the_schema_of_the_kubernetes_api():
+    assert schema_errors(kubernetes_objects()) == ""
+    wrong = find_object("Deployment")
     wrong["spec"]["replicas"] = "three"
-    assert "replicas" in faults([wrong])
+    assert "replicas" in schema_errors([wrong])
 
 
-def test_what_refers_to_another_finds_it():
-    pod = one("Deployment")["spec"]["template"]
+def test_references_between_manifests_resolve():
+    pod = find_object("Deployment")["spec"]["template"]
     labels = pod["metadata"]["labels"]
     (container,) = pod["spec"]["containers"]
     ports = {port["name"] for port in container["ports"]}
     for name in ("oval4d", "oval4d-sessions"):
-        service = one("Service", name)["spec"]
+        service = find_object("Service", name)["spec"]
         assert service["selector"].items() <= labels.items() and service["ports"][0]["targetPort"] in ports
-    for path in one("Ingress")["spec"]["rules"][0]["http"]["paths"]:
+    for path in find_object("Ingress")["spec"]["rules"][0]["http"]["paths"]:
         target = path["backend"]["service"]
-        assert target["port"]["name"] in [port["name"] for port in one("Service", target["name"])["spec"]["ports"]]
-    assert one("PodDisruptionBudget")["spec"]["selector"]["matchLabels"].items() <= labels.items()
-    scaled = one("HorizontalPodAutoscaler")["spec"]["scaleTargetRef"]
-    assert one(scaled["kind"], scaled["name"])
+        assert target["port"]["name"] in [port["name"] for port in find_object("Service", target["name"])["spec"]["ports"]]
+    assert find_object("PodDisruptionBudget")["spec"]["selector"]["matchLabels"].items() <= labels.items()
+    scaled = find_object("HorizontalPodAutoscaler")["spec"]["scaleTargetRef"]
+    assert find_object(scaled["kind"], scaled["name"])
     store = next(variable["value"] for variable in container["env"] if variable["name"] == "OVAL4D_STORE")
-    assert one("Service", store.removeprefix("redis://"))
+    assert find_object("Service", store.removeprefix("redis://"))
 
 
-def test_the_metrics_are_those_of_the_server():
+def test_the_metrics_for_scaling_exist_in_the_server():
     """The Prometheus adapter computes the autoscaler's metric from these metrics."""
     source = (ROOT / "server/net/metrics.cpp").read_text(encoding="utf-8")
     names = re.findall(r"oval4d_worker\w*", (FOLDER / "scaling.yaml").read_text(encoding="utf-8"))
@@ -62,20 +62,20 @@ def test_the_metrics_are_those_of_the_server():
         assert f'"{name}"' in source
 
 
-def test_kustomize_takes_them():
+def test_kustomize_accepts_the_manifests():
     done = subprocess.run(["kubectl", "kustomize", FOLDER], capture_output=True, text=True, check=True)
-    assert len(list(yaml.safe_load_all(done.stdout))) == len(objects())
+    assert len(list(yaml.safe_load_all(done.stdout))) == len(kubernetes_objects())
     assert "image: registry.example.org/oval4d:" in done.stdout
 
 
-def test_compose_takes_its_file():
+def test_docker_compose_accepts_the_compose_file():
     done = subprocess.run(["docker-compose", "--file", ROOT / "docker/compose.yaml", "config"], capture_output=True, text=True,
                           check=False)
     assert done.returncode == 0, done.stderr
     assert yaml.safe_load(done.stdout)["services"].keys() == {"proxy", "oval4d", "redis"}
 
 
-def test_compose_names_what_there_is():
+def test_references_in_the_compose_file_resolve():
     compose = yaml.safe_load((ROOT / "docker/compose.yaml").read_text(encoding="utf-8"))
     services = compose["services"]
     assert (ROOT / "docker" / services["oval4d"]["build"]["context"] / services["oval4d"]["build"]["dockerfile"]).is_file()

@@ -9,9 +9,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/service"))
-from harness import Server, answers, free_port, until  # noqa: E402
+from harness import Server, is_listening, free_port, wait_until  # noqa: E402
 
-NOWHERE = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+NO_OUTPUT = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 
 class Redis:
@@ -25,12 +25,12 @@ class Redis:
         self.url = f"redis://127.0.0.1:{self.port}"
 
     def start(self):
-        self.process = subprocess.Popen(self.words, **NOWHERE)
-        until(lambda: self.ask("PING") == "PONG", "Redis")
+        self.process = subprocess.Popen(self.words, **NO_OUTPUT)
+        wait_until(lambda: self.command("PING") == "PONG", "Redis")
 
-    def ask(self, *words):
-        said = subprocess.run(["redis-cli", "-p", str(self.port), *words], capture_output=True, text=True, check=False)
-        return said.stdout.strip()
+    def command(self, *words):
+        output = subprocess.run(["redis-cli", "-p", str(self.port), *words], capture_output=True, text=True, check=False)
+        return output.stdout.strip()
 
     def kill(self, number=signal.SIGKILL):
         if self.process:
@@ -54,15 +54,15 @@ class Proxy:
         text = (ROOT / "docker/haproxy.cfg").read_text(encoding="utf-8")
         text = text.replace("bind :8080", f"bind 127.0.0.1:{self.port}")
         text = re.sub(r"resolvers names\n(    .*\n)+", "", text)
-        here = "\n    ".join(f"server oval4d{i} 127.0.0.1:{port}" for i, port in enumerate(servers, 1))
-        text, replaced = re.subn(r"server-template .*", here, text)
+        server_lines = "\n    ".join(f"server oval4d{i} 127.0.0.1:{port}" for i, port in enumerate(servers, 1))
+        text, replaced = re.subn(r"server-template .*", server_lines, text)
         assert replaced == 2
         path = folder / "haproxy.cfg"
         path.write_text(text, encoding="utf-8")
         checked = subprocess.run(["haproxy", "-c", "-f", path], capture_output=True, text=True, check=False)
         assert checked.returncode == 0, checked.stderr
-        self.process = subprocess.Popen(["haproxy", "-db", "-f", path], **NOWHERE)
-        until(lambda: answers(self.host, self.port), "HAProxy")
+        self.process = subprocess.Popen(["haproxy", "-db", "-f", path], **NO_OUTPUT)
+        wait_until(lambda: is_listening(self.host, self.port), "HAProxy")
 
     def __enter__(self):
         return self
@@ -72,6 +72,6 @@ class Proxy:
         self.process.wait()
 
 
-def server(redis, port, *options):
+def start_server(redis, port, *options):
     return Server("--port", port, "--store", redis.url, "--log-level", "debug" if os.environ.get("DEBUG") else "info",
                   "--workers", "1", *options)

@@ -11,18 +11,18 @@ from pathlib import Path
 
 import cluster
 from harness import DEADLINE, SLOW
-from sessions import Session, all_press
+from pressing_clients import PressingClient, wait_until_all_press
 
 SESSIONS = int(os.environ.get("OVAL4D_FAILOVER_SESSIONS") or 300)
 FIGURES = cluster.ROOT / "build/results/failover/figures.txt"
 
 
-def figures(what, sessions, seen):
-    """Reports the durations of the interruptions after the first `seen` ones of each session."""
-    times = sorted(t for session, count in zip(sessions, seen) for t in session.away[count:])
-    assert times, f"{what}: nobody noticed"
+def report_interruptions(event, clients, earlier):
+    """Reports the durations of the interruptions, without the first `earlier[i]` ones of client i."""
+    times = sorted(t for client, count in zip(clients, earlier) for t in client.interruptions[count:])
+    assert times, f"{event}: no client was interrupted"
     p50, p99 = times[len(times) // 2], times[int(len(times) * 0.99)]
-    line = f"{what}: {len(times)} of {len(sessions)} sessions moved; away for {p50:.2f} s (median), {p99:.2f} s (99th), " \
+    line = f"{event}: {len(times)} of {len(clients)} sessions moved; away for {p50:.2f} s (median), {p99:.2f} s (99th), " \
            f"{times[-1]:.2f} s (longest)"
     print(line)
     with open(FIGURES, "a", encoding="utf-8") as file:
@@ -30,61 +30,61 @@ def figures(what, sessions, seen):
     assert times[-1] < 20 * SLOW
 
 
-async def scenario(folder):
+async def run_scenario(folder):
     with cluster.Redis(folder) as redis:
         ports = [cluster.free_port() for _ in range(3)]
-        servers = [cluster.server(redis, port) for port in ports]
+        servers = [cluster.start_server(redis, port) for port in ports]
         tasks = []
         try:
             with cluster.Proxy(folder, ports) as proxy:
-                sessions = [Session(number, proxy) for number in range(SESSIONS)]
-                tasks = [asyncio.ensure_future(session.run()) for session in sessions]
+                clients = [PressingClient(number, proxy) for number in range(SESSIONS)]
+                tasks = [asyncio.ensure_future(client.run()) for client in clients]
 
-                async def after(what, act, moved=True):
-                    seen = [len(session.away) for session in sessions]
-                    await all_press(sessions)
-                    await act()
-                    await all_press(sessions)
-                    await all_press(sessions)
+                async def act_and_check(event, action, moved=True):
+                    earlier = [len(client.interruptions) for client in clients]
+                    await wait_until_all_press(clients)
+                    await action()
+                    await wait_until_all_press(clients)
+                    await wait_until_all_press(clients)
                     if moved:
-                        figures(what, sessions, seen)
+                        report_interruptions(event, clients, earlier)
 
-                async def kill():
+                async def kill_first_server():
                     servers[0].process.send_signal(signal.SIGKILL)
                     servers[0].process.wait()
 
-                async def drain():
+                async def drain_second_server():
                     servers[1].process.send_signal(signal.SIGTERM)
                     await asyncio.get_running_loop().run_in_executor(None, servers[1].process.wait)
 
-                async def start_again():
+                async def restart_servers():
                     for i in (0, 1):
                         servers[i].kill()
-                        servers[i] = cluster.server(redis, ports[i])
+                        servers[i] = cluster.start_server(redis, ports[i])
 
                 async def restart_redis():
                     redis.kill()
                     await asyncio.sleep(1)
-                    assert "the store fails" in servers[2].get("/readyz").body.decode()
+                    assert "the store is unavailable" in servers[2].get("/readyz").body.decode()
                     redis.start()
                     for server in servers:
                         server.wait_for(lambda server=server: server.get("/readyz").body == b"ready\n")
                         server.wait_for(lambda server=server: server.metric("oval4d_unsaved_sessions") < SESSIONS / 10)
 
-                async def kill_last():
+                async def kill_third_server():
                     servers[2].process.send_signal(signal.SIGKILL)
                     servers[2].process.wait()
 
-                await after("start", lambda: asyncio.sleep(0), moved=False)
-                await after("a server killed", kill)
-                await after("a server drained", drain)
-                await after("two servers come back", start_again, moved=False)
-                await after("Redis restarted", restart_redis, moved=False)
-                await after("the server killed that was there all the time", kill_last)
-                for session in sessions:
-                    session.ended = True
+                await act_and_check("start", lambda: asyncio.sleep(0), moved=False)
+                await act_and_check("a server killed", kill_first_server)
+                await act_and_check("a server drained", drain_second_server)
+                await act_and_check("two servers restarted", restart_servers, moved=False)
+                await act_and_check("Redis restarted", restart_redis, moved=False)
+                await act_and_check("the third server killed", kill_third_server)
+                for client in clients:
+                    client.stopping = True
                 await asyncio.wait_for(asyncio.gather(*tasks), DEADLINE)
-                assert sum(session.pressed for session in sessions) > 5 * SESSIONS
+                assert sum(client.pressed for client in clients) > 5 * SESSIONS
         finally:
             for task in tasks:
                 task.cancel()
@@ -92,7 +92,7 @@ async def scenario(folder):
                 server.kill()
 
 
-def test_every_session_goes_on(tmp_path):
+def test_every_session_survives_kills_drains_and_restarts(tmp_path):
     FIGURES.parent.mkdir(parents=True, exist_ok=True)
     FIGURES.unlink(missing_ok=True)
-    asyncio.run(scenario(Path(tmp_path)))
+    asyncio.run(run_scenario(Path(tmp_path)))

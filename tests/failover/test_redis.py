@@ -7,39 +7,39 @@ import time
 import cluster
 import pytest
 from harness import DEADLINE
-from wire import Client, turned_away
+from wire import Client, hello_refusal
 
 
 @pytest.fixture(name="redis")
-def running_redis(tmp_path):
+def prepare_redis(tmp_path):
     redis = cluster.Redis(tmp_path)
     yield redis
     if redis.process and redis.process.poll() is None:
         redis.kill()
 
 
-def opened_by(client):
+def credentials_of(client):
     return {"session": client.welcome["session"], "token": client.welcome["token"]}
 
 
-def says(server, text):
-    """Returns whether the text of /readyz contains this; its status must be 200 nevertheless."""
+def readyz_contains(server, text):
+    """Returns whether the body of /readyz contains the text; asserts that the status is 200."""
     answer = server.get("/readyz")
     assert answer.status == 200
     return text in answer.body.decode()
 
 
-async def pressed(server, times=1, **keys):
-    """Opens the session of `keys`, or a new one, and presses a key `times` times; returns the session's ID and token,
-    and the revision."""
-    async with Client(server, **keys) as client:
+async def press_keys(server, times=1, **credentials):
+    """Opens the session of `credentials`, or a new one, and presses a key `times` times; returns the session's ID and
+    token, and the revision."""
+    async with Client(server, **credentials) as client:
         for _ in range(times):
             done = await client.request("key", key="k")
-        return opened_by(client), done["revision"]
+        return credentials_of(client), done["revision"]
 
 
-def test_another_server_goes_on_at_once(redis):
-    async def scene():
+def test_another_server_takes_over_an_open_session(redis):
+    async def interrupt_session():
         async with Client(one) as first:
             for i in range(1, 6):
                 await first.request("key", key="t")
@@ -47,63 +47,63 @@ def test_another_server_goes_on_at_once(redis):
                                 data="".join(f"{a} {b} {c} {d}\n" for a in (-1, 1) for b in (-1, 1) for c in (-1, 2)
                                              for d in (-1, 1)))
             before = await first.request("get", what="state")
-            async with Client(two, **opened_by(first)) as second:
+            async with Client(two, **credentials_of(first)) as second:
                 assert {**await second.request("get", what="state"), "id": 0} == {**before, "id": 0}
-                # The code that tells this client to reconnect, and so to join the other server.
-                assert await first.closed() == 1012
+                # The close code tells this client to reconnect, which leads it to the other server.
+                assert await first.wait_for_close_code() == 1012
                 await second.request("undo")
                 assert (await second.request("get", what="state"))["polytope"]["name"] == "5-cell"
                 await second.request("set", polytope="mine")
-                async with Client(two, **opened_by(first)) as again:
+                async with Client(two, **credentials_of(first)) as again:
                     await again.request("key", key="y")
         assert one.metric("oval4d_sessions_taken_total") == 1
 
     redis.start()
-    with cluster.server(redis, 0) as one, cluster.server(redis, 0) as two:
-        asyncio.run(scene())
+    with cluster.start_server(redis, 0) as one, cluster.start_server(redis, 0) as two:
+        asyncio.run(interrupt_session())
 
 
-def test_redis_is_not_there_at_the_start(redis):
-    with_redis = cluster.server(redis, 0)
+def test_sessions_are_saved_once_redis_starts(redis):
+    with_redis = cluster.start_server(redis, 0)
     try:
-        with_redis.wait_for(lambda: says(with_redis, "Connection refused"))
+        with_redis.wait_for(lambda: readyz_contains(with_redis, "Connection refused"))
         assert with_redis.metric("oval4d_store_up") == 0
-        keys, revision = asyncio.run(pressed(with_redis, 3))
+        credentials, revision = asyncio.run(press_keys(with_redis, 3))
         # Leaves the session and returns; it is in memory only.
-        again, revision = asyncio.run(pressed(with_redis, 1, **keys))
-        assert (again, revision) == (keys, 4)
+        again, revision = asyncio.run(press_keys(with_redis, 1, **credentials))
+        assert (again, revision) == (credentials, 4)
         assert with_redis.metric("oval4d_unsaved_sessions") == 1
-        assert "store fails" in with_redis.log()
+        assert "store unavailable" in with_redis.log()
         redis.start()
         with_redis.wait_for(lambda: with_redis.get("/readyz").body == b"ready\n")
         with_redis.wait_for(lambda: with_redis.metric("oval4d_unsaved_sessions") == 0)
-        with cluster.server(redis, 0) as other:
-            assert asyncio.run(pressed(other, 1, **keys)) == (keys, 5)
+        with cluster.start_server(redis, 0) as other:
+            assert asyncio.run(press_keys(other, 1, **credentials)) == (credentials, 5)
         with_redis.stop()
     finally:
         with_redis.kill()
 
 
-def test_redis_is_full(redis):
+def test_sessions_survive_a_full_redis(redis):
     redis.start()
-    server = cluster.server(redis, 0)
+    server = cluster.start_server(redis, 0)
     try:
-        keys, _ = asyncio.run(pressed(server))
-        redis.ask("CONFIG", "SET", "maxmemory", "1")
-        asyncio.run(pressed(server, 3, **keys))
-        server.wait_for(lambda: says(server, "OOM"))
-        asyncio.run(pressed(server, 3))
-        redis.ask("CONFIG", "SET", "maxmemory", "0")
+        credentials, _ = asyncio.run(press_keys(server))
+        redis.command("CONFIG", "SET", "maxmemory", "1")
+        asyncio.run(press_keys(server, 3, **credentials))
+        server.wait_for(lambda: readyz_contains(server, "OOM"))
+        asyncio.run(press_keys(server, 3))
+        redis.command("CONFIG", "SET", "maxmemory", "0")
         server.wait_for(lambda: server.get("/readyz").body == b"ready\n")
         server.wait_for(lambda: server.metric("oval4d_unsaved_sessions") == 0)
-        assert asyncio.run(pressed(server, 1, **keys)) == (keys, 5)
+        assert asyncio.run(press_keys(server, 1, **credentials)) == (credentials, 5)
         server.stop()
     finally:
         server.kill()
 
 
-def test_redis_hangs(redis):
-    async def scene():
+def test_sessions_survive_a_hanging_redis(redis):
+    async def interrupt_session():
         async with Client(server) as client:
             await client.request("key", key="k")
             redis.kill(signal.SIGSTOP)
@@ -113,34 +113,34 @@ def test_redis_hangs(redis):
             redis.kill(signal.SIGCONT)
             # The server waits for the timeout once, not for each of the twenty keys.
             assert time.monotonic() - start < DEADLINE / 2
-            return opened_by(client)
+            return credentials_of(client)
 
     redis.start()
-    server = cluster.server(redis, 0, "--store-timeout", 0.2)
+    server = cluster.start_server(redis, 0, "--store-timeout", 0.2)
     try:
-        keys = asyncio.run(scene())
+        credentials = asyncio.run(interrupt_session())
         server.wait_for(lambda: server.metric("oval4d_unsaved_sessions") == 0)
-        with cluster.server(redis, 0) as other:
-            assert asyncio.run(pressed(other, 1, **keys))[1] == 22
+        with cluster.start_server(redis, 0) as other:
+            assert asyncio.run(press_keys(other, 1, **credentials))[1] == 22
         assert server.metric('oval4d_store_failures_total{operation="save"}') > 0
         server.stop()
     finally:
         server.kill()
 
 
-def test_a_session_elsewhere_is_not_called_lost(redis):
-    """The client is told to try again, not that the session does not exist."""
+def test_an_unreachable_session_is_not_reported_as_missing(redis):
+    """The server tells the client to try again, and not that the session does not exist."""
     redis.start()
-    with cluster.server(redis, 0) as one:
-        keys, _ = asyncio.run(pressed(one))
+    with cluster.start_server(redis, 0) as one:
+        credentials, _ = asyncio.run(press_keys(one))
     redis.kill()
 
-    two = cluster.server(redis, 0)
+    two = cluster.start_server(redis, 0)
     try:
-        assert asyncio.run(turned_away(two, **keys)) == ("internal", 1013)
+        assert asyncio.run(hello_refusal(two, **credentials)) == ("internal", 1013)
         redis.start()
         two.wait_for(lambda: two.get("/readyz").body == b"ready\n")
-        assert asyncio.run(pressed(two, 1, **keys))[1] == 2
+        assert asyncio.run(press_keys(two, 1, **credentials))[1] == 2
         two.stop()
     finally:
         two.kill()

@@ -1,9 +1,9 @@
 // Fuzzes the access control and the targets of HTTP requests. The input has one line each for the target, Host, Origin,
 // Authorization and Cookie.
 
-#include "net/http/access.hpp"
-#include "net/http/target.hpp"
-#include "pipeline/file_pipeline.hpp"
+#include "net/http/access_control.hpp"
+#include "net/http/request_target.hpp"
+#include "pipeline/export_pipeline.hpp"
 #include "session/query.hpp"
 #include "support.hpp"
 
@@ -24,10 +24,10 @@ std::string encoded(std::string_view text) {
     return out;
 }
 
-void requireReadsBack(const net::Target& target) {
+void requireReadsBack(const net::RequestTarget& target) {
     std::string text = "/" + encoded(std::string_view(target.path).substr(1)) + "?";
     for (const auto& [name, value] : target.query) text += encoded(name) + "=" + encoded(value) + "&";
-    const auto again = net::parseTarget(text);
+    const auto again = net::parseRequestTarget(text);
     require(again && again->path == target.path, "a path survives being encoded");
     require(again->query == target.query, "a query survives being encoded");
 }
@@ -38,28 +38,28 @@ bool contains(std::string_view text, std::string_view part) {
     return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
-void judge(const net::Credentials& who) {
-    using Verdict = net::Access::Verdict;
-    const net::Access loopback({}, {}, "", true);
-    if (loopback.judge(who) == Verdict::allowed) {
+void judge(const net::AccessFields& who) {
+    using Verdict = net::AccessControl::Verdict;
+    const net::AccessControl loopback({}, {}, "", true);
+    if (loopback.check(who) == Verdict::allowed) {
         require(contains(who.host, "localhost") || contains(who.host, "127.0.0.1") || contains(who.host, "[::1]"),
                 "on loopback only its names are known:", who.host);
         require(who.origin.empty() || contains(who.origin, "://" + std::string(who.host)),
                 "only the server's own pages may speak to it:", who.origin);
     }
-    const net::Access open({"*"}, {"https://friend.example"}, std::string(kToken), false);
-    if (open.judge(who) == Verdict::allowed) {
+    const net::AccessControl open({"*"}, {"https://friend.example"}, std::string(kToken), false);
+    if (open.check(who) == Verdict::allowed) {
         require(who.token == kToken || who.authorization.ends_with(kToken) || contains(who.cookie, "oval4d_token="),
                 "without the token nobody is let in");
     }
     const std::string cookie = open.cookieFor(who);
     require(cookie.empty() || who.token == kToken, "the cookie is for who has the token");
     if (cookie.empty()) return;
-    net::Credentials back = who;
+    net::AccessFields back = who;
     back.token = {};
     const std::string pair = cookie.substr(0, cookie.find(';'));
     back.cookie = pair;
-    require(open.judge(back) == open.judge(who), "the cookie is as good as the token");
+    require(open.check(back) == open.check(who), "the cookie is as good as the token");
 }
 
 void describe(session::Query query) {
@@ -97,8 +97,8 @@ void describe(session::Query query) {
 // NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::string_view rest = fuzz::textOf(data, size);
-    const auto target = net::parseTarget(fuzz::takeUntil(rest, '\n'));
-    net::Credentials who;
+    const auto target = net::parseRequestTarget(fuzz::takeUntil(rest, '\n'));
+    net::AccessFields who;
     for (std::string_view* header : {&who.host, &who.origin, &who.authorization, &who.cookie})
         *header = fuzz::takeUntil(rest, '\n');
     if (target) {

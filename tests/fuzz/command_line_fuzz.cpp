@@ -44,6 +44,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         fuzz::execute(session, session::CommandLine{std::string(line)});
     }
-    fuzz::requireRoundTrip(session.now, session.loaded);
+    fuzz::requireRoundTrip(session.current, session.loaded);
     return 0;
 }

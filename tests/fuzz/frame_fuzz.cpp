@@ -92,6 +92,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     session::Session session;
     fuzz::execute(session, *set);
-    fuzz::requireRoundTrip(session.now, session.loaded);
+    fuzz::requireRoundTrip(session.current, session.loaded);
     return 0;
 }

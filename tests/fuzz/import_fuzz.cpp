@@ -15,7 +15,7 @@ using namespace oval4d::slicing;
 // NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    const auto result = importPolytope(formatOf(text), text, "p", {.maxVertices = 200, .maxHullCells = 2'000});
+    const auto result = importPolytope(detectFileFormat(text), text, "p", {.maxVertices = 200, .maxHullCells = 2'000});
     if (const auto* error = std::get_if<polytopes::ImportError>(&result)) {
         if (error->reason.empty()) std::abort();
         return 0;

@@ -41,7 +41,7 @@ void receive(std::string_view bytes) {
     process::MessageType type{};
     std::string body;
     int file = process::Channel::kNoFile;
-    while (channel.receive(type, body, &file, {}, kMost) == process::Transfer::complete) {
+    while (channel.receive(type, body, &file, {}, kMost) == process::TransferResult::complete) {
         require(body.size() <= kMost, "no message is longer than allowed");
         require(file == process::Channel::kNoFile, "no file comes where none was sent");
     }

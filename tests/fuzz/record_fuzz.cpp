@@ -1,5 +1,6 @@
 // Fuzzes stored sessions. The input has the full record, the head and one object, each after its length in two bytes
-// (little-endian). Decoding throws Unreadable, or returns a valid session that can be sliced, sent and stored again.
+// (little-endian). Decoding throws UnreadableRecord, or returns a valid session that can be sliced, sent and stored
+// again.
 
 #include "store/codec.hpp"
 #include "store/object_codec.hpp"
@@ -36,15 +37,15 @@ void requireUsable(const session::Session& session) {
     wide.maxSlices = 100'001;
     wide.maxUndo = wide.maxLoaded = 1'000'000;
     fuzz::requireSound(session, wide);
-    fuzz::requireSlices(session.now);
-    fuzz::requireJson(wire::stateMessage(session.now, session.revision));
+    fuzz::requireSlices(session.current);
+    fuzz::requireJson(wire::stateMessage(session.current, session.revision));
     for (const auto& [name, object] : session.loaded)
         fuzz::requireJson(wire::catalogueMessage({}, std::vector{object}));
     for (const char* key : {"y", "l", "G", "}", "u"}) {
         session::Session next = session;
         session::ObjectLoader loader(wide, fuzz::cache());
         (void)session::apply(next, session::Key{key}, wide, loader);
-        fuzz::requireSound(next.now, wide);
+        fuzz::requireSound(next.current, wide);
     }
 }
 
@@ -57,11 +58,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view head = takePart(rest);
     std::optional<slicing::Object> own;
     try {
-        own = store::decodeObject(rest);
-        const std::string bytes = store::encodeObject(*own);
-        require(store::encodeObject(store::decodeObject(bytes)) == bytes, "an object survives being kept");
+        own = store::decodeObjectRecord(rest);
+        const std::string bytes = store::encodeObjectRecord(*own);
+        require(store::encodeObjectRecord(store::decodeObjectRecord(bytes)) == bytes, "an object survives being kept");
         fuzz::requireJson(wire::catalogueMessage({}, std::vector{*own}));
-    } catch (const store::Unreadable& fault) {
+    } catch (const store::UnreadableRecord& fault) {
         require(*fault.what() != 0, "what is unreadable says why");
     }
     if (namesLarge(whole) || namesLarge(head)) return 0;
@@ -75,7 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const std::string present = store::encodeHead(session, keyOf);
         require(store::decode(bytes, present, objectOf, fuzz::cache()) == session,
                 "a head that is no newer changes nothing");
-    } catch (const store::Unreadable& fault) {
+    } catch (const store::UnreadableRecord& fault) {
         require(*fault.what() != 0, "what is unreadable says why");
     }
     return 0;

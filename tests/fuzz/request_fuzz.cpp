@@ -44,10 +44,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         requireEcho(text, request.id, nullptr);
         if (const auto* command = std::get_if<session::Command>(&request.body)) {
             fuzz::execute(session, *command);
-            if (session.now.turning) session::advance(session, 0.01);
+            if (session.current.turning) session::advance(session, 0.01);
         }
     }
     fuzz::requireSound(session, fuzz::kLimits);
-    fuzz::requireRoundTrip(session.now, session.loaded);
+    fuzz::requireRoundTrip(session.current, session.loaded);
     return 0;
 }

@@ -1,5 +1,6 @@
-// Fuzzes the `slices` message. The input is a viewport and command lines, which produce a state; its messages in JSON
-// and in CBOR must be equal. A library decodes the CBOR message, and its columns are converted to rows here.
+// Fuzzes the `slices` message. The input consists of a viewport and command lines, which set the state of a session.
+// The message of this state must have the same contents in JSON and in CBOR. nlohmann::json decodes the CBOR message;
+// its arrays with the values of all slices are then converted to one object per slice, as in JSON.
 
 #include <cstring>
 #include <initializer_list>
@@ -7,7 +8,7 @@
 
 #include "scene/composer.hpp"
 #include "support.hpp"
-#include "wire/slices.hpp"
+#include "wire/slices_message.hpp"
 
 using namespace oval4d;
 using fuzz::require;
@@ -157,7 +158,7 @@ json fromCbor(const std::string& text) {
     require(!message.is_discarded(), "a message is CBOR");
     message = plain(message);
     if (message.contains("coordinates")) message["coordinates"] = rows(message["coordinates"], 4);
-    if (message.contains("density")) message["density"] = rows(message["density"], scene::Density::kColumns);
+    if (message.contains("density")) message["density"] = rows(message["density"], scene::DensityPlot::kColumns);
     message["slices"] = rowsOf(message["slices"]);
     return message;
 }
@@ -192,9 +193,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static slicing::SliceSet slices;
     static scene::Composer composer;
     static scene::Scene scene;
-    static wire::SlicesWriter writer;
+    static wire::SlicesMessageWriter writer;
     static std::string text, cbor;
-    const session::State& state = session.now;
+    const session::State& state = session.current;
     slicer.slice(state.object, state.orientation, state.hyperplanes(), slices);
     composer.limitFill(100'000);
     composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport, scene);

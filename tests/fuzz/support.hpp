@@ -92,7 +92,8 @@ inline void requireSound(const session::State& state, const session::Limits& lim
     require(ratio >= session::kMinSpacing * (1 - 1e-9) && ratio <= session::kMaxSpacing * (1 + 1e-9),
             "the spacing is within its bounds");
     const auto& [azimuth, elevation, zoom] = state.look.orbit;
-    require(within(azimuth, session::kMaxOrbit) && within(elevation, session::kMaxOrbit), "the orbit is within bounds");
+    require(within(azimuth, session::kMaxOrbitAngle) && within(elevation, session::kMaxOrbitAngle),
+            "the orbit is within bounds");
     require(zoom >= session::kMinZoom && zoom <= session::kMaxZoom, "the zoom is within its bounds");
     const auto& [hidden, faded] = state.look.cellTypes;
     std::vector<std::uint32_t> both = hidden;
@@ -111,10 +112,10 @@ inline void requireSound(const session::State& state, const session::Limits& lim
 }
 
 inline void requireSound(const session::Session& session, const session::Limits& limits) {
-    requireSound(session.now, limits);
-    for (const session::State& state : session.past) requireSound(state, limits);
-    for (const session::State& state : session.future) requireSound(state, limits);
-    require(session.past.size() <= limits.maxUndo, "no more than maxUndo steps are kept");
+    requireSound(session.current, limits);
+    for (const session::State& state : session.undoSteps) requireSound(state, limits);
+    for (const session::State& state : session.redoSteps) requireSound(state, limits);
+    require(session.undoSteps.size() <= limits.maxUndo, "no more than maxUndo steps are kept");
     require(session.loaded.size() <= limits.maxLoaded, "no more than maxLoaded objects are kept");
 }
 
@@ -134,7 +135,7 @@ inline void requireSentence(const Error& error) {
 /// Executes a command as the server does, unless it would build a large polytope.
 inline void execute(session::Session& session, const session::Command& command) {
     const session::Session before = session;
-    const bool small = isSmall(polytopeIn(command, session.now)) && !std::holds_alternative<session::Key>(command);
+    const bool small = isSmall(polytopeIn(command, session.current)) && !std::holds_alternative<session::Key>(command);
     session::ObjectLoader loader(kLimits, cache(), session::ObjectLoader::Mode::deferred, session::readObject);
     auto done = session::apply(session, command, kLimits, loader);
     if (loader.isPending()) {
@@ -149,8 +150,8 @@ inline void execute(session::Session& session, const session::Command& command) 
         require(session == before, "an error leaves the session as it was:", done.error().message);
     } else {
         requireSound(session, kLimits);
-        require(session.now == before.now || session.revision == before.revision + 1, "a change counts once");
-        require(session.revision == before.revision || session.now != before.now,
+        require(session.current == before.current || session.revision == before.revision + 1, "a change counts once");
+        require(session.revision == before.revision || session.current != before.current,
                 "what changes nothing is not counted");
     }
 }
@@ -173,12 +174,12 @@ inline void requireRoundTrip(const session::State& state, const session::LoadedO
     const auto done = session::apply(other, *set, kLimits, loader);
     require(static_cast<bool>(done), "a state can be brought about again:", done ? "" : done.error().message);
     for (int i = 0; i < 4; ++i) {
-        require(glm::length(other.now.orientation.matrix()[i] - state.orientation.matrix()[i]) < 1e-9,
+        require(glm::length(other.current.orientation.matrix()[i] - state.orientation.matrix()[i]) < 1e-9,
                 "the orientation survives");
     }
-    other.now.orientation = state.orientation;
-    if (!state.lastTurn) other.now.lastTurn.reset();
-    require(other.now == state, "a state survives:", text);
+    other.current.orientation = state.orientation;
+    if (!state.lastTurn) other.current.lastTurn.reset();
+    require(other.current == state, "a state survives:", text);
 }
 
 /// Slices the state's object as for a picture; requires that all indices are in range.

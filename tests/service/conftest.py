@@ -19,8 +19,8 @@ def pytest_pyfunc_call(pyfuncitem):
         return None
     arguments = {name: pyfuncitem.funcargs[name] for name in pyfuncitem._fixtureinfo.argnames}
 
-    async def limited():
+    async def run_with_deadline():
         await asyncio.wait_for(pyfuncitem.obj(**arguments), 3 * DEADLINE)
 
-    asyncio.run(limited())
+    asyncio.run(run_with_deadline())
     return True

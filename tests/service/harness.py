@@ -15,41 +15,41 @@ from pathlib import Path
 PROGRAM = Path(os.environ.get("OVAL4D_SERVER") or os.environ.get("OVAL4D") or "build/release/bin/oval4d").resolve()
 
 
-def sanitized():
+def is_sanitizer_build():
     program = PROGRAM.read_bytes() if PROGRAM.exists() else b""
     return b"__tsan_init" in program or b"__asan_init" in program
 
 
 # Deadlines are multiplied by this factor, because sanitizers and busy machines are slow. Tests stop waiting as soon as
 # their condition holds.
-SLOW = float(os.environ.get("OVAL4D_TEST_SLOW") or (6 if sanitized() else 1))
+SLOW = float(os.environ.get("OVAL4D_TEST_SLOW") or (6 if is_sanitizer_build() else 1))
 DEADLINE = 20 * SLOW
 
 
 def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
 
 
-def answers(host, port):
+def is_listening(host, port):
     """Returns whether a program listens at this address and port."""
-    with socket.socket() as one:
-        one.settimeout(1)
-        return one.connect_ex((host, port)) == 0
+    with socket.socket() as probe:
+        probe.settimeout(1)
+        return probe.connect_ex((host, port)) == 0
 
 
-def until(condition, what):
+def wait_until(condition, what):
     """Waits until the condition is true; fails after the deadline with a message that names `what`."""
     limit = time.monotonic() + DEADLINE
     while not condition():
-        assert time.monotonic() < limit, f"{what} did not come about in time"
+        assert time.monotonic() < limit, f"timed out waiting for {what}"
         time.sleep(0.01)
 
 
-def wait_for_end(pids):
+def wait_for_processes_to_end(pids):
     """Waits for the end of processes that were sent a signal; the kernel may take a while to end a stopped process."""
-    until(lambda: all(map(has_ended, pids)), "the end of the processes")
+    wait_until(lambda: all(map(has_ended, pids)), "the end of the processes")
 
 
 def has_ended(pid):
@@ -66,10 +66,10 @@ class Server:
     def __init__(self, *options, **variables):
         self.log_file = tempfile.NamedTemporaryFile(prefix="oval4d-", suffix=".log")
         environment = {name: value for name, value in os.environ.items() if not name.startswith("OVAL4D")}
-        usual = [("--port", 0), ("--workers", 2), ("--io-threads", 2)]
-        words = [word for pair in usual if pair[0] not in options for word in pair]
-        words = [str(PROGRAM), *map(str, words), *map(str, options)]
-        self.process = self.start(words, environment | variables)
+        defaults = [("--port", 0), ("--workers", 2), ("--io-threads", 2)]
+        arguments = [word for pair in defaults if pair[0] not in options for word in pair]
+        command = [str(PROGRAM), *map(str, arguments), *map(str, options)]
+        self.process = self.start(command, environment | variables)
         try:
             self.url = self.wait_for(lambda: re.search(r"listening url=(\S+)", self.log())).group(1)
             parts = urllib.parse.urlsplit(self.url)
@@ -79,8 +79,8 @@ class Server:
             self.kill()
             raise
 
-    def start(self, words, environment):
-        return subprocess.Popen(words, env=environment, stderr=self.log_file, stdin=subprocess.DEVNULL)
+    def start(self, command, environment):
+        return subprocess.Popen(command, env=environment, stderr=self.log_file, stdin=subprocess.DEVNULL)
 
     def log(self):
         return Path(self.log_file.name).read_text(encoding="utf-8", errors="replace")
@@ -93,7 +93,7 @@ class Server:
             if value:
                 return value
             assert self.process.poll() is None, f"the server has ended: {self.log()}"
-            assert time.monotonic() < limit, f"this did not come about in time; the log: {self.log()}"
+            assert time.monotonic() < limit, f"timed out; the log: {self.log()}"
             time.sleep(0.01)
 
     def get(self, path, method="GET", **headers):
@@ -116,7 +116,7 @@ class Server:
                 return float(line.rsplit(" ", 1)[1])
         return 0.0
 
-    def drawing(self):
+    def drawing_processes(self):
         """Returns the process IDs of the server's live drawing processes."""
         children = []
         for file in Path("/proc").glob("[0-9]*/stat"):
@@ -129,24 +129,24 @@ class Server:
                 continue  # the process has ended in the meantime
         return children
 
-    def signal_drawing(self, number):
+    def signal_drawing_processes(self, number):
         """Sends a signal to all drawing processes; returns their process IDs."""
-        pids = self.drawing()
+        pids = self.drawing_processes()
         for pid in pids:
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, number)
         return pids
 
-    def files(self):
+    def open_files(self):
         """Returns the targets of the server's open file descriptors."""
         return [os.readlink(file) for file in Path(f"/proc/{self.process.pid}/fd").iterdir()]
 
-    def memory(self):
+    def resident_memory(self):
         """Returns the server's resident memory in bytes."""
         pages = Path(f"/proc/{self.process.pid}/statm").read_text(encoding="ascii").split()[1]
         return int(pages) * os.sysconf("SC_PAGE_SIZE")
 
-    def own_memory(self):
+    def anonymous_memory(self):
         """Returns the anonymous resident memory in bytes, without code and pixels shared with drawing processes."""
         status = Path(f"/proc/{self.process.pid}/status").read_text(encoding="ascii")
         return 1024 * int(re.search(r"RssAnon:\s+(\d+) kB", status).group(1))
@@ -176,7 +176,7 @@ class Server:
         self.log_file.close()
 
 
-def run(*words, **keywords):
+def run_oval4d(*arguments, **keywords):
     """Runs the program with these arguments until it ends."""
-    return subprocess.run([str(PROGRAM), *map(str, words)], capture_output=True, timeout=DEADLINE, check=False,
+    return subprocess.run([str(PROGRAM), *map(str, arguments)], capture_output=True, timeout=DEADLINE, check=False,
                           **keywords)

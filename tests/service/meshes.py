@@ -14,7 +14,7 @@ HERE = Path(__file__).resolve().parent
 CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 
 
-def admesh(path):
+def admesh_report(path):
     """Returns admesh's report on an STL file: numbers by name, and the bounding box."""
     done = subprocess.run(["admesh", str(path)], capture_output=True, text=True, timeout=120, check=True,
                           errors="replace")  # admesh 0.98.5 prints bytes beyond the end of the header
@@ -27,9 +27,9 @@ def admesh(path):
     return number
 
 
-def assert_closed(path, parts=None):
+def assert_closed_mesh(path, parts=None):
     """Asserts that admesh finds nothing to repair; returns its report."""
-    report = admesh(path)
+    report = admesh_report(path)
     for fault in ("Total disconnected facets", "Degenerate facets", "Edges fixed", "Facets removed", "Facets added",
                   "Facets reversed", "Backwards edges", "Normals fixed"):
         assert report[fault] == 0, (fault, report)
@@ -45,13 +45,13 @@ def stl_triangles(data):
     return [struct.unpack_from("<12xfffffffff", data, 84 + 50 * i) for i in range(count)]
 
 
-def assimp(path, to):
+def convert_with_assimp(path, to):
     """Converts a file to STL with assimp, which joins equal points."""
     subprocess.run(["assimp", "export", str(path), str(to), "-fstlb", "-jiv"], capture_output=True, timeout=120, check=True)
     return to
 
 
-def three_mf(data):
+def read_three_mf(data):
     """Returns (name, points, triangles) of each object of a 3MF file; asserts that all objects are printed, in mm."""
     archive = zipfile.ZipFile(io.BytesIO(data))
     assert archive.testzip() is None
@@ -60,10 +60,10 @@ def three_mf(data):
     model = ElementTree.fromstring(archive.read(relations[0].get("Target").lstrip("/")))
     assert model.get("unit") == "millimeter"
     objects = {}
-    for thing in model.iter(CORE + "object"):
-        points = [tuple(float(v.get(a)) for a in "xyz") for v in thing.iter(CORE + "vertex")]
-        triangles = [tuple(int(t.get(a)) for a in ("v1", "v2", "v3")) for t in thing.iter(CORE + "triangle")]
-        objects[thing.get("id")] = (thing.get("name"), points, triangles)
+    for object_ in model.iter(CORE + "object"):
+        points = [tuple(float(v.get(a)) for a in "xyz") for v in object_.iter(CORE + "vertex")]
+        triangles = [tuple(int(t.get(a)) for a in ("v1", "v2", "v3")) for t in object_.iter(CORE + "triangle")]
+        objects[object_.get("id")] = (object_.get("name"), points, triangles)
     assert [item.get("objectid") for item in model.iter(CORE + "item")] == list(objects)
     return list(objects.values())
 

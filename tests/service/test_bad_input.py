@@ -4,12 +4,12 @@ import json
 
 import pytest
 from harness import Server
-from wire import Client, connect, turned_away
+from wire import Client, connect, hello_refusal
 
 HUGE = 10_000_000
 
 
-@pytest.mark.parametrize("message, code, says", [
+@pytest.mark.parametrize("message, code, expected_text", [
     ({"type": "keys"}, "unknown_type", "key"),
     ({"type": 3}, "", "type"),
     ({}, "bad_message", "type"),
@@ -44,15 +44,15 @@ HUGE = 10_000_000
     ({"type": "hello", "stream": "film"}, "bad_message", "geometry"),
     ({"type": "shown", "revision": -1}, "out_of_range", "revision"),
 ])
-async def test_a_bad_message_is_explained(server, message, code, says):
+async def test_an_invalid_message_gets_an_explanatory_error(server, message, code, expected_text):
     async with Client(server, stream="geometry") as client:
         before = await client.request("get", what="state")
         if isinstance(message, dict):
             message = {**message, "id": 4711}
         await client.socket.send(json.dumps(message))
-        error = await client.until(lambda: next(
+        error = await client.wait_until(lambda: next(
             (m for m in client.messages if isinstance(m, dict) and m["type"] == "error"), None))
-        assert code in error["code"] and says in error["message"], error
+        assert code in error["code"] and expected_text in error["message"], error
         if isinstance(message, dict):
             assert error["id"] == 4711
         after = await client.request("get", what="state")
@@ -60,14 +60,14 @@ async def test_a_bad_message_is_explained(server, message, code, says):
 
 
 @pytest.mark.parametrize("angle", ["NaN", "Infinity", "-Infinity", "1e999"])
-async def test_angles_that_are_no_numbers(server, angle):
+async def test_nonfinite_angles_are_refused(server, angle):
     """NaN and Infinity are not JSON; 1e999 is valid JSON, but out of range."""
     async with Client(server) as client:
         await client.socket.send('{"type":"rotate","id":4711,"planes":["xw"],"angles":[%s]}' % angle)
-        error = await client.until(lambda: next((m for m in client.messages if m["type"] == "error"), None))
+        error = await client.wait_until(lambda: next((m for m in client.messages if m["type"] == "error"), None))
         assert error["code"] in ("bad_json", "bad_message", "out_of_range")
         if error["code"] == "bad_json":
-            assert await client.closed() == 1007
+            assert await client.wait_for_close_code() == 1007
 
 
 @pytest.mark.parametrize("data, error, close", [
@@ -77,7 +77,7 @@ async def test_angles_that_are_no_numbers(server, angle):
     (b'{"type":"hello"}', "bad_message", 1003),
     ('{"type":"load","name":"x","format":"off","data":"' + "0 " * (HUGE // 2) + '"}', None, 1009),
 ])
-async def test_what_is_no_message_at_all_ends_the_connection(server, data, error, close):
+async def test_malformed_messages_end_the_connection(server, data, error, close):
     async with Client(server) as bystander, connect(server) as socket:
         try:
             await socket.send(data)
@@ -89,11 +89,11 @@ async def test_what_is_no_message_at_all_ends_the_connection(server, data, error
         await bystander.request("key", key="y")
 
 
-async def test_text_that_is_not_utf8(server):
-    from test_pacing import deaf_socket, masked
+async def test_invalid_utf8_ends_the_connection(server):
+    from test_pacing import open_nonreading_socket, masked_frame
 
-    raw = deaf_socket(server)
-    raw.sendall(masked(b'{"type":"hello\xff"}'))
+    raw = open_nonreading_socket(server)
+    raw.sendall(masked_frame(b'{"type":"hello\xff"}'))
     received = b""
     while chunk := raw.recv(4096):
         received += chunk
@@ -101,15 +101,15 @@ async def test_text_that_is_not_utf8(server):
     assert (1007).to_bytes(2, "big") in received
 
 
-async def test_json_that_nests_too_deeply_is_refused_and_survived(server):
+async def test_too_deeply_nested_json_is_refused(server):
     async with Client(server) as client:
         await client.socket.send('{"type":"key","key":' + "[" * 30_000 + "]" * 30_000 + "}")
-        error = await client.until(lambda: next((m for m in client.messages if m["type"] == "error"), None))
+        error = await client.wait_until(lambda: next((m for m in client.messages if m["type"] == "error"), None))
         assert error["code"] == "bad_json" and "32" in error["message"]
         await client.request("key", key="y")
 
 
-async def test_hello_comes_first(server):
+async def test_requests_before_hello_are_refused(server):
     async with connect(server) as socket:
         await socket.send('{"type":"key","key":"y","id":1}')
         error = json.loads(await socket.recv())
@@ -118,11 +118,11 @@ async def test_hello_comes_first(server):
         assert json.loads(await socket.recv())["type"] == "welcome"
 
 
-async def test_a_token_without_a_session_in_the_path(server):
-    assert await turned_away(server, token="abc") == ("bad_token", 4401)
+async def test_a_token_without_a_session_is_refused(server):
+    assert await hello_refusal(server, token="abc") == ("bad_token", 4401)
 
 
-async def test_errors_tell_nothing_of_the_inside(server):
+async def test_errors_reveal_no_implementation_details(server):
     async with Client(server) as client:
         for text in ('{"type":"get","what":"state","id":"x"}', '{"type":"set","polytope":7}', '{"type":null}',
                      '{"type":"command","line":"\\u0000"}', '{"type":"command","line":"set slices=9e99"}'):
@@ -136,7 +136,7 @@ async def test_errors_tell_nothing_of_the_inside(server):
                 assert inside not in error["message"]
 
 
-async def test_a_storm_of_nonsense_harms_nobody():
+async def test_invalid_messages_do_not_affect_other_clients():
     with Server() as server:
         async with Client(server, stream="geometry") as bystander:
             for text in ["[" * 1000, '{"type":"' + "x" * 60_000 + '"}', "null", '"key"', '{"type":"hello","id":{}}']:
@@ -144,4 +144,4 @@ async def test_a_storm_of_nonsense_harms_nobody():
                     await socket.send(text)
                     await socket.recv()
             done = await bystander.request("key", key="y")
-            await bystander.slices(done["revision"])
+            await bystander.wait_for_slices(done["revision"])

@@ -5,13 +5,13 @@ import random
 
 import png
 import pytest
-from harness import Server, run
+from harness import Server, run_oval4d
 from wire import Client, Refused
 
 SIZE = {"width": 480, "height": 270}
 
 
-def points(count, seed=1):
+def torus_points(count, seed=1):
     """Returns random points on the Clifford torus, as text and as numbers."""
     source = random.Random(seed)
     numbers = []
@@ -22,7 +22,7 @@ def points(count, seed=1):
 
 
 async def test_a_cloud_is_shown_as_balls():
-    text, numbers = points(400)
+    text, numbers = torus_points(400)
     with Server() as server:
         async with Client(server, stream="none") as client:
             await client.request("load", name="torus", format="cloud", data=text)
@@ -42,11 +42,11 @@ async def test_a_cloud_is_shown_as_balls():
                     assert opacity == pytest.approx(1 - 0.8 * distance / (spacing / 2), abs=1e-3)
                     found.add(source)
             assert len(found) == 400
-            before = png.pixels(await client.frame(**SIZE))
+            before = png.pixels(await client.request_frame(**SIZE))
             await client.request("key", key="y")
-            assert png.pixels(await client.frame(**SIZE)) != before
+            assert png.pixels(await client.request_frame(**SIZE)) != before
             await client.request("undo")
-            assert png.pixels(await client.frame(**SIZE)) == before
+            assert png.pixels(await client.request_frame(**SIZE)) == before
             with pytest.raises(Refused, match="no cells"):
                 await client.request("set", hidden=[0])
             await client.request("command", line="polytope 24-cell")
@@ -59,7 +59,7 @@ async def test_a_cloud_is_shown_as_balls():
     ("1 0 0 0\n1 2 x 4", "line 2"), ("1 2 3 4 -1", "radius is negative"), ("1 2 3 4 5 6", "follows a point's radius"),
     ("1 2 3 1e300", "line 1"),
 ])
-async def test_what_is_no_cloud_is_refused(data, message):
+async def test_invalid_clouds_are_refused(data, message):
     with Server() as server:
         async with Client(server, stream="none") as client:
             with pytest.raises(Refused, match=message) as refused:
@@ -68,29 +68,29 @@ async def test_what_is_no_cloud_is_refused(data, message):
             assert (await client.request("get", what="state"))["polytope"]["name"] == "5-cell"
 
 
-def test_the_command_line_shows_a_cloud(tmp_path):
-    text, _ = points(200)
+def test_the_command_line_renders_a_cloud(tmp_path):
+    text, _ = torus_points(200)
     cloud, hull = tmp_path / "cloud.txt", tmp_path / "hull.txt"
     cloud.write_text("CLOUD\n" + text)
     hull.write_text(text)
     pictures = []
     for file in (cloud, hull):
         picture = tmp_path / "picture.png"
-        done = run("render", "-o", picture, "--load", file, "--width", 480, "--height", 270)
+        done = run_oval4d("render", "-o", picture, "--load", file, "--width", 480, "--height", 270)
         assert done.returncode == 0, done.stderr
         pictures.append(png.pixels(picture.read_bytes()))
     assert pictures[0] != pictures[1]
 
 
-async def test_a_cloud_comes_back_from_the_store(tmp_path):
-    text, _ = points(50)
+async def test_a_cloud_is_restored_from_the_store(tmp_path):
+    text, _ = torus_points(50)
     store = f"sqlite:{tmp_path}/sessions.db"
     with Server("--store", store) as server:
         async with Client(server, stream="none") as client:
             await client.request("load", name="torus", format="cloud", data=text + "\n0.5 0.5 0.5 0.5 0.2")
-            picture = png.pixels(await client.frame(**SIZE))
+            picture = png.pixels(await client.request_frame(**SIZE))
             welcome = client.welcome
         server.stop()
     with Server("--store", store) as server:
         async with Client(server, stream="none", session=welcome["session"], token=welcome["token"]) as client:
-            assert png.pixels(await client.frame(**SIZE)) == picture
+            assert png.pixels(await client.request_frame(**SIZE)) == picture

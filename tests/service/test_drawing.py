@@ -12,7 +12,7 @@ from pathlib import Path
 
 import png
 import pytest
-from harness import DEADLINE, PROGRAM, Server, sanitized, until, wait_for_end
+from harness import DEADLINE, PROGRAM, Server, is_sanitizer_build, wait_until, wait_for_processes_to_end
 from wire import Client, Refused
 
 SIZE = {"width": 480, "height": 270}
@@ -22,127 +22,127 @@ LONG = {"polytope": "omnitruncated 120-cell", "slices": {"count": 101}}
 LARGE = {"width": 2400, "height": 1350}
 
 
-class Ignoring(Server):
+class ServerIgnoringSigchld(Server):
     """A server started by a program that ignores SIGCHLD, a setting that child processes inherit."""
 
-    def start(self, words, environment):
+    def start(self, command, environment):
         before = signal.signal(signal.SIGCHLD, signal.SIG_IGN)
         try:
-            return super().start(words, environment)
+            return super().start(command, environment)
         finally:
             signal.signal(signal.SIGCHLD, before)
 
 
-def seconds_of(pid):
+def cpu_seconds(pid):
     """Returns the CPU time of a process in seconds."""
     fields = Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-async def signal_the_one_at_work(server, number):
-    """Sends a signal to the process that is drawing, and returns its ID. It may have finished by then."""
-    started = {pid: seconds_of(pid) for pid in server.drawing()}
+async def signal_busy_drawing_process(server, number):
+    """Sends a signal to the process that is drawing, which may have finished by then; returns its process ID."""
+    started = {pid: cpu_seconds(pid) for pid in server.drawing_processes()}
     while True:
         for pid, seconds in started.items():
-            if seconds_of(pid) > seconds + 0.02:
+            if cpu_seconds(pid) > seconds + 0.02:
                 os.kill(pid, number)
                 return pid
         await asyncio.sleep(0.002)
 
 
-async def test_pictures_go_on_when_the_processes_that_draw_them_are_killed():
+async def test_pictures_continue_after_drawing_processes_are_killed():
     with Server() as server:
         async with Client(server, stream="frames", **SIZE) as client:
-            first = await client.frame_of(0)
+            first = await client.wait_for_frame(0)
             done = await client.request("key", key="r")
-            await client.frame_of(done["revision"])
+            await client.wait_for_frame(done["revision"])
             assert server.metric(DEATHS) == 0
-            assert len(server.signal_drawing(signal.SIGKILL)) >= 2
+            assert len(server.signal_drawing_processes(signal.SIGKILL)) >= 2
             done = await client.request("undo")
-            again = await client.frame_of(done["revision"])
+            again = await client.wait_for_frame(done["revision"])
             assert png.pixels(again) == png.pixels(first)
             assert png.state_in(again)["revision"] == done["revision"]
             assert server.metric(DEATHS) >= 1
 
 
-async def test_a_picture_is_drawn_again_when_its_process_is_killed_at_it():
+async def test_a_picture_is_drawn_again_if_its_process_is_killed():
     with Server() as server:
         async with Client(server, stream="none", **SIZE) as client:
             await client.request("set", **LONG)
-            whole = await client.frame(**LARGE)
+            whole = await client.request_frame(**LARGE)
             while server.metric(DEATHS) == 0:
-                asked = asyncio.ensure_future(client.frame(**LARGE))
-                await signal_the_one_at_work(server, signal.SIGKILL)
+                asked = asyncio.ensure_future(client.request_frame(**LARGE))
+                await signal_busy_drawing_process(server, signal.SIGKILL)
                 assert png.pixels(await asked) == png.pixels(whole)
 
 
-async def test_a_picture_that_kills_its_process_again_and_again_is_refused_and_the_session_goes_on():
+async def test_a_picture_whose_processes_keep_dying_is_refused():
     server = Server()
     try:
         async with Client(server, stream="none", **SIZE) as client:
-            before = await client.frame()
+            before = await client.request_frame()
             await client.request("set", **LONG)
-            asked = asyncio.ensure_future(client.frame(**LARGE))
+            asked = asyncio.ensure_future(client.request_frame(**LARGE))
             while not asked.done():
-                server.signal_drawing(signal.SIGKILL)
+                server.signal_drawing_processes(signal.SIGKILL)
                 await asyncio.sleep(0.02)
             with pytest.raises(Refused, match="internal"):
                 await asked
             await client.request("undo")
-            assert png.pixels(await client.frame()) == png.pixels(before)
+            assert png.pixels(await client.request_frame()) == png.pixels(before)
         assert server.stop()[0] == 0
     finally:
         server.kill()
 
 
-async def test_they_end_with_the_server_and_not_before():
+async def test_drawing_processes_end_only_with_the_server():
     server = Server()
     try:
-        pids = server.drawing()
+        pids = server.drawing_processes()
         assert len(pids) >= 2
-        server.signal_drawing(signal.SIGTERM)  # a terminal or a container sends these to all processes
-        server.signal_drawing(signal.SIGINT)
+        server.signal_drawing_processes(signal.SIGTERM)  # a terminal or a container sends these to all processes
+        server.signal_drawing_processes(signal.SIGINT)
         async with Client(server, stream="none", **SIZE) as client:
-            await client.frame()
-        assert server.drawing() == pids and server.metric(DEATHS) == 0
+            await client.request_frame()
+        assert server.drawing_processes() == pids and server.metric(DEATHS) == 0
         server.kill()
-        wait_for_end(pids)
+        wait_for_processes_to_end(pids)
     finally:
         server.kill()
 
 
-async def test_polytopes_in_turns_though_none_is_kept(server):
+async def test_pictures_are_the_same_without_a_polytope_cache(server):
     names = ["5-cell", "24-cell", "{5/2,3,5}"]
     with Server("--polytope-cache", 0) as forgetful:
         async with Client(forgetful, stream="none", **SIZE) as client, Client(server, stream="none", **SIZE) as other:
             for name in names + names:
                 await client.request("set", polytope=name)
                 await other.request("set", polytope=name)
-                assert png.pixels(await client.frame()) == png.pixels(await other.frame())
+                assert png.pixels(await client.request_frame()) == png.pixels(await other.request_frame())
 
 
-async def test_sizes_in_turns(server):
+async def test_pictures_are_the_same_after_changes_of_size(server):
     async with Client(server, stream="none") as client:
         first = {}
         for width, height in [(64, 48), (1920, 1080), (64, 48), (300, 200), (1920, 1080), (64, 48)]:
-            pixels = png.pixels(await client.frame(width=width, height=height))
+            pixels = png.pixels(await client.request_frame(width=width, height=height))
             assert pixels == first.setdefault((width, height), pixels) and pixels[0] == (width, height)
 
 
-async def test_no_connection_is_kept_open_by_them():
+async def test_drawing_processes_inherit_no_connections():
     """A restarted drawing process inherits none of the server's file descriptors."""
     with Server() as server:
         async with Client(server, stream="frames", **SIZE) as client:
-            await client.frame_of(0)
-            server.signal_drawing(signal.SIGKILL)
+            await client.wait_for_frame(0)
+            server.signal_drawing_processes(signal.SIGKILL)
             done = await client.request("key", key="r")
-            await client.frame_of(done["revision"])
-            for pid in server.drawing():
+            await client.wait_for_frame(done["revision"])
+            for pid in server.drawing_processes():
                 files = [os.readlink(file) for file in Path(f"/proc/{pid}/fd").iterdir()]
                 assert sum(name.startswith("socket:") for name in files) == 1, files
 
 
-async def test_one_that_has_no_room_for_a_picture_draws_none(tmp_path):
+async def test_a_drawing_process_without_shared_memory_ends_with_an_error(tmp_path):
     """The kernel drops a file descriptor that is sent to a process whose limit on open files is reached; the process
     then ends with an error."""
     ours, theirs = socket.socketpair()
@@ -156,25 +156,26 @@ async def test_one_that_has_no_room_for_a_picture_draws_none(tmp_path):
     assert b"a draw request arrived without the memory to draw into" in (tmp_path / "log").read_bytes()
 
 
-@pytest.mark.skipif(sanitized(), reason="sanitizers open files, too")
+@pytest.mark.skipif(is_sanitizer_build(), reason="sanitizers open files of their own")
 @pytest.mark.parametrize("files", range(8, 20, 3))
-def test_a_server_that_may_open_too_few_files_says_so(files, tmp_path):
-    def limit():
+def test_a_too_low_limit_on_open_files_is_reported(files, tmp_path):
+    def limit_open_files():
         resource.setrlimit(resource.RLIMIT_NOFILE, (files, files))
 
     with open(tmp_path / "log", "wb") as log:
-        words = [PROGRAM, "--port", "0", "--workers", "4"]
-        server = subprocess.Popen(words, stderr=log, preexec_fn=limit)
-    until(lambda: server.poll() is not None or re.search("ready|cannot be drawn", (tmp_path / "log").read_text()), "it")
+        command = [PROGRAM, "--port", "0", "--workers", "4"]
+        server = subprocess.Popen(command, stderr=log, preexec_fn=limit_open_files)
+    wait_until(lambda: server.poll() is not None or re.search("ready|cannot be drawn", (tmp_path / "log").read_text()),
+               "the start or the end of the server")
     server.terminate()
     assert server.wait(DEADLINE) in (0, 1)
     assert "Too many open files" in (tmp_path / "log").read_text()
 
 
-async def test_their_ends_are_seen_though_whoever_began_the_server_ignored_such():
-    with Ignoring() as server:
+async def test_child_exits_are_noticed_even_if_the_parent_ignored_sigchld():
+    with ServerIgnoringSigchld() as server:
         async with Client(server, stream="none", **SIZE) as client:
-            await client.frame()
-            server.signal_drawing(signal.SIGKILL)
-            await client.frame()
+            await client.request_frame()
+            server.signal_drawing_processes(signal.SIGKILL)
+            await client.request_frame()
         assert 'how="died: signal 9"' in server.log()

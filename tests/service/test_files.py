@@ -14,70 +14,70 @@ from xml.etree import ElementTree
 
 import meshes
 import pytest
-from harness import SLOW, Server, run
-from test_pacing import deaf_socket
+from harness import SLOW, Server, run_oval4d
+from test_pacing import open_nonreading_socket
 from wire import Client, Refused
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 TABLE = json.loads((ROOT / "protocol/export_formats.json").read_text(encoding="utf-8"))["formats"]
 FORMATS = [row["name"] for row in TABLE]
-TURNED = "rotate=xw,yz:0.39,1.42"
+ROTATION = "rotate=xw,yz:0.39,1.42"
 
 
-def fetch(server, format_, query, status=200):
+def fetch_file(server, format_, query, status=200):
     answer = server.get(f"/api/v1/file.{format_}?{query}")
     assert answer.status == status, answer.body[:500]
     return answer.body
 
 
-def fetch_to(server, path, query):
-    path.write_bytes(fetch(server, path.suffix[1:], query))
+def fetch_file_to(server, path, query):
+    path.write_bytes(fetch_file(server, path.suffix[1:], query))
     return path
 
 
-def refusal(server, format_, query, status=400):
-    return json.loads(fetch(server, format_, query, status))
+def export_refusal(server, format_, query, status=400):
+    return json.loads(fetch_file(server, format_, query, status))
 
 
-def rows(data):
+def csv_tables(data):
     """Returns the two tables of a CSV file: slices and critical levels of w."""
     slices, levels = data.decode().split("\n\n")
     return list(csv.DictReader(io.StringIO(slices))), list(csv.DictReader(io.StringIO(levels)))
 
 
-async def file_by_socket(client, **members):
+async def file_over_websocket(client, **members):
     done = await client.request("get", what="file", **members)
     return client.messages[client.messages.index(done) - 1]
 
 
 @pytest.mark.parametrize("format_", FORMATS)
-async def test_the_same_file_by_socket_by_http_and_by_command(server, tmp_path, format_):
+async def test_websocket_http_and_command_export_the_same_file(server, tmp_path, format_):
     async with Client(server, stream="none") as client:
         await client.request("set", polytope="24-cell")
         await client.request("rotate", planes=["xw", "yz"], angles=[0.39, 1.42])
-        by_socket = await file_by_socket(client, format=format_, of="oval", size=40)
-    by_http = fetch(server, format_, f"polytope=24-cell&{TURNED}&of=oval&size=40")
+        by_websocket = await file_over_websocket(client, format=format_, of="oval", size=40)
+    by_http = fetch_file(server, format_, f"polytope=24-cell&{ROTATION}&of=oval&size=40")
     path = tmp_path / f"slices.{format_}"
-    done = run("export", "-o", path, "--polytope", "24-cell", "--rotate", "xw,yz:0.39,1.42", "--of", "oval", "--size=40")
+    done = run_oval4d("export", "-o", path, "--polytope", "24-cell", "--rotate", "xw,yz:0.39,1.42", "--of", "oval", "--size=40")
     assert done.returncode == 0, done.stderr
     if format_ == "3mf":  # a 3MF file contains its time of creation
-        assert meshes.three_mf(by_socket) == meshes.three_mf(by_http) == meshes.three_mf(path.read_bytes())
+        assert meshes.read_three_mf(by_websocket) == meshes.read_three_mf(by_http) == meshes.read_three_mf(path.read_bytes())
     else:
-        assert by_socket == by_http == path.read_bytes()
-    assert by_socket[0] not in {0x89, *range(0xa0, 0xc0)}
+        assert by_websocket == by_http == path.read_bytes()
+    assert by_websocket[0] not in {0x89, *range(0xa0, 0xc0)}
 
 
 @pytest.mark.parametrize("polytope", ["5-cell", "8-cell", "16-cell", "24-cell", "120-cell", "600-cell"])
-def test_admesh_finds_nothing_to_repair_however_turned(server, tmp_path, polytope):
-    chance = random.Random(polytope)
-    turns = [""] + [f"&rotate=xw,yz:{chance.uniform(0, 6)},{chance.uniform(0, 6)}&rotate=xy,zw:{chance.uniform(0, 6)},"
-                    f"{chance.uniform(0, 6)}" for _ in range(8)]
+def test_admesh_finds_nothing_to_repair_after_any_rotation(server, tmp_path, polytope):
+    rng = random.Random(polytope)
+    turns = [""] + [f"&rotate=xw,yz:{rng.uniform(0, 6)},{rng.uniform(0, 6)}&rotate=xy,zw:{rng.uniform(0, 6)},"
+                    f"{rng.uniform(0, 6)}" for _ in range(8)]
     for turn in turns:
-        query = f"polytope={polytope}{turn}&focus={chance.randint(-4, 4)}"
-        report = meshes.assert_closed(fetch_to(server, tmp_path / "solid.stl", query), parts=1)
-        (row,), levels = rows(fetch(server, "csv", query))
+        query = f"polytope={polytope}{turn}&focus={rng.randint(-4, 4)}"
+        report = meshes.assert_closed_mesh(fetch_file_to(server, tmp_path / "solid.stl", query), parts=1)
+        (row,), levels = csv_tables(fetch_file(server, "csv", query))
         # The circumscribed sphere has a diameter of 60 mm; the 4OFF file gives its radius in the polytope's units.
-        points = off_points(fetch(server, "off", query))
+        points = off_points(fetch_file(server, "off", query))
         scale = 30 / max(sum(c * c for c in p) ** 0.5 for p in points)
         assert report["volume"] == pytest.approx(float(row["volume"]) * scale**3, rel=1e-3)
         assert sum(int(level["vertices"]) for level in levels) == len(points)
@@ -91,21 +91,21 @@ def off_points(data):
 
 
 @pytest.mark.parametrize("polytope", ["5-cell", "24-cell", "600-cell"])
-@pytest.mark.parametrize("body", ["solid", "frame"])
-def test_every_body_of_the_oval_stands_on_the_plate_by_itself(server, tmp_path, polytope, body):
-    query = f"polytope={polytope}&{TURNED}&of=oval&slices=7&size=50"
-    slices, _ = rows(fetch(server, "csv", query))
+@pytest.mark.parametrize("body", ["solid", "skeleton"])
+def test_bodies_of_the_oval_stand_separately_on_the_build_plate(server, tmp_path, polytope, body):
+    query = f"polytope={polytope}&{ROTATION}&of=oval&slices=7&size=50"
+    slices, _ = csv_tables(fetch_file(server, "csv", query))
     full = [row for row in slices if float(row["volume"]) > 1e-6]
-    path = fetch_to(server, tmp_path / "oval.stl", query + f"&body={body}")
+    path = fetch_file_to(server, tmp_path / "oval.stl", query + f"&body={body}")
     # Balls and bars are also exported for flat slices, which have no solid.
     parts = len(full) if body == "solid" else sum(1 for row in slices if int(row["vertices"]) > 0)
-    report = meshes.assert_closed(path, parts)
+    report = meshes.assert_closed_mesh(path, parts)
     assert all(low == pytest.approx(0, abs=1e-3) for low, _ in report["box"])
     assert report["box"][2][1] < 60
-    if body == "frame" and polytope != "5-cell":
+    if body == "skeleton" and polytope != "5-cell":
         return  # too many triangles to check in Python
     # In 3MF each part is an object, and the bounding boxes are disjoint.
-    objects = meshes.three_mf(fetch(server, "3mf", query + f"&body={body}"))
+    objects = meshes.read_three_mf(fetch_file(server, "3mf", query + f"&body={body}"))
     assert len(objects) == parts
     boxes = []
     for name, points, triangles in objects:
@@ -118,12 +118,20 @@ def test_every_body_of_the_oval_stands_on_the_plate_by_itself(server, tmp_path, 
         boxes.append((low, high))
 
 
+def test_the_former_name_of_skeletons_is_accepted(server):
+    query = "polytope=5-cell&size=20"
+    skeleton = fetch_file(server, "stl", query + "&body=skeleton")
+    assert fetch_file(server, "stl", query + "&body=frame") == skeleton != fetch_file(server, "stl", query)
+    done = run_oval4d("export", "-o", "-", "--format", "stl", "--polytope", "5-cell", "--size", "20", "--body", "frame")
+    assert done.stdout == skeleton
+
+
 def test_assimp_reads_the_same_bodies_from_every_format(server, tmp_path):
-    volumes = {"solid": [], "frame": []}
+    volumes = {"solid": [], "skeleton": []}
     for format_, unit in (("stl", 1), ("obj", 1), ("ply", 1), ("glb", 1000), ("x3d", 1000)):
-        for body in ("solid", "frame"):
-            path = fetch_to(server, tmp_path / f"slice.{format_}", f"polytope=24-cell&{TURNED}&body={body}")
-            triangles = meshes.stl_triangles(meshes.assimp(path, tmp_path / "again.stl").read_bytes())
+        for body in ("solid", "skeleton"):
+            path = fetch_file_to(server, tmp_path / f"slice.{format_}", f"polytope=24-cell&{ROTATION}&body={body}")
+            triangles = meshes.stl_triangles(meshes.convert_with_assimp(path, tmp_path / "again.stl").read_bytes())
             points = [triangle[i:i + 3] for triangle in triangles for i in (0, 3, 6)]
             loops = [(i, i + 1, i + 2) for i in range(0, len(points), 3)]
             volumes[body].append(meshes.volume(points, loops) * unit**3)
@@ -132,16 +140,16 @@ def test_assimp_reads_the_same_bodies_from_every_format(server, tmp_path):
 
 
 @pytest.mark.parametrize("query", [
-    f"polytope=24-cell&{TURNED}", f"polytope=24-cell&{TURNED}&of=oval", "polytope=120-cell&of=oval&label=separate",
+    f"polytope=24-cell&{ROTATION}", f"polytope=24-cell&{ROTATION}&of=oval", "polytope=120-cell&of=oval&label=separate",
     "polytope=5-cell&body=frame", "polytope=600-cell&focus=2&label=engraved&size=150"])
-def test_khronos_validator_finds_no_fault(server, tmp_path, query):
-    report = meshes.validate_glb(fetch_to(server, tmp_path / "slice.glb", query))
+def test_khronos_validator_finds_no_errors(server, tmp_path, query):
+    report = meshes.validate_glb(fetch_file_to(server, tmp_path / "slice.glb", query))
     assert report["issues"]["numErrors"] == report["issues"]["numWarnings"] == 0, report["issues"]
     assert report["info"]["totalTriangleCount"] > 0
 
 
-def test_cells_have_their_colors(server):
-    data = fetch(server, "ply", f"polytope=24-cell&{TURNED}")
+def test_ply_faces_have_the_colors_of_their_cells(server):
+    data = fetch_file(server, "ply", f"polytope=24-cell&{ROTATION}")
     head, _, body = data.partition(b"end_header\n")
     vertices, faces = (int(line.split()[2]) for line in head.decode().splitlines() if line.startswith("element"))
     records = body[12 * vertices:]
@@ -150,24 +158,24 @@ def test_cells_have_their_colors(server):
     assert len(colors) == 14  # each of the 14 faces of the slice comes from another cell
 
 
-def test_a_label_is_cut_in_or_stands_beside(server, tmp_path):
-    query = f"polytope=24-cell&{TURNED}"
-    plain = meshes.assert_closed(fetch_to(server, tmp_path / "plain.stl", query), 1)
-    cut = meshes.assert_closed(fetch_to(server, tmp_path / "cut.stl", query + "&label=engraved"), 1)
+def test_labels_are_engraved_or_separate_bodies(server, tmp_path):
+    query = f"polytope=24-cell&{ROTATION}"
+    plain = meshes.assert_closed_mesh(fetch_file_to(server, tmp_path / "plain.stl", query), 1)
+    cut = meshes.assert_closed_mesh(fetch_file_to(server, tmp_path / "cut.stl", query + "&label=engraved"), 1)
     assert 0 < plain["volume"] - cut["volume"] < 0.01 * plain["volume"]
     assert cut["box"] == plain["box"]
-    both = meshes.assert_closed(fetch_to(server, tmp_path / "both.stl", query + "&label=separate"), 2)
+    both = meshes.assert_closed_mesh(fetch_file_to(server, tmp_path / "both.stl", query + "&label=separate"), 2)
     assert both["volume"] > plain["volume"]
-    (slice_, label) = meshes.three_mf(fetch(server, "3mf", query + "&label=separate&body=frame"))
+    (slice_, label) = meshes.read_three_mf(fetch_file(server, "3mf", query + "&label=separate&body=frame"))
     assert label[0] == slice_[0] + " (label)"
-    error = refusal(server, "stl", query + "&label=engraved&body=frame")
+    error = export_refusal(server, "stl", query + "&label=engraved&body=frame")
     assert error["code"] == "no_body" and "separate" in error["message"]
-    error = refusal(server, "stl", query + "&label=engraved&size=5")
+    error = export_refusal(server, "stl", query + "&label=engraved&size=5")
     assert error["code"] == "no_body" and "1 mm" in error["message"]
 
 
-def test_numbers_and_critical_levels(server):
-    slices, levels = rows(fetch(server, "csv", "polytope=16-cell&of=oval&slices=5&spacing=0.5"))
+def test_csv_measurements_match_the_16_cell(server):
+    slices, levels = csv_tables(fetch_file(server, "csv", "polytope=16-cell&of=oval&slices=5&spacing=0.5"))
     assert [row["n"] for row in slices] == ["-2", "-1", "0", "1", "2"]
     for row in slices:
         # At ±w the 16-cell's slice is the octahedron of radius √2 − |w|.
@@ -180,9 +188,9 @@ def test_numbers_and_critical_levels(server):
     assert [float(row["critical_w"]) for row in levels] == pytest.approx([-(2**0.5), 0, 2**0.5])
 
 
-async def test_off_loads_again_as_the_same_polytope(server):
-    query = f"polytope=24-cell&{TURNED}"
-    data = fetch(server, "off", query).decode()
+async def test_an_exported_4off_file_loads_as_the_same_polytope(server):
+    query = f"polytope=24-cell&{ROTATION}"
+    data = fetch_file(server, "off", query).decode()
     async with Client(server) as client:
         await client.request("load", name="again", format="off", data=data)
         state = await client.request("get", what="state")
@@ -196,8 +204,8 @@ async def test_off_loads_again_as_the_same_polytope(server):
         assert one["of"] == other["of"] and one["faces"] == other["faces"]
 
 
-def test_svg_is_xml_with_a_line_for_each_coordinate(server, tmp_path):
-    path = fetch_to(server, tmp_path / "coordinates.svg", f"polytope=600-cell&{TURNED}")
+def test_svg_has_a_line_for_each_coordinate(server, tmp_path):
+    path = fetch_file_to(server, tmp_path / "coordinates.svg", f"polytope=600-cell&{ROTATION}")
     subprocess.run(["xmllint", "--noout", str(path)], check=True, timeout=60)
     root = ElementTree.fromstring(path.read_bytes())
     space = "{http://www.w3.org/2000/svg}"
@@ -208,8 +216,8 @@ def test_svg_is_xml_with_a_line_for_each_coordinate(server, tmp_path):
         assert 0 <= float(line.get("x1")) <= width and 0 <= float(line.get("y2")) <= height
 
 
-def test_svg_of_many_vertices_is_their_density(server, tmp_path):
-    path = fetch_to(server, tmp_path / "density.svg", f"polytope=120-cell&{TURNED}")
+def test_svg_of_many_vertices_shows_their_density(server, tmp_path):
+    path = fetch_file_to(server, tmp_path / "density.svg", f"polytope=120-cell&{ROTATION}")
     assert path.stat().st_size < 300_000
     subprocess.run(["xmllint", "--noout", str(path)], check=True, timeout=60)
     root = ElementTree.fromstring(path.read_bytes())
@@ -225,27 +233,27 @@ def test_svg_of_many_vertices_is_their_density(server, tmp_path):
         assert abs(drawn.get((column, 64 - row), 0) - opacity) < 0.1
 
 
-@pytest.mark.parametrize("query, code, word", [
-    ("focus=90", "no_body", "is empty"), ("of=all", "bad_message", "focus"), ("body=wood", "bad_message", "frame"),
+@pytest.mark.parametrize("query, code, expected_text", [
+    ("focus=90", "no_body", "is empty"), ("of=all", "bad_message", "focus"), ("body=wood", "bad_message", "skeleton"),
     ("size=0.5", "out_of_range", "10000"), ("size=thick", "out_of_range", "thick"), ("size=nan", "out_of_range", "nan"),
     ("label=gold", "bad_message", "engraved"), ("width=30", "unknown_command", "width"),
     ("polytope=25-cell", "unknown_polytope", "24-cell"),
 ])
-def test_what_is_wrong_is_said(server, query, code, word):
-    error = refusal(server, "stl", query)
-    assert error["code"] == code and word in error["message"]
-    done = run("export", "-o", "-", "--format", "stl", *("--" + part for part in query.split("&")))
-    assert done.returncode == 1 and word.encode() in done.stderr and not done.stdout
+def test_invalid_export_parameters_are_explained(server, query, code, expected_text):
+    error = export_refusal(server, "stl", query)
+    assert error["code"] == code and expected_text in error["message"]
+    done = run_oval4d("export", "-o", "-", "--format", "stl", *("--" + part for part in query.split("&")))
+    assert done.returncode == 1 and expected_text.encode() in done.stderr and not done.stdout
 
 
-def test_the_command_says_which_formats_there_are(tmp_path):
+def test_export_command_lists_the_formats(tmp_path):
     for words in (["-o", tmp_path / "slice.step"], ["-o", "-"], ["--format", "doc"]):
-        done = run("export", *words)
+        done = run_oval4d("export", *words)
         assert done.returncode == 1 and b"3mf" in done.stderr
-    assert run("export", "-o", tmp_path / "no" / "where.stl").returncode == 1
+    assert run_oval4d("export", "-o", tmp_path / "no" / "where.stl").returncode == 1
 
 
-async def test_messages_that_do_not_fit(server):
+async def test_invalid_file_requests_are_refused(server):
     async with Client(server) as client:
         for members in ({}, {"format": "doc"}, {"format": "stl", "size": "large"},
                         {"format": "stl", "of": "all"}, {"format": "stl", "label": True}):
@@ -262,21 +270,21 @@ async def test_messages_that_do_not_fit(server):
         assert (await client.request("get", what="state"))["slices"]["focus"] == 1000
 
 
-async def test_limits():
+async def test_export_limits_are_enforced():
     query = "polytope=120-cell&of=oval&body=frame"
     with Server("--max-file-triangles", 5000) as server:
-        error = refusal(server, "stl", query, 413)
+        error = export_refusal(server, "stl", query, 413)
         assert error["code"] == "too_large" and "5000 are allowed" in error["message"]
-        fetch(server, "stl", "polytope=120-cell")
+        fetch_file(server, "stl", "polytope=120-cell")
     with Server("--max-file-bytes", "2k") as server:
-        assert "2048 bytes" in refusal(server, "off", query, 413)["message"]
+        assert "2048 bytes" in export_refusal(server, "off", query, 413)["message"]
         async with Client(server) as client:
             with pytest.raises(Refused) as refused:
                 await client.request("get", what="file", format="off")
                 await client.request("get", what="file", format="stl", body="frame")
             assert refused.value.code == "too_large"
     with Server("--max-file-time", 0.01) as server:
-        assert "takes longer than" in refusal(server, "stl", query, 413)["message"]
+        assert "takes longer than" in export_refusal(server, "stl", query, 413)["message"]
 
 
 async def test_pictures_do_not_wait_for_files():
@@ -289,14 +297,14 @@ async def test_pictures_do_not_wait_for_files():
             while not any(file.done() for file in files):
                 start = time.monotonic()
                 done = await client.request("key", key="r")
-                await client.slices(done["revision"])
+                await client.wait_for_slices(done["revision"])
                 pictures += time.monotonic() - start < 0.5
             assert pictures > 3
         for file in files:
             assert (await file).status == 200
 
 
-async def test_a_stop_does_not_wait_for_a_file():
+async def test_a_server_stop_does_not_wait_for_a_file():
     with Server("--max-file-triangles", 20_000_000, "--stop-timeout", 0.2) as server:
         loop = asyncio.get_running_loop()
         path = "/api/v1/file.3mf?polytope=120-cell&of=oval&body=frame"
@@ -308,21 +316,21 @@ async def test_a_stop_does_not_wait_for_a_file():
             await file
 
 
-def test_a_slow_reader_gets_the_whole_of_a_long_file():
+def test_a_slow_reader_receives_a_whole_long_file():
     with Server("--write-timeout", 1) as server:
         query = "/api/v1/file.stl?polytope=24-cell&of=oval&body=frame"
         whole = server.get(query).body
         assert len(whole) > 20_000_000
-        wish = '{"type":"get","what":"file","format":"stl","of":"oval","body":"frame"}'
-        raw = deaf_socket(server, '{"type":"hello"}', '{"type":"set","polytope":"24-cell"}', wish,
-                          buffer=1 << 18)
+        request = '{"type":"get","what":"file","format":"stl","of":"oval","body":"frame"}'
+        raw = open_nonreading_socket(server, '{"type":"hello"}', '{"type":"set","polytope":"24-cell"}', request,
+                                     buffer=1 << 18)
         server.wait_for(lambda: server.metric("oval4d_file_seconds_count") == 2)
         start = time.monotonic()
         found = data = b""
         # Takes longer in total than the time limit of one write, but never pauses that long.
         while len(data) < len(whole):
             found = raw.recv(1 << 20)
-            assert found, "dropped"
+            assert found, "the server ended the connection"
             data += found
             time.sleep(2.5 * len(found) / len(whole))
         assert time.monotonic() - start > 2

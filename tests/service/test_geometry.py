@@ -9,7 +9,7 @@ from wire import Client
 PLANES = {"xy": (0, 1), "xz": (0, 2), "xw": (0, 3), "yz": (1, 2), "yw": (1, 3), "zw": (2, 3)}
 
 
-def turned(points, plane, angle):
+def rotate_points(points, plane, angle):
     a, b = PLANES[plane]
     result = []
     for point in points:
@@ -20,7 +20,7 @@ def turned(points, plane, angle):
     return result
 
 
-def cuts_of_a_simplex(vertices, w):
+def simplex_section(vertices, w):
     """Returns the 3-D points in which the edges of a 5-cell (all pairs of vertices) meet a hyperplane."""
     points = []
     for p, q in itertools.combinations(vertices, 2):
@@ -41,7 +41,7 @@ def volume(piece):
     return total
 
 
-def check_closed(piece):
+def assert_closed_surface(piece):
     """Asserts Euler's formula, and that the faces traverse each edge once in each direction."""
     if not piece["faces"]:
         return
@@ -52,28 +52,28 @@ def check_closed(piece):
     assert volume(piece) > 0
 
 
-async def test_the_cuts_of_the_5_cell_after_each_key(server):
+async def test_slices_of_the_5_cell_are_correct_after_each_rotation_key(server):
     keys = {"2": ["xy"], "3": ["xz"], "4": ["xw"], "5": ["yz"], "6": ["yw"], "7": ["zw"],
             "r": ["xw", "yz"], "t": ["xz", "yw"], "y": ["xy", "zw"]}
     alpha, beta = 0.3, 0.7
     async with Client(server, stream="geometry") as client:
-        expected = (await client.slices(0))["coordinates"]
+        expected = (await client.wait_for_slices(0))["coordinates"]
         await client.request("set", alpha=alpha, beta=beta)
         for key, planes in keys.items():
             for plane, angle in zip(planes, (alpha, beta)):
-                expected = turned(expected, plane, angle)
+                expected = rotate_points(expected, plane, angle)
             done = await client.request("key", key=key)
-            slices = await client.slices(done["revision"])
+            slices = await client.wait_for_slices(done["revision"])
             assert len(slices["slices"]) == 21
             for got, point in zip(slices["coordinates"], expected):
                 assert got == pytest.approx(point, abs=1e-6)
-            spacing = (await client.state(done["revision"]))["slices"]["spacing"]
+            spacing = (await client.wait_for_state(done["revision"]))["slices"]["spacing"]
             for piece in slices["slices"]:
                 assert piece["w"] == pytest.approx(piece["index"] * spacing)
-                check_closed(piece)
+                assert_closed_surface(piece)
                 if min(abs(p[3] - piece["w"]) for p in expected) < 1e-5:
                     continue  # the hyperplane contains a vertex: other tests cover this
-                points = cuts_of_a_simplex(expected, piece["w"])
+                points = simplex_section(expected, piece["w"])
                 assert len(points) == len(piece["vertices"])
                 for point in points:
                     assert min(math.dist(point, vertex) for vertex in piece["vertices"]) < 1e-5
@@ -84,31 +84,31 @@ async def test_the_cuts_of_the_5_cell_after_each_key(server):
 @pytest.mark.parametrize("polytope, content", [
     ("5-cell", math.sqrt(5) / 96 * 2**4), ("8-cell", 16), ("16-cell", 2**4 / 6), ("24-cell", 2 * 2**4),
 ])
-async def test_slices_fill_the_known_hypervolume(server, polytope, content):
+async def test_slice_volumes_sum_to_the_known_hypervolume(server, polytope, content):
     async with Client(server, stream="geometry") as client:
         await client.request("set", polytope=polytope, slices={"count": 201})
         await client.request("rotate", planes=["xw", "yz"], angles=[0.71, 1.93])
         done = await client.request("rotate", planes=["xz", "yw"], angles=[1.17, 0.45])
-        slices = (await client.slices(done["revision"]))["slices"]
+        slices = (await client.wait_for_slices(done["revision"]))["slices"]
         for piece in slices:
-            check_closed(piece)
+            assert_closed_surface(piece)
         total = sum(volume(piece) for piece in slices) * (slices[1]["w"] - slices[0]["w"])
         assert total == pytest.approx(content, rel=2e-3)
 
 
-async def test_degenerate_cuts_are_exact(server):
+async def test_slices_through_cells_and_vertices_are_exact(server):
     async with Client(server, stream="geometry") as client:
         done = await client.request("set", polytope="8-cell", slices={"count": 3, "spacing": 1})
-        pieces = (await client.slices(done["revision"]))["slices"]
+        pieces = (await client.wait_for_slices(done["revision"]))["slices"]
         assert [(len(p["vertices"]), len(p["edges"]), len(p["faces"])) for p in pieces] == [(8, 12, 6)] * 3
         done = await client.request("set", polytope="16-cell")
-        middle = (await client.slices(done["revision"]))["slices"][1]
+        middle = (await client.wait_for_slices(done["revision"]))["slices"][1]
         assert (len(middle["vertices"]), len(middle["edges"]), len(middle["faces"])) == (6, 12, 8)
 
 
-async def test_the_layout_travels_with_the_slices(server):
+async def test_the_slices_message_contains_the_layout(server):
     async with Client(server, stream="geometry", width=800, height=600) as client:
-        slices = await client.slices(0)
+        slices = await client.wait_for_slices(0)
         scene = slices["scene"]
         assert scene["viewport"] == {"width": 800, "height": 600}
         assert len(scene["colors"]["cells"]) == 5
@@ -118,5 +118,5 @@ async def test_the_layout_travels_with_the_slices(server):
         # z grows with the square of the distance from the focus.
         assert places[0][2] == pytest.approx(100 * places[9][2])
         done = await client.request("key", key="o")
-        single = await client.slices(done["revision"])
+        single = await client.wait_for_slices(done["revision"])
         assert [p["index"] for p in single["slices"] if p["drawn"]] == [0]

@@ -1,4 +1,4 @@
-"""Processes that draw, and hang: nobody waits for one for long, no session is lost, and nothing is left of it."""
+"""Drawing processes that hang: no client waits long for them, no session is lost, and they leave nothing behind."""
 
 import asyncio
 import contextlib
@@ -11,185 +11,185 @@ from pathlib import Path
 
 import png
 import pytest
-from harness import SLOW, Server, has_ended, until, wait_for_end
-from test_drawing import DEATHS, LARGE, LONG, SIZE, signal_the_one_at_work
+from harness import SLOW, Server, has_ended, wait_until, wait_for_processes_to_end
+from test_drawing import DEATHS, LARGE, LONG, SIZE, signal_busy_drawing_process
 from wire import Client, Refused
 
-TIMEOUT = max(2, round(0.8 * SLOW))  # a process begins within it, however busy the machine
+TIMEOUT = max(2, round(0.8 * SLOW))  # seconds; enough for a process to start on a busy machine
 PTRACE_SEIZE = 0x4206
 HANGS = 'oval4d_drawing_losses_total{cause="hung"}'
 
 
-class Stopping(Server):
-    """A server whose processes that draw are stopped when they are seen, while `stops` is set."""
+class SuspendsDrawers(Server):
+    """A server whose drawing processes are suspended (SIGSTOP) as soon as they appear, while `suspending` is set."""
 
-    def start(self, words, environment):
-        self.stops, self.seen, self.over = threading.Event(), set(), False
-        self.process = super().start(words, environment)
-        self.stopper = threading.Thread(target=self.stop_them)
-        self.stopper.start()
+    def start(self, command, environment):
+        self.suspending, self.suspended, self.finished = threading.Event(), set(), False
+        self.process = super().start(command, environment)
+        self.suspender = threading.Thread(target=self.suspend_drawers)
+        self.suspender.start()
         return self.process
 
-    def stop_them(self):
-        while not self.over:
-            if self.stops.wait(0.1):
-                self.seen.update(self.signal_drawing(signal.SIGSTOP))
+    def suspend_drawers(self):
+        while not self.finished:
+            if self.suspending.wait(0.1):
+                self.suspended.update(self.signal_drawing_processes(signal.SIGSTOP))
 
     def close(self):
-        self.over = True
-        self.stopper.join()
+        self.finished = True
+        self.suspender.join()
         self.kill()
 
 
-class StoppingAtFirst(Stopping):
-    """The first of them are stopped as they begin."""
+class SuspendsFirstDrawers(SuspendsDrawers):
+    """Suspends the first drawing processes as soon as they appear."""
 
-    def stop_them(self):
-        while len(self.seen) < 3 and not self.over:
-            self.seen.update(self.signal_drawing(signal.SIGSTOP))
+    def suspend_drawers(self):
+        while len(self.suspended) < 3 and not self.finished:
+            self.suspended.update(self.signal_drawing_processes(signal.SIGSTOP))
 
 
-async def test_a_process_that_is_stopped_between_pictures_is_replaced():
+async def test_a_drawing_process_suspended_between_pictures_is_replaced():
     with Server("--draw-timeout", TIMEOUT) as server:
         async with Client(server, stream="frames", **SIZE) as client:
-            first = await client.frame_of(0)
+            first = await client.wait_for_frame(0)
             done = await client.request("key", key="r")
-            await client.frame_of(done["revision"])
-            stopped = server.signal_drawing(signal.SIGSTOP)
+            await client.wait_for_frame(done["revision"])
+            stopped = server.signal_drawing_processes(signal.SIGSTOP)
             done = await client.request("undo")
-            again = await client.frame_of(done["revision"])
+            again = await client.wait_for_frame(done["revision"])
             assert png.pixels(again) == png.pixels(first)
             assert png.state_in(again)["revision"] == done["revision"]
             assert server.metric(HANGS) >= 1 and server.metric(DEATHS) == 0
             assert f"hung: no answer in {TIMEOUT} s" in server.log()
-            assert len(server.drawing()) == len(stopped) and any(map(has_ended, stopped))
-        server.signal_drawing(signal.SIGCONT)
+            assert len(server.drawing_processes()) == len(stopped) and any(map(has_ended, stopped))
+        server.signal_drawing_processes(signal.SIGCONT)
 
 
-async def test_one_that_hangs_holds_up_nobody_else_and_its_picture_comes():
+async def test_a_hanging_drawing_process_does_not_delay_other_clients():
     with Server("--draw-timeout", 3 * TIMEOUT) as server:
         async with Client(server, stream="none") as client, Client(server, stream="none") as other:
             await client.request("set", **LONG)
-            whole = await client.frame(**LARGE)
+            whole = await client.request_frame(**LARGE)
             while True:
-                asked = asyncio.ensure_future(client.frame(**LARGE))
-                pid = await signal_the_one_at_work(server, signal.SIGSTOP)
+                asked = asyncio.ensure_future(client.request_frame(**LARGE))
+                pid = await signal_busy_drawing_process(server, signal.SIGSTOP)
                 await asyncio.wait([asked], timeout=0.3 * SLOW)
                 if not asked.done():
                     break
-                os.kill(pid, signal.SIGCONT)  # it had drawn already
+                os.kill(pid, signal.SIGCONT)  # it had already finished the picture
             for _ in range(5):
                 await other.request("key", key="r")
-                await other.frame(**SIZE)
+                await other.request_frame(**SIZE)
             assert not asked.done()
             assert png.pixels(await asked) == png.pixels(whole)
             assert server.metric(HANGS) == 1 and server.metric(DEATHS) == 0 and has_ended(pid)
 
 
-async def test_a_picture_at_which_two_hang_is_refused_and_the_session_goes_on():
-    with contextlib.closing(Stopping("--draw-timeout", TIMEOUT)) as server:
+async def test_a_picture_that_hangs_two_processes_is_refused():
+    with contextlib.closing(SuspendsDrawers("--draw-timeout", TIMEOUT)) as server:
         async with Client(server, stream="none") as client:
-            before = await client.frame(**SIZE)
+            before = await client.request_frame(**SIZE)
             await client.request("key", key="r")
-            server.signal_drawing(signal.SIGSTOP)
-            server.stops.set()
+            server.signal_drawing_processes(signal.SIGSTOP)
+            server.suspending.set()
             with pytest.raises(Refused, match="internal"):
-                await client.frame(**SIZE)
-            server.stops.clear()
-            server.signal_drawing(signal.SIGCONT)
+                await client.request_frame(**SIZE)
+            server.suspending.clear()
+            server.signal_drawing_processes(signal.SIGCONT)
             assert server.metric(HANGS) >= 2 and server.metric(DEATHS) == 0
             assert 'fault="two processes were lost in a row, the second hung' in server.log()
             await client.request("undo")
-            assert png.pixels(await client.frame(**SIZE)) == png.pixels(before)
+            assert png.pixels(await client.request_frame(**SIZE)) == png.pixels(before)
         assert server.stop()[0] == 0
-        wait_for_end(server.seen)
+        wait_for_processes_to_end(server.suspended)
 
 
-async def test_processes_that_hang_as_they_begin_are_replaced():
-    with contextlib.closing(StoppingAtFirst("--draw-timeout", TIMEOUT)) as server:
+async def test_drawing_processes_that_hang_at_the_start_are_replaced():
+    with contextlib.closing(SuspendsFirstDrawers("--draw-timeout", TIMEOUT)) as server:
         assert server.metric(HANGS) >= 1 and server.metric(DEATHS) == 0
         async with Client(server, stream="none") as client:
-            await client.frame(**SIZE)
+            await client.request_frame(**SIZE)
         assert server.stop()[0] == 0
-        wait_for_end(server.seen)
+        wait_for_processes_to_end(server.suspended)
 
 
 @pytest.mark.parametrize("drawing", [True, False])
-async def test_a_server_that_is_to_stop_waits_for_none(drawing):
+async def test_a_server_stop_does_not_wait_for_hanging_processes(drawing):
     with Server("--draw-timeout", 1000, "--stop-timeout", 0.5) as server:
         async with Client(server, stream="none") as client:
-            pids = server.signal_drawing(signal.SIGSTOP)
+            pids = server.signal_drawing_processes(signal.SIGSTOP)
             if drawing:
                 received = server.metric("oval4d_messages_received_total")
                 await client.send("get", what="frame")
-                until(lambda: server.metric("oval4d_messages_received_total") > received, "the request")
+                wait_until(lambda: server.metric("oval4d_messages_received_total") > received, "the request")
                 await asyncio.sleep(0.1)
             status, _ = await asyncio.get_running_loop().run_in_executor(None, server.stop)
         assert status == 0 and "stopped" in server.log()
-        wait_for_end(pids)
+        wait_for_processes_to_end(pids)
 
 
-async def test_they_end_with_a_server_that_is_killed_though_they_hang():
+async def test_hanging_processes_end_when_the_server_is_killed():
     server = Server()
     try:
-        pids = server.signal_drawing(signal.SIGSTOP)
+        pids = server.signal_drawing_processes(signal.SIGSTOP)
         assert pids
     finally:
         server.kill()
-    wait_for_end(pids)
+    wait_for_processes_to_end(pids)
 
 
-async def test_one_that_does_not_end_though_it_is_killed_is_not_waited_for():
-    """The system lets a process that is traced go only when its tracer has seen its end."""
+async def test_the_server_does_not_wait_for_a_killed_process_to_end():
+    """The kernel keeps a killed process that is traced until its tracer has waited for it."""
     libc = ctypes.CDLL(None, use_errno=True)
     libc.ptrace.argtypes = [ctypes.c_long, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p]
     with Server("--draw-timeout", TIMEOUT) as server:
         async with Client(server, stream="none") as client, Client(server, stream="none") as other:
-            before = await client.frame(**SIZE)
-            traced = server.drawing()
+            before = await client.request_frame(**SIZE)
+            traced = server.drawing_processes()
             for pid in traced:
                 assert libc.ptrace(PTRACE_SEIZE, pid, None, None) == 0, os.strerror(ctypes.get_errno())
                 os.kill(pid, signal.SIGSTOP)
-            assert png.pixels(await client.frame(**SIZE)) == png.pixels(before)
-            killed = set(traced) - set(server.drawing())
+            assert png.pixels(await client.request_frame(**SIZE)) == png.pixels(before)
+            killed = set(traced) - set(server.drawing_processes())
             assert killed and server.metric(HANGS) == len(killed)
-            server.signal_drawing(signal.SIGKILL)
+            server.signal_drawing_processes(signal.SIGKILL)
             for pid in traced:
                 assert os.WTERMSIG(os.waitpid(pid, 0)[1]) == signal.SIGKILL
             assert all(Path(f"/proc/{pid}").exists() for pid in killed)
-            while any(Path(f"/proc/{pid}").exists() for pid in killed):  # until others begin in their places
-                server.signal_drawing(signal.SIGKILL)
-                await asyncio.gather(client.frame(**SIZE), other.frame(**SIZE))
+            while any(Path(f"/proc/{pid}").exists() for pid in killed):  # until new processes have replaced them
+                server.signal_drawing_processes(signal.SIGKILL)
+                await asyncio.gather(client.request_frame(**SIZE), other.request_frame(**SIZE))
 
 
-async def picture(client):
-    """Asked for until it comes: it is refused where two hang or die at it."""
+async def frame_after_retries(client):
+    """Requests a frame until it is drawn; it is refused if two processes in a row hang or die while they draw it."""
     while True:
         try:
-            return png.pixels(await client.frame(**SIZE))
+            return png.pixels(await client.request_frame(**SIZE))
         except Refused as refusal:
             assert refusal.code == "internal"
 
 
-async def test_nothing_is_lost_or_left_whatever_befalls_them():
-    """Processes are stopped and killed at any moment, also while they are told a polytope that they do not have."""
+async def test_randomly_killed_and_suspended_processes_leave_no_trace():
+    """Processes are suspended and killed at random moments, also while they receive a polytope."""
     names = ["120-cell", "omnitruncated 24-cell", "600-cell", "omnitruncated tesseract"]
-    chance = random.Random(4)
-    # Not `with Server(…)`: its log may have refusals.
-    harmed = contextlib.closing(Stopping("--draw-timeout", TIMEOUT, "--polytope-cache", 0))
+    rng = random.Random(4)
+    # Not `with Server(…)`, which fails if the log contains faults.
+    harmed = contextlib.closing(SuspendsDrawers("--draw-timeout", TIMEOUT, "--polytope-cache", 0))
     with harmed as server, Server() as other:
         async with Client(server, stream="none") as client, Client(other, stream="none") as unharmed:
-            await client.frame(**SIZE)
-            usual = len(server.files()), len(server.drawing())
+            await client.request_frame(**SIZE)
+            usual = len(server.open_files()), len(server.drawing_processes())
             for name in names if SLOW > 1 else names * 2:
                 await client.request("set", polytope=name)
                 await unharmed.request("set", polytope=name)
-                asked = asyncio.ensure_future(picture(client))
-                await asyncio.sleep(chance.uniform(0, 0.04))
-                server.signal_drawing(chance.choice([signal.SIGSTOP, signal.SIGKILL]))
-                assert await asked == await picture(unharmed)
-            await picture(client)
-            assert server.metric(HANGS) + server.metric(DEATHS) >= len(names) / 2  # some are met twice
-            until(lambda: len(server.files()) == usual[0], "as many open files as before")
-            assert len(server.drawing()) <= usual[1]
-        server.signal_drawing(signal.SIGCONT)
+                asked = asyncio.ensure_future(frame_after_retries(client))
+                await asyncio.sleep(rng.uniform(0, 0.04))
+                server.signal_drawing_processes(rng.choice([signal.SIGSTOP, signal.SIGKILL]))
+                assert await asked == await frame_after_retries(unharmed)
+            await frame_after_retries(client)
+            assert server.metric(HANGS) + server.metric(DEATHS) >= len(names) / 2  # a process may be hit twice
+            wait_until(lambda: len(server.open_files()) == usual[0], "as many open files as before")
+            assert len(server.drawing_processes()) <= usual[1]
+        server.signal_drawing_processes(signal.SIGCONT)

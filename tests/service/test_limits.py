@@ -6,17 +6,17 @@ import time
 
 import pytest
 import websockets
-from harness import DEADLINE, Server, run
-from wire import Client, Refused, connect, status_of
+from harness import DEADLINE, Server, run_oval4d
+from wire import Client, Refused, connect, handshake_status
 
 
-async def refused(client, type_, **members):
+async def request_refusal(client, type_, **members):
     with pytest.raises(Refused) as caught:
         await client.request(type_, **members)
     return caught.value
 
 
-async def test_the_welcome_tells_the_limits():
+async def test_the_welcome_message_states_the_limits():
     with Server("--max-message", "64k", "--max-depth", 9, "--max-requests", 77, "--min-side", 20, "--max-width", 900,
                 "--max-height", 800, "--max-pixels", 500_000, "--max-slices", 41, "--shown-timeout", 2.5,
                 "--max-file-triangles", 5000, "--max-file-bytes", "1M", "--max-file-time", 7) as server:
@@ -25,27 +25,27 @@ async def test_the_welcome_tells_the_limits():
                 "message": 65536, "request_bytes": 65536, "depth": 9, "requests_per_second": 77, "min_side": 20, "max_width": 900,
                 "max_height": 800, "max_pixels": 500_000, "slices": 41, "shown_timeout": 2.5,
                 "file_triangles": 5000, "file_bytes": 1 << 20, "file_time": 7}
-            assert (await refused(client, "set", slices={"count": 43})).code == "out_of_range"
+            assert (await request_refusal(client, "set", slices={"count": 43})).code == "out_of_range"
             for width, height in ((901, 100), (100, 801), (19, 100), (900, 800)):
-                assert (await refused(client, "get", what="frame", width=width, height=height)).code == "out_of_range"
-            await client.frame(width=900, height=20)
+                assert (await request_refusal(client, "get", what="frame", width=width, height=height)).code == "out_of_range"
+            await client.request_frame(width=900, height=20)
             await client.socket.send('{"type":"set","slices":' + '{"a":' * 9 + "1" + "}" * 10)
-            await client.until(lambda: any(m.get("code") == "bad_json" for m in client.messages if isinstance(m, dict)))
+            await client.wait_until(lambda: any(m.get("code") == "bad_json" for m in client.messages if isinstance(m, dict)))
             await client.socket.send(" " * 65537)
-            assert await client.closed() == 1009
+            assert await client.wait_for_close_code() == 1009
 
 
-async def fills_of(server, **settings):
+async def slice_fills(server, **settings):
     """Returns the triangles of each slice's fill, each as its three points."""
     async with Client(server) as client:
         await client.request("set", **settings)
-        await client.frame(width=160, height=90)
+        await client.request_frame(width=160, height=90)
         slices = (await client.request("get", what="slices"))["slices"]
         return [[[piece["fill"]["points"][i] for i in t] for t in piece["fill"]["triangles"]]
                 for piece in slices if "fill" in piece]
 
 
-def area(triangles):
+def total_area(triangles):
     total = 0
     for a, b, c in triangles:
         u, v = ([q - p for p, q in zip(a, end)] for end in (b, c))
@@ -53,20 +53,20 @@ def area(triangles):
     return total
 
 
-async def test_steps_of_filling():
+async def test_faces_beyond_the_fill_limit_are_filled_approximately():
     star = {"polytope": "{5/2,5,3}", "slices": {"count": 5}}
     with Server() as server:
-        exact = await fills_of(server, **star)
+        exact = await slice_fills(server, **star)
     with Server("--max-fill", 1) as server:
-        rough = await fills_of(server, **star)
+        rough = await slice_fills(server, **star)
     assert len(exact) == len(rough) > 0
     for triangles, roughly in zip(exact, rough):
-        assert area(roughly) > 1.01 * area(triangles), "stars' cores are covered more than once"
-    failed = run("--max-fill", "0")
+        assert total_area(roughly) > 1.01 * total_area(triangles), "the cores of the stars are covered more than once"
+    failed = run_oval4d("--max-fill", "0")
     assert failed.returncode != 0 and b"max-fill" in failed.stderr + failed.stdout
 
 
-async def test_sessions():
+async def test_the_number_of_sessions_is_limited():
     with Server("--max-sessions", 2) as server:
         async with Client(server), Client(server):
             async with connect(server) as third:
@@ -76,25 +76,25 @@ async def test_sessions():
                 await third.ping()
 
 
-async def connected(server):
+async def connect_when_possible(server):
     """Connects as soon as the limit allows it: connections of earlier requests take a moment to end."""
     limit = time.monotonic() + DEADLINE
     while True:
         try:
             return await connect(server)
         except websockets.InvalidHandshake as full:
-            assert status_of(full) == 503 and time.monotonic() < limit
+            assert handshake_status(full) == 503 and time.monotonic() < limit
 
 
-async def test_connections():
+async def test_the_number_of_connections_is_limited():
     with Server("--max-connections", 3) as server:
-        sockets = [await connected(server) for _ in range(3)]
+        sockets = [await connect_when_possible(server) for _ in range(3)]
         for socket in sockets:  # a connection that has said hello is not replaced by a new one
             await socket.send('{"type":"hello"}')
             await socket.recv()
         with pytest.raises(websockets.InvalidHandshake) as full:
             await connect(server)
-        assert status_of(full.value) == 503
+        assert handshake_status(full.value) == 503
         assert server.get("/healthz").status == 503
         for socket in sockets:
             await (await socket.ping())
@@ -102,15 +102,15 @@ async def test_connections():
         server.wait_for(lambda: server.get("/healthz").status == 200)
 
 
-async def test_requests_a_second():
+async def test_requests_per_second_are_limited():
     with Server("--max-requests", 50) as server:
         async with Client(server) as client, Client(server) as bystander:
             start = time.monotonic()
             for number in range(150):
                 await client.send("key", key="y", id=1000 + number)
-            await client.until(lambda: client.answer(1149))
-            allowed = sum(client.answer(1000 + n)["type"] == "done" for n in range(150))
-            errors = {client.answer(1000 + n).get("code") for n in range(150)} - {None}
+            await client.wait_until(lambda: client.answer_to(1149))
+            allowed = sum(client.answer_to(1000 + n)["type"] == "done" for n in range(150))
+            errors = {client.answer_to(1000 + n).get("code") for n in range(150)} - {None}
             passed = time.monotonic() - start
             assert 99 <= allowed <= 101 + 50 * passed
             assert errors <= {"too_many"} and (errors or passed > 0.9)
@@ -119,38 +119,38 @@ async def test_requests_a_second():
                     await client.send("key", key="y")
             except websockets.ConnectionClosed:
                 pass
-            assert await client.closed() == 1008
+            assert await client.wait_for_close_code() == 1008
             await bystander.request("key", key="y")
 
 
-async def test_steps_of_undo():
+async def test_the_number_of_undo_steps_is_limited():
     with Server("--max-undo", 3) as server:
         async with Client(server) as client:
             for _ in range(5):
                 await client.request("key", key="y")
             for _ in range(3):
                 await client.request("undo")
-            assert (await refused(client, "undo")).code == "nothing_to_undo"
+            assert (await request_refusal(client, "undo")).code == "nothing_to_undo"
 
 
-async def test_loaded_polytopes_and_their_vertices():
+async def test_loaded_polytopes_and_their_vertices_are_limited():
     simplex = ("4OFF\n5 10 10 5\n1 1 1 -0.447214\n1 -1 -1 -0.447214\n-1 1 -1 -0.447214\n-1 -1 1 -0.447214\n"
                "0 0 0 1.788854\n3 0 1 2\n3 0 1 3\n3 0 1 4\n3 0 2 3\n3 0 2 4\n3 0 3 4\n3 1 2 3\n3 1 2 4\n3 1 3 4\n"
                "3 2 3 4\n4 0 1 3 6\n4 0 2 4 7\n4 1 2 5 8\n4 3 4 5 9\n4 6 7 8 9\n")
     with Server("--max-loaded", 1) as server:
         async with Client(server) as client:
             await client.request("load", name="one", format="off", data=simplex)
-            assert (await refused(client, "load", name="two", format="off", data=simplex)).code == "too_many"
+            assert (await request_refusal(client, "load", name="two", format="off", data=simplex)).code == "too_many"
     with Server("--max-vertices", 4) as server:
         async with Client(server) as client:
-            assert (await refused(client, "load", name="one", format="off", data=simplex)).code == "too_large"
-            error = await refused(client, "set", polytope="7,9-duoprism")
+            assert (await request_refusal(client, "load", name="one", format="off", data=simplex)).code == "too_large"
+            error = await request_refusal(client, "set", polytope="7,9-duoprism")
             assert error.code == "too_large" and "63 vertices" in error.text
             await client.request("set", polytope="5,7-duoprism")  # polytopes of the catalogue are exempt from the limit
             await client.request("set", polytope="600-cell")
 
 
-async def test_polytopes_kept_without_being_in_use():
+async def test_the_size_of_the_polytope_cache_is_limited():
     names = ["omnitruncated 120-cell", "runcitruncated 120-cell", "runcitruncated 600-cell", "50,60-duoprism"]
     for option, least, most in ((0, 0, 0), ("2M", 1, 2 << 20), ("64M", 4 << 20, 64 << 20)):
         with Server("--polytope-cache", option) as server:
@@ -162,14 +162,14 @@ async def test_polytopes_kept_without_being_in_use():
             assert least <= server.metric("oval4d_polytope_cache_bytes") <= most
 
 
-async def test_a_silent_client_is_pinged_and_one_that_is_gone_is_dropped():
+async def test_clients_that_answer_no_ping_are_disconnected():
     with Server("--ping-interval", 0.3) as server:
         async with connect(server) as alive:
             await alive.send('{"type":"hello"}')
             # A client that answers no ping: its kernel keeps the connection open, but no program reads from it.
-            from test_pacing import deaf_socket
+            from test_pacing import open_nonreading_socket
 
-            gone = deaf_socket(server, '{"type":"hello"}')
+            gone = open_nonreading_socket(server, '{"type":"hello"}')
             server.wait_for(lambda: server.metric("oval4d_websockets") == 2)
             loop = asyncio.get_running_loop()
             await loop.run_in_executor(None, lambda: server.wait_for(lambda: server.metric("oval4d_websockets") == 1))
@@ -178,29 +178,29 @@ async def test_a_silent_client_is_pinged_and_one_that_is_gone_is_dropped():
             await asyncio.wait_for(pong, DEADLINE)
 
 
-async def test_answers_that_nobody_reads_stop_the_reading():
+async def test_the_server_stops_reading_while_its_answers_are_unread():
     with Server("--max-unsent", "16k", "--write-timeout", 1000) as server:
-        from test_pacing import deaf_socket, masked
+        from test_pacing import open_nonreading_socket, masked_frame
 
-        deaf = deaf_socket(server, '{"type":"hello"}')
-        deaf.settimeout(0.5)
+        nonreading = open_nonreading_socket(server, '{"type":"hello"}')
+        nonreading.settimeout(0.5)
         with pytest.raises(TimeoutError):
             for _ in range(200):
-                deaf.sendall(masked('{"type":"get","what":"keymap"}') * 1000)
-        deaf.close()
+                nonreading.sendall(masked_frame('{"type":"get","what":"keymap"}') * 1000)
+        nonreading.close()
 
 
-@pytest.mark.parametrize("words, says", [
+@pytest.mark.parametrize("words, expected_text", [
     (["--port", "99999"], "port"), (["--max-message", "lots"], "max-message"), (["--max-depth", "0"], "max-depth"),
     (["--ping-interval", "-1"], "ping-interval"), (["--nonsense"], "nonsense"), (["--log-level", "loud"], "log-level"),
     (["--workers", "many"], "workers"), (["dance"], "dance"),
 ])
-def test_a_bad_option_is_explained(words, says):
-    done = run(*words)
-    assert done.returncode != 0 and says in (done.stderr + done.stdout).decode()
+def test_an_invalid_option_is_explained(words, expected_text):
+    done = run_oval4d(*words)
+    assert done.returncode != 0 and expected_text in (done.stderr + done.stdout).decode()
 
 
-async def test_options_from_the_environment():
+async def test_environment_variables_set_options():
     with Server(OVAL4D_MAX_SLICES="31", OVAL4D_MAX_MESSAGE="1M") as server:
         async with Client(server) as client:
             assert client.welcome["limits"]["slices"] == 31 and client.welcome["limits"]["message"] == 1 << 20

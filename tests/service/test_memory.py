@@ -3,53 +3,53 @@
 import asyncio
 
 import pytest
-from harness import Server, sanitized
+from harness import Server, is_sanitizer_build
 from wire import Client, connect
 
 LARGEST = "omnitruncated 120-cell"
 NOISE = 8_000_000  # bytes; memory that a burst did not free would be several times as much
 
 
-async def stream(server, polytope, pictures, **hello):
+async def receive_pictures(server, polytope, pictures, **hello):
     """Turns a polytope until `pictures` pictures have arrived; returns those that follow."""
     async with Client(server, **hello) as client:
         await client.request("set", polytope=polytope)
         for count in range(pictures):
-            await client.until(lambda: len(client.pictures()) > count)
+            await client.wait_until(lambda: len(client.pictures()) > count)
             await client.request("key", key="y")
-        return await client.until(lambda: client.pictures()[pictures:])
+        return await client.wait_until(lambda: client.pictures()[pictures:])
 
 
-async def picture(server):
+async def reference_picture(server):
     async with Client(server) as client:
         await client.request("set", polytope="600-cell")
-        return await client.frame(width=640, height=360), (await client.request("get", what="slices"))["slices"]
+        return await client.request_frame(width=640, height=360), (await client.request("get", what="slices"))["slices"]
 
 
-async def falls_below(server, most):
-    condition = lambda: server.own_memory() < most
+async def wait_for_memory_below(server, most):
+    condition = lambda: server.anonymous_memory() < most
     await asyncio.get_running_loop().run_in_executor(None, lambda: server.wait_for(condition))
 
 
-@pytest.mark.skipif(sanitized(), reason="sanitizers keep what is freed")
-async def test_memory_comes_back_after_a_burst():
+@pytest.mark.skipif(is_sanitizer_build(), reason="sanitizers keep what is freed")
+async def test_memory_is_freed_after_a_burst():
     with Server("--session-expiry", 1) as server:
         streams = [{"stream": "frames"}, {"stream": "geometry"}, {"stream": "geometry", "encoding": "cbor"}]
-        before = await picture(server)
+        before = await reference_picture(server)
         for hello in streams:
-            await stream(server, "5-cell", 3, **hello)
-        warm = server.own_memory()
+            await receive_pictures(server, "5-cell", 3, **hello)
+        warm = server.anonymous_memory()
         onlookers = [await connect(server) for _ in range(600)]
-        theirs = server.own_memory() - warm
+        theirs = server.anonymous_memory() - warm
 
-        await asyncio.gather(*(stream(server, LARGEST, 12, **hello) for hello in 2 * streams))
-        assert server.own_memory() > warm + theirs + 2 * NOISE
-        await falls_below(server, warm + theirs + NOISE)
+        await asyncio.gather(*(receive_pictures(server, LARGEST, 12, **hello) for hello in 2 * streams))
+        assert server.anonymous_memory() > warm + theirs + 2 * NOISE
+        await wait_for_memory_below(server, warm + theirs + NOISE)
         await asyncio.sleep(1)  # the last busy worker frees its memory a little later
 
         # The memory of connections is freed, too, even if no picture is requested afterwards.
-        rest = server.own_memory()
+        rest = server.anonymous_memory()
         await asyncio.gather(*(onlooker.close() for onlooker in onlookers))
-        await falls_below(server, rest - theirs / 4)
-        assert server.own_memory() < warm + NOISE
-        assert await picture(server) == before
+        await wait_for_memory_below(server, rest - theirs / 4)
+        assert server.anonymous_memory() < warm + NOISE
+        assert await reference_picture(server) == before

@@ -11,55 +11,55 @@ from harness import DEADLINE, SLOW, Server
 from wire import Client
 
 
-def joined(client):
+def credentials_of(client):
     return {"session": client.welcome["session"], "token": client.welcome["token"]}
 
 
-def revisions(client):
-    return [m["revision"] for m in client.of_type("slices")]
+def slices_revisions(client):
+    return [m["revision"] for m in client.streamed_messages("slices")]
 
 
 async def test_at_most_two_pictures_are_in_flight():
     with Server("--shown-timeout", 1000) as server:
-        async with Client(server, stream="geometry", shows=False) as client:
-            await client.slices(0)
+        async with Client(server, stream="geometry", acknowledges=False) as client:
+            await client.wait_for_slices(0)
             for _ in range(20):
                 last = await client.request("key", key="r")
             # Answers are in order, so all pictures have arrived: two, and no third one without a `shown`.
-            await client.until(lambda: len(client.pictures()) == 2)
+            await client.wait_until(lambda: len(client.pictures()) == 2)
             for _ in range(20):
                 last = await client.request("key", key="r")
             assert len(client.pictures()) == 2
-            await client.send("shown", revision=revisions(client)[0])
-            await client.until(lambda: len(client.pictures()) == 3)
-            assert revisions(client)[-1] == last["revision"] == 40
+            await client.send("shown", revision=slices_revisions(client)[0])
+            await client.wait_until(lambda: len(client.pictures()) == 3)
+            assert slices_revisions(client)[-1] == last["revision"] == 40
             await client.send("shown", revision=40)
             done = await client.request("key", key="r")
-            await client.slices(done["revision"])
+            await client.wait_for_slices(done["revision"])
             assert len(client.pictures()) == len(client.states()) == 4
 
 
-async def test_who_never_says_shown_still_gets_the_newest():
+async def test_clients_that_never_acknowledge_get_the_newest_picture():
     with Server("--shown-timeout", 0.2) as server:
-        async with Client(server, stream="frames", width=64, height=64, shows=False) as client:
+        async with Client(server, stream="frames", width=64, height=64, acknowledges=False) as client:
             for _ in range(10):
                 last = await client.request("key", key="r")
-            frame = await client.frame_of(last["revision"])
+            frame = await client.wait_for_frame(last["revision"])
             assert png.state_in(frame)["revision"] == last["revision"]
 
 
 @pytest.mark.parametrize("stream", ["geometry", "frames", "none"])
-async def test_a_flood_of_keys_is_all_applied_and_the_newest_is_seen(server, stream):
+async def test_every_key_of_a_flood_is_applied(server, stream):
     count = 1000
     async with Client(server, stream=stream, width=160, height=90) as client:
         for number in range(count):
             await client.send("key", key="y" if number % 4 else "k")
-        state = await client.state(count)
+        state = await client.wait_for_state(count)
         assert state["revision"] == count
         if stream == "geometry":
-            await client.slices(count)
+            await client.wait_for_slices(count)
         if stream == "frames":
-            assert png.state_in(await client.frame_of(count))["revision"] == count
+            assert png.state_in(await client.wait_for_frame(count))["revision"] == count
         seen = [m["revision"] for m in client.states()]
         assert seen == sorted(set(seen))
         # α increases by 250 steps and is limited to 2π: the result shows that no key was lost.
@@ -68,22 +68,22 @@ async def test_a_flood_of_keys_is_all_applied_and_the_newest_is_seen(server, str
     assert server.metric("oval4d_slow_readers_total") == 0
 
 
-async def test_a_flood_from_several_clients_of_one_session(server):
-    async with Client(server, stream="geometry") as one, Client(server, stream="geometry", **joined(one)) as two:
+async def test_floods_of_keys_from_two_clients_are_applied(server):
+    async with Client(server, stream="geometry") as one, Client(server, stream="geometry", **credentials_of(one)) as two:
         async def flood(client, key):
             for _ in range(300):
                 await client.send("key", key=key)
         await asyncio.gather(flood(one, "r"), flood(two, "t"))
         for client in (one, two):
-            assert (await client.slices(600))["revision"] == 600
+            assert (await client.wait_for_slices(600))["revision"] == 600
         assert one.states()[-1] == two.states()[-1]
 
 
-async def test_turning_goes_on_by_itself_and_is_one_step_of_the_history(server):
+async def test_continuous_turning_is_one_undo_step(server):
     async with Client(server, stream="geometry") as client:
         await client.request("key", key="r")
         await client.request("key", key=" ")
-        await client.slices(8)
+        await client.wait_for_slices(8)
         await client.request("key", key=" ")
         stopped = await client.request("get", what="state")
         assert stopped["turning"] is False
@@ -94,19 +94,19 @@ async def test_turning_goes_on_by_itself_and_is_one_step_of_the_history(server):
             [0.9961946980917455, 0, 0, -0.08715574274765817])
 
 
-async def test_turning_waits_for_those_who_look():
+async def test_continuous_turning_waits_for_acknowledgments():
     with Server("--shown-timeout", 1000) as server:
-        async with Client(server, stream="geometry", shows=False) as client:
+        async with Client(server, stream="geometry", acknowledges=False) as client:
             await client.request("key", key="r")
             await client.request("key", key=" ")
-            await client.until(lambda: len(client.pictures()) == 2)
+            await client.wait_until(lambda: len(client.pictures()) == 2)
             still = (await client.request("get", what="state"))["revision"]
             assert (await client.request("get", what="state"))["revision"] == still
             await client.send("shown", revision=still)
-            await client.until(lambda: len(client.pictures()) > 2)
+            await client.wait_until(lambda: len(client.pictures()) > 2)
 
 
-def deaf_socket(server, *messages, buffer=4096):
+def open_nonreading_socket(server, *messages, buffer=4096):
     """Returns a raw socket with a small receive buffer that has sent messages and will never read."""
     raw = socket.socket()
     raw.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, buffer)
@@ -120,13 +120,13 @@ def deaf_socket(server, *messages, buffer=4096):
         answer += raw.recv(1)
     try:
         for message in messages:
-            raw.sendall(masked(message))
+            raw.sendall(masked_frame(message))
     except ConnectionError:  # the server has dropped the connection already
         pass
     return raw
 
 
-def masked(text, opcode=1, final=True):
+def masked_frame(text, opcode=1, final=True):
     """Returns a WebSocket frame, masked as a client must send it."""
     data, mask = text.encode() if isinstance(text, str) else text, os.urandom(4)
     size = len(data)
@@ -135,33 +135,33 @@ def masked(text, opcode=1, final=True):
     return header + mask + bytes(byte ^ mask[i % 4] for i, byte in enumerate(data))
 
 
-async def test_a_client_that_never_reads_is_dropped_and_harms_nobody():
+async def test_clients_that_never_read_are_disconnected():
     with Server("--write-timeout", 0.5 * SLOW, "--max-unsent", "64k") as server:
         hello = '{"type":"hello","stream":"frames","width":1600,"height":1200}'
-        wishes = ['{"type":"set","polytope":"600-cell"}'] + ['{"type":"get","what":"slices"}'] * 200
-        before = server.memory()
-        deaf = [deaf_socket(server, hello, *wishes) for _ in range(5)]
+        requests = ['{"type":"set","polytope":"600-cell"}'] + ['{"type":"get","what":"slices"}'] * 200
+        before = server.resident_memory()
+        nonreading = [open_nonreading_socket(server, hello, *requests) for _ in range(5)]
         async with Client(server, stream="geometry") as client:
             loop = asyncio.get_running_loop()
             dropped = loop.run_in_executor(
                 None, lambda: server.wait_for(lambda: server.metric("oval4d_slow_readers_total") >= 5))
             while not dropped.done():
                 done = await client.request("key", key="r")
-                await client.slices(done["revision"])
+                await client.wait_for_slices(done["revision"])
             await dropped
         await loop.run_in_executor(None, lambda: server.wait_for(lambda: server.metric("oval4d_websockets") == 0))
         # Buffering 200 answers of 200 kB for each of five clients would take 200 MB.
-        assert server.memory() - before < 100e6 * SLOW
-        for raw in deaf:
+        assert server.resident_memory() - before < 100e6 * SLOW
+        for raw in nonreading:
             raw.close()
 
 
-async def test_a_socket_closed_in_mid_message(server):
-    raw = deaf_socket(server, '{"type":"hello","stream":"frames"}')
-    raw.sendall(masked('{"type":"key","key":"y"}')[:9])
+async def test_the_server_survives_sockets_closed_within_a_message(server):
+    raw = open_nonreading_socket(server, '{"type":"hello","stream":"frames"}')
+    raw.sendall(masked_frame('{"type":"key","key":"y"}')[:9])
     raw.close()
-    raw = deaf_socket(server)
-    raw.sendall(masked('{"type":"hel', final=False))
+    raw = open_nonreading_socket(server)
+    raw.sendall(masked_frame('{"type":"hel', final=False))
     raw.close()
     async with Client(server, stream="geometry") as client:
         await client.request("key", key="y")

@@ -16,12 +16,12 @@ from wire import Client, Refused
     ("pentagonal antiprism prism", "pentagonal antiprism prism", (20, 50, 44, 14)),
     ("snub cube prism", "snub cubic prism", (48, 144, 136, 40)),
 ])
-async def test_names_and_notations(server, text, name, counts):
+async def test_names_and_notations_select_polytopes(server, text, name, counts):
     async with Client(server, stream="geometry") as client:
         for request in ({"type_": "set", "polytope": text}, {"type_": "command", "line": f":polytope {text}"}):
             await client.request("set", polytope="5-cell")
             done = await client.request(request.pop("type_"), **request)
-            state = await client.state(done["revision"])
+            state = await client.wait_for_state(done["revision"])
             polytope = state["polytope"]
             assert polytope["name"] == name
             assert tuple(polytope[part] for part in ("vertices", "edges", "faces", "cells")) == counts
@@ -29,10 +29,10 @@ async def test_names_and_notations(server, text, name, counts):
             # The polytope of a state message can be set again.
             await client.request("set", polytope="5-cell")
             done = await client.request("set", polytope=polytope)
-            assert (await client.state(done["revision"]))["polytope"] == polytope
+            assert (await client.wait_for_state(done["revision"]))["polytope"] == polytope
 
 
-async def test_kinds_are_named(server):
+async def test_kinds_of_cells_have_names_and_colors(server):
     async with Client(server) as client:
         await client.request("set", polytope="omnitruncated 120-cell")
         state = await client.request("get", what="state")
@@ -46,7 +46,7 @@ async def test_kinds_are_named(server):
         assert sorted(cells) == sorted(kind["color"] for kind in kinds for _ in range(kind["cells"]))
 
 
-@pytest.mark.parametrize("text, says", [
+@pytest.mark.parametrize("text, expected_text", [
     ("trunkated tesseract", "did you mean 'truncated tesseract'?"),
     ("omnitruncate 120 cell", "did you mean 'omnitruncated 120-cell'?"),
     ("truncated 14-cell", "did you mean 'truncated 16-cell' or 'truncated 24-cell'?"),
@@ -56,14 +56,14 @@ async def test_kinds_are_named(server):
     ("2,5-duoprism", "at least three sides"),
     ("{6,3,3}", "finite"),
 ])
-async def test_what_names_nothing_is_explained(server, text, says):
+async def test_unknown_names_are_explained(server, text, expected_text):
     async with Client(server) as client:
         before = await client.request("get", what="state")
         for line in ({"type_": "set", "polytope": text}, {"type_": "command", "line": f"polytope {text}"}):
             with pytest.raises(Refused) as refused:
                 await client.request(line.pop("type_"), **line)
             assert refused.value.code == "unknown_polytope"
-            assert says in refused.value.text and f"'{text}'" in refused.value.text
+            assert expected_text in refused.value.text and f"'{text}'" in refused.value.text
         after = await client.request("get", what="state")
         assert {**after, "id": 0} == {**before, "id": 0}
 
@@ -76,7 +76,7 @@ async def test_too_many_vertices_are_refused(server):
             assert refused.value.code == "too_large" and "100000" in refused.value.text
 
 
-async def test_every_entry_of_the_catalogue_has_its_counts(server):
+async def test_catalogue_entries_have_the_stated_counts(server):
     async with Client(server) as client:
         entries = (await client.request("get", what="catalogue"))["polytopes"]
         assert len(entries) > 80
@@ -90,7 +90,7 @@ async def test_every_entry_of_the_catalogue_has_its_counts(server):
                 assert polytope[part] == entry[part]
 
 
-async def test_n_leads_on_from_a_polytope_outside_the_catalogue(server):
+async def test_n_and_shift_n_enter_the_catalogue_from_other_polytopes(server):
     async with Client(server) as client:
         entries = (await client.request("get", what="catalogue"))["polytopes"]
         for key, name in (("n", entries[0]["name"]), ("N", entries[-1]["name"])):
@@ -99,7 +99,7 @@ async def test_n_leads_on_from_a_polytope_outside_the_catalogue(server):
             assert (await client.request("get", what="state"))["polytope"]["name"] == name
 
 
-async def test_a_builtin_name_cannot_be_loaded_over(server):
+async def test_built_in_names_are_refused_for_loaded_polytopes(server):
     async with Client(server) as client:
         for name in ("tesseract", "truncated tesseract", "7,9-duoprism", "x5o x8o"):
             with pytest.raises(Refused) as refused:

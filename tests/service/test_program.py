@@ -6,56 +6,56 @@ import subprocess
 
 import png
 import pytest
-from harness import DEADLINE, PROGRAM, SLOW, Server, run
+from harness import DEADLINE, PROGRAM, SLOW, Server, run_oval4d
 from wire import Client
 
 
-def test_version_and_help():
-    assert run("--version").stdout.startswith(b"oval4d ")
-    text = run("--help").stdout.decode()
+def test_version_and_help_are_printed():
+    assert run_oval4d("--version").stdout.startswith(b"oval4d ")
+    text = run_oval4d("--help").stdout.decode()
     for option in ("--host", "--port", "--workers", "--max-message", "--session-expiry", "--allow-origin", "--token"):
         assert option in text and "OVAL4D_" + option[2:].upper().replace("-", "_") in text
-    assert "--rotate" in run("render", "--help").stdout.decode()
+    assert "--rotate" in run_oval4d("render", "--help").stdout.decode()
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-async def test_a_stop_tells_every_client_to_come_back(number):
+async def test_a_stop_closes_every_connection_with_code_1012(number):
     with Server() as server:
         async with Client(server, stream="geometry") as one, Client(server, stream="frames") as two:
             await one.request("key", key="r")
             await one.request("key", key=" ")  # starts continuous turning
-            await two.frame_of(0)
+            await two.wait_for_frame(0)
             import asyncio
 
             stopped = asyncio.get_running_loop().run_in_executor(None, server.stop, number)
-            assert await one.closed() == 1012 and await two.closed() == 1012
+            assert await one.wait_for_close_code() == 1012 and await two.wait_for_close_code() == 1012
             status, seconds = await stopped
             assert status == 0 and seconds < 5 * SLOW
             assert "stopped" in server.log()
 
 
-def test_a_stop_waits_for_nobody_for_long():
-    from test_pacing import deaf_socket
+def test_a_stop_does_not_wait_for_unresponsive_clients():
+    from test_pacing import open_nonreading_socket
 
     with Server("--stop-timeout", 0.5) as server:
-        wishes = ['{"type":"set","polytope":"600-cell"}'] + ['{"type":"get","what":"slices"}'] * 100
-        deaf = deaf_socket(server, '{"type":"hello","stream":"frames","width":2000,"height":2000}', *wishes)
+        requests = ['{"type":"set","polytope":"600-cell"}'] + ['{"type":"get","what":"slices"}'] * 100
+        nonreading = open_nonreading_socket(server, '{"type":"hello","stream":"frames","width":2000,"height":2000}', *requests)
         idle = socket.create_connection((server.host, server.port), timeout=DEADLINE)
         server.wait_for(lambda: server.metric("oval4d_websockets") == 1)
         status, seconds = server.stop()
         assert status == 0 and seconds < 5 * SLOW
         assert idle.recv(1) == b""
-        deaf.close()
+        nonreading.close()
         idle.close()
 
 
-def test_a_port_that_is_taken_is_said():
+def test_a_port_in_use_is_reported():
     with Server() as server:
-        done = run("--port", server.port)
+        done = run_oval4d("--port", server.port)
         assert done.returncode == 1 and str(server.port) in done.stderr.decode()
 
 
-def test_serve_is_the_default():
+def test_the_serve_subcommand_starts_a_server():
     process = subprocess.Popen([str(PROGRAM), "serve", "--port", "0"], stderr=subprocess.PIPE)
     try:
         assert b"listening url=http://127.0.0.1:" in process.stderr.readline()
@@ -64,20 +64,20 @@ def test_serve_is_the_default():
         process.communicate(timeout=DEADLINE)
 
 
-def test_render_to_standard_output_and_with_any_setting():
-    done = run("render", "--polytope", "16-cell", "--slices", "11", "--view=single", "--focus", "-1", "--width", 200,
-               "--height", 150, "-o", "-")
+def test_render_writes_a_picture_to_standard_output():
+    done = run_oval4d("render", "--polytope", "16-cell", "--slices", "11", "--view=single", "--focus", "-1", "--width", 200,
+                      "--height", 150, "-o", "-")
     state = png.state_in(done.stdout)
     assert state["polytope"]["name"] == "16-cell" and state["view"] == "single"
     assert state["slices"]["count"] == 11 and state["slices"]["focus"] == -1
     assert png.pixels(done.stdout)[0] == (200, 150)
 
 
-@pytest.mark.parametrize("words, says", [
+@pytest.mark.parametrize("words, expected_text", [
     (["--polytope", "25-cell"], "5-cell"), (["--width", "0"], "16"), (["--color", "red"], "color"),
     (["--rotate", "xw:pi/0"], ""), (["--slices"], "slices"), (["frame.png"], "frame.png"),
     (["-o", "/nonexistent/frame.png"], "/nonexistent"),
 ])
-def test_render_explains_what_is_wrong(words, says):
-    done = run("render", *words)
-    assert done.returncode != 0 and says in (done.stderr + done.stdout).decode()
+def test_render_explains_invalid_options(words, expected_text):
+    done = run_oval4d("render", *words)
+    assert done.returncode != 0 and expected_text in (done.stderr + done.stdout).decode()

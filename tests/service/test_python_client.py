@@ -15,13 +15,13 @@ sys.path.insert(0, str(PYTHON))
 from oval4d_client import Closed, Refused, connect, png_state, socket_url  # noqa: E402
 
 
-def test_addresses():
+def test_page_addresses_become_websocket_addresses():
     assert socket_url("http://host:1/") == "ws://host:1/ws"
     assert socket_url("https://host/prefix/?token=x#y", "abc") == "wss://host/prefix/ws/abc?token=x"
     assert socket_url("ws://host") == "ws://host/ws"
 
 
-def test_every_message(server):
+def test_the_client_sends_every_message(server):
     with connect(server.url, timeout=DEADLINE) as oval:
         assert oval.hello()["session"] == oval.welcome["session"]
         assert oval.key("y")["revision"] == 1
@@ -39,13 +39,13 @@ def test_every_message(server):
         assert len(oval.slices()["slices"]) == 11
         assert oval.slices(640, 480)["scene"]["viewport"] == {"width": 640, "height": 480}
         picture = oval.frame(320, 200)
-        assert oval.file("off").startswith(b"4OFF") and oval.file("stl", body="frame", size=20)[:6] == b"oval4d"
+        assert oval.file("off").startswith(b"4OFF") and oval.file("stl", body="skeleton", size=20)[:6] == b"oval4d"
         assert png_state(picture)["revision"] == 9
         assert [polytope["name"] for polytope in oval.catalogue()][0] == "5-cell"
         assert any(key["name"] == "Ctrl-r" for key in oval.keymap())
 
 
-def test_errors_are_raised_and_harm_nothing(server):
+def test_errors_are_raised_and_change_nothing(server):
     with connect(server.url, timeout=DEADLINE) as oval:
         with pytest.raises(Refused, match="hello") as refused:
             oval.key("y")
@@ -63,7 +63,7 @@ def test_errors_are_raised_and_harm_nothing(server):
 
 
 @pytest.mark.parametrize("stream", ["none", "geometry", "frames"])
-def test_waits_for_what_another_client_does(server, stream):
+def test_wait_returns_after_changes_by_another_client(server, stream):
     with connect(server.url, timeout=DEADLINE) as one:
         welcome = one.hello(stream, width=320, height=200)
         with connect(server.url, session=welcome["session"], timeout=DEADLINE) as two:
@@ -83,26 +83,26 @@ def test_waits_for_what_another_client_does(server, stream):
                 assert one.key("2") == {"type": "done", "id": one.state()["id"] - 1, "revision": 51}
 
 
-def plain(value):
+def without_typed_arrays(value):
     """Converts typed arrays to lists."""
     if isinstance(value, array.array):
         return value.tolist()
     if isinstance(value, dict):
-        return {name: plain(member) for name, member in value.items()}
-    return [plain(item) for item in value] if isinstance(value, list) else value
+        return {name: without_typed_arrays(member) for name, member in value.items()}
+    return [without_typed_arrays(item) for item in value] if isinstance(value, list) else value
 
 
-def nested(message):
+def cbor_slices_as_json(message):
     """Converts a decoded CBOR `slices` message to the form of the JSON message."""
     def groups(flat, size):
         return [list(group) for group in zip(*[iter(flat)] * size)]
 
-    message = plain(message)
+    message = without_typed_arrays(message)
     if "coordinates" in message:
         message["coordinates"] = groups(message["coordinates"], 4)
     if "density" in message:
         message["density"] = groups(message["density"], message["scene"]["coordinates"]["columns"])
-    for piece in message["slices"]:
+    for piece in message["slices"] + message.get("projection", {}).get("parts", []):
         begin, corners = piece["faces"]["begin"], piece["faces"]["corners"]
         piece["vertices"] = groups(piece["vertices"], 3)
         piece["edges"] = groups(piece["edges"], 2)
@@ -112,16 +112,16 @@ def nested(message):
     return message
 
 
-def expect_alike(got, expected):
+def assert_approximately_equal(got, expected):
     """Asserts that the values are equal to the precision of float32."""
     if isinstance(expected, dict):
         assert got.keys() == expected.keys()
         for name, member in expected.items():
-            expect_alike(got[name], member)
+            assert_approximately_equal(got[name], member)
     elif isinstance(expected, list):
         assert len(got) == len(expected)
         for item, other in zip(got, expected):
-            expect_alike(item, other)
+            assert_approximately_equal(item, other)
     elif isinstance(expected, float):
         assert got == pytest.approx(expected, rel=1e-6, abs=1e-30)
     else:
@@ -134,9 +134,10 @@ def expect_alike(got, expected):
     ["polytope 120-cell", "rotate xw,yz 0.3 0.4"],                    # a density strip
     ["polytope truncated tesseract", "hide 1", "rotate xw 0.2"],      # hidden cells: `seen`
     ["polytope grand 600-cell", "set slices=3", "rotate xw 0.2"],     # crossing faces: `fill`
+    ["polytope truncated tesseract", "hide 1", "project perspective", "set cells=on sections=on"],
     ["polytope 5-cell", "focus 100"],                                 # no slice
 ])
-def test_cbor_says_the_same_as_json(server, lines):
+def test_cbor_and_json_slices_are_equal(server, lines):
     with connect(server.url, timeout=DEADLINE) as oval:
         oval.hello()
         for line in lines:
@@ -145,13 +146,13 @@ def test_cbor_says_the_same_as_json(server, lines):
         oval.hello(encoding="cbor")
         packed = oval.slices()
     assert packed.pop("id") > text.pop("id")
-    expect_alike(nested(packed), text)
+    assert_approximately_equal(cbor_slices_as_json(packed), text)
     kinds = {kind for piece in text["slices"] for kind in ("tints", "seen", "fill") if kind in piece}
     assert kinds == {"polytope 8-cell": {"tints"}, "polytope truncated tesseract": {"seen"},
                      "polytope grand 600-cell": {"fill"}}.get(lines[0], set())
 
 
-def test_cbor(server):
+def test_cbor_arrays_have_the_documented_types(server):
     with connect(server.url, timeout=DEADLINE) as oval:
         oval.hello("geometry", encoding="cbor")
         oval.wait(0)
@@ -162,7 +163,7 @@ def test_cbor(server):
         assert list(focus["faces"]["begin"]) == [0, 3, 6, 9, 12]
 
 
-def test_a_connection_that_ends_says_how(server):
+def test_an_ended_connection_raises_its_close_code(server):
     with connect(server.url, session="nobody", timeout=DEADLINE) as oval:
         with pytest.raises(Refused) as refused:
             oval.hello()
@@ -174,7 +175,7 @@ def test_a_connection_that_ends_says_how(server):
         connect("http://127.0.0.1:1/", timeout=DEADLINE)
 
 
-def test_comes_back_to_its_session(tmp_path):
+def test_the_client_rejoins_its_session_after_restarts(tmp_path):
     port = None
     for round_ in range(3):
         with Server("--store", f"sqlite:{tmp_path / 'sessions'}", *([] if port is None else ["--port", port])) as server:
@@ -189,7 +190,7 @@ def test_comes_back_to_its_session(tmp_path):
     oval.close()
 
 
-def test_the_example_makes_its_picture(server, tmp_path):
+def test_the_example_writes_its_picture(server, tmp_path):
     script = (PYTHON / "example.py").read_text(encoding="utf-8").replace("http://127.0.0.1:8080/", server.url)
     subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=True, timeout=DEADLINE,
                    env=os.environ | {"PYTHONPATH": str(PYTHON)})

@@ -21,7 +21,7 @@ STATES = [[], ["polytope 8-cell"], ["polytope 5,7-duoprism", "rotate xw 0.5", "h
           ["polytope 5/2,5-duoprism", "rotate xw,yz 0.3 0.1", "fade 0"], ["polytope 120-cell", "set slices=1"]]
 
 
-async def answers_of(server, lines, encoding):
+async def slices_and_frame(server, lines, encoding):
     """Returns a `slices` message and a frame of the state that these commands produce, as received."""
     async with connect(server) as socket:
         await socket.send(json.dumps({"type": "hello", "encoding": encoding}))
@@ -40,61 +40,61 @@ async def answers_of(server, lines, encoding):
 
 
 @pytest.fixture(scope="module")
-def messages(tmp_path_factory):
+def message_folder(tmp_path_factory):
     """Returns a folder for messages in each state and format; the first test fills it."""
     return tmp_path_factory.mktemp("messages")
 
 
-async def fill(server, folder):
+async def write_messages(server, folder):
     if any(folder.glob("*.cbor")):
         return
     for number, lines in enumerate(STATES):
-        cbor, frame = await answers_of(server, lines, "cbor")
-        text, _ = await answers_of(server, lines, "json")
+        cbor, frame = await slices_and_frame(server, lines, "cbor")
+        text, _ = await slices_and_frame(server, lines, "json")
         for kind, data in (("cbor", cbor), ("json", text), ("png", frame)):
             (folder / f"{number}.{kind}").write_bytes(data)
     (folder / "query.link").write_text("?polytope=24-cell&rotate=xw,yz:pi/8,0.2&slices=31&view=%C3%B6&token=x%20y")
 
 
-def spoilt(data, chance):
+def damaged_copy(data, rng):
     """Returns a copy with some bytes changed, removed, repeated, or set to large values."""
     out = bytearray(data)
-    for _ in range(1 + chance.randrange(4)):
-        at, some = chance.randrange(len(out) + 1), 1 + chance.randrange(16)
-        kind = chance.randrange(5)
+    for _ in range(1 + rng.randrange(4)):
+        at, some = rng.randrange(len(out) + 1), 1 + rng.randrange(16)
+        kind = rng.randrange(5)
         if kind == 0:
-            out[at:at + 1] = bytes([chance.randrange(256)])
+            out[at:at + 1] = bytes([rng.randrange(256)])
         elif kind == 1:
-            out[at:at + 1] = bytes(byte ^ 1 << chance.randrange(8) for byte in out[at:at + 1])
+            out[at:at + 1] = bytes(byte ^ 1 << rng.randrange(8) for byte in out[at:at + 1])
         elif kind == 2:
             del out[at:at + some]
         elif kind == 3:
             out[at:at] = out[at:at + some]
         else:
             out[at:at + some] = b"\xff" * len(out[at:at + some])
-        if chance.randrange(16) == 0:
+        if rng.randrange(16) == 0:
             del out[at:]
     return bytes(out)
 
 
-async def test_python_reads_a_message_or_says_it_is_none(server, messages):
-    await fill(server, messages)
-    chance = random.Random(11)
+async def test_the_python_client_reads_or_refuses_damaged_messages(server, message_folder):
+    await write_messages(server, message_folder)
+    rng = random.Random(11)
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     for read, kind in ((from_cbor, "cbor"), (png_state, "png")):
         refused = 0
-        for file in sorted(messages.glob(f"*.{kind}")):
+        for file in sorted(message_folder.glob(f"*.{kind}")):
             whole = file.read_bytes()
             assert read(whole)["revision"] == len(STATES[int(file.stem)])
             for _ in range(600):
-                data = spoilt(whole, chance)
+                data = damaged_copy(whole, rng)
                 start = time.monotonic()
                 try:
                     assert isinstance(read(data), dict)
                 except ValueError:
                     refused += 1
                 assert time.monotonic() - start < 2 * SLOW
-        assert refused > 100, f"of {kind}, hardly any was refused"
+        assert refused > 100, f"few damaged {kind} messages were refused"
     grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
     assert grown < 300_000, f"reading took {grown} KiB"
 
@@ -103,7 +103,7 @@ async def test_python_reads_a_message_or_says_it_is_none(server, messages):
                                   b"\x9b" + b"\x7f" * 8, b"\xbb" + b"\x7f" * 8, b"\x5b" + b"\x7f" * 8, b"\xd8\x55\x43abc",
                                   b"\xc4\x82\x1b" + b"\x7f" * 8 + b"\x01", b"\xa1\x66slices\xa0",
                                   b"\xa1\x66slices\xa1\x66counts\xf6"])
-def test_python_refuses_by_one_exception(data):
+def test_the_python_client_refuses_invalid_data_with_value_error(data):
     for read in (from_cbor, png_state):
         with pytest.raises(ValueError):
             read(data)
@@ -112,16 +112,16 @@ def test_python_refuses_by_one_exception(data):
         png_state(b"\x89PNG\r\n\x1a\n" + len(text + b"oval4d" + bytes(5)).to_bytes(4, "big") + b"iTXtoval4d" + bytes(5) + text + bytes(4))
 
 
-async def test_typescript_reads_a_message_or_throws_an_error(server, messages):
-    await fill(server, messages)
+async def test_the_typescript_client_reads_or_refuses_damaged_messages(server, message_folder):
+    await write_messages(server, message_folder)
     modules = ROOT / "web_client/node_modules"
-    entry = messages / "readers.ts"
+    entry = message_folder / "readers.ts"
     entry.write_text("".join(f'export * from "{ROOT / file}";\n' for file in
                              ("protocol/ts/arena.ts", "protocol/ts/decode.ts", "web_client/src/link.ts")))
     subprocess.run([modules / ".bin/esbuild", entry, "--bundle", "--format=esm", "--log-level=error",
-                    f"--alias:@oval4d/protocol={ROOT}/protocol/ts/index.ts", f"--outfile={messages}/readers.mjs"],
+                    f"--alias:@oval4d/protocol={ROOT}/protocol/ts/index.ts", f"--outfile={message_folder}/readers.mjs"],
                    check=True, env={"NODE_PATH": str(modules), "PATH": "/usr/bin:/bin:/usr/local/bin"})
-    done = subprocess.run(["node", "--max-old-space-size=256", ROOT / "tests/service/spoil.mjs", messages, "7"],
+    done = subprocess.run(["node", "--max-old-space-size=256", ROOT / "tests/service/read_damaged.mjs", message_folder, "7"],
                           capture_output=True, text=True, timeout=6 * DEADLINE)
     assert done.returncode == 0, done.stderr
     counts = json.loads(done.stdout)

@@ -4,26 +4,26 @@ import asyncio
 
 import pytest
 from harness import Server
-from wire import Client, turned_away
+from wire import Client, hello_refusal
 
 
-def opened_by(client):
+def credentials_of(client):
     return {"session": client.welcome["session"], "token": client.welcome["token"]}
 
 
 async def test_several_clients_see_every_change(server):
     async with Client(server, stream="geometry") as one:
-        async with Client(server, stream="geometry", encoding="cbor", **opened_by(one)) as two, \
-                Client(server, stream="frames", width=64, height=64, **opened_by(one)) as three, \
-                Client(server, **opened_by(one)) as four:
+        async with Client(server, stream="geometry", encoding="cbor", **credentials_of(one)) as two, \
+                Client(server, stream="frames", width=64, height=64, **credentials_of(one)) as three, \
+                Client(server, **credentials_of(one)) as four:
             assert two.welcome["session"] == one.welcome["session"]
             for turn, client in enumerate((one, two, three, four), start=1):
                 await client.request("key", key="r")
-                assert (await one.slices(turn))["revision"] == turn
-                assert (await two.slices(turn))["revision"] == turn
-                await three.frame_of(turn)
-                await four.state(turn)
-                states = [(await c.state(turn))["orientation"] for c in (one, two, three, four)]
+                assert (await one.wait_for_slices(turn))["revision"] == turn
+                assert (await two.wait_for_slices(turn))["revision"] == turn
+                await three.wait_for_frame(turn)
+                await four.wait_for_state(turn)
+                states = [(await c.wait_for_state(turn))["orientation"] for c in (one, two, three, four)]
                 assert all(state == states[0] for state in states)
 
 
@@ -32,11 +32,11 @@ async def test_a_session_survives_a_reload(server):
         await client.request("set", polytope="8-cell")
         await client.request("key", key="t")
         before = await client.request("get", what="state")
-        keys = opened_by(client)
-    async with Client(server, stream="geometry", **keys) as client:
+        credentials = credentials_of(client)
+    async with Client(server, stream="geometry", **credentials) as client:
         after = await client.request("get", what="state")
         assert {**after, "id": 0} == {**before, "id": 0}
-        assert (await client.slices(before["revision"]))["revision"] == before["revision"]
+        assert (await client.wait_for_slices(before["revision"]))["revision"] == before["revision"]
         await client.request("undo")  # the history is kept, too
         await client.request("undo")
         assert (await client.request("get", what="state"))["polytope"]["name"] == "5-cell"
@@ -53,40 +53,40 @@ async def test_sessions_are_separate(server):
     ({"token": "wrong"}, "bad_token", 4401), ({"token": None}, "bad_token", 4401),
     ({"session": "nosuchsession"}, "not_found", 4404),
 ])
-async def test_who_has_no_ticket_stays_outside(server, change, code, close):
+async def test_joining_with_wrong_credentials_is_refused(server, change, code, close):
     async with Client(server) as owner:
-        ticket = {name: value for name, value in {**opened_by(owner), **change}.items() if value is not None}
-        assert await turned_away(server, **ticket) == (code, close)
+        credentials = {name: value for name, value in {**credentials_of(owner), **change}.items() if value is not None}
+        assert await hello_refusal(server, **credentials) == (code, close)
         await owner.request("key", key="y")
 
 
-async def test_the_token_is_needed_while_nobody_is_there_too(server):
+async def test_the_token_is_required_after_all_clients_have_left(server):
     async with Client(server) as owner:
-        ticket = opened_by(owner)
-    assert await turned_away(server, ticket["session"], token="wrong") == ("bad_token", 4401)
-    async with Client(server, **ticket) as owner:
+        credentials = credentials_of(owner)
+    assert await hello_refusal(server, credentials["session"], token="wrong") == ("bad_token", 4401)
+    async with Client(server, **credentials) as owner:
         await owner.request("key", key="y")
 
 
-async def test_leaving_in_mid_frame_harms_nobody(server):
+async def test_leaving_during_a_frame_does_not_affect_other_clients(server):
     async with Client(server) as owner:
         await owner.request("set", polytope="600-cell")
         for _ in range(5):
-            leaver = Client(server, stream="frames", **opened_by(owner))
+            leaver = Client(server, stream="frames", **credentials_of(owner))
             async with leaver:
                 await leaver.send("key", key="y")
                 await leaver.send("get", id=77, what="frame", width=2000, height=1500)
                 leaver.socket.transport.abort()
         await owner.request("key", key="y")
-        assert len(await owner.frame(width=64, height=64)) > 100
+        assert len(await owner.request_frame(width=64, height=64)) > 100
 
 
-async def test_sessions_expire_when_nobody_has_them_open():
+async def test_sessions_without_clients_expire():
     with Server("--session-expiry", 0.2) as server:
         async with Client(server) as staying:
             async with Client(server) as leaving:
-                keys = opened_by(leaving)
+                credentials = credentials_of(leaving)
             await asyncio.get_running_loop().run_in_executor(
                 None, lambda: server.wait_for(lambda: server.metric("oval4d_sessions") == 1))
-            assert await turned_away(server, **keys) == ("not_found", 4404)
+            assert await hello_refusal(server, **credentials) == ("not_found", 4404)
             await staying.request("key", key="y")

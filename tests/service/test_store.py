@@ -11,39 +11,39 @@ import time
 import pytest
 import websockets
 from harness import DEADLINE, PROGRAM, SLOW, Server
-from wire import Client, turned_away
+from wire import Client, hello_refusal
 
-def opened_by(client):
+def credentials_of(client):
     return {"session": client.welcome["session"], "token": client.welcome["token"]}
 
 
-@pytest.fixture(name="path")
-def file_path(tmp_path):
+@pytest.fixture(name="store_path")
+def temporary_store_path(tmp_path):
     return tmp_path / "sessions.sqlite"
 
 
-def on_file(path, statement, *values):
+def execute_sql(store_path, statement, *values):
     """Executes an SQL statement on the file while no server uses it; returns the rows."""
-    with contextlib.closing(sqlite3.connect(path, isolation_level=None)) as file:
+    with contextlib.closing(sqlite3.connect(store_path, isolation_level=None)) as file:
         return file.execute(statement, values).fetchall()
 
 
-def points():
+def box_points():
     return "".join(f"{x} {y} {z} {w}\n" for x in (-1, 1) for y in (-1, 1.5) for z in (-1, 1) for w in (-1, 1.25))
 
 
-async def test_a_session_and_its_polytopes_survive_a_restart(path):
-    with Server("--store", f"sqlite:{path}") as server:
+async def test_a_session_and_its_polytopes_survive_a_restart(store_path):
+    with Server("--store", f"sqlite:{store_path}") as server:
         async with Client(server) as client:
-            await client.request("load", name="mine", format="points", data=points())
+            await client.request("load", name="mine", format="points", data=box_points())
             await client.request("key", key="t")
             await client.request("set", polytope="snub 24-cell", color="kind", hidden=[0])
             await client.request("key", key="r")
             before = await client.request("get", what="state")
-            keys = opened_by(client)
-    with Server("--store", f"sqlite:{path}") as server:
+            credentials = credentials_of(client)
+    with Server("--store", f"sqlite:{store_path}") as server:
         assert server.metric("oval4d_sessions") == 1
-        async with Client(server, **keys) as client:
+        async with Client(server, **credentials) as client:
             assert {**await client.request("get", what="state"), "id": 0} == {**before, "id": 0}
             await client.request("undo")
             await client.request("undo")
@@ -51,67 +51,67 @@ async def test_a_session_and_its_polytopes_survive_a_restart(path):
             assert (state["polytope"]["name"], state["polytope"]["vertices"]) == ("mine", 16)
             names = [p["name"] for p in (await client.request("get", what="catalogue"))["polytopes"]]
             assert "mine" in names
-        assert await turned_away(server, keys["session"], token="wrong") == ("bad_token", 4401)
+        assert await hello_refusal(server, credentials["session"], token="wrong") == ("bad_token", 4401)
 
 
-async def test_a_file_has_one_server(path):
-    with Server("--store", f"sqlite:{path}"):
-        second = subprocess.run([PROGRAM, "--port", "0", "--store", f"sqlite:{path}"], capture_output=True, text=True,
+async def test_a_store_file_is_used_by_only_one_server(store_path):
+    with Server("--store", f"sqlite:{store_path}"):
+        second = subprocess.run([PROGRAM, "--port", "0", "--store", f"sqlite:{store_path}"], capture_output=True, text=True,
                                 timeout=DEADLINE, check=False)
         assert second.returncode == 1
         assert "in use by another server" in second.stderr
 
 
-@pytest.mark.parametrize("store, says", [
+@pytest.mark.parametrize("store, expected_text", [
     ("disk", "the store must be memory, sqlite:PATH or redis://host, not 'disk'"),
     ("redis://host:x", "the Redis port must be a number from 1 to 65535"),
     ("sqlite:/proc/nowhere/sessions", "unable to open"),
 ])
-def test_a_store_that_cannot_be_is_refused(store, says):
+def test_an_invalid_store_option_is_refused(store, expected_text):
     refused = subprocess.run([PROGRAM, "--port", "0", "--store", store], capture_output=True, text=True,
                              timeout=DEADLINE, check=False)
     assert refused.returncode == 1
-    assert says in refused.stderr
+    assert expected_text in refused.stderr
 
 
-async def test_a_record_that_cannot_be_read_is_told_and_left(path):
-    with Server("--store", f"sqlite:{path}") as server:
+async def test_an_unreadable_record_is_reported_and_kept(store_path):
+    with Server("--store", f"sqlite:{store_path}") as server:
         async with Client(server) as client:
             await client.request("key", key="t")
-            keys = opened_by(client)
-    on_file(path, "UPDATE session SET whole = ?", b"\x82\x07\x00")
-    server = Server("--store", f"sqlite:{path}")
+            credentials = credentials_of(client)
+    execute_sql(store_path, "UPDATE session SET whole = ?", b"\x82\x07\x00")
+    server = Server("--store", f"sqlite:{store_path}")
     try:
-        assert await turned_away(server, **keys) == ("not_found", 4404)
+        assert await hello_refusal(server, **credentials) == ("not_found", 4404)
         assert "session cannot be read" in server.log() and "version 7" in server.log()
         async with Client(server) as client:  # the server still works
             await client.request("key", key="t")
         server.stop()
     finally:
         server.kill()
-    assert (b"\x82\x07\x00",) in on_file(path, "SELECT whole FROM session")
+    assert (b"\x82\x07\x00",) in execute_sql(store_path, "SELECT whole FROM session")
 
 
-class Presser:
-    """Presses k and K, each of which adds a step to α or β; so the angles of a state determine its revision."""
+class KeyPresser:
+    """Presses k and K, each of which adds a step to α or β, so that the angles of a state determine its revision."""
 
     def __init__(self):
-        self.keys = {}
+        self.credentials = {}
         self.start = None  # α and β at revision 0, in steps
         self.pressed = 0
-        self.done = [(0.0, 0)]  # (time, revision) of each acknowledgment
+        self.acknowledged = [(0.0, 0)]  # (time, revision) of each acknowledgment
         self.ending = False
         self.killed = None  # time at which the server was killed
 
     async def press(self, server):
         try:
-            async with Client(server, **self.keys) as client:
-                self.keys = opened_by(client)
+            async with Client(server, **self.credentials) as client:
+                self.credentials = credentials_of(client)
                 await self.check(client)
                 while True:
                     done = await client.request("key", key="k" if self.pressed % 2 == 0 else "K")
                     self.pressed += 1
-                    self.done.append((time.monotonic(), done["revision"]))
+                    self.acknowledged.append((time.monotonic(), done["revision"]))
                     # Slow enough that the angles never reach their limits, which are 710 steps away.
                     await asyncio.sleep(random.random() / 16 * SLOW)
         except (AssertionError, OSError, websockets.ConnectionClosed):
@@ -123,18 +123,18 @@ class Presser:
         steps = round((state["alpha"] + state["beta"]) / state["step"])
         if self.start is None:
             self.start = steps - state["revision"]
-        assert steps - state["revision"] == self.start, "this is a state that never was"
+        assert steps - state["revision"] == self.start, "the angles do not match the revision"
         if self.killed is not None:
-            safe = max(revision for at, revision in self.done if at < self.killed - 1 * SLOW)
-            assert safe <= state["revision"] <= self.done[-1][1] + 1
-            self.done = [(0.0, state["revision"])]
+            safe = max(revision for at, revision in self.acknowledged if at < self.killed - 1 * SLOW)
+            assert safe <= state["revision"] <= self.acknowledged[-1][1] + 1
+            self.acknowledged = [(0.0, state["revision"])]
 
 
-async def test_killed_many_times_under_load(path):
+async def test_acknowledged_changes_survive_repeated_kills(store_path):
     """No change acknowledged more than a second before the kill is lost, and the file stays valid."""
-    pressers = [Presser() for _ in range(12)]
+    pressers = [KeyPresser() for _ in range(12)]
     for round_ in range(10 if SLOW == 1 else 4):
-        server = Server("--store", f"sqlite:{path}")
+        server = Server("--store", f"sqlite:{store_path}")
         try:
             tasks = [asyncio.ensure_future(presser.press(server)) for presser in pressers]
             await asyncio.sleep(random.uniform(0.1, 1.8) * SLOW)
@@ -149,5 +149,5 @@ async def test_killed_many_times_under_load(path):
         for presser in pressers:
             presser.killed, presser.ending = killed, False
         if round_ % 3 == 0:
-            assert on_file(path, "PRAGMA integrity_check") == [("ok",)]
+            assert execute_sql(store_path, "PRAGMA integrity_check") == [("ok",)]
     assert sum(presser.pressed for presser in pressers) > 100

@@ -18,7 +18,7 @@ def connect(server, session="", **keywords):
     return websockets.connect(url, max_size=None, max_queue=None, ping_interval=None, compression=None, **keywords)
 
 
-def status_of(refusal):
+def handshake_status(refusal):
     """Returns the HTTP status of a refused handshake, with any version of the library."""
     return refusal.status_code if hasattr(refusal, "status_code") else refusal.response.status_code
 
@@ -34,21 +34,21 @@ class Refused(Exception):
 class Client:
     """A session's client: `async with Client(server, stream="geometry") as client:` sends hello and awaits welcome.
 
-    `messages` holds everything received: dictionaries, and bytes for frames and files. If `shows`, the client
-    acknowledges each picture.
+    `messages` holds everything received: dictionaries, and bytes for frames and files. `address` is the local address.
+    If `acknowledges`, the client sends `shown` for each picture.
     """
 
-    def __init__(self, server, session="", shows=True, address=None, **hello):
-        self.server, self.session, self.shows = server, session, shows
-        self.connecting = {} if address is None else {"local_addr": (address, 0)}  # the local address
+    def __init__(self, server, session="", acknowledges=True, address=None, **hello):
+        self.server, self.session, self.acknowledges = server, session, acknowledges
+        self.connect_options = {} if address is None else {"local_addr": (address, 0)}
         self.hello = hello
         self.messages = []
         self.close_code = None
         self._ids = itertools.count(1)
-        self._news = asyncio.Condition()
+        self._changed = asyncio.Condition()
 
     async def __aenter__(self):
-        self.socket = await connect(self.server, self.session, **self.connecting)
+        self.socket = await connect(self.server, self.session, **self.connect_options)
         self._reader = asyncio.ensure_future(self._read())
         try:
             self.welcome = await self.request("hello", **self.hello)
@@ -69,15 +69,15 @@ class Client:
             async for data in self.socket:
                 message = self.decode(data)
                 self.messages.append(message)
-                if self.shows and self.is_picture(message):
+                if self.acknowledges and self.is_picture(message):
                     await self.send("shown", revision=self.states()[-1]["revision"])
-                async with self._news:
-                    self._news.notify_all()
+                async with self._changed:
+                    self._changed.notify_all()
         except websockets.ConnectionClosed:
             pass
         self.close_code = self.socket.close_code
-        async with self._news:
-            self._news.notify_all()
+        async with self._changed:
+            self._changed.notify_all()
 
     @staticmethod
     def decode(data):
@@ -96,56 +96,56 @@ class Client:
         """Sends a request with an id and returns its answer; raises Refused for an error."""
         number = next(self._ids)
         await self.send(type_, id=number, **members)
-        answer = await self.until(lambda: self.answer(number))
+        answer = await self.wait_until(lambda: self.answer_to(number))
         if answer["type"] == "error":
             raise Refused(answer)
         return answer
 
-    def answer(self, number):
+    def answer_to(self, number):
         found = [m for m in self.messages if isinstance(m, dict) and m.get("id") == number]
         assert len(found) < 2, f"answered more than once: {found}"
         return found[0] if found else None
 
-    async def frame(self, **members):
+    async def request_frame(self, **members):
         """Requests a frame; returns the PNG file, which arrives right before `done`."""
         done = await self.request("get", what="frame", **members)
         return self.messages[self.messages.index(done) - 1]
 
-    async def until(self, condition, deadline=DEADLINE):
+    async def wait_until(self, condition, deadline=DEADLINE):
         """Returns the condition's first true value; checks it after every message."""
-        async with self._news:
+        async with self._changed:
             while True:
                 value = condition()
                 if value:
                     return value
-                assert self.close_code is None, f"closed with {self.close_code} before it came"
-                await asyncio.wait_for(self._news.wait(), deadline)
+                assert self.close_code is None, f"the server closed the connection with {self.close_code}"
+                await asyncio.wait_for(self._changed.wait(), deadline)
 
-    async def closed(self):
+    async def wait_for_close_code(self):
         """Waits for the server to close; returns the close code."""
-        async with self._news:
+        async with self._changed:
             while self.close_code is None:
-                await asyncio.wait_for(self._news.wait(), DEADLINE)
+                await asyncio.wait_for(self._changed.wait(), DEADLINE)
         return self.close_code
 
-    def of_type(self, type_):
+    def streamed_messages(self, type_):
         """Returns the messages of this type in the stream, without the answers to requests."""
         return [m for m in self.messages if isinstance(m, dict) and m["type"] == type_ and "id" not in m]
 
     def states(self):
-        return self.of_type("state")
+        return self.streamed_messages("state")
 
     def pictures(self):
         return [m for m in self.messages if self.is_picture(m) and not (isinstance(m, dict) and "id" in m)]
 
-    async def state(self, revision):
+    async def wait_for_state(self, revision):
         """Waits for the streamed state of this revision, or the first newer one."""
-        return await self.until(lambda: next((m for m in self.states() if m["revision"] >= revision), None))
+        return await self.wait_until(lambda: next((m for m in self.states() if m["revision"] >= revision), None))
 
-    async def slices(self, revision):
-        return await self.until(lambda: next((m for m in self.of_type("slices") if m["revision"] >= revision), None))
+    async def wait_for_slices(self, revision):
+        return await self.wait_until(lambda: next((m for m in self.streamed_messages("slices") if m["revision"] >= revision), None))
 
-    async def frame_of(self, revision):
+    async def wait_for_frame(self, revision):
         """Waits for the streamed frame that follows the state of this revision or a newer one."""
         def found():
             for at, message in enumerate(self.messages[:-1]):
@@ -153,11 +153,11 @@ class Client:
                     if isinstance(self.messages[at + 1], bytes):
                         return self.messages[at + 1]
             return None
-        return await self.until(found)
+        return await self.wait_until(found)
 
 
-async def turned_away(server, session="", **hello):
-    """Sends a hello that is refused; returns the error code, and the code of the close that follows."""
+async def hello_refusal(server, session="", **hello):
+    """Sends a hello that the server refuses; returns the error code, and the close code that follows."""
     async with connect(server, session) as socket:
         await socket.send(json.dumps({"type": "hello", **hello}))
         error = json.loads(await socket.recv())

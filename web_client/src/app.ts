@@ -8,105 +8,121 @@ import { ConnectionView } from "./connection";
 import { download, fileName } from "./download";
 import { byId } from "./element";
 import { ExportDialog } from "./export_dialog";
+import { FileLoading } from "./file_loading";
 import { listenForGestures } from "./gestures";
 import { Help } from "./help";
-import { strokeOf, strokesOf } from "./keys";
+import { KeyRepeat } from "./key_repeat";
+import { strokeFromEvent, strokesOfBinding } from "./keys";
 import { Latency } from "./latency";
-import { keep, readStart, shareLink } from "./link";
-import { Loading } from "./loading";
-import { recall, remember } from "./memory";
+import { extractSharedSession, readInitialView, rememberSession, shareLink } from "./link";
 import { Notice } from "./notice";
 import { OrbitControl } from "./orbit";
-import { Pace } from "./pace";
-import { markMode, ownSections } from "./own_tools";
+import { markMode, pageSections } from "./page_tools";
 import { Picker } from "./picker";
 import { type Mode, Stage } from "./picture/stage";
 import { Readings } from "./readings";
+import { readStored, writeStored } from "./tab_storage";
 import { Tools } from "./tools";
 
-const kMode = "oval4d.mode"; // storage key of the rendering mode
+const kModeKey = "oval4d.mode"; // storage key of the rendering mode
+const kNoGraphics = "The graphics card is unavailable; the server renders the pictures.";
 const kResizeDelay = 120; // milliseconds after the last change of the window's size
 
 type Command = Exclude<Request, { type: "hello" | "get" | "shown" }>;
 
 export class App {
     private readonly drawing = byId("drawing");
-    private readonly polytope = byId("polytope");
+    private readonly polytopeButton = byId("polytope");
     private readonly notice = new Notice();
     private readonly connection = new ConnectionView();
-    private readonly pace = new Pace();
+    private readonly keyRepeat = new KeyRepeat();
     private readonly latency = new Latency();
-    private readonly begin = readStart();
+    private readonly initialView = readInitialView();
     private readonly stage = new Stage(this.drawing, {
-        presented: (revision, by) => this.presented(revision, by),
-        resized: () => this.resized(),
-        lost: () => this.setMode("frames", "The graphics card is unavailable; the server now renders the pictures."),
+        presented: (revision, by) => this.picturePresented(revision, by),
+        resized: () => this.stageResized(),
+        graphicsChanged: (isAvailable) => this.graphicsChanged(isAvailable),
     });
     private readonly client = new Client({
         url: new URL(".", location.href),
         encoding: "cbor",
         transient: true,
-        ...(this.begin.credentials && { credentials: this.begin.credentials }),
+        ...(this.initialView.credentials && { credentials: this.initialView.credentials }),
         onStatus: (status) => {
             this.connection.update(status);
-            if (status.kind === "open") void this.opened();
+            if (status.kind === "open") void this.connectionOpened();
         },
         onWelcome: (welcome) => {
-            keep(welcome);
-            this.stage.limit(welcome.limits);
+            rememberSession(welcome);
+            this.stage.setSizeLimits(welcome.limits);
         },
+        onRequest: (answer) => this.connection.follow(answer),
         onState: (state) => this.update(state),
         onSlices: (slices) => this.stage.showSlices(slices, this.state?.camera ?? this.stage.orbit),
         onFrame: (png) => this.stage.showFrame(png).catch((error: Error) => this.notice.show(error.message)),
         onError: (error) => this.notice.show(error.message),
-        onLost: (reason) => this.lost(reason),
+        onLost: (reason) => this.sessionLost(reason),
     });
     private readonly orbit = new OrbitControl(this.client, this.stage);
     private readonly help = new Help();
     private readonly commandLine = new CommandLine(
-        async (line) => this.latency.command(line) || this.request({ type: "command", line }),
+        async (line) => this.latency.execute(line) || this.request({ type: "command", line }),
         () => this.drawing.focus(),
     );
     private readonly readings = new Readings((command) => this.commandLine.open(command));
     private readonly picker = new Picker((name) => this.request({ type: "set", polytope: name }));
-    private readonly loading = new Loading(this.client);
-    private readonly exporting = new ExportDialog(this.client, () => this.stage.size);
+    private readonly fileLoading = new FileLoading(this.client);
+    private readonly exportDialog = new ExportDialog(this.client, () => this.stage.size);
     private readonly tools = new Tools({ press: (...binding) => this.press(...binding) });
     private readonly colors = new Colors((change) => this.send({ type: "set", ...change }));
+    private chosenMode = readStored<Mode>(kModeKey) ?? "geometry"; // by the user; WebGL may be unavailable
     private keymap: Keymap | undefined;
     private state: State | undefined;
-    private lostState: State | undefined; // the last state of a lost session, to be restored in the new one
+    private lostState: State | undefined; // the last state of a lost session, which the new session restores
     private resizing: ReturnType<typeof setTimeout> | undefined;
 
     start(): void {
-        this.stage.mode = this.stage.canDrawGeometry ? (recall<Mode>(kMode) ?? "geometry") : "frames";
+        this.stage.mode = this.stage.canDrawGeometry ? this.chosenMode : "frames";
         listenForGestures(this.drawing, this.orbit);
         this.drawing.addEventListener("keydown", (event) => this.keydown(event));
-        this.polytope.addEventListener("click", () => this.find());
+        this.polytopeButton.addEventListener("click", () => this.openPicker());
         document.querySelector("header")!.addEventListener("mousedown", (event) => {
-            // The drawing keeps the focus, as in Tools.
+            // The drawing keeps the focus, as when a button of Tools is clicked.
             if (event.target instanceof Element && event.target.closest("button")) event.preventDefault();
         });
         byId("help-button").addEventListener("click", () => this.help.open());
-        this.listenForTools();
-        document.addEventListener("visibilitychange", () => this.stream());
-        window.addEventListener("online", () => this.stream());
+        this.listenForToolsButton();
+        document.addEventListener("visibilitychange", () => this.requestStream());
+        window.addEventListener("online", () => this.requestStream());
+        window.addEventListener("offline", () => this.client.test()); // a server on this computer still answers
+        window.addEventListener("hashchange", () => this.joinSharedSession());
         window.addEventListener("pageshow", (event) => event.persisted && this.client.connect());
         this.drawing.focus();
-        this.client.hello({ viewport: this.stage.size }).catch(() => {}); // sets the size for the connection to come
+        this.client.hello({ viewport: this.stage.size }).catch(() => {}); // sets the size for the first connection
         this.client.connect();
     }
 
-    /** Handles a new connection, which may be to another server with another key table. */
-    private async opened(): Promise<void> {
-        this.pace.restart();
+    /** Joins the session of a link that was pasted into the address bar, which does not load the page again. */
+    private joinSharedSession(): void {
+        const credentials = extractSharedSession();
+        if (!credentials) return;
+        this.initialView.lines = []; // another session's view does not apply to this one
+        this.state = this.lostState = undefined;
+        this.client.credentials = credentials;
+        this.client.connect();
+    }
+
+    /** Handles a new connection. The server may be another one, with another key table. */
+    private async connectionOpened(): Promise<void> {
+        this.keyRepeat.restart();
         this.latency.restart();
         try {
             await this.restoreView();
-            this.stream();
+            this.requestStream();
             const keymap = await this.client.request({ type: "get", what: "keymap" });
             if (JSON.stringify(keymap.keys) !== JSON.stringify(this.keymap?.keys)) this.showKeys(keymap);
             if (this.state) this.update(this.state);
+            if (this.picker.isOpen) void this.listPolytopes();
         } catch (error) {
             if ((error as RequestError).code !== "not_connected") this.notice.show((error as Error).message);
         }
@@ -115,36 +131,38 @@ export class App {
     private showKeys(keymap: Keymap): void {
         this.keymap = keymap;
         this.help.show(keymap);
-        const own = ownSections({
+        const page = pageSections({
             mode: this.stage.mode,
             canDrawGeometry: this.stage.canDrawGeometry,
-            setMode: (mode) => this.setMode(mode),
+            setMode: (mode) => this.chooseMode(mode),
             reset: () => this.send({ type: "reset" }),
             resetView: () => this.orbit.reset(),
-            share: () => void this.share(),
-            save: () => void this.save(),
+            share: () => void this.shareSession(),
+            save: () => void this.savePicture(),
         });
-        this.tools.show(keymap, [this.colors.section, ...own]);
+        this.tools.show(keymap, [this.colors.section, ...page]);
     }
 
     /** In a new session, restores the view of a lost session or applies the view in the page's address. */
     private async restoreView(): Promise<void> {
-        const { lines } = this.begin;
+        const { lines } = this.initialView;
         const lost = this.lostState;
-        this.begin.lines = [];
+        this.initialView.lines = [];
         this.lostState = undefined;
         if (lost) await this.restore(lost);
+        const faults: string[] = [];
         for (const line of lines) {
             await this.client.request({ type: "command", line }).catch((error: RequestError) => {
-                this.notice.show(`The address contains “${line}”: ${error.message}`);
+                faults.push(`The address contains “${line}”: ${error.message}`);
             });
         }
+        this.notice.showAll(faults);
     }
 
-    /** Restores a view, but without its polytope if that is not available, such as another page's file. */
+    /** Restores a view. Omits its polytope if it is not available, for example a file that another page has loaded. */
     private async restore(lost: State): Promise<void> {
         try {
-            await this.loading.reload(lost.polytope.name);
+            await this.fileLoading.reload(lost.polytope.name);
             await this.client.request({ ...lost, type: "set", turning: false });
         } catch (error) {
             if ((error as RequestError).code === "not_connected") throw error;
@@ -154,90 +172,111 @@ export class App {
         }
     }
 
-    /** Requests the stream for the current mode, or none while the page is hidden; checks the connection. */
-    private stream(): void {
+    /** Requests the stream for the current mode, or no stream while the page is hidden; tests the connection. */
+    private requestStream(): void {
         const stream = document.hidden ? "none" : this.stage.mode;
-        this.client.hello({ stream, viewport: this.stage.size }).catch(() => {}); // later, if there is no connection
+        // Without a connection, the hello of the next connection requests the stream.
+        this.client.hello({ stream, viewport: this.stage.size }).catch(() => {});
         if (document.hidden) return;
         if (this.client.status.kind === "waiting") this.client.connect();
-        else this.client.test(); // the connection may have died unnoticed
+        else this.client.test(); // the connection may have broken without an event
     }
 
     private update(state: State): void {
         this.state = state;
-        this.orbit.follow(state);
+        this.orbit.adoptCamera(state);
         const { name } = state.polytope;
-        this.polytope.querySelector("b")!.textContent = name;
+        this.polytopeButton.querySelector("b")!.textContent = name;
         document.title = `${name} \u2013 oval4d`;
         this.readings.update(state);
         this.tools.update(state);
         this.colors.update(state);
     }
 
-    private presented(revision: number, by: Mode): void {
+    private picturePresented(revision: number, by: Mode): void {
         this.client.shown(revision);
-        this.pace.presented(revision);
-        this.latency.presented(revision, by);
-        this.connection.presented(this.latency.last);
+        this.keyRepeat.picturePresented(revision);
+        this.latency.picturePresented(revision, by);
+        this.connection.picturePresented(this.latency.last);
     }
 
-    private resized(): void {
+    private stageResized(): void {
         clearTimeout(this.resizing);
-        this.resizing = setTimeout(() => this.stream(), kResizeDelay);
+        this.resizing = setTimeout(() => this.requestStream(), kResizeDelay);
     }
 
-    private setMode(mode: Mode, why?: string): void {
-        if (why !== undefined) this.notice.show(why);
+    /** Sets the mode that the user chose. */
+    private chooseMode(mode: Mode): void {
+        if (mode === "geometry" && !this.stage.canDrawGeometry) return this.notice.show(kNoGraphics);
+        this.chosenMode = mode;
+        writeStored(kModeKey, mode);
+        this.setMode(mode);
+        return undefined;
+    }
+
+    /** Shows the server's pictures while the WebGL context is lost, if this device is chosen to render them. */
+    private graphicsChanged(isAvailable: boolean): void {
+        if (this.chosenMode === "frames") return;
+        this.notice.show(isAvailable ? "This device renders the pictures again." : kNoGraphics);
+        this.setMode(isAvailable ? "geometry" : "frames");
+    }
+
+    private setMode(mode: Mode): void {
         this.stage.mode = mode;
         markMode(mode);
-        remember(kMode, mode);
-        this.stream();
+        this.requestStream();
     }
 
     private keydown(event: KeyboardEvent): void {
         if (event.key === "Escape") this.dismissMessages();
-        const stroke = strokeOf(event, this.keymap?.keys ?? []);
+        const stroke = strokeFromEvent(event, this.keymap?.keys ?? []);
         if (!stroke) return;
         event.preventDefault();
-        const binding = this.keymap?.keys.find((one) => one.client && one.key === stroke.key);
+        const binding = this.keymap?.keys.find(({ client, key }) => client && key === stroke.key);
         if (binding) this.press(binding, false, event.repeat);
-        else if (!event.repeat || this.pace.free) this.send({ type: "key", ...stroke });
+        else if (!event.repeat || this.keyRepeat.mayRepeat) this.send({ type: "key", ...stroke });
     }
 
     private press(binding: KeyBinding, inverse: boolean, held: boolean): void {
         if (binding.action === "command_line") this.commandLine.open();
         else if (binding.action === "help") this.help.open();
-        else if (binding.action === "find") this.find();
-        else if (binding.action === "open") this.loading.choose();
-        else if (binding.action === "export") this.export();
-        else if (held && !this.pace.free) return;
-        else for (const stroke of strokesOf(binding, inverse)) this.send({ type: "key", ...stroke });
+        else if (binding.action === "find") this.openPicker();
+        else if (binding.action === "open") this.fileLoading.chooseFile();
+        else if (binding.action === "export") this.openExport();
+        else if (held && !this.keyRepeat.mayRepeat) return;
+        else for (const stroke of strokesOfBinding(binding, inverse)) this.send({ type: "key", ...stroke });
     }
 
-    /** Opens the picker. Requests the catalogue each time, because polytopes may have been loaded meanwhile. */
-    private find(): void {
+    private openPicker(): void {
         this.notice.hide();
         this.picker.open(this.state?.polytope.name ?? "");
-        this.client.request({ type: "get", what: "catalogue" }).then(
-            ({ polytopes }) => this.picker.show(polytopes),
-            (error: Error) => this.notice.show(error.message),
-        );
+        void this.listPolytopes();
+    }
+
+    /** Lists the catalogue in the picker. Requests it each time, because polytopes may have been loaded meanwhile. */
+    private async listPolytopes(): Promise<void> {
+        try {
+            this.picker.setEntries((await this.client.request({ type: "get", what: "catalogue" })).polytopes);
+        } catch (error) {
+            const { code, message } = error as RequestError;
+            this.picker.showFailure(code === "not_connected" ? "The server cannot be reached" : message);
+        }
     }
 
     private dismissMessages(): void {
         this.notice.hide();
-        this.loading.hide();
+        this.fileLoading.hide();
     }
 
-    private export(): void {
+    private openExport(): void {
         this.notice.hide();
-        if (this.state) this.exporting.open(this.state);
+        if (this.state) this.exportDialog.open(this.state);
     }
 
     /** Requests a change, and tracks it until its picture is presented. */
     private async request(command: Command): Promise<void> {
         const answer = this.client.request(command);
-        await Promise.all([this.pace.follow(answer), this.latency.follow(command.type, answer)]);
+        await Promise.all([this.keyRepeat.track(answer), this.latency.track(command.type, answer)]);
     }
 
     /** Like request(), but shows an error as a notice. */
@@ -246,9 +285,9 @@ export class App {
         this.request(command).catch((error: Error) => this.notice.show(error.message));
     }
 
-    private lost(reason: string): void {
+    private sessionLost(reason: string): void {
         this.lostState = this.state;
-        this.client.hello({ stream: "none" }).catch(() => {}); // until the view is restored
+        this.client.hello({ stream: "none" }).catch(() => {}); // no pictures until the view is restored
         this.notice.show(
             this.state
                 ? `The session has ended (${reason}). This is a new one with the same view.`
@@ -256,7 +295,7 @@ export class App {
         );
     }
 
-    private async share(): Promise<void> {
+    private async shareSession(): Promise<void> {
         if (!this.client.credentials) return;
         const link = shareLink(this.client.credentials);
         try {
@@ -267,7 +306,7 @@ export class App {
         }
     }
 
-    private async save(): Promise<void> {
+    private async savePicture(): Promise<void> {
         try {
             const png = await this.client.request({ type: "get", what: "frame", ...this.stage.size });
             download(png, fileName([this.state?.polytope.name ?? ""], "png"), "image/png");
@@ -276,12 +315,12 @@ export class App {
         }
     }
 
-    private listenForTools(): void {
+    private listenForToolsButton(): void {
         const button = byId("tools-button");
-        const show = (open: boolean): void => {
+        const setToolsOpen = (open: boolean): void => {
             document.body.toggleAttribute("data-tools-hidden", !open);
             button.setAttribute("aria-expanded", String(open));
         };
-        button.addEventListener("click", () => show(button.getAttribute("aria-expanded") === "false"));
+        button.addEventListener("click", () => setToolsOpen(button.getAttribute("aria-expanded") === "false"));
     }
 }

@@ -15,8 +15,8 @@ interface Indexed {
     family: string;
     /** Name, aliases and symbols, normalized. */
     names: string[];
-    /** The names and the family, normalized; then the names without blanks, so that "120cell" finds "120 cell". */
-    all: string;
+    /** The normalized names and family, and the names without blanks, so that "120cell" finds "120 cell". */
+    searchText: string;
 }
 
 export class Catalogue {
@@ -26,30 +26,30 @@ export class Catalogue {
     constructor(readonly entries: readonly CatalogueEntry[]) {
         this.indexed = entries.map((entry) => {
             const { name, aliases, schlaefli, diagram = "", family = "" } = entry;
-            const names = [name, ...aliases, schlaefli, diagram].map(normalized).filter((one) => one !== "");
-            const runs = names.map((one) => one.replaceAll(" ", ""));
-            return { entry, family, names, all: [...names, normalized(family), ...runs].join("\n") };
+            const names = [name, ...aliases, schlaefli, diagram].map(normalize).filter((name) => name !== "");
+            const withoutBlanks = names.map((name) => name.replaceAll(" ", ""));
+            return { entry, family, names, searchText: [...names, normalize(family), ...withoutBlanks].join("\n") };
         });
         this.families = [...new Set(this.indexed.map(({ family }) => family))];
     }
 
     /** The entries that contain every word of `query`, by family; the best matches come first. */
     find(query: string): Family[] {
-        const wanted = normalized(query);
-        const words = query.split(/\s+/).map(normalized);
+        const wanted = normalize(query);
+        const words = query.split(/\s+/).map(normalize);
         const found = this.indexed
-            .filter(({ all }) => words.every((word) => contains(all, word)))
-            .map((one) => ({ ...one, match: matchOf(one.names, wanted) }));
+            .filter(({ searchText }) => words.every((word) => contains(searchText, word)))
+            .map((item) => ({ ...item, match: matchQuality(item.names, wanted) }));
         const families = this.families
-            .map((name) => ({ name, found: found.filter(({ family }) => family === name).sort(byMatch) }))
+            .map((name) => ({ name, found: found.filter(({ family }) => family === name).sort(compareMatch) }))
             .filter((family) => family.found.length > 0);
-        families.sort((a, b) => byMatch(a.found[0]!, b.found[0]!));
-        return families.map(({ name, found: those }) => ({ name, entries: those.map(({ entry }) => entry) }));
+        families.sort((a, b) => compareMatch(a.found[0]!, b.found[0]!));
+        return families.map((family) => ({ name: family.name, entries: family.found.map(({ entry }) => entry) }));
     }
 
     /** The entry with this name, alias or symbol, regardless of case and hyphens. */
-    named(text: string): CatalogueEntry | undefined {
-        const wanted = normalized(text);
+    findByName(text: string): CatalogueEntry | undefined {
+        const wanted = normalize(text);
         return this.indexed.find(({ names }) => names.includes(wanted))?.entry;
     }
 }
@@ -62,18 +62,18 @@ function contains(text: string, word: string): boolean {
     return false;
 }
 
-function matchOf(names: string[], wanted: string): number {
+function matchQuality(names: string[], wanted: string): number {
     if (wanted === "" || names.includes(wanted)) return kMatch.exact;
     if (names.some((name) => name.startsWith(wanted))) return kMatch.prefix;
     return names.some((name) => ` ${name}`.includes(` ${wanted}`)) ? kMatch.wordPrefix : kMatch.substring;
 }
 
-function byMatch(a: { match: number }, b: { match: number }): number {
+function compareMatch(a: { match: number }, b: { match: number }): number {
     return a.match - b.match;
 }
 
 /** Lower-cases the text, strips diacritics, and replaces all but letters, numbers, '/' and '*' by single blanks. */
-function normalized(text: string): string {
+function normalize(text: string): string {
     return text
         .normalize("NFKD")
         .replace(/\p{M}/gu, "")

@@ -3,7 +3,7 @@
 import type { CellKind, Coloring, Settings, State } from "@oval4d/protocol";
 
 import { element } from "./element";
-import { capitalized, count } from "./format";
+import { capitalize, formatCount } from "./format";
 import type { Section } from "./tools";
 
 const kColorings: Record<Coloring, { label: string; title: string }> = {
@@ -11,11 +11,12 @@ const kColorings: Record<Coloring, { label: string; title: string }> = {
     kind: { label: "Kind", title: "Each kind of cell has its own color" },
     w: { label: "w", title: "The color shows the w of the cell's center" },
     plain: { label: "Plain", title: "All faces have the same color" },
+    light: { label: "Light", title: "Cells are shaded by a light in four dimensions" },
 };
 const kPresences = ["shown", "faded", "hidden"] as const;
 type Presence = (typeof kPresences)[number];
 
-const kMaxListedKinds = 24; // an imported polytope may have as many kinds as cells
+const kMaxListedKinds = 24; // an imported polytope may have as many kinds of cells as cells
 
 export class Colors {
     private readonly modes = element("div", { class: "segments", role: "group", "aria-label": "Color by" });
@@ -31,19 +32,19 @@ export class Colors {
     );
     private readonly list = element("div", { class: "kinds" });
     private rows: HTMLElement[] = [];
-    private listed: string | undefined; // identifies the kinds that the rows show
+    private listedKinds: string | undefined; // identifies the kinds of cells in the rows
     private state: State | undefined;
 
-    /** `set` is called to change the state. */
-    constructor(private readonly set: (change: Settings) => void) {
+    /** `applyChange` is called to change the state. */
+    constructor(private readonly applyChange: (change: Settings) => void) {
         for (const [value, { label, title }] of Object.entries(kColorings)) {
             const radio = element("input", { type: "radio", name: "color", value });
             this.modes.append(element("label", { title }, radio, element("span", {}, label)));
         }
         this.modes.addEventListener("change", (event) => {
-            this.set({ color: (event.target as HTMLInputElement).value as Coloring });
+            this.applyChange({ color: (event.target as HTMLInputElement).value as Coloring });
         });
-        this.list.addEventListener("change", () => this.changed());
+        this.list.addEventListener("change", () => this.applyPresences());
     }
 
     get section(): Section {
@@ -54,27 +55,27 @@ export class Colors {
         this.state = state;
         const { kinds = [], name } = state.polytope;
         const listed = JSON.stringify([name, kinds]);
-        if (listed !== this.listed) this.fill(kinds);
-        this.listed = listed;
-        check(this.modes, state.color);
+        if (listed !== this.listedKinds) this.listKinds(kinds);
+        this.listedKinds = listed;
+        checkRadio(this.modes, state.color);
         this.scale.hidden = state.color !== "w";
         this.list.toggleAttribute("data-colored", state.color === "kind");
         this.rows.forEach((row, kind) => {
             const presence = presenceOf(state, kind);
             row.dataset["presence"] = presence;
-            check(row, presence);
+            checkRadio(row, presence);
         });
     }
 
-    private fill(kinds: CellKind[]): void {
+    private listKinds(kinds: CellKind[]): void {
         this.rows = kinds.slice(0, kMaxListedKinds).map(kindRow);
         const more = kinds.length - this.rows.length;
-        const rest = element("p", {}, `${count(more)} more kinds: use :hide, :fade and :show`);
+        const rest = element("p", {}, `${formatCount(more)} more kinds: use :hide, :fade and :show`);
         this.list.replaceChildren(...this.rows, ...(more > 0 ? [rest] : []));
     }
 
-    /** Applies the chosen presences; kinds that are not listed keep theirs. */
-    private changed(): void {
+    /** Applies the chosen presences; kinds of cells that are not listed keep their presence. */
+    private applyPresences(): void {
         const { hidden, faded } = this.state!;
         const chosen = (presence: Presence, before: number[]): number[] => [
             ...this.rows.flatMap((row, kind) =>
@@ -82,17 +83,17 @@ export class Colors {
             ),
             ...before.filter((kind) => kind >= this.rows.length),
         ];
-        this.set({ hidden: chosen("hidden", hidden), faded: chosen("faded", faded) });
+        this.applyChange({ hidden: chosen("hidden", hidden), faded: chosen("faded", faded) });
     }
 }
 
-/** A text such as "cube hidden, tetrahedron faded" for screen readers; "all kinds shown" if none is hidden or faded. */
+/** A text for screen readers such as "cube hidden, tetrahedron faded", or "all kinds of cells shown". */
 export function spokenKinds(state: State): string {
     const { kinds = [] } = state.polytope;
     const named = (list: number[], presence: Presence): string[] =>
         list.map((kind) => `${kinds[kind]?.name ?? `kind ${kind}`} ${presence}`);
     const all = [...named(state.hidden, "hidden"), ...named(state.faded, "faded")];
-    return all.length === 0 ? "all kinds shown" : all.join(", ");
+    return all.length === 0 ? "all kinds of cells shown" : all.join(", ");
 }
 
 function presenceOf({ hidden, faded }: State, kind: number): Presence {
@@ -103,7 +104,7 @@ function kindRow({ name, cells, color }: CellKind, kind: number): HTMLElement {
     const swatch = element("i", { "aria-hidden": "true" });
     if (color !== undefined) swatch.style.background = `#${color.toString(16).padStart(6, "0")}`;
     const radios = kPresences.map((presence) => {
-        const label = capitalized(presence);
+        const label = capitalize(presence);
         const attributes = { type: "radio", name: `kind-${kind}`, value: presence, "aria-label": label };
         return element(
             "label",
@@ -117,12 +118,12 @@ function kindRow({ name, cells, color }: CellKind, kind: number): HTMLElement {
         { role: "group", "aria-label": `${name}: ${cells} ${cells === 1 ? "cell" : "cells"}` },
         swatch,
         element("span", {}, name.replace(/(\w{9,})hedron/g, "$1\u00ADhedron")), // a soft hyphen in long names
-        element("small", {}, count(cells)),
+        element("small", {}, formatCount(cells)),
         element("div", { class: "presence" }, ...radios),
     );
 }
 
-function check(within: HTMLElement, value: string): void {
+function checkRadio(within: HTMLElement, value: string): void {
     const radio = within.querySelector<HTMLInputElement>(`input[value="${value}"]`);
     if (radio) radio.checked = true;
 }

@@ -1,23 +1,23 @@
 // The command line, with a history.
 
 import { byId } from "./element";
-import { sentence } from "./format";
-import { recall, remember } from "./memory";
+import { toSentence } from "./format";
+import { readStored, writeStored } from "./tab_storage";
 
-const kHistory = "oval4d.commands";
+const kHistoryKey = "oval4d.commands";
 const kMaxHistory = 100; // lines
 
 export class CommandLine {
     private readonly form = byId<HTMLFormElement>("command-line");
     private readonly input = byId<HTMLInputElement>("command");
     private readonly error = byId("command-error");
-    private history = recall<string[]>(kHistory) ?? [];
-    private at = 0; // position in the history, counted from its end; 0 is the line being typed
+    private history = readStored<string[]>(kHistoryKey) ?? [];
+    private historyPosition = 0; // counted from the end of the history; 0 is the line being typed
 
-    /** `run` executes a line; it throws an Error whose message is shown to the user. */
+    /** `run` executes a line; it throws an Error, whose message the user sees. `onClosed` is called after closing. */
     constructor(
         private readonly run: (line: string) => Promise<unknown>,
-        private readonly closed: () => void,
+        private readonly onClosed: () => void,
     ) {
         this.form.addEventListener("submit", (event) => {
             event.preventDefault();
@@ -30,47 +30,47 @@ export class CommandLine {
 
     open(text = ""): void {
         this.form.hidden = false;
-        this.at = 0;
-        this.write(text);
-        this.say("");
+        this.historyPosition = 0;
+        this.setText(text);
+        this.showError("");
         this.input.focus();
     }
 
     close(): void {
         if (this.form.hidden) return;
         this.form.hidden = true;
-        this.closed();
+        this.onClosed();
     }
 
     private keydown(event: KeyboardEvent): void {
-        const back = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-        if (back === undefined) return;
+        const step = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+        if (step === undefined) return;
         event.preventDefault();
-        this.at = Math.min(this.history.length, Math.max(0, this.at + back));
-        this.write(this.history.at(-this.at || this.history.length) ?? "");
+        this.historyPosition = Math.min(this.history.length, Math.max(0, this.historyPosition + step));
+        this.setText(this.history.at(-this.historyPosition || this.history.length) ?? "");
     }
 
-    private write(text: string): void {
+    private setText(text: string): void {
         this.input.value = text;
         this.input.setSelectionRange(text.length, text.length);
     }
 
-    private say(error: string): void {
-        this.error.textContent = error === "" ? "" : sentence(error);
+    private showError(error: string): void {
+        this.error.textContent = error === "" ? "" : toSentence(error);
         this.input.toggleAttribute("aria-invalid", error !== "");
     }
 
     private async submit(): Promise<void> {
         const line = this.input.value.trim().replace(/^:\s*/, "");
         if (line === "") return this.close();
-        this.history = [...this.history.filter((one) => one !== line), line].slice(-kMaxHistory);
-        this.at = 0;
-        remember(kHistory, this.history);
+        this.history = [...this.history.filter((earlier) => earlier !== line), line].slice(-kMaxHistory);
+        this.historyPosition = 0;
+        writeStored(kHistoryKey, this.history);
         try {
             await this.run(line);
             this.close();
         } catch (error) {
-            this.say((error as Error).message);
+            this.showError((error as Error).message);
             this.input.select();
         }
         return undefined;

@@ -3,51 +3,77 @@
 import type { Status } from "@oval4d/protocol";
 
 import { byId } from "./element";
-import { capitalized, time } from "./format";
+import { capitalize, formatTime } from "./format";
+
+const kMaxWait = 1000; // milliseconds without an answer after which the page says that it waits
 
 export class ConnectionView {
     private readonly root = byId("connection");
     private readonly text = this.root.querySelector("span")!;
     private readonly stale = byId("stale");
     private readonly drawing = byId("drawing");
-    private readonly live = byId("spoken");
+    private readonly announcer = byId("spoken");
     private status: Status = { kind: "connecting" };
     private presentedAt: Date | undefined;
+    private retryAt = 0; // when the next attempt to connect begins, in milliseconds as in Date.now()
+    private lateAnswers = 0; // number of requests that have been unanswered for kMaxWait
     private countdown: ReturnType<typeof setInterval> | undefined;
 
     update(status: Status): void {
-        if (status.kind !== this.status.kind && status.kind !== "connecting") this.live.textContent = words(status, 0);
+        if (status.kind !== this.status.kind && status.kind !== "connecting") {
+            this.announcer.textContent = statusText(status, 0);
+        }
         this.status = status;
         clearInterval(this.countdown);
-        const until = Date.now() + (status.kind === "waiting" ? status.seconds * 1000 : 0);
-        const write = (): void => this.write(Math.max(0, until - Date.now()) / 1000);
-        write();
-        if (status.kind === "waiting") this.countdown = setInterval(write, 1000);
+        this.retryAt = Date.now() + (status.kind === "waiting" ? status.seconds * 1000 : 0);
+        this.write();
+        if (status.kind === "waiting") this.countdown = setInterval(() => this.write(), 1000);
     }
 
-    /** Notes that a picture has been presented; `latency` is the time from the key to the picture in milliseconds. */
-    presented(latency: number | undefined): void {
+    /** Says that the page waits for the server as long as this answer, or another one, is late. */
+    follow(answer: Promise<unknown>): void {
+        const count = (change: number): void => {
+            this.lateAnswers += change;
+            this.write();
+        };
+        let isLate = false;
+        const timer = setTimeout(() => {
+            isLate = true;
+            count(1);
+            if (this.lateAnswers === 1) this.announcer.textContent = this.text.textContent;
+        }, kMaxWait);
+        const settled = (): void => {
+            clearTimeout(timer);
+            if (isLate) count(-1);
+        };
+        answer.then(settled, settled);
+    }
+
+    /** Records that a picture has been presented; `latency` is the key-to-picture latency in milliseconds, if known. */
+    picturePresented(latency: number | undefined): void {
         this.presentedAt = new Date();
         if (this.status.kind !== "open") return;
-        this.root.title = latency === undefined ? "" : `Key to picture: ${latency.toFixed(0)} ms`;
+        this.root.title = latency === undefined ? "" : `Key-to-picture latency: ${latency.toFixed(0)} ms`;
         this.root.dataset["latency"] = latency === undefined ? "" : latency.toFixed(1);
     }
 
-    private write(seconds: number): void {
+    private write(): void {
         const { kind } = this.status;
-        this.root.dataset["kind"] = kind;
-        this.text.textContent = words(this.status, seconds);
+        const isLate = kind === "open" && this.lateAnswers > 0;
+        const seconds = Math.max(0, this.retryAt - Date.now()) / 1000;
+        this.root.dataset["kind"] = isLate ? "late" : kind;
+        this.text.textContent = isLate ? "Waiting…" : statusText(this.status, seconds);
         const isStale = kind !== "open" && this.presentedAt !== undefined;
         this.drawing.toggleAttribute("data-stale", isStale);
         this.stale.hidden = !isStale;
-        if (isStale) this.stale.textContent = `Not connected. This picture is from ${time(this.presentedAt!)}.`;
+        if (isStale) this.stale.textContent = `Not connected. This picture is from ${formatTime(this.presentedAt!)}.`;
     }
 }
 
-function words(status: Status, seconds: number): string {
+function statusText(status: Status, seconds: number): string {
     if (status.kind === "open") return "Connected";
     if (status.kind === "connecting") return "Connecting…";
     if (status.kind === "closed") return `Closed: ${status.reason}`;
     const when = seconds < 1 ? "now" : `in ${Math.ceil(seconds)} s`;
-    return `${capitalized(status.reason)}; trying again ${when}`;
+    return `${capitalize(status.reason)}; trying again ${when}`;
 }

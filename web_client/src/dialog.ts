@@ -1,5 +1,5 @@
-// A modal dialog. Escape, its button or a click outside closes it; the browser then returns the focus to the element
-// that had it, which is the drawing if the dialog was opened with the mouse.
+// A modal dialog. Escape, the Close button or a click outside closes it. The browser then returns the focus to the
+// element that had it before; if the dialog was opened with the mouse, this is the drawing.
 
 import { byId } from "./element";
 

@@ -1,4 +1,4 @@
-// The dialog for exporting a slice, the oval, the polytope or a picture to a file.
+// The dialog that exports a slice, the oval, the polytope or a picture to a file.
 
 import type { Client, FileOptions, State, Viewport } from "@oval4d/protocol";
 
@@ -6,51 +6,51 @@ import { Dialog } from "./dialog";
 import { download, fileName } from "./download";
 import { byId, element } from "./element";
 import { type Format, kFormats } from "./export_formats";
-import { focusW, length, sentence } from "./format";
-import { recall, remember } from "./memory";
+import { focusW, toSentence } from "./format";
+import { readStored, writeStored } from "./tab_storage";
 
-const kChosen = "oval4d.export";
-const kAll = kFormats.flatMap(({ formats }) => formats);
+const kChoicesKey = "oval4d.export";
+const kAllFormats = kFormats.flatMap(({ formats }) => formats);
 
 export class ExportDialog {
     private readonly dialog = new Dialog("export");
     private readonly form = byId<HTMLFormElement>("export-form");
-    private readonly about = byId("export-about");
+    private readonly description = byId("export-about");
     private readonly error = byId("export-error");
     private readonly submit = byId<HTMLButtonElement>("export-submit");
     private state: State | undefined;
-    private request = 0; // number of the current request: answers to abandoned ones are dropped
+    private requestNumber = 0; // number of the current request; answers to earlier requests are ignored
 
     /** `size` returns the size of the picture on the page. */
     constructor(
         private readonly client: Client,
         private readonly size: () => Viewport,
     ) {
-        byId("export-formats").append(...kFormats.map((group) => choices(group.title, group.formats)));
-        this.recall();
-        this.form.addEventListener("input", (event) => this.changed(event.target as HTMLInputElement));
+        byId("export-formats").append(...kFormats.map((group) => formatButtons(group.title, group.formats)));
+        this.restoreChoices();
+        this.form.addEventListener("input", (event) => this.choiceChanged(event.target as HTMLInputElement));
         this.form.addEventListener("submit", (event) => {
             event.preventDefault();
-            void this.make();
+            void this.downloadFile();
         });
-        byId("export").addEventListener("close", () => this.endRequest());
+        byId("export").addEventListener("close", () => this.abandonRequest());
     }
 
     open(state: State): void {
         this.state = state;
         byId("export-of").textContent = state.polytope.name;
-        byId("export-focus").textContent = `w = ${length(focusW(state))}`;
+        byId("export-focus").textContent = `w = ${focusW(state)}`;
         byId("export-oval").textContent = `${state.slices.count} slices`;
         const { limits = {} } = this.client.welcome ?? {};
         const { width, height } = this.size();
-        for (const [name, own] of Object.entries({ width, height })) {
+        for (const [name, pageSize] of Object.entries({ width, height })) {
             const field = this.field(name);
             field.min = String(limits["min_side"] ?? 1);
             field.max = String(limits[`max_${name}`] ?? 8192);
-            field.value ||= String(own);
+            field.value ||= String(pageSize);
         }
-        this.preset();
-        this.show();
+        this.selectPreset();
+        this.showOptions();
         this.dialog.open(this.form.querySelector<HTMLElement>("[name=format]:checked")!);
     }
 
@@ -59,48 +59,48 @@ export class ExportDialog {
     }
 
     private get format(): Format {
-        return kAll.find(({ name }) => name === this.chosen("format")) ?? kAll[0]!;
+        return kAllFormats.find(({ name }) => name === this.chosenValue("format")) ?? kAllFormats[0]!;
     }
 
-    private chosen(name: string): string {
+    private chosenValue(name: string): string {
         return (this.form.elements.namedItem(name) as RadioNodeList | HTMLInputElement).value;
     }
 
-    private changed({ name, value }: HTMLInputElement): void {
+    private choiceChanged({ name, value }: HTMLInputElement): void {
         if (name === "preset") {
             const { width, height } = this.size();
             const [w = String(width), h = String(height)] = value === "" ? [] : value.split("x");
             this.field("width").value = w;
             this.field("height").value = h;
         } else if (name === "width" || name === "height") {
-            this.preset();
+            this.selectPreset();
         }
-        this.endRequest();
-        this.show();
-        remember(kChosen, { ...recall<object>(kChosen), ...this.fields() });
+        this.abandonRequest();
+        this.showOptions();
+        writeStored(kChoicesKey, { ...readStored<object>(kChoicesKey), ...this.formValues() });
     }
 
     /** Selects the preset that equals the current size, if any. */
-    private preset(): void {
+    private selectPreset(): void {
         const { width, height } = this.size();
-        const at = `${this.field("width").value}x${this.field("height").value}`;
-        for (const one of this.form.querySelectorAll<HTMLInputElement>("[name=preset]")) {
-            one.checked = at === (one.value || `${width}x${height}`);
+        const size = `${this.field("width").value}x${this.field("height").value}`;
+        for (const radio of this.form.querySelectorAll<HTMLInputElement>("[name=preset]")) {
+            radio.checked = size === (radio.value || `${width}x${height}`);
         }
     }
 
     /** Restores the previous choices. */
-    private recall(): void {
-        for (const [name, value] of Object.entries(recall<Record<string, string>>(kChosen) ?? {})) {
+    private restoreChoices(): void {
+        for (const [name, value] of Object.entries(readStored<Record<string, string>>(kChoicesKey) ?? {})) {
             const field = this.form.elements.namedItem(name) as RadioNodeList | HTMLInputElement | null;
             if (field) field.value = value;
         }
     }
 
-    /** Shows only the options that the format offers. */
-    private show(): void {
+    /** Shows the options that the chosen format offers, and hides the others. */
+    private showOptions(): void {
         const { format } = this;
-        this.about.textContent = format.about;
+        this.description.textContent = format.about;
         for (const set of this.form.querySelectorAll<HTMLFieldSetElement>("[data-choice]")) {
             const used = (format.choices as string[]).includes(set.dataset["choice"]!);
             set.hidden = set.disabled = !used;
@@ -108,27 +108,27 @@ export class ExportDialog {
         this.submit.textContent = `Download ${format.label}`;
     }
 
-    private async make(): Promise<void> {
-        const turn = ++this.request;
+    private async downloadFile(): Promise<void> {
+        const number = ++this.requestNumber;
         const { format } = this;
         this.error.textContent = "";
         this.submit.disabled = true;
         this.submit.textContent = "Creating the file…";
         try {
-            const bytes = await this.bytes(format);
-            if (turn !== this.request) return;
-            download(bytes, this.name(format), format.type);
+            const bytes = await this.requestFile(format);
+            if (number !== this.requestNumber) return;
+            download(bytes, this.fileNameFor(format), format.type);
             this.dialog.close();
         } catch (error) {
-            if (turn !== this.request) return;
-            this.endRequest();
-            this.error.textContent = sentence((error as Error).message);
+            if (number !== this.requestNumber) return;
+            this.abandonRequest();
+            this.error.textContent = toSentence((error as Error).message);
         }
     }
 
     /** Requests the file. Fields that the format does not use are disabled, and therefore omitted. */
-    private bytes({ name }: Format): Promise<Uint8Array> {
-        const fields = this.fields();
+    private requestFile({ name }: Format): Promise<Uint8Array> {
+        const fields = this.formValues();
         if (name === "png") {
             const [width, height] = [Number(fields["width"]), Number(fields["height"])];
             return this.client.request({ type: "get", what: "frame", width, height });
@@ -138,30 +138,30 @@ export class ExportDialog {
         return this.client.request({ type: "get", what: "file", ...(options as unknown as FileOptions) });
     }
 
-    private fields(): Record<string, string> {
+    private formValues(): Record<string, string> {
         return Object.fromEntries(new FormData(this.form)) as Record<string, string>;
     }
 
-    private name({ name, choices }: Format): string {
+    private fileNameFor({ name, choices }: Format): string {
         const state = this.state!;
         const parts = [state.polytope.name];
         if (choices.includes("of")) {
-            parts.push(this.chosen("of") === "oval" ? "oval" : `w ${length(focusW(state)).replace("\u2212", "-")}`);
+            parts.push(this.chosenValue("of") === "oval" ? "oval" : `w ${focusW(state).replace("\u2212", "-")}`);
         }
-        if (choices.includes("body") && this.chosen("body") === "frame") parts.push("frame");
+        if (choices.includes("body") && this.chosenValue("body") === "skeleton") parts.push("skeleton");
         return fileName(parts, name);
     }
 
     /** Abandons a request in progress, and clears the error. */
-    private endRequest(): void {
-        ++this.request;
+    private abandonRequest(): void {
+        ++this.requestNumber;
         this.error.textContent = "";
         this.submit.disabled = false;
         this.submit.textContent = `Download ${this.format.label}`;
     }
 }
 
-function choices(title: string, formats: Format[]): HTMLElement {
+function formatButtons(title: string, formats: Format[]): HTMLElement {
     const radios = formats.map(({ name, label }) => {
         const radio = element("input", { type: "radio", name: "format", value: name, checked: name === "3mf" });
         return element("label", {}, radio, element("span", {}, label));

@@ -1,4 +1,4 @@
-// Prepares files from the user's disk for `load`.
+// Reads files from the user's disk and prepares them for `load` messages.
 
 /** The members of a `load` message. */
 export interface PolytopeFile {

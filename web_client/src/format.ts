@@ -5,7 +5,7 @@ import type { State } from "@oval4d/protocol";
 const kMinus = "\u2212";
 
 /** A number with at most `decimals` decimals, without trailing zeros. */
-export function decimal(value: number, decimals: number): string {
+export function formatDecimal(value: number, decimals: number): string {
     const text = Math.abs(value)
         .toFixed(decimals)
         .replace(/(\.\d*?)0+$/, "$1")
@@ -13,41 +13,49 @@ export function decimal(value: number, decimals: number): string {
     return value < 0 && Number(text) !== 0 ? kMinus + text : text;
 }
 
-/** An integer; from 10,000 on, digits are grouped by thin spaces: 14 400. */
-export function count(value: number): string {
+/** An integer; from 10,000 on, thin spaces separate groups of three digits: 14 400. */
+export function formatCount(value: number): string {
     return String(value).replace(/\B(?=(\d{3})+$)/g, value < 10_000 ? "" : "\u2009");
 }
 
-export function degrees(radians: number): string {
-    return `${decimal((radians * 180) / Math.PI, 2)}°`;
+export function formatDegrees(radians: number): string {
+    return `${formatDecimal((radians * 180) / Math.PI, 2)}°`;
 }
 
-/** A length with three significant digits, or the whole integer part if that is longer, and at most eight decimals. */
-export function length(value: number): string {
+/** A length with three significant digits, more if its integer part has more, and at most eight decimals. */
+export function formatLength(value: number): string {
     const digits = value === 0 ? 0 : Math.max(0, 2 - Math.floor(Math.log10(Math.abs(value))));
-    return decimal(value, Math.min(8, digits));
+    return formatDecimal(value, Math.min(8, digits));
 }
 
-/** The w of the focus slice. */
-export function focusW({ slices }: State): number {
-    return slices.focus * slices.spacing;
+/** The w of the focus slice, rounded like its label in the picture (labelOf() in server/scene/layout.cpp). */
+export function focusW({ slices: { focus, spacing } }: State): string {
+    const decimals = Math.min(9, Math.max(2, Math.ceil(-Math.log10(spacing)) + 1));
+    const text = new Intl.NumberFormat("en-US", {
+        minimumFractionDigits: decimals,
+        maximumFractionDigits: decimals,
+        roundingMode: "halfEven",
+        useGrouping: false,
+    }).format(Math.abs(focus * spacing));
+    if (Number(text) === 0) return "0";
+    return focus < 0 ? kMinus + text : text;
 }
 
 /** A rotation such as "xw 22.5°, yz 81.42°". */
-export function rotation(last: NonNullable<State["last"]>): string {
-    return last.planes.map((plane, i) => `${plane} ${degrees(last.angles[i] ?? 0)}`).join(", ");
+export function formatRotation(last: NonNullable<State["last"]>): string {
+    return last.planes.map((plane, i) => `${plane} ${formatDegrees(last.angles[i] ?? 0)}`).join(", ");
 }
 
 /** Capitalizes the first letter. */
-export function capitalized(text: string): string {
+export function capitalize(text: string): string {
     return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
 /** Turns a message into a sentence: with a capital letter, and a period unless it ends with other punctuation. */
-export function sentence(message: string): string {
-    return /[.?!:…]$/.test(message) ? capitalized(message) : `${capitalized(message)}.`;
+export function toSentence(message: string): string {
+    return /[.?!:…]$/.test(message) ? capitalize(message) : `${capitalize(message)}.`;
 }
 
-export function time(date: Date): string {
+export function formatTime(date: Date): string {
     return date.toLocaleTimeString([], { hour: "2-digit", minute: "2-digit", second: "2-digit" });
 }

@@ -7,7 +7,7 @@ const kLineHeight = 16; // pixels
 
 export function listenForGestures(drawing: HTMLElement, orbit: OrbitControl): void {
     const fingers = new Map<number, PointerEvent>();
-    const spread = (): number => {
+    const fingerDistance = (): number => {
         const [a, b] = [...fingers.values()];
         return a && b ? Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY) : 0;
     };
@@ -20,21 +20,21 @@ export function listenForGestures(drawing: HTMLElement, orbit: OrbitControl): vo
     drawing.addEventListener("pointermove", (event) => {
         const before = fingers.get(event.pointerId);
         if (!before) return;
-        const spreadBefore = spread();
+        const distanceBefore = fingerDistance();
         fingers.set(event.pointerId, event);
         if (fingers.size === 1) orbit.drag(event.clientX - before.clientX, event.clientY - before.clientY);
-        else if (spreadBefore > 0) orbit.magnify(spread() / spreadBefore);
+        else if (distanceBefore > 0) orbit.zoomBy(fingerDistance() / distanceBefore);
     });
-    const lift = (event: PointerEvent): void => void fingers.delete(event.pointerId);
+    const removeFinger = (event: PointerEvent): void => void fingers.delete(event.pointerId);
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"] as const)
-        drawing.addEventListener(end, lift);
+        drawing.addEventListener(end, removeFinger);
     drawing.addEventListener(
         "wheel",
         (event) => {
             if (event.ctrlKey) return; // the browser's own zoom
             event.preventDefault();
             const pixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY : event.deltaY * kLineHeight;
-            orbit.magnify(Math.exp(-pixels * kWheelZoom));
+            orbit.zoomBy(Math.exp(-pixels * kWheelZoom));
         },
         { passive: false },
     );

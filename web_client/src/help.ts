@@ -1,4 +1,4 @@
-// The help sheet, generated from the key table.
+// The dialog with the list of keys, generated from the key table.
 
 import type { Keymap } from "@oval4d/protocol";
 
@@ -35,12 +35,12 @@ export class Help {
                 element(
                     "table",
                     {},
-                    ...lines.map((key) => line(key.name, key.text)),
-                    ...(inverse ? [line("Shift +", "Apply the inverse rotation")] : []),
+                    ...lines.map((key) => tableRow(key.name, key.text)),
+                    ...(inverse ? [tableRow("Shift +", "Apply the inverse rotation")] : []),
                 ),
             );
         });
-        const gestures = element("table", {}, ...kGestures.map(([name, text]) => line(name, text, "span")));
+        const gestures = element("table", {}, ...kGestures.map(([name, text]) => tableRow(name, text, "span")));
         const pointer = element("section", {}, element("h3", {}, "Mouse and touch"), gestures);
         this.dialog.querySelector(".sheet")!.replaceChildren(...sections, pointer);
     }
@@ -50,6 +50,6 @@ export class Help {
     }
 }
 
-function line(name: string, text: string, as: "kbd" | "span" = "kbd"): HTMLElement {
-    return element("tr", {}, element("th", { scope: "row" }, element(as, {}, name)), element("td", {}, text));
+function tableRow(name: string, text: string, tag: "kbd" | "span" = "kbd"): HTMLElement {
+    return element("tr", {}, element("th", { scope: "row" }, element(tag, {}, name)), element("td", {}, text));
 }

@@ -1,16 +1,21 @@
-// Measures the time from each request to the presentation of its picture. `:set latency` shows the times,
-// `:export latency` saves them as a CSV file, and scripts find them among the page's performance measures.
+// Measures the key-to-picture latency: the time from each request to the presentation of its picture. `:set latency`
+// shows statistics, `:export latency` saves the samples as a CSV file, and scripts on the page read them with
+// performance.getEntriesByName(kMeasure).
+//
+// A browser does not report when a canvas is on the screen. A measurement ends in the first task after the animation
+// frame that drew the picture (see Stage), when the browser has rendered the page. The compositor, the graphics card
+// and the screen take additional time, which the page cannot measure.
 
 import { download } from "./download";
 import { byId } from "./element";
-import { recall, remember } from "./memory";
+import { readStored, writeStored } from "./tab_storage";
 import type { Mode } from "./picture/stage";
 
-export const kMeasure = "oval4d key to picture"; // for performance.getEntriesByName
+export const kMeasure = "oval4d key to picture"; // name of the performance measures
 
 const kMaxSamples = 10_000;
-const kRecentSamples = 500; // samples in the displayed statistics
-const kShown = "oval4d.latency"; // storage key
+const kRecentSamples = 500; // number of samples in the displayed statistics
+const kShownKey = "oval4d.latency"; // storage key
 
 interface Sample {
     /** When the request was sent, in milliseconds as in performance.now(). */
@@ -24,60 +29,60 @@ interface Sample {
 export class Latency {
     private readonly output = byId("latency");
     private readonly samples: Sample[] = [];
-    private waiting: Pick<Sample, "start" | "revision" | "request">[] = [];
-    private seen = 0; // revision
-    private seenAt = 0;
-    private seenBy: Mode = "geometry";
+    private pending: Pick<Sample, "start" | "revision" | "request">[] = [];
+    private presentedRevision = 0;
+    private presentedAt = 0; // milliseconds, as in performance.now()
+    private presentedBy: Mode = "geometry";
 
     constructor() {
-        this.output.hidden = recall<boolean>(kShown) !== true;
-        this.write();
+        this.output.hidden = readStored<boolean>(kShownKey) !== true;
+        this.updateText();
     }
 
-    /** The last sample, in milliseconds. */
+    /** The newest latency in milliseconds; undefined before the first. */
     get last(): number | undefined {
         return this.samples.at(-1)?.milliseconds;
     }
 
-    /** Tracks a request until its picture is presented. A request that changes nothing has no picture. */
-    async follow(request: string, answer: Promise<{ revision: number }>): Promise<void> {
+    /** Measures the time until the picture of a request is presented. A request that changes nothing has no picture. */
+    async track(request: string, answer: Promise<{ revision: number }>): Promise<void> {
         const start = performance.now();
-        const { seen } = this;
+        const { presentedRevision } = this;
         const { revision } = await answer;
-        if (revision > seen) this.waiting.push({ start, revision, request });
-        this.settle();
+        if (revision > presentedRevision) this.pending.push({ start, revision, request });
+        this.completeSamples();
     }
 
-    presented(revision: number, by: Mode): void {
-        this.seen = revision;
-        this.seenAt = performance.now();
-        this.seenBy = by;
-        this.settle();
+    picturePresented(revision: number, by: Mode): void {
+        this.presentedRevision = revision;
+        this.presentedAt = performance.now();
+        this.presentedBy = by;
+        this.completeSamples();
     }
 
     /** Forgets the revisions: a new connection may be to a session whose revisions start at 0. */
     restart(): void {
-        this.waiting = [];
-        this.seen = 0;
+        this.pending = [];
+        this.presentedRevision = 0;
     }
 
     /** Executes a command about latency; returns false for any other command. */
-    command(line: string): boolean {
-        const words = line.trim().replace(/\s*=\s*/, "=").replace(/\s+/g, " ");
-        if (/^set latency(=on)?$/.test(words)) this.show(true);
-        else if (/^set (nolatency|latency=off)$/.test(words)) this.show(false);
-        else if (words === "export latency") this.save();
+    execute(line: string): boolean {
+        const command = line.trim().replace(/\s*=\s*/, "=").replace(/\s+/g, " ");
+        if (/^set latency(=on)?$/.test(command)) this.setShown(true);
+        else if (/^set (nolatency|latency=off)$/.test(command)) this.setShown(false);
+        else if (command === "export latency") this.saveCsv();
         else return false;
         return true;
     }
 
-    private show(shown: boolean): void {
-        remember(kShown, shown);
+    private setShown(shown: boolean): void {
+        writeStored(kShownKey, shown);
         this.output.hidden = !shown;
-        this.write();
+        this.updateText();
     }
 
-    private save(): void {
+    private saveCsv(): void {
         if (this.samples.length === 0) throw new Error("nothing has been measured yet: turn the polytope first");
         const rows = this.samples.map(({ start, milliseconds, revision, request, drawnBy }) =>
             [
@@ -89,12 +94,15 @@ export class Latency {
         download(new TextEncoder().encode(table), "latency.csv", "text/csv");
     }
 
-    private settle(): void {
-        const done = this.waiting.filter(({ revision }) => revision <= this.seen);
+    private completeSamples(): void {
+        const done = this.pending.filter(({ revision }) => revision <= this.presentedRevision);
         if (done.length === 0) return;
-        this.waiting = this.waiting.filter(({ revision }) => revision > this.seen);
-        for (const one of done) this.record({ ...one, milliseconds: this.seenAt - one.start, drawnBy: this.seenBy });
-        this.write();
+        this.pending = this.pending.filter(({ revision }) => revision > this.presentedRevision);
+        for (const request of done) {
+            const milliseconds = this.presentedAt - request.start;
+            this.record({ ...request, milliseconds, drawnBy: this.presentedBy });
+        }
+        this.updateText();
     }
 
     private record(sample: Sample): void {
@@ -104,23 +112,24 @@ export class Latency {
         }
         this.samples.push(sample);
         const { start, revision, request, drawnBy } = sample;
-        performance.measure(kMeasure, { start, end: this.seenAt, detail: { revision, request, drawnBy } });
+        performance.measure(kMeasure, { start, end: this.presentedAt, detail: { revision, request, drawnBy } });
     }
 
-    private write(): void {
+    private updateText(): void {
         if (this.output.hidden) return;
         const recent = this.samples.slice(-kRecentSamples).map((sample) => sample.milliseconds);
         if (recent.length === 0) {
-            this.output.textContent = "Key to picture: press a key";
+            this.output.textContent = "Key-to-picture latency: press a key";
             return;
         }
         const text = (value: number): string => `${value < 10 ? value.toFixed(1) : value.toFixed(0)} ms`;
         const sorted = [...recent].sort((a, b) => a - b);
-        const at = (part: number): string => text(sorted[Math.min(sorted.length - 1, Math.floor(part * sorted.length))]!);
+        const quantile = (part: number): string =>
+            text(sorted[Math.min(sorted.length - 1, Math.floor(part * sorted.length))]!);
         this.output.textContent = [
-            `Key to picture ${text(recent.at(-1)!)}`,
-            `median ${at(0.5)}`,
-            `99th percentile ${at(0.99)}`,
+            `Key-to-picture latency ${text(recent.at(-1)!)}`,
+            `median ${quantile(0.5)}`,
+            `99th percentile ${quantile(0.99)}`,
             `${recent.length} measured`,
         ].join(" \u00b7 ");
     }

@@ -1,43 +1,48 @@
-// What the page shows at the start: a shared session from the URL's fragment, a view from its query, or the session
-// from before a reload.
+// What the page shows at the start: a shared session (URL fragment), a view (URL query), or the session from before a
+// reload.
 
 import type { Credentials } from "@oval4d/protocol";
 
-import { recall, remember } from "./memory";
+import { readStored, writeStored } from "./tab_storage";
 
-export interface Start {
+export interface InitialView {
     /** The session to return to, or to join. */
     credentials?: Credentials;
-    /** Command lines that produce the view of the query in a new session. */
+    /** Commands that produce the view of the query in a new session. */
     lines: string[];
 }
 
-interface Kept {
+interface StoredSession {
     credentials: Credentials;
     query: string;
 }
 
-const kIgnored = ["width", "height", "token"]; // only for pictures: the page has its own size
-const kKept = `oval4d.session ${location.pathname}`;
+const kIgnoredParameters = ["width", "height", "token"]; // not part of the view
+const kSessionKey = `oval4d.session ${location.pathname}`;
 
-export function readStart(): Start {
-    const fragment = new URLSearchParams(location.hash.slice(1));
-    const [session, token] = [fragment.get("session"), fragment.get("token")];
-    if (session !== null && token !== null) {
-        // The token gives access to the session, so it must not stay in the address bar.
-        history.replaceState(null, "", location.pathname + location.search);
-        keep({ session, token });
-        return { credentials: { session, token }, lines: [] };
-    }
-    const kept = recall<Kept>(kKept);
-    if (kept?.query === location.search) return { credentials: kept.credentials, lines: [] };
+export function readInitialView(): InitialView {
+    const credentials = extractSharedSession();
+    if (credentials) return { credentials, lines: [] };
+    const stored = readStored<StoredSession>(kSessionKey);
+    if (stored?.query === location.search) return { credentials: stored.credentials, lines: [] };
     return { lines: commandLines(location.search) };
 }
 
+/** The session of a shared link in the address bar, if any; removes it from there. */
+export function extractSharedSession(): Credentials | undefined {
+    const fragment = new URLSearchParams(location.hash.slice(1));
+    const [session, token] = [fragment.get("session"), fragment.get("token")];
+    if (session === null || token === null) return undefined;
+    // The token gives access to the session, so it must not stay in the address bar.
+    history.replaceState(null, "", location.pathname + location.search);
+    rememberSession({ session, token });
+    return { session, token };
+}
+
 /** Remembers the session across a reload. */
-export function keep(credentials: Credentials): void {
-    const kept: Kept = { credentials, query: location.search };
-    remember(kKept, kept);
+export function rememberSession(credentials: Credentials): void {
+    const stored: StoredSession = { credentials, query: location.search };
+    writeStored(kSessionKey, stored);
 }
 
 /** A link that opens this session for others. */
@@ -49,7 +54,7 @@ export function shareLink({ session, token }: Credentials): string {
 }
 
 /** Decodes percent signs; returns the text unchanged if it is not valid UTF-8, so that the error message shows it. */
-function decoded(text: string): string {
+function decodePercents(text: string): string {
     try {
         return decodeURIComponent(text);
     } catch {
@@ -57,16 +62,16 @@ function decoded(text: string): string {
     }
 }
 
-/** Converts a query such as "?polytope=24-cell&rotate=xw,yz:0.39,1.42&slices=31" to command lines. */
+/** Converts a query such as "?polytope=24-cell&rotate=xw,yz:0.39,1.42&slices=31" to commands for the command line. */
 export function commandLines(query: string): string[] {
     const parts = query
         .replace(/^\?/, "")
         .split("&")
         .filter((part) => part !== "");
     // A "+" is part of an expression, not an encoded blank.
-    const settings = parts.map((part) => part.split(/=(.*)/s).map(decoded));
+    const settings = parts.map((part) => part.split(/=(.*)/s).map(decodePercents));
     return settings
-        .filter(([name = ""]) => !kIgnored.includes(name))
+        .filter(([name = ""]) => !kIgnoredParameters.includes(name))
         .map(([name = "", value = ""]) => {
             if (name === "polytope") return `polytope ${value.replaceAll("+", " ")}`;
             if (name !== "rotate") return `set ${name}=${value}`;

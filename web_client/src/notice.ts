@@ -1,9 +1,9 @@
-// A short message over the picture, shown until the next action or for a few seconds.
+// A short message over the picture, which disappears after a few seconds or at the next action.
 
 import { byId, element } from "./element";
-import { sentence } from "./format";
+import { toSentence } from "./format";
 
-const kDuration = 8000; // milliseconds
+const kDuration = 8000; // milliseconds per message
 
 export class Notice {
     private readonly root = byId("notice");
@@ -11,19 +11,27 @@ export class Notice {
 
     /** Shows a message. With a `text` for the user to copy, it stays until the next action. */
     show(message: string, text?: string): void {
+        this.write([message]);
+        if (text === undefined) return;
         clearTimeout(this.timer);
-        this.root.replaceChildren(sentence(message));
-        if (text === undefined) {
-            this.timer = setTimeout(() => this.hide(), kDuration);
-            return;
-        }
         const field = element("input", { type: "text", readonly: true, value: text, "aria-label": "Link" });
         this.root.append(field);
         field.select();
     }
 
+    /** Shows several messages, each on a line of its own. */
+    showAll(messages: string[]): void {
+        if (messages.length > 0) this.write(messages);
+    }
+
     hide(): void {
         clearTimeout(this.timer);
         this.root.replaceChildren();
+    }
+
+    private write(messages: string[]): void {
+        clearTimeout(this.timer);
+        this.root.replaceChildren(messages.map(toSentence).join("\n"));
+        this.timer = setTimeout(() => this.hide(), messages.length * kDuration);
     }
 }

@@ -1,4 +1,5 @@
-// The viewer's orbit around the slices: applied on the page at once, and sent to the session as fast as it accepts it.
+// The viewer's orbit around the slices. The page applies a change at once, and sends the newest orbit to the session
+// whenever the previous one has been answered.
 
 import type { Client, Orbit, State } from "@oval4d/protocol";
 
@@ -20,27 +21,27 @@ export class OrbitControl {
     drag(dx: number, dy: number): void {
         const part = Math.PI / Math.max(1, this.stage.size.height / devicePixelRatio);
         const { azimuth, elevation, zoom } = this.stage.orbit;
-        const steep = Math.min(kLimits.elevation, Math.max(-kLimits.elevation, elevation + dy * part));
+        const tilted = Math.min(kLimits.elevation, Math.max(-kLimits.elevation, elevation + dy * part));
         const turned = (azimuth - dx * part) % (2 * Math.PI);
-        this.move({ azimuth: turned, elevation: steep, zoom });
+        this.setOrbit({ azimuth: turned, elevation: tilted, zoom });
     }
 
-    magnify(factor: number): void {
-        const [least, most] = kLimits.zoom;
-        this.move({ ...this.stage.orbit, zoom: Math.min(most, Math.max(least, this.stage.orbit.zoom * factor)) });
+    zoomBy(factor: number): void {
+        const [min, max] = kLimits.zoom;
+        this.setOrbit({ ...this.stage.orbit, zoom: Math.min(max, Math.max(min, this.stage.orbit.zoom * factor)) });
     }
 
     reset(): void {
-        this.move(kInitial);
+        this.setOrbit(kInitial);
     }
 
-    /** Adopts the camera of the state, unless changes of this client are still to be sent. */
-    follow(state: State): void {
+    /** Adopts the camera of the state, unless this page has changes that the session has not answered. */
+    adoptCamera(state: State): void {
         if (this.sending || this.unsent) return;
         this.stage.orbit = state.camera;
     }
 
-    private move(orbit: Orbit): void {
+    private setOrbit(orbit: Orbit): void {
         this.stage.orbit = orbit;
         if (this.stage.mode === "geometry") this.stage.redraw();
         this.unsent = true;

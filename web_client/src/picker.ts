@@ -5,9 +5,9 @@ import type { CatalogueEntry } from "@oval4d/protocol";
 import { Catalogue } from "./catalogue";
 import { Dialog } from "./dialog";
 import { byId, element } from "./element";
-import { count, sentence } from "./format";
+import { formatCount, toSentence } from "./format";
 
-const kPage = 8; // options by which Page Up and Page Down move
+const kPage = 8; // number of options by which Page Up and Page Down move
 const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1, PageDown: kPage, PageUp: -kPage };
 
 export class Picker {
@@ -15,13 +15,14 @@ export class Picker {
     private readonly input = byId<HTMLInputElement>("picker-search");
     private readonly list = byId("picker-list");
     private readonly error = byId("picker-error");
-    private readonly found = byId("picker-found");
+    private readonly resultCount = byId("picker-found");
     private readonly options = new Map<CatalogueEntry, HTMLElement>();
-    private readonly asTyped = element("div", { role: "option", id: "picker-typed", class: "typed" });
+    private readonly typedOption = element("div", { role: "option", id: "picker-typed", class: "typed" });
     private catalogue = new Catalogue([]);
     private current = "";
     private active: HTMLElement | undefined;
-    private choosing = 0; // number of the latest choice: the outcome of earlier ones is not shown
+    private failure = ""; // why the catalogue cannot be listed; "" if it can be
+    private choiceNumber = 0; // number of the latest choice; results of earlier choices are ignored
 
     /** `choose` selects a polytope by name; it throws an Error whose message is shown to the user. */
     constructor(private readonly choose: (name: string) => Promise<unknown>) {
@@ -29,35 +30,48 @@ export class Picker {
         this.input.addEventListener("keydown", (event) => this.keydown(event));
         byId("picker-form").addEventListener("submit", (event) => {
             event.preventDefault();
-            if (this.active) void this.take(this.active);
+            if (this.active) void this.confirm(this.active);
         });
         this.list.addEventListener("pointerdown", (event) => event.pointerType === "mouse" && event.preventDefault());
         this.list.addEventListener("click", (event) => {
             const option = event.target instanceof Element && event.target.closest<HTMLElement>("[role=option]");
-            if (option) void this.take(option);
+            if (option) void this.confirm(option);
         });
     }
 
-    /** Opens the dialog; `current` is the polytope that is shown now. */
+    /** Opens the dialog; `current` is the name of the polytope that is shown now. */
     open(current: string): void {
         this.current = current;
+        this.failure = "";
         this.input.value = "";
         this.dialog.open(this.input);
         this.search();
     }
 
-    /** Shows these entries, if they differ from the previous ones. */
-    show(entries: CatalogueEntry[]): void {
+    get isOpen(): boolean {
+        return this.dialog.isOpen;
+    }
+
+    /** Replaces the entries of the catalogue, if they have changed. */
+    setEntries(entries: CatalogueEntry[]): void {
+        if (this.failure !== "") this.showError("");
+        this.failure = "";
         if (JSON.stringify(entries) === JSON.stringify(this.catalogue.entries)) return;
         this.catalogue = new Catalogue(entries);
         this.options.clear();
-        entries.forEach((entry, i) => this.options.set(entry, option(entry, `picker-option-${i}`)));
-        if (this.dialog.isOpen) this.search();
+        entries.forEach((entry, i) => this.options.set(entry, optionElement(entry, `picker-option-${i}`)));
+        if (this.isOpen) this.search();
+    }
+
+    /** Says why the catalogue is not available. The entries of the previous one, if any, stay in the list. */
+    showFailure(reason: string): void {
+        this.failure = reason;
+        this.showError(reason);
     }
 
     private search(): void {
-        ++this.choosing;
-        this.say("");
+        ++this.choiceNumber;
+        this.showError(this.failure);
         const text = this.input.value.trim();
         const families = this.catalogue.find(text);
         const groups = families.map(({ name, entries }, i) => {
@@ -66,21 +80,23 @@ export class Picker {
             const attributes = { role: "group", "aria-labelledby": title.id };
             return element("div", attributes, title, ...options);
         });
-        const isName = text === "" || this.catalogue.named(text) !== undefined;
-        this.asTyped.replaceChildren(element("b", {}, "Build "), element("q", {}, text));
-        this.asTyped.dataset["name"] = text;
-        this.list.replaceChildren(...groups, ...(isName ? [] : [this.asTyped]));
-        const shown = this.listed.length - (isName ? 0 : 1);
-        this.found.textContent = shown === 1 ? "1 polytope" : `${shown === 0 ? "No" : count(shown)} polytopes`;
+        const isName = text === "" || this.catalogue.findByName(text) !== undefined;
+        this.typedOption.replaceChildren(element("b", {}, "Build "), element("q", {}, text));
+        this.typedOption.dataset["name"] = text;
+        this.list.replaceChildren(...groups, ...(isName ? [] : [this.typedOption]));
+        const shown = this.listedOptions.length - (isName ? 0 : 1);
+        const number = shown === 0 ? "No" : formatCount(shown);
+        const results = shown === 1 ? "1 polytope" : `${number} polytopes`;
+        this.resultCount.textContent = this.options.size > 0 ? results : "";
         for (const one of this.options.values()) {
             one.toggleAttribute("data-current", one.dataset["name"] === this.current);
         }
-        const first = text === "" ? this.listed.find((one) => one.dataset["name"] === this.current) : undefined;
-        this.activate(first ?? this.listed[0], first ? "center" : "nearest");
+        const first = text === "" ? this.listedOptions.find((one) => one.dataset["name"] === this.current) : undefined;
+        this.activate(first ?? this.listedOptions[0], first ? "center" : "nearest");
         if (!first) this.list.scrollTop = 0;
     }
 
-    private get listed(): HTMLElement[] {
+    private get listedOptions(): HTMLElement[] {
         return [...this.list.querySelectorAll<HTMLElement>("[role=option]")];
     }
 
@@ -88,12 +104,12 @@ export class Picker {
         const step = kSteps[event.key];
         if (step === undefined || event.isComposing) return;
         event.preventDefault();
-        const { listed } = this;
-        const at = this.active ? listed.indexOf(this.active) : -1;
-        const last = listed.length - 1;
+        const { listedOptions } = this;
+        const at = this.active ? listedOptions.indexOf(this.active) : -1;
+        const last = listedOptions.length - 1;
         const onward =
             Math.abs(step) > 1 ? Math.min(last, Math.max(0, at + step)) : (at + step + last + 1) % (last + 1);
-        this.activate(listed[onward], "nearest");
+        this.activate(listedOptions[onward], "nearest");
     }
 
     private activate(next: HTMLElement | undefined, block: ScrollLogicalPosition): void {
@@ -107,34 +123,34 @@ export class Picker {
         next?.scrollIntoView({ block });
     }
 
-    private async take(chosen: HTMLElement): Promise<void> {
-        const turn = ++this.choosing;
+    private async confirm(chosen: HTMLElement): Promise<void> {
+        const number = ++this.choiceNumber;
         this.activate(chosen, "nearest");
-        this.say("");
+        this.showError("");
         this.list.setAttribute("aria-busy", "true");
         try {
             await this.choose(chosen.dataset["name"]!);
-            if (turn === this.choosing) this.dialog.close();
+            if (number === this.choiceNumber) this.dialog.close();
         } catch (error) {
-            if (turn === this.choosing) this.say((error as Error).message);
+            if (number === this.choiceNumber) this.showError((error as Error).message);
         } finally {
-            if (turn === this.choosing) this.list.removeAttribute("aria-busy");
+            if (number === this.choiceNumber) this.list.removeAttribute("aria-busy");
         }
     }
 
-    private say(error: string): void {
-        this.error.textContent = error === "" ? "" : sentence(error);
+    private showError(error: string): void {
+        this.error.textContent = error === "" ? "" : toSentence(error);
         this.input.toggleAttribute("aria-invalid", error !== "");
         this.list.removeAttribute("aria-busy");
     }
 }
 
-function option(entry: CatalogueEntry, id: string): HTMLElement {
+function optionElement(entry: CatalogueEntry, id: string): HTMLElement {
     const { name, aliases, schlaefli, diagram = "", vertices, edges, faces, cells } = entry;
     const symbol = schlaefli || diagram;
     const also = aliases.filter((alias) => alias !== symbol && alias !== diagram).join(", ");
     const drawn = symbol === diagram || diagram === "" ? [] : [element("code", {}, diagram), also === "" ? "" : ", "];
-    const counts = [vertices, edges, faces, cells].map(count).join(" ");
+    const counts = [vertices, edges, faces, cells].map(formatCount).join(" ");
     const attributes = { role: "option", id, "data-name": name, "aria-selected": "false" };
     return element(
         "div",

@@ -1,15 +1,15 @@
-// Shows the state's main values, and announces changes of the state to screen readers.
+// Shows the main values of the state, and announces changes of the state to screen readers.
 
 import type { State } from "@oval4d/protocol";
 
 import { spokenKinds } from "./colors";
 import { byId, element } from "./element";
-import { degrees, focusW, length, rotation } from "./format";
+import { formatDegrees, focusW, formatLength, formatRotation } from "./format";
 
 interface Reading {
     name: string;
     symbol: string;
-    /** What the value is, as the beginning of the button's tooltip. */
+    /** Describes the value; the beginning of the button's tooltip. */
     meaning: string;
     /** The beginning of the command that changes the value. */
     command: string;
@@ -18,16 +18,16 @@ interface Reading {
 }
 
 const kReadings: Reading[] = [
-    reading("alpha", "α", "Angle of the rotation keys", "set alpha=", ({ alpha }) => degrees(alpha)),
-    reading("beta", "β", "Angle in the second plane", "set beta=", ({ beta }) => degrees(beta)),
-    reading("w", "w", "Position of the focus slice", "set focus=", (state) => length(focusW(state))),
-    reading("spacing", "δ", "Distance between slices", "set spacing=", ({ slices }) => length(slices.spacing)),
+    reading("alpha", "α", "Angle of the rotation keys", "set alpha=", ({ alpha }) => formatDegrees(alpha)),
+    reading("beta", "β", "Angle in the second plane", "set beta=", ({ beta }) => formatDegrees(beta)),
+    reading("w", "w", "Position of the focus slice", "set focus=", focusW),
+    reading("spacing", "δ", "Distance between slices", "set spacing=", ({ slices }) => formatLength(slices.spacing)),
     reading("slices", "Slices", "Number of slices", "set slices=", ({ slices }) => String(slices.count)),
     {
         ...reading("last", "Last rotation", "Planes and angles of the last rotation", "rotate ", ({ last }) =>
-            last ? rotation(last) : "none",
+            last ? formatRotation(last) : "none",
         ),
-        spoken: ({ last }) => (last ? `turned ${rotation(last)}` : ""),
+        spoken: ({ last }) => (last ? `turned ${formatRotation(last)}` : ""),
     },
 ];
 
@@ -35,16 +35,16 @@ const kSpeechDelay = 700; // milliseconds without a change before the state is a
 
 export class Readings {
     private readonly root = byId("readings");
-    private readonly live = byId("spoken");
+    private readonly announcer = byId("spoken");
     private readonly values = new Map<string, HTMLElement>();
     private state: State | undefined;
-    private spoken: string[] | undefined;
+    private announced: string[] | undefined;
     private timer: ReturnType<typeof setTimeout> | undefined;
 
     /** `edit` is called to open the command line with the beginning of a command. */
     constructor(edit: (command: string) => void) {
         for (const { name, symbol, meaning, command } of kReadings) {
-            const value = element("output", { "data-reading": name }, "\u2013");
+            const value = element("span", { "data-reading": name }, "\u2013");
             const label = element("span", { class: symbol.length === 1 ? "symbol" : "word" }, symbol);
             const title = `${meaning}. Change with :${command}…`;
             const button = element("button", { type: "button", title }, label, " ", value);
@@ -61,30 +61,30 @@ export class Readings {
             if (output.textContent !== text) output.textContent = text;
         }
         this.state = state;
-        if (state.turning && this.timer !== undefined) return; // each step would delay the announcement
+        if (state.turning && this.timer !== undefined) return; // otherwise each step would delay the announcement
         clearTimeout(this.timer);
-        this.timer = setTimeout(() => this.speak(), kSpeechDelay);
+        this.timer = setTimeout(() => this.announce(), kSpeechDelay);
     }
 
     /** Announces the changes since the last announcement; the first time, only the polytope's name. */
-    private speak(): void {
+    private announce(): void {
         this.timer = undefined;
         const state = this.state!;
         const { shown } = state;
-        const on = (what: string, is: boolean): string => `${what} ${is ? "on" : "off"}`;
+        const onOff = (part: string, isShown: boolean): string => `${part} ${isShown ? "on" : "off"}`;
         const now = [
             state.polytope.name,
             ...kReadings.map((one) => one.spoken(state)),
             state.view === "oval" ? "oval view" : "single view",
             state.turning ? "turning" : "at rest",
-            `colors by ${state.color}`,
+            state.color === "plain" ? "plain colors" : `colored by ${state.color}`,
             spokenKinds(state),
-            ...Object.entries(shown).map(([what, is]) => on(what, is as boolean)),
+            ...Object.entries(shown).map(([part, isShown]) => onOff(part, isShown as boolean)),
         ];
-        const before = this.spoken ?? now.map((text, i) => (i === 0 ? "" : text));
-        this.spoken = now;
+        const before = this.announced ?? now.map((text, i) => (i === 0 ? "" : text));
+        this.announced = now;
         const changed = now.filter((text, i) => text !== "" && text !== before[i]);
-        if (changed.length > 0) this.live.textContent = changed.join(", ");
+        if (changed.length > 0) this.announcer.textContent = changed.join(", ");
     }
 }
 

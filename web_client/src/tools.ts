@@ -1,4 +1,4 @@
-// The tools panel: a button for every action of the key table, and the page's own sections.
+// The tools panel: a button for every action of the key table, and further sections of the page.
 
 import type { KeyBinding, Keymap, Parts, Plane, State } from "@oval4d/protocol";
 
@@ -10,10 +10,10 @@ export interface ToolEvents {
     press(binding: KeyBinding, inverse: boolean, held: boolean): void;
 }
 
-/** A section that does not come from the key table. It is merged with a group of the table that has the same title. */
+/** A section of the page. If a group of the key table has the same title, the section is appended to that group. */
 export interface Section {
     title: string;
-    /** The group of the key table after which the section is placed; by default it is the last. */
+    /** The group of the key table after which the section is placed; by default, the section comes last. */
     after?: string;
     content: Node[];
 }
@@ -22,67 +22,67 @@ export interface Section {
 const kTabs = [
     { title: "Turn", groups: ["turn", "history"] },
     { title: "Slices", groups: ["angle", "focus", "slices"] },
-    { title: "Show", groups: ["polytope", "look", "Colors"] },
+    { title: "Show", groups: ["polytope", "look", "whole", "Colors"] },
 ];
-const kOther = "More";
+const kOtherTab = "More";
 
-const kRepeating =
+const kRepeatingActions =
     /^(rotate|repeat|undo|redo|(alpha|beta|focus|spacing|slices|polytope)_(up|down|left|right|smaller|larger|fewer|more|next|previous))$/;
 const kHoldDelay = 400; // milliseconds until a held button repeats
 const kHoldInterval = 60; // milliseconds between repetitions
 
-/** The actions that are toggles, and whether each is on. The name of a part of the picture is also the action that
- * switches it. */
-const kSwitches: Record<string, (state: State) => boolean> = {
+/** The actions that switch something on and off, and a function that returns whether it is on. A part of the picture is
+ * switched by the action of the same name. */
+const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
     view: (state) => state.view === "single",
     ...Object.fromEntries(
         Object.keys(parts.properties).map((part) => [part, (state: State) => state.shown[part as keyof Parts]]),
     ),
 };
-/** Button labels for actions whose label in the key table is not clear enough on a button. */
+/** Labels of buttons that differ from the key table, whose label is not clear enough there. */
 const kLabels: Record<string, string> = { view: "One slice", command_line: "Command" };
 const kFocusOrder = ["focus_first", "focus_left", "focus_zero", "focus_right", "focus_last"];
 
 /** Pairs of actions that are combined in one stepper: decrease, increase, and the name of the quantity. */
-const kPairs = [
+const kStepperPairs = [
     ["alpha_down", "alpha_up", "α"],
     ["beta_down", "beta_up", "β"],
     ["spacing_smaller", "spacing_larger", "δ"],
     ["slices_fewer", "slices_more", "Slices"],
 ] as const;
 
-const kColumns: Plane[] = ["xy", "xz", "xw"]; // columns of the pad; the perpendicular planes zw, yw, yz are below them
+const kPadColumns: Plane[] = ["xy", "xz", "xw"]; // the perpendicular planes zw, yw, yz are below them
 
 export class Tools {
     private readonly root = byId("tools");
-    private readonly switches = new Map<string, HTMLElement>();
+    private readonly toggleButtons = new Map<string, HTMLElement>();
 
     constructor(private readonly events: ToolEvents) {
         // The drawing keeps the focus, and therefore receives the keys, when a button is clicked.
         this.root.addEventListener("mousedown", (event) => event.preventDefault());
     }
 
-    show(keymap: Keymap, own: Section[]): void {
-        this.switches.clear();
+    show(keymap: Keymap, pageSections: Section[]): void {
+        this.toggleButtons.clear();
         const rotations = keymap.keys.filter((key) => key.action === "rotate");
         const sections = keymap.groups
             .map(({ name, title }) => ({ name, title, keys: keymap.keys.filter((key) => key.group === name) }))
             .filter(({ keys }) => keys.some((key) => key.action !== "rotate"))
             .map(({ name, title, keys }) => ({ name, title, content: this.controls(keys) }));
         const groups: { name: string; title: string; content: Node[] }[] = [
-            { name: "turn", title: "Turn", content: rotations.map((key) => this.rotation(key)) },
+            { name: "turn", title: "Turn", content: rotations.map((key) => this.rotationStepper(key)) },
             ...sections,
         ];
-        for (const { title, content, after } of own) {
+        for (const { title, content, after } of pageSections) {
             const same = groups.find((group) => group.title === title);
             const at = groups.findIndex(({ name }) => name === after) + 1 || groups.length;
             if (same) same.content.push(...content);
             else groups.splice(at, 0, { name: title, title, content: [...content] });
         }
-        const tabOf = (name: string): string => kTabs.find((tab) => tab.groups.includes(name))?.title ?? kOther;
+        const tabOf = (name: string): string => kTabs.find((tab) => tab.groups.includes(name))?.title ?? kOtherTab;
         this.root.replaceChildren(
-            this.tabs([...kTabs.map((tab) => tab.title), kOther]),
+            this.tabBar([...kTabs.map((tab) => tab.title), kOtherTab]),
             ...groups.map(({ name, title, content }) => {
                 const attributes = { "data-tab": tabOf(name), "data-group": name };
                 return element("section", attributes, element("h2", {}, title), element("div", {}, ...content));
@@ -91,12 +91,12 @@ export class Tools {
     }
 
     update(state: State): void {
-        for (const [action, button] of this.switches) {
-            button.setAttribute("aria-pressed", String(kSwitches[action]!(state)));
+        for (const [action, button] of this.toggleButtons) {
+            button.setAttribute("aria-pressed", String(kToggles[action]!(state)));
         }
     }
 
-    private tabs(titles: string[]): HTMLElement {
+    private tabBar(titles: string[]): HTMLElement {
         const buttons = titles.map((title) => {
             const button = element("button", { type: "button" }, title);
             button.addEventListener("click", () => choose(title));
@@ -110,38 +110,41 @@ export class Tools {
         return element("div", { class: "tabs", role: "group", "aria-label": "Groups of tools" }, ...buttons);
     }
 
-    private button(binding: KeyBinding): HTMLElement {
-        const label = element("span", {}, kLabels[binding.action] ?? binding.label);
-        const button = element("button", { type: "button", ...this.names(binding, binding.text, binding.name) });
-        button.append(label, element("kbd", { "aria-hidden": "true" }, binding.name));
-        if (binding.action in kSwitches) {
-            this.switches.set(binding.action, button);
+    private actionButton(binding: KeyBinding): HTMLElement {
+        const label = kLabels[binding.action] ?? binding.label;
+        const attributes = this.buttonAttributes(binding, binding.text, binding.name);
+        const button = element("button", { type: "button", ...attributes });
+        // A label in words is the accessible name, so that speech control finds the button; the title describes it.
+        if (/\p{L}/u.test(label)) button.removeAttribute("aria-label");
+        button.append(element("span", {}, label), element("kbd", { "aria-hidden": "true" }, binding.name));
+        if (binding.action in kToggles) {
+            this.toggleButtons.set(binding.action, button);
             button.setAttribute("aria-pressed", "false");
         }
-        this.onPress(button, binding, false);
+        this.bindPresses(button, binding, false);
         return button;
     }
 
     /** The controls for a group of keys: steppers for the pairs, buttons for the rest. */
     private controls(keys: KeyBinding[]): HTMLElement[] {
         const find = (action: string): KeyBinding | undefined => keys.find((key) => key.action === action);
-        const steppers = kPairs.flatMap(([lessName, moreName, of]) => {
+        const steppers = kStepperPairs.flatMap(([lessName, moreName, of]) => {
             const [less, more] = [find(lessName), find(moreName)];
             if (!less || !more) return [];
             const name = element("span", { class: of.length === 1 ? "symbol" : "" }, of);
             return [this.stepper(less, false, [name], `${less.name} ${more.name}`, more)];
         });
-        const paired: string[] = kPairs.flatMap(([less, more]) => [less, more]);
-        const rest = keys.filter((key) => !paired.includes(key.action)).sort(byFocus);
-        return [...steppers, ...rest.map((key) => this.button(key))];
+        const paired: string[] = kStepperPairs.flatMap(([less, more]) => [less, more]);
+        const rest = keys.filter((key) => !paired.includes(key.action)).sort(compareFocusOrder);
+        return [...steppers, ...rest.map((key) => this.actionButton(key))];
     }
 
     /** A stepper for a rotation and its inverse: − xy +. */
-    private rotation(binding: KeyBinding): HTMLElement {
+    private rotationStepper(binding: KeyBinding): HTMLElement {
         const planes = binding.planes ?? [];
         const made = this.stepper(binding, true, planes.map(planeName), binding.name, binding);
         made.style.gridColumn = String(1 + columnOf(planes[0]!));
-        made.style.gridRow = planes.length > 1 ? "3" : kColumns.includes(planes[0]!) ? "1" : "2";
+        made.style.gridRow = planes.length > 1 ? "3" : kPadColumns.includes(planes[0]!) ? "1" : "2";
         return made;
     }
 
@@ -149,15 +152,15 @@ export class Tools {
         const step = (sign: string, binding: KeyBinding, inverted: boolean): HTMLElement => {
             const text = inverted ? `Inverse: ${uncapitalized(binding.text)}` : binding.text;
             const key = inverted ? `Shift+${binding.name}` : binding.name;
-            const button = element("button", { type: "button", ...this.names(binding, text, key) }, sign);
-            this.onPress(button, binding, inverted);
+            const button = element("button", { type: "button", ...this.buttonAttributes(binding, text, key) }, sign);
+            this.bindPresses(button, binding, inverted);
             return button;
         };
         const label = element("span", { "aria-hidden": "true" }, ...name, element("kbd", {}, keys));
         return element("div", { class: "stepper" }, step("\u2212", less, inverse), label, step("+", more, false));
     }
 
-    private names({ action }: KeyBinding, text: string, key: string): Record<string, string> {
+    private buttonAttributes({ action }: KeyBinding, text: string, key: string): Record<string, string> {
         return {
             "aria-label": `${text} (key ${key})`,
             title: `${text}  (${key})`,
@@ -166,20 +169,20 @@ export class Tools {
         };
     }
 
-    /** Sends presses: one at a click, and repeated ones while the button is held down. */
-    private onPress(button: HTMLElement, binding: KeyBinding, inverse: boolean): void {
+    /** Presses the key at a click, and repeatedly while the button is held down. */
+    private bindPresses(button: HTMLElement, binding: KeyBinding, inverse: boolean): void {
         let timer: ReturnType<typeof setTimeout> | undefined;
         let repeated = false;
-        const again = (): void => {
+        const repeat = (): void => {
             repeated = true;
             this.events.press(binding, inverse, true);
-            timer = setTimeout(again, kHoldInterval);
+            timer = setTimeout(repeat, kHoldInterval);
         };
         const stop = (): void => clearTimeout(timer);
-        if (kRepeating.test(binding.action)) {
+        if (kRepeatingActions.test(binding.action)) {
             button.addEventListener("pointerdown", (event) => {
                 repeated = false;
-                if (event.button === 0) timer = setTimeout(again, kHoldDelay);
+                if (event.button === 0) timer = setTimeout(repeat, kHoldDelay);
             });
             for (const end of ["pointerup", "pointercancel", "pointerleave", "blur"])
                 button.addEventListener(end, stop);
@@ -199,10 +202,10 @@ function uncapitalized(text: string): string {
 
 /** The column of a plane, or of its perpendicular plane. */
 function columnOf(plane: Plane): number {
-    const column = kColumns.indexOf(plane);
-    return column >= 0 ? column : kColumns.findIndex((one) => ![...one].some((axis) => plane.includes(axis)));
+    const column = kPadColumns.indexOf(plane);
+    return column >= 0 ? column : kPadColumns.findIndex((other) => ![...other].some((axis) => plane.includes(axis)));
 }
 
-function byFocus(a: KeyBinding, b: KeyBinding): number {
+function compareFocusOrder(a: KeyBinding, b: KeyBinding): number {
     return kFocusOrder.indexOf(a.action) - kFocusOrder.indexOf(b.action);
 }

@@ -15,11 +15,11 @@ namespace oval4d::exports {
 /// The input of formats with bodies: the bodies, already arranged.
 struct BodiesInput {
     std::span<const NamedMesh> solids;
-    std::span<const scene::Color> cellColors;  ///< one per cell
+    std::span<const scene::Color> cellColors;  ///< the color of each cell
     const std::string& title;
     const Budget& budget;
 
-    /// Returns the color of a triangle of `solid`: that of its cell, or that of the solid if it has no cell.
+    /// Returns the color of a triangle of `solid`: the color of its cell, or the color of the solid if it has no cell.
     scene::Color colorOf(const NamedMesh& solid, std::size_t triangle) const {
         const std::uint32_t cell = solid.mesh.cells[triangle];
         return cell < cellColors.size() ? cellColors[cell] : solid.color;
@@ -32,9 +32,10 @@ struct SceneInput {
     const slicing::Object& object;
 };
 
-/// A file format of protocol/export_formats.json. Exactly one of the two writers is set.
+/// A file format of protocol/export_formats.json. Exactly one of `writeBodies` and `writeScene` is not null.
 struct Format {
-    /// How the bodies are arranged: the format has no bodies, in rows for a 3-D printer, or as in the oval view.
+    /// How the bodies are arranged. `none`: the format has no bodies; `plate`: in rows for a 3-D printer; `oval`: as in
+    /// the oval view.
     enum class Arrangement { none, plate, oval };
 
     std::string name;       ///< the name in messages, which is also the file name extension: "stl"

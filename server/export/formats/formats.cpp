@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "contract/embedded.hpp"
 #include "export/formats/csv.hpp"
 #include "export/formats/glb.hpp"
 #include "export/formats/obj.hpp"
@@ -16,12 +15,13 @@
 #include "export/formats/svg.hpp"
 #include "export/formats/three_mf.hpp"
 #include "export/formats/x3d.hpp"
+#include "protocol_data/embedded_files.hpp"
 
 namespace oval4d::exports {
 
 namespace {
 
-/// The function that writes a format; the other pointer is null.
+/// The name of a format and the function that writes it: `ofBodies` or `ofScene`; the other one is null.
 struct Writer {
     std::string_view name;
     std::string (*ofBodies)(const BodiesInput&);
@@ -39,7 +39,7 @@ constexpr auto kWriters = std::to_array<Writer>({{"3mf", threeMf, nullptr},
 
 std::vector<Format> readTable() {
     std::vector<Format> table;
-    const auto rows = nlohmann::json::parse(contract::embedded("export_formats.json")).at("formats");
+    const auto rows = nlohmann::json::parse(protocol_data::embeddedFile("export_formats.json")).at("formats");
     for (const auto& row : rows) {
         Format format{row.at("name"), row.at("media_type"), Format::Arrangement::none, nullptr, nullptr};
         const auto writer = std::ranges::find(kWriters, format.name, &Writer::name);

@@ -9,7 +9,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "export/formats/bytes.hpp"
+#include "export/formats/little_endian.hpp"
 
 namespace oval4d::exports {
 
@@ -32,8 +32,8 @@ class VertexAttribute {
         most_ = glm::max(most_, value);
         ++count_;
     }
-    /// Appends the attribute to the model's only buffer, and returns the index of its accessor. `bounded`: whether the
-    /// accessor has the minimum and maximum of the values.
+    /// Appends the attribute to the model's only buffer, and returns the index of its accessor. `bounded` says whether
+    /// the accessor has the minimum and maximum of the values.
     int store(tinygltf::Model& model, bool bounded) const {
         std::vector<unsigned char>& data = model.buffers.front().data;
         tinygltf::BufferView view;

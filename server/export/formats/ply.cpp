@@ -1,6 +1,6 @@
 #include "export/formats/ply.hpp"
 
-#include "export/formats/bytes.hpp"
+#include "export/formats/little_endian.hpp"
 
 namespace oval4d::exports {
 

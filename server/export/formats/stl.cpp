@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "export/formats/bytes.hpp"
+#include "export/formats/little_endian.hpp"
 
 // Binary STL: a header of 80 bytes, the number of triangles and, for each triangle, its normal, three corners and two
 // unused bytes; all numbers are little-endian.

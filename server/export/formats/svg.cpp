@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "export/formats/text.hpp"
-#include "scene/density.hpp"
+#include "scene/density_plot.hpp"
 
 namespace oval4d::exports {
 
@@ -32,11 +32,12 @@ std::string color(scene::Color rgb) {
     return text.data();
 }
 
-/// The layout of the vertices' columns in rows.
+/// The positions of the columns. Each vertex has a column, with a vertical line for each of its four coordinates; the
+/// columns are arranged in rows.
 struct Columns {
     std::size_t count, perRow, rows;
-    double step, rowStep;
-    bool named;  ///< whether there is room for the labels P0, P1, …
+    double step, rowStep;  ///< from a column to the next, from a row to the next
+    bool named;            ///< whether there is room for the labels P0, P1, …
 
     explicit Columns(std::size_t vertices) : count(vertices) {
         const double width = kWidth - 2 * kMargin;
@@ -62,19 +63,19 @@ std::array<scene::Color, 4> axisColors() {
     return {style.axisX, style.axisY, style.axisZ, style.axisW};
 }
 
-/// Returns the density as SVG paths. It is rounded to kTones tones; the path of a tone has the outlines of all pixels
-/// of this tone.
-std::string densityPaths(const scene::Density& density) {
-    using scene::Density;
+/// Returns the density as SVG paths. The density is rounded to kTones tones; there is one path for each tone, with the
+/// outlines of all pixels of this tone.
+std::string densityPaths(const scene::DensityPlot& density) {
+    using scene::DensityPlot;
     constexpr int kTones = 32;
     const auto toneAt = [&](int row, int column) {
-        return (density.tones()[Density::index(row, column)] * kTones + 127) / 255;
+        return (density.tones()[DensityPlot::index(row, column)] * kTones + 127) / 255;
     };
     std::array<std::string, kTones + 1> paths;
-    for (int column = 0; column < Density::kColumns; ++column) {
-        for (int row = 0, end = 0; row < Density::kRows; row = end) {
+    for (int column = 0; column < DensityPlot::kColumns; ++column) {
+        for (int row = 0, end = 0; row < DensityPlot::kRows; row = end) {
             const int tone = toneAt(row, column);
-            while (end < Density::kRows && toneAt(end, column) == tone) ++end;
+            while (end < DensityPlot::kRows && toneAt(end, column) == tone) ++end;
             paths[static_cast<std::size_t>(tone)] +=
                 'M' + std::to_string(column) + ' ' + std::to_string(row) + "h1v" + std::to_string(end - row) + "h-1z";
         }
@@ -89,18 +90,18 @@ std::string densityPaths(const scene::Density& density) {
 }
 
 std::string strip(const SceneInput& source) {
-    using scene::Density;
-    scene::Density density;
+    using scene::DensityPlot;
+    scene::DensityPlot density;
     density.measure(source.scene.slices->rotatedVertices, glm::dmat4(1), source.scene.circumradius);
     const double step = (kWidth - 2 * kMargin) / 3, bottom = kMargin + 2 * kAmplitude;
     const std::array<scene::Color, 4> colors = axisColors();
     std::string out = opening(source.scene.title, bottom + kMargin + kText);
     out += "<linearGradient id=\"axes\" gradientUnits=\"userSpaceOnUse\" x1=\"0.5\" x2=\"" +
-           number(Density::kColumns - 0.5) + "\">\n";
+           number(DensityPlot::kColumns - 0.5) + "\">\n";
     for (int k = 0; k < 4; ++k)
         out += "<stop offset=\"" + number(k / 3.0) + "\" stop-color=\"" + color(colors[k]) + "\"/>\n";
     // Columns are centered on their axes, and rows on their values.
-    const double across = step / Density::kGap, down = 2 * kAmplitude / (Density::kRows - 1);
+    const double across = step / DensityPlot::kGap, down = 2 * kAmplitude / (DensityPlot::kRows - 1);
     out +=
         "</linearGradient>\n<g id=\"density\" fill=\"url(#axes)\" shape-rendering=\"crispEdges\" "
         "transform=\"translate(" +

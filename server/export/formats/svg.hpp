@@ -6,8 +6,8 @@
 
 namespace oval4d::exports {
 
-/// Returns an SVG drawing of the parallel coordinates of the rotated vertices; if there are more than
-/// scene::kMaxVerticesAsLines vertices, a density plot.
+/// Returns an SVG drawing of the parallel coordinates of the rotated vertices. If there are more than
+/// scene::kMaxVerticesAsLines vertices, the drawing is a density plot.
 std::string svg(const SceneInput& source);
 
 }  // namespace oval4d::exports

@@ -46,7 +46,7 @@ struct Sink {
 
 // The progress callback of lib3mf. Returns false to cancel writing.
 bool mayContinue(int /*progress*/, ProgressIdentifier /*step*/, void* budget) {
-    return !static_cast<const Budget*>(budget)->isOver();
+    return !static_cast<const Budget*>(budget)->mustStop();
 }
 
 void addMesh(PLib3MFModel* model, const NamedMesh& solid) {

@@ -7,7 +7,7 @@
 namespace oval4d::exports {
 
 /// Returns a 3MF file in millimeters, with an object for each body. Throws std::runtime_error if lib3mf fails, and
-/// Refused if the time limit is exceeded or a stop is requested.
+/// ExportRefused if the time limit is exceeded or a stop is requested.
 std::string threeMf(const BodiesInput& bodies);
 
 }  // namespace oval4d::exports

@@ -36,7 +36,7 @@ struct TextPlacement {
     double height = 0, depth = 0;
 };
 
-/// Returns the faces of the mesh by cell, without those that have more than one boundary loop.
+/// Returns the faces of the mesh, indexed by cell. Omits faces that have more than one boundary loop.
 std::map<std::uint32_t, Face> facesOf(const Mesh& mesh) {
     std::map<std::uint32_t, Face> faces;
     std::map<std::uint32_t, std::map<std::pair<std::uint32_t, std::uint32_t>, int>> edges;
@@ -174,10 +174,10 @@ bool engraveText(Mesh& mesh, const Face& face, const TextPlacement& placement, c
 
 }  // namespace
 
-Caption::Caption(const std::string& name, const std::string& w)
+LabelText::LabelText(const std::string& name, const std::string& w)
     : versions_{letteringOf({name + "  " + w}), letteringOf({name, w})} {}
 
-bool Caption::engrave(Mesh& mesh, double size, const Grid& grid) const {
+bool LabelText::engrave(Mesh& mesh, double size, const Grid& grid) const {
     const auto faces = facesOf(mesh);
     if (!isConvex(mesh, faces, grid)) return false;
     std::vector<TextPlacement> placements;
@@ -201,7 +201,7 @@ bool Caption::engrave(Mesh& mesh, double size, const Grid& grid) const {
     });
 }
 
-Mesh Caption::plate(double size, const Grid& grid) const {
+Mesh LabelText::plate(double size, const Grid& grid) const {
     const double height = std::clamp(size / 15, 3.0, 12.0);
     const Lettering& text = versions_.back();
     const glm::dvec2 extent = (text.size + 2.2 * kMargin) * height;

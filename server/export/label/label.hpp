@@ -12,20 +12,20 @@ namespace oval4d::exports {
 
 /// The text of a label, laid out both in one line and in two lines. Engraving uses the layout that allows larger
 /// letters.
-class Caption {
+class LabelText {
   public:
-    /// `name`: the object's name. `w`: the hyperplane as text, such as "w = −0.25".
-    Caption(const std::string& name, const std::string& w);
+    /// `name` is the object's name, and `w` the position of the hyperplane as text, such as "w = −0.25".
+    LabelText(const std::string& name, const std::string& w);
 
     /// Engraves the text into the face of a convex body that allows the largest letters. Triangles with the same entry
-    /// in `mesh.cells` form a face. Letters are at most size / 10 high (`size`: ExportRequest::size) and at most 0.8 mm
-    /// deep. Returns false and leaves the mesh unchanged if the letters would be less than 1 mm high, or if the body is
-    /// not convex or too thin.
+    /// in `mesh.cells` form a face. Letters are at most size / 10 high and at most 0.8 mm deep. For `size`, see
+    /// ExportRequest::size. Returns false and leaves the mesh unchanged if the letters would be less than 1 mm high, or
+    /// if the body is not convex or too thin.
     bool engrave(Mesh& mesh, double size, const Grid& grid) const;
 
-    /// Returns a plate with the text engraved into its top side. The letters are as large as suits bodies of this size
-    /// (ExportRequest::size). The bottom of the plate lies in the plane z = 0; the plate is centered in x and extends
-    /// from y = 0 toward negative y.
+    /// Returns a plate with the text engraved into its top side. The letters are size / 15 high, but at least 3 and at
+    /// most 12 mm. The bottom of the plate lies in the plane z = 0; the plate is centered in x and extends from y = 0
+    /// toward negative y. For `size`, see ExportRequest::size.
     Mesh plate(double size, const Grid& grid) const;
 
   private:

@@ -35,7 +35,7 @@ constexpr std::array<std::array<unsigned, 4>, 6> kTetrahedra{
     {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}};
 
 // For each set of inside corners of a tetrahedron (bit c stands for corner c): an even permutation of the corners. It
-// puts the inside corners first, except that it puts the outside corner first if there is only one.
+// puts the inside corners first; if only one corner is outside, it puts this corner first instead.
 constexpr std::array<std::array<unsigned, 4>, 16> kOrder{{{0, 1, 2, 3},
                                                           {0, 1, 2, 3},
                                                           {1, 0, 3, 2},
@@ -119,15 +119,16 @@ class MarchingTetrahedra {
         }
     }
 
-    // Returns the mesh point on the edge between two corners of the cube at `at`; creates it on first use. The bits of
-    // one corner are a subset of those of the other.
+    // Returns the index of the mesh point on the edge between the corners `inside` and `outside` of the cube at `at`.
+    // Creates the point on first use. A corner is a bit set (see `offset`); on every edge of a tetrahedron, the bits of
+    // one end are a subset of the bits of the other end.
     std::uint32_t vertex(const glm::ivec3& at, unsigned inside, unsigned outside) {
         const glm::ivec3 lower = at + offset(inside & outside);
         auto& ids = idsOf(lower);
         std::uint32_t& id = ids[static_cast<std::size_t>(indexIn(lower)) * 7 + (inside ^ outside) - 1];
         if (id == kNone) {
             id = static_cast<std::uint32_t>(mesh_.points.size());
-            // Crossings near a common end of their edges stay several grid steps apart.
+            // Keeps crossings near a common end of their edges several grid steps apart.
             const double off = std::min(1.0 / 12, 6 * grid_.step() / field_.step());
             const glm::ivec3 from = at + offset(inside);
             const glm::ivec3 to = at + offset(outside);
@@ -139,8 +140,8 @@ class MarchingTetrahedra {
         return id;
     }
 
-    // Assigns each triangle to the cell of at least two of its corners; if all three cells differ, to that of the first
-    // corner.
+    // Assigns each triangle to the cell that at least two of its corners have; if all three cells differ, to the cell
+    // of the first corner.
     void assignCells() {
         for (const auto& [a, b, c] : mesh_.triangles) {
             mesh_.cells.push_back(pointCells_[b] == pointCells_[c] ? pointCells_[b] : pointCells_[a]);
@@ -178,7 +179,7 @@ class MarchingTetrahedra {
 
 glm::ivec3 SampledField::floorIndex(const glm::dvec3& place) const { return {glm::floor((place - origin_) / step_)}; }
 
-float& SampledField::at(const glm::ivec3& point) {
+float& SampledField::operator[](const glm::ivec3& point) {
     const glm::ivec3 corner = blockOf(point) * kSide;
     if (last_ == nullptr || last_->corner != corner) {
         auto& block = blocks_[keyOf(point)];

@@ -2,9 +2,9 @@
 // Marching tetrahedra (A. Doi, A. Koide, IEICE Transactions E74, 1991): extracts the surface where a field sampled on a
 // cubic grid changes sign. Each cube is divided into six tetrahedra around one diagonal (H. Freudenthal, Annals of
 // Mathematics 43, 1942), in the same way in all cubes, so that adjacent cubes share whole faces. The surface in a
-// tetrahedron is a triangle or a quadrilateral with one corner on each edge whose ends differ in sign. The polygons
-// around such a corner form one ring, because the tetrahedra around the corner's edge do. Therefore the surface is
-// closed and 2-manifold and does not intersect itself, whatever the field is.
+// tetrahedron is a triangle or a quadrilateral. It has one corner on each edge of the tetrahedron whose ends differ in
+// sign. The polygons around a corner form one ring, because the tetrahedra around the edge that contains the corner
+// form one. Therefore the surface is closed and 2-manifold and does not intersect itself, whatever the field is.
 
 #include <array>
 #include <cstdint>
@@ -37,7 +37,9 @@ class SampledField {
     glm::ivec3 floorIndex(const glm::dvec3& place) const;
 
     /// Returns the value at a point, for writing. Creates the point's block if it does not exist.
-    float& at(const glm::ivec3& point);
+    float& operator[](const glm::ivec3& point);
+    /// Creates the block that contains the point, if it does not exist.
+    void ensureBlock(const glm::ivec3& point) { (*this)[point]; }
     /// Returns the value at a point.
     float value(const glm::ivec3& point) const;
 
@@ -47,7 +49,7 @@ class SampledField {
     };
     /// Returns all blocks, in an order that depends only on their positions.
     std::vector<const Block*> blocks() const;
-    /// Returns the block that contains the point, or nullptr.
+    /// Returns the block that contains the point, or nullptr if it is not stored.
     const Block* find(const glm::ivec3& point) const;
 
   private:
@@ -58,7 +60,7 @@ class SampledField {
 };
 
 /// The point where the surface crosses an edge of a tetrahedron. `fraction` is its position on the edge, from 0 at the
-/// inside end to 1 at the outside end. `cell` is the cell whose face is crossed, or kNoCell.
+/// inside end to 1 at the outside end. `cell` is the cell whose face the edge crosses there, or kNoCell.
 struct EdgeCrossing {
     double fraction = 0.5;
     std::uint32_t cell = kNoCell;
@@ -67,13 +69,13 @@ struct EdgeCrossing {
 using FindCrossing = std::function<EdgeCrossing(const glm::ivec3& inside, const glm::ivec3& outside)>;
 
 /// Returns a mesh of the surface that separates inside points from outside points. For every cube with an inside
-/// corner, the field must have the block of the cube's lowest corner and all values that `crossing` reads. The field's
-/// step must be at least 64 grid steps: crossings are kept away from the ends of their edges, so that no two coincide
-/// on the grid.
+/// corner, the field must have the block of the cube's lowest corner and all values that `crossing` reads. The mesh's
+/// coordinates are rounded to `grid`. The field's step must be at least 64 steps of `grid`: crossings are kept away
+/// from the ends of their edges, so that no two crossings coincide after rounding.
 Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const Grid& grid, const Budget& budget);
 
-/// Returns a function that finds crossings by linear interpolation of the values. It refers to `field`, which must
-/// outlive it.
+/// Returns a function that finds crossings by linear interpolation of the values. The function refers to `field`, which
+/// must outlive it.
 FindCrossing linearCrossing(const SampledField& field);
 
 }  // namespace oval4d::exports

@@ -42,7 +42,8 @@ struct NamedMesh {
 /// identifies points by their coordinates.
 class Grid {
   public:
-    /// `size`: the diameter of the polytope in mm. `extent`: the largest coordinate in the file in mm.
+    /// `size` is the diameter of the polytope in millimeters, `extent` the largest absolute coordinate in the file in
+    /// millimeters.
     Grid(double size, double extent);
 
     /// Returns the distance between neighboring grid points in millimeters, a power of two.

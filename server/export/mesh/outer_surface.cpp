@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kCubes = 128;  // number of cubes along the slice's largest dimension
 
-/// A triangle of the fan into which a face is decomposed. Even if the loop of the face is a star, its winding number
-/// around a point of its plane is the sum of the winding numbers of the triangles.
+/// A triangle of the fan into which a face is decomposed. Even if the loop of the face is a star, the winding number of
+/// the loop around a point of its plane is the sum of the winding numbers of the triangles.
 struct FanTriangle {
     std::array<std::uint32_t, 3> corners;
     std::uint32_t cell;
@@ -110,12 +110,12 @@ class OuterSurface {
                 if (winding == 0) continue;
                 const int first = field.floorIndex({hits[h].at, 0, 0}).x + 1;
                 const int last = field.floorIndex({hits[h + 1].at, 0, 0}).x;
-                for (int i = first; i <= last; ++i) field.at({i, j, k}) = -1;
+                for (int i = first; i <= last; ++i) field[{i, j, k}] = -1;
                 // Creates the blocks of the lowest corners of all cubes that contain these points.
                 for (int i = first - 1; i <= last; ++i) {
                     for (const int n : {j - 1, j}) {
-                        field.at({i, n, k});
-                        field.at({i, n, k - 1});
+                        field.ensureBlock({i, n, k});
+                        field.ensureBlock({i, n, k - 1});
                     }
                 }
             }

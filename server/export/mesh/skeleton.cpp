@@ -27,8 +27,9 @@ struct Capsule {
     }
 };
 
-/// Adds a capsule to a field of distances. At each point that is inside the capsule or in one cube with such a point,
-/// replaces the value by the distance from the capsule if that is smaller.
+/// Adds a capsule to a field of distances. Considers each point that is inside the capsule or shares a cube with a
+/// point inside it. If the distance of the point from the capsule is less than the value at the point, the distance
+/// replaces the value.
 void include(const Capsule& capsule, SampledField& field) {
     const double reach = capsule.radius + 1.01 * std::sqrt(3) * field.step();
     const glm::ivec3 least = field.floorIndex(glm::min(capsule.from, capsule.to) - reach);
@@ -59,49 +60,50 @@ void include(const Capsule& capsule, SampledField& field) {
             for (int i = first; i <= last; ++i) {
                 const double distance = capsule.distance(field.positionOf({i, j, k}));
                 if (distance > reach - capsule.radius) continue;
-                float& value = field.at({i, j, k});
+                float& value = field[{i, j, k}];
                 value = std::min(value, static_cast<float>(distance));
             }
         }
     }
 }
 
-std::vector<Capsule> capsulesOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& thickness) {
+std::vector<Capsule> capsulesOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& radii) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
     std::vector<Capsule> capsules;
     for (std::size_t v = 0; v < slices.vertexCount(i); ++v)
-        capsules.push_back({points[v] * scale, points[v] * scale, thickness.ball});
+        capsules.push_back({points[v] * scale, points[v] * scale, radii.ball});
     for (std::uint32_t e = slices.edgeBegin[i]; e < slices.edgeBegin[i + 1]; ++e) {
         const auto [a, b] = slices.edges[e];
-        capsules.push_back({points[a] * scale, points[b] * scale, thickness.bar});
+        capsules.push_back({points[a] * scale, points[b] * scale, radii.bar});
     }
     return capsules;
 }
 
 }  // namespace
 
-SkeletonRadii thicknessFor(const scene::Scene& scene, double scale) {
+SkeletonRadii skeletonRadii(const scene::Scene& scene, double scale) {
     return {scene.ballRadius / scene.scale * scale, scene.barRadius / scene.scale * scale};
 }
 
-double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& thickness) {
-    double area = 4 * std::numbers::pi * thickness.ball * thickness.ball * static_cast<double>(slices.vertices.size());
+double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& radii) {
+    double area = 4 * std::numbers::pi * radii.ball * radii.ball * static_cast<double>(slices.vertices.size());
     for (int i = 0; i < slices.planes.count; ++i) {
         const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
         for (std::uint32_t e = slices.edgeBegin[i]; e < slices.edgeBegin[i + 1]; ++e) {
             const double length = scale * glm::distance(points[slices.edges[e][0]], points[slices.edges[e][1]]);
-            area += 2 * std::numbers::pi * thickness.bar * std::max(0.0, length - 2 * thickness.ball);
+            area += 2 * std::numbers::pi * radii.bar * std::max(0.0, length - 2 * radii.ball);
         }
     }
     constexpr double kPerSquare = 9;  // triangles per square of the bar radius, as measured
-    return kPerSquare * area / (thickness.bar * thickness.bar);
+    return kPerSquare * area / (radii.bar * radii.bar);
 }
 
-Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& thickness, double cube,
+Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& radii, double cube,
                 const Grid& grid, const Budget& budget) {
-    // The offset keeps the points of the field off the symmetry planes of polytopes, where many values would be equal.
+    // The offset keeps the points of the field off the symmetry planes of the polytope, where many values would be
+    // equal.
     SampledField field(glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
-    for (const Capsule& capsule : capsulesOf(slices, i, scale, thickness)) {
+    for (const Capsule& capsule : capsulesOf(slices, i, scale, radii)) {
         budget.checkTime();
         include(capsule, field);
     }

@@ -12,16 +12,17 @@ struct SkeletonRadii {
     double ball = 0, bar = 0;
 };
 
-/// Returns the radii that balls and bars have in the picture. `scale`: millimeters per unit of the polytope.
-SkeletonRadii thicknessFor(const scene::Scene& scene, double scale);
+/// Returns the radii that balls and bars have in the picture, in millimeters. `scale` is in millimeters per unit of the
+/// polytope.
+SkeletonRadii skeletonRadii(const scene::Scene& scene, double scale);
 
-/// Returns the approximate number of triangles of the skeletons of all slices, if the cubes of the mesh are as wide as
-/// the radius of a bar. Cubes of half the width give four times as many triangles.
-double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& thickness);
+/// Returns the approximate number of triangles of the skeletons of all slices for cubes as wide as the radius of a bar
+/// (see skeletonOf). Cubes of half the width give four times as many triangles.
+double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& radii);
 
-/// Returns the skeleton of slice i, meshed by marching tetrahedra in cubes that are `cube` millimeters wide. `scale`:
-/// millimeters per unit of the polytope.
-Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& thickness, double cube,
+/// Returns the skeleton of slice i, meshed by marching tetrahedra in cubes that are `cube` millimeters wide. `scale` is
+/// in millimeters per unit of the polytope.
+Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& radii, double cube,
                 const Grid& grid, const Budget& budget);
 
 }  // namespace oval4d::exports

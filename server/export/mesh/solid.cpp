@@ -127,9 +127,9 @@ Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const Gri
     return mesh;
 }
 
-/// Returns the convex hull of the points of `faces`, and assigns each triangle to the cell of the face with the most
-/// similar normal. It replaces `faces` where points of a convex slice coincide on the grid, because two faces may then
-/// share more than an edge.
+/// Returns the convex hull of the points of `faces`, and assigns each triangle to the cell of the slice face with the
+/// most similar normal. The hull is used instead of `faces` if points of a convex slice coincide on the grid, because
+/// two faces may then share more than one edge.
 Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const Grid& grid) {
     Mesh hull = hullOf(faces.points, grid);
     std::vector<std::pair<glm::dvec3, std::uint32_t>> normals;

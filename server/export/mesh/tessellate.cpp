@@ -9,8 +9,8 @@ namespace oval4d::exports {
 
 namespace {
 
-// The data of the callbacks of GLU's tessellator. The tessellator passes to them the vertex pointers that it was given,
-// and those that `combine` creates where contours cross. It needs no OpenGL context.
+// The data of the callbacks of GLU's tessellator, which needs no OpenGL context. The tessellator passes vertex pointers
+// to the callbacks: the pointers that it was given, and those that `combine` creates where contours cross.
 struct Tessellation {
     // A deque, because pointers to elements must remain valid.
     std::deque<std::pair<std::array<double, 3>, std::uint32_t>> corners;

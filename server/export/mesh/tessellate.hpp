@@ -13,12 +13,13 @@ namespace oval4d::exports {
 using Contour = std::vector<glm::dvec2>;
 
 /// Returns the boundary of the region in which the winding number of `contours` is not 0. The returned contours are
-/// counterclockwise around the region; they do not cross, and no two share an edge. Empty if the tessellator fails.
+/// counterclockwise around the region; they do not cross, and no two share an edge. Returns no contours if the
+/// tessellator fails.
 std::vector<Contour> outlineOf(const std::vector<Contour>& contours);
 
 /// Returns counterclockwise triangles that fill the region bounded by the contours. A triangle's corners are indices
 /// that count the corners of all contours consecutively. No corner is added or dropped: each edge of a contour is an
-/// edge of exactly one triangle. Empty if the contours cross or touch.
+/// edge of exactly one triangle. Returns no triangles if the contours cross or touch.
 std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Contour>& contours);
 
 }  // namespace oval4d::exports

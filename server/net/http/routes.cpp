@@ -7,8 +7,8 @@
 #include <charconv>
 #include <fstream>
 
-#include "net/http/file_job.hpp"
-#include "net/http/preconditions.hpp"
+#include "net/http/etags_and_ranges.hpp"
+#include "net/http/export_job.hpp"
 #include "net/loader_job.hpp"
 #include "net/run_on_pool.hpp"
 #include "pipeline/cost.hpp"
@@ -31,12 +31,12 @@ Error notFound(const std::string& path) {
     return {ErrorCode::not_found, "there is nothing at the path " + text::inQuotes(path)};
 }
 
-Reply reply(std::string type, Bytes body, unsigned status = 200) {
+Reply reply(std::string type, SharedBytes body, unsigned status = 200) {
     return {status, std::move(type), std::move(body), {{"Cache-Control", "no-cache"}, {"Accept-Ranges", "none"}}};
 }
 
 Reply textReply(std::string type, std::string body, unsigned status = 200) {
-    return reply(std::move(type), Bytes(std::move(body)), status);
+    return reply(std::move(type), SharedBytes(std::move(body)), status);
 }
 
 unsigned statusFor(ErrorCode code) {
@@ -99,16 +99,17 @@ const exports::Format* formatIn(std::string_view path) {
 
 /// Returns a job that draws a picture as a PNG file. The result of the job is empty if the client's byte account has no
 /// room for the picture.
-std::function<std::optional<Bytes>(pipeline::Pipeline&)> frameJob(const session::State& state, scene::Viewport viewport,
-                                                                  const ClientPtr& client, Metrics& metrics) {
-    return [state, viewport, client, &metrics](pipeline::Pipeline& pipeline) -> std::optional<Bytes> {
-        auto held = client->byteAccount().reserve(image::bytesOf(viewport));  // a PNG file is rarely larger
+std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const session::State& state,
+                                                                        scene::Viewport viewport,
+                                                                        const ClientPtr& client, Metrics& metrics) {
+    return [state, viewport, client, &metrics](pipeline::Pipeline& pipeline) -> std::optional<SharedBytes> {
+        auto held = client->byteAccount().reserve(image::byteCount(viewport));  // a PNG file is rarely larger
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
         pipeline.drawPng(state, wire::stateMessage(state, 0), viewport, png);
         metrics.observe(pipeline.times());
         held->resize(png.capacity());
-        return Bytes(std::move(png)).keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(*held)));
+        return SharedBytes(std::move(png)).keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(*held)));
     };
 }
 
@@ -201,9 +202,9 @@ asio::awaitable<Reply> Routes::frame(session::Query query, ClientPtr client) {
         if (!viewport) co_return countedError(viewport.error());
         const auto requested = co_await state(std::move(query), client);
         if (!requested) co_return countedError(requested.error());
-        auto png = co_await runOnPool<std::optional<Bytes>>(services_.pictureWorkers,
-                                                            frameJob(*requested, *viewport, client, services_.metrics),
-                                                            client->lane(), pipeline::frameCost(*requested, *viewport));
+        auto png = co_await runOnPool<std::optional<SharedBytes>>(
+            services_.pictureWorkers, frameJob(*requested, *viewport, client, services_.metrics), client->lane(),
+            pipeline::frameCost(*requested, *viewport));
         if (!png) co_return countedError(kTooManyBytes);
         co_return reply("image/png", std::move(*png));
     } catch (const parallel::QueueFull&) {
@@ -239,12 +240,14 @@ asio::awaitable<Reply> Routes::file(session::Query query, const exports::Format&
 Reply Routes::readiness() const {
     if (readiness_.stopping()) return textReply("text/plain", "stopping\n", 503);
     if (readiness_.ready()) {
-        // The server stays ready if the store fails, because a shared store then fails for the other servers, too.
+        // The server stays ready while the store is unavailable, because a shared store is then unavailable to the
+        // other servers, too.
         const std::string error = sessions_.writeBehind().lastError();
-        return textReply("text/plain", error.empty() ? "ready\n"
-                                                     : "ready, but the store fails, so sessions are kept in memory "
-                                                       "for now: " +
-                                                           error + "\n");
+        return textReply("text/plain", error.empty()
+                                           ? "ready\n"
+                                           : "ready, but the store is unavailable, so sessions are kept in memory "
+                                             "for now: " +
+                                                 error + "\n");
     }
     const bool broken = readiness_.broken();
     return textReply("text/plain",

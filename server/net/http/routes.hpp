@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "export/export_request.hpp"
-#include "net/http/target.hpp"
+#include "net/clients.hpp"
+#include "net/http/request_target.hpp"
 #include "net/http/web_files.hpp"
 #include "net/live/session_manager.hpp"
 #include "net/readiness.hpp"
 #include "net/services.hpp"
-#include "net/ws/peer.hpp"
+#include "net/shared_bytes.hpp"
 
 namespace oval4d::net {
 
@@ -22,7 +23,7 @@ namespace oval4d::net {
 struct Reply {
     unsigned status = 200;
     std::string type;  ///< the Content-Type; empty: none is sent
-    Bytes body;
+    SharedBytes body;
     std::vector<std::pair<std::string, std::string>> headers;
 };
 
@@ -39,11 +40,11 @@ class Routes {
     /// The parts of a request that the routes use.
     struct ParsedRequest {
         std::string method;
-        Target target;
+        RequestTarget target;
         std::string ifNoneMatch, acceptEncoding, range, ifRange;
         ClientPtr client;
     };
-    /// Returns the reply to a request; its status is 405 for methods other than GET and HEAD, and 404 for unknown
+    /// Returns the reply to a request. Its status is 405 for methods other than GET and HEAD, and 404 for unknown
     /// paths.
     boost::asio::awaitable<Reply> answer(ParsedRequest request);
 

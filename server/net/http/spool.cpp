@@ -47,8 +47,8 @@ std::filesystem::path folderOrDefault(const std::string& folder) {
 
 }  // namespace
 
-Bytes spool(std::string bytes, const std::string& folder) {
-    if (bytes.size() < kSpoolThreshold) return Bytes(std::move(bytes));
+SharedBytes spool(std::string bytes, const std::string& folder) {
+    if (bytes.size() < kSpoolThreshold) return SharedBytes(std::move(bytes));
     const int file = openUnnamedFile(folderOrDefault(folder));
     const bool written = file >= 0 && writeAll(file, bytes);
     void* const at = written ? mmap(nullptr, bytes.size(), PROT_READ, MAP_SHARED, file, 0) : MAP_FAILED;
@@ -57,7 +57,7 @@ Bytes spool(std::string bytes, const std::string& folder) {
     if (at == MAP_FAILED) {
         spdlog::warn("a file stays in memory because it cannot be spooled bytes={} reason=\"{}\"", bytes.size(),
                      std::strerror(fault));
-        return Bytes(std::move(bytes));
+        return SharedBytes(std::move(bytes));
     }
     const std::size_t size = bytes.size();
     return {std::string_view(static_cast<const char*>(at), size),

@@ -56,14 +56,14 @@ Representation readRepresentation(const std::filesystem::path& path, std::string
     std::ifstream in(path, std::ios::binary);
     std::string content{std::istreambuf_iterator<char>(in), {}};
     std::string etag = etagOf(content);
-    return {Bytes(std::move(content)), std::string(coding), std::move(etag)};
+    return {SharedBytes(std::move(content)), std::string(coding), std::move(etag)};
 }
 
 /// Returns the weight, from 0 to 1, that an Accept-Encoding field gives to a content coding (RFC 9110, section 12.4.2).
 double weightOf(std::string_view coding, std::string_view acceptEncoding) {
     namespace http = boost::beast::http;
     const bool identity = coding == kIdentity;
-    double any = identity ? 0.0005 : 0;  // without being listed, only identity is acceptable, as the last choice
+    double any = identity ? 0.0005 : 0;  // of the codings not listed, only identity is acceptable, as the last choice
     for (const auto& [name, parameters] : http::ext_list({acceptEncoding.data(), acceptEncoding.size()})) {
         double weight = 1;
         for (const auto& [key, value] : parameters)

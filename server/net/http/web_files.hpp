@@ -7,13 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "net/ws/peer.hpp"
+#include "net/shared_bytes.hpp"
 
 namespace oval4d::net {
 
 /// A representation of a file, uncompressed or compressed (RFC 9110, section 3.2).
 struct Representation {
-    Bytes bytes;
+    SharedBytes bytes;
     std::string coding;  ///< the content coding (Content-Encoding); "identity" if uncompressed
     std::string etag;    ///< the entity tag, including its quotes
 };

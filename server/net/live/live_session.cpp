@@ -8,8 +8,8 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/use_awaitable.hpp>
 
-#include "net/awaited.hpp"
-#include "net/http/file_job.hpp"
+#include "net/coroutine_helpers.hpp"
+#include "net/http/export_job.hpp"
 #include "net/loader_job.hpp"
 #include "net/run_on_pool.hpp"
 #include "pipeline/cost.hpp"
@@ -44,8 +44,8 @@ session::FileReader fileReader(const Services& services) {
 
 // Minimum time between two steps of a continuous turn.
 constexpr auto kTurnInterval = std::chrono::duration_cast<Pacing::Clock::duration>(1s) / 60;
-// Maximum time that one step of a continuous turn covers. After a pause, or for a client that shows one picture per
-// second, the turn then continues without a large jump.
+// Maximum time that one step of a continuous turn covers. Because of this maximum, the turn continues without a large
+// jump after a pause, and for a client that shows one picture per second.
 constexpr auto kMaxTurnStep = 250ms;
 
 // Time until the next attempt after the job queue was full.
@@ -136,7 +136,7 @@ std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::W
     if (scope == store::WriteBehindStore::SaveScope::whole) {
         value = session_;
     } else {
-        value.now = session_.now;
+        value.current = session_.current;
         value.revision = revision();
     }
     return [self = shared_from_this(), scope, value](const std::function<void(bool)>& written) {
@@ -193,7 +193,7 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
     try {
         for (;;) {
             before = revision();
-            shown = session_.now.object;
+            shown = session_.current.object;
             done = session::apply(session_, command, services_.options.session, *loader);
             if (!loader->isPending()) break;
             auto reservation = client_->byteAccount().reserve(loader->bytesNeeded());
@@ -209,7 +209,7 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
                                                    lanesOf(*peer).pictures, loader->estimatedDuration());
             }
         }
-        if (done) updateReservation(loader->hasDoneWork() || session_.now.object != shown);
+        if (done) updateReservation(loader->hasDoneWork() || session_.current.object != shown);
     } catch (const parallel::QueueFull&) {
         done = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -226,7 +226,7 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
         scheduleSave();
         if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
             // The head of a record is saved without objects, so a new object requires a save of the whole session.
-            const bool whole = session_.now.object != shown;
+            const bool whole = session_.current.object != shown;
             auto write = storeWriter(whole ? store::WriteBehindStore::SaveScope::whole
                                            : store::WriteBehindStore::SaveScope::head);
             if (id) {
@@ -248,7 +248,7 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
     if (get.viewport) key.viewport = *get.viewport;
     switch (get.what) {
         case wire::GetTarget::state:
-            peer->send(textMessage(wire::stateMessage(session_.now, revision(), id)));
+            peer->send(textMessage(wire::stateMessage(session_.current, revision(), id)));
             break;
         case wire::GetTarget::catalogue: {
             std::vector<slicing::Object> loaded;
@@ -279,8 +279,8 @@ asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, ex
     FileResult made;
     try {
         made = co_await runOnPool<FileResult>(services_.fileWorkers,
-                                              fileJob(services_, session_.now, request, peer->client()),
-                                              lanesOf(*peer).files, pipeline::fileCost(session_.now));
+                                              fileJob(services_, session_.current, request, peer->client()),
+                                              lanesOf(*peer).files, pipeline::fileCost(session_.current));
     } catch (const parallel::QueueFull&) {
         made = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -302,7 +302,7 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
     std::optional<Error> failed;
     try {
         Message picture = co_await runOnPool<Message>(services_.pictureWorkers, requestedPictureJob(key, id),
-                                                      lanesOf(*peer).pictures, pictureCost(session_.now, key));
+                                                      lanesOf(*peer).pictures, pictureCost(session_.current, key));
         peer->send(std::move(picture));
         if (key.stream == Stream::frames) peer->send(doneMessage(id, askedRevision));
     } catch (const parallel::QueueFull&) {
@@ -318,7 +318,7 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
 /// Returns a job that makes a picture of the current state.
 std::function<Message(pipeline::Pipeline&)> LiveSession::requestedPictureJob(const StreamKey& key, RequestId id) const {
     const SnapshotPtr known = snapshot_ && snapshot_->revision == revision() ? snapshot_ : nullptr;
-    return [known, state = session_.now, askedRevision = revision(), changed = changed_, key, id,
+    return [known, state = session_.current, askedRevision = revision(), changed = changed_, key, id,
             &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
         const SnapshotPtr snapshot =
             suffices(known, key) ? known : makeSnapshot(pipeline, state, askedRevision, changed, key);
@@ -333,9 +333,9 @@ void LiveSession::sendError(Peer& peer, const Error& error, RequestId id) {
     peer.send(textMessage(wire::errorMessage(error, id)));
 }
 
-/// Sends every client the newest state or picture that is ready and that it can receive, and requests missing pictures.
-/// Must be called whenever the session may have changed, a client may have become able to receive a picture, or a
-/// worker may have become available.
+/// Sends every client the newest state or picture, if the picture is ready and the client can receive it. Requests
+/// pictures that are missing. Must be called whenever the session may have changed, a client may have become able to
+/// receive a picture, or a worker may have become available.
 void LiveSession::update() {
     assertOnStrand();
     advanceTurn();
@@ -368,7 +368,7 @@ void LiveSession::update() {
 /// one.
 void LiveSession::advanceTurn() {
     assertOnStrand();
-    if (!session_.now.turning) {
+    if (!session_.current.turning) {
         lastTurn_.reset();
         return;
     }
@@ -410,8 +410,8 @@ void LiveSession::requestPictures(std::vector<StreamKey> wanted) {
     const bool isNew = drawing_ == 0;
     const parallel::WorkerPool::LanePtr lane = clientToCharge(wanted).lanes.pictures;
     Seconds cost{0};
-    for (const StreamKey& key : wanted) cost += pictureCost(session_.now, key);
-    PictureJob next{isNew ? jobs_ + 1 : drawing_, session_.now, revision(), changed_, known, std::move(wanted)};
+    for (const StreamKey& key : wanted) cost += pictureCost(session_.current, key);
+    PictureJob next{isNew ? jobs_ + 1 : drawing_, session_.current, revision(), changed_, known, std::move(wanted)};
     {
         const std::lock_guard lock(queuedJobMutex_);
         if (!isNew && !queuedJob_) return;
@@ -538,7 +538,7 @@ void LiveSession::sendState(Subscriber& client) {
     const auto peer = client.peer.lock();
     if (!peer) return;
     if (stateRevision_ != revision()) {
-        stateText_ = Bytes(wire::stateMessage(session_.now, revision()));
+        stateText_ = SharedBytes(wire::stateMessage(session_.current, revision()));
         stateRevision_ = revision();
     }
     client.pacing.skipped(revision());
@@ -555,7 +555,7 @@ void LiveSession::sendState(Subscriber& client) {
     });
 }
 
-/// Starts a timer, after which pictures that a client has not acknowledged count as shown.
+/// Starts a timer for expirePictures(), after which pictures that clients have not acknowledged in time count as shown.
 void LiveSession::schedulePacing() {
     std::optional<Clock::time_point> first;
     for (const auto& [key, client] : clients_) {

@@ -16,6 +16,8 @@
 #include "net/live/snapshot.hpp"
 #include "net/one_shot_timer.hpp"
 #include "net/services.hpp"
+#include "net/shared_bytes.hpp"
+#include "net/ws/message.hpp"
 #include "net/ws/pacing.hpp"
 #include "net/ws/peer.hpp"
 #include "session/session.hpp"
@@ -25,35 +27,36 @@
 namespace oval4d::net {
 
 /// A session in use: holds the session's value and its clients, applies commands, and sends states and pictures to the
-/// clients. It uses its data only on a strand. Every command is applied when it arrives. Pictures follow as fast as
-/// workers make them and clients show them, always of the newest state. To this end, a session has at most one picture
-/// job that is queued or being drawn; each newer state replaces that of a queued job. While a picture is encoded, the
-/// next one may be drawn. The picture of a revision is made once and shared by all clients with the same stream,
-/// encoding and viewport. Public functions may be called from any thread.
+/// clients. Its data is used only on its strand. Every command is applied when it arrives. Pictures of the newest state
+/// follow as fast as workers make them and clients show them. To this end, a session has at most one picture job that
+/// is queued or being drawn. A newer state replaces the state of a queued job. While one picture is encoded, the next
+/// one may be drawn. The picture of a revision is made once and shared by all clients with the same stream, encoding
+/// and viewport. Public functions may be called from any thread.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
     using RequestId = std::optional<double>;  ///< the id of a request; empty if the request has none
 
-    /// `client`: the client that opened the session; the session's memory counts against its ByteBudget::Account.
+    /// `client`: the client that opened the session; the session's memory counts against this client's byte account.
+    /// `value`: the session, new or read from the store.
     LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
                 ClientPtr client, session::Session value);
 
     const store::SessionCredentials& credentials() const { return credentials_; }
 
-    /// Adds a client, or changes its stream if it was added before, and sends `welcome`; the state and a picture
-    /// follow.
+    /// Adds a client, or changes its stream if it was added before, and sends it the message `welcome`. The state and a
+    /// picture follow.
     boost::asio::awaitable<void> welcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
 
     /// Executes a request of a client that was added with welcome(), and returns once the request is answered.
     boost::asio::awaitable<void> execute(std::shared_ptr<Peer> peer, wire::Request request);
 
     /// Removes a client, then calls `left` with the session's value on the session's strand. `left` must return whether
-    /// that was the last client; if so, this object no longer writes the session to the store.
+    /// the removed client was the last one. If so, this object no longer writes the session to the store.
     void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
 
-    /// Writes the whole session to the store. Releases its reference to `completion` once the session is written or the
-    /// store has failed.
+    /// Writes the whole session to the store. Releases its reference to `completion` once the session is written, or
+    /// once the store is found to be unavailable.
     void save(std::shared_ptr<void> completion = {});
 
     /// Closes all connections because another server has taken over the session.
@@ -73,12 +76,12 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
         Lanes lanes;
         StreamKey streamKey;
         Pacing pacing;
-        bool stateInFlight = false;  ///< without a stream: a `state` message is not yet written to the socket
+        bool stateInFlight = false;  ///< without a stream: whether a queued `state` message is not yet written
     };
     using EncodedPictures = std::vector<std::pair<StreamKey, Message>>;
     /// A job that makes pictures of one revision.
     struct PictureJob {
-        std::uint64_t number = 0;
+        std::uint64_t number = 0;  ///< identifies the job within the session; starts at 1
         session::State state;
         std::uint64_t revision = 0;
         Clock::time_point changed;      ///< the time at which the session reached this revision
@@ -99,7 +102,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
         std::vector<StreamKey> failed;  ///< the pictures that could not be made
     };
 
-    // These run on the strand.
+    // The following functions run on the strand.
     void assertOnStrand() const {
         assert(strand_.running_in_this_thread() && "the session is used outside its strand");
     }
@@ -136,7 +139,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     bool isEncoding(const StreamKey& key, std::uint64_t ofRevision) const;
     std::uint64_t revision() const { return session_.revision; }
 
-    // These run on a worker.
+    // The following functions run on a worker.
     void runJob(pipeline::Pipeline& pipeline);
     void onDrawn(const PictureJob& job, const StreamKey& key);
 
@@ -155,14 +158,14 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     Clock::time_point changed_;  ///< the time at which the session reached its revision
     SnapshotPtr snapshot_;       ///< the newest snapshot, kept while a client waits for a picture; else null
     EncodedPictures pictures_;   ///< pictures of snapshot_
-    Bytes stateText_;            ///< the `state` message of stateRevision_, for clients without a stream
+    SharedBytes stateText_;      ///< the `state` message of stateRevision_, for clients without a stream
     std::optional<std::uint64_t> stateRevision_;
-    std::uint64_t jobs_ = 0;     ///< how many jobs have been posted; jobs are numbered from 1
+    std::uint64_t jobs_ = 0;     ///< how many jobs have been posted, which is the number of the last one
     std::uint64_t drawing_ = 0;  ///< the number of the job that is queued or being drawn; 0 if there is none
-    std::vector<EncodingPicture> encoding_;
-    std::optional<Clock::time_point> lastTurn_;  ///< time of the last step of a continuous turn; empty if there is none
+    std::vector<EncodingPicture> encoding_;      ///< the pictures that are being encoded
+    std::optional<Clock::time_point> lastTurn_;  ///< when a continuous turn made its last step; empty if not turning
     OneShotTimer turnTimer_, paceTimer_, saveTimer_, retryTimer_;
-    bool detached_ = false;  ///< this object must no longer write the session
+    bool detached_ = false;  ///< whether this object must no longer write the session to the store
 
     // Shared by the strand and a worker.
     std::mutex queuedJobMutex_;

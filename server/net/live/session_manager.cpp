@@ -26,11 +26,11 @@ class RecordObjects {
     }
     std::optional<slicing::Object> operator()(const std::string& key) {
         auto& object = decoded_[key];
-        if (!object && bytes_.contains(key)) object = store::decodeObject(bytes_[key]);
+        if (!object && bytes_.contains(key)) object = store::decodeObjectRecord(bytes_[key]);
         return object;
     }
-    WriteBehindStore::Keys keys() const {
-        WriteBehindStore::Keys keys;
+    WriteBehindStore::KeysBySerial keys() const {
+        WriteBehindStore::KeysBySerial keys;
         for (const auto& [key, object] : decoded_) {
             if (object) keys[slicing::infoOf(*object).serial] = key;
         }
@@ -90,7 +90,7 @@ std::optional<Error> SessionManager::admitSession(Client& client) {
         const auto unmodified = byClient_.oldestUnmodified(now);
         if (!unmodified) {
             return Error{ErrorCode::too_many, "the server stores at most " + std::to_string(options.maxSessions) +
-                                                  " sessions, and all are in use; try again later"};
+                                                  " sessions, and none of them may be discarded now; try again later"};
         }
         evict(*unmodified);
     }
@@ -172,7 +172,7 @@ void SessionManager::decode(const PendingJoin& pending, const store::Record& rec
     try {
         RecordObjects objects(record);
         auto value = store::decode(record.whole, record.head, std::ref(objects), services_.polytopes);
-        if (!record.damage.empty()) throw store::Unreadable(record.damage);
+        if (!record.damage.empty()) throw store::UnreadableRecord(record.damage);
         writeBehind_.setStoredKeys(id, objects.keys());
         finishOpening(pending, std::move(value));
     } catch (const std::exception& fault) {

@@ -1,5 +1,5 @@
 #pragma once
-// Manages the sessions of this server: those with clients are in memory, the others in the store.
+// Manages the sessions of this server. Sessions with clients are in memory, the others are in the store.
 
 #include <map>
 #include <memory>
@@ -25,17 +25,17 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     /// Creates a session and passes it, or the error `too_many`, to `done`. At a limit on the number of sessions,
     /// deletes a closed session that was never changed, if there is one.
     void create(const ClientPtr& client, const JoinHandler& done);
-    /// Adds a client to the session with these credentials, which is loaded from the store if necessary. Passes the
-    /// session to `done`, or an error: `not_found`, `bad_token`, `too_many` if too many jobs are queued, or `internal`
-    /// if the store does not answer.
+    /// Adds a client to the session with these credentials, after loading the session from the store if necessary.
+    /// Passes the session to `done`, or an error: `not_found`, `bad_token`, `too_many` if too many jobs are queued, or
+    /// `internal` if the store does not answer.
     void join(const store::SessionCredentials& credentials, const ClientPtr& client, const JoinHandler& done);
     /// Removes a client from a session, and closes the session if that was its last client. Must be called once for
     /// each successful create() and join().
     void leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer);
 
     /// Writes all open sessions to the store, unless sessions are written only when they are closed
-    /// (WritePolicy::at_close). Releases its references to `completion` once the sessions are written or the store has
-    /// failed.
+    /// (WritePolicy::at_close). Releases its references to `completion` once the sessions are written, or once the
+    /// store is found to be unavailable.
     void saveAll(const std::shared_ptr<void>& completion = {});
     const store::WriteBehindStore& writeBehind() const { return writeBehind_; }
     /// Writes all pending changes to the store, which takes at most about `limit`. No function may be called afterward.
@@ -72,8 +72,8 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     mutable std::mutex mutex_;
     std::map<std::string, LiveEntry, std::less<>> live_;  // guarded by mutex_
     SessionsByClient byClient_;                           // guarded by mutex_
-    // The sessions that are being fetched from the store, by id, with the further joins that wait for each. Guarded by
-    // mutex_.
+    // The sessions that are being fetched from the store, by id, each with the further calls of join() that wait for
+    // it. Guarded by mutex_.
     std::map<std::string, std::vector<PendingJoin>, std::less<>> opening_;
     store::WriteBehindStore writeBehind_;  // declared last, because its thread uses the other members
 };

@@ -15,7 +15,7 @@ void SessionsByClient::open(const std::string& id, const std::string& client) {
 void SessionsByClient::close(const std::string& id, bool unmodified, Clock::time_point now) {
     const auto found = sessions_.find(id);
     if (found == sessions_.end()) return;
-    Entry& entry = found->second;
+    SessionInfo& entry = found->second;
     entry.closed = ++last_;
     entry.unmodified = unmodified;
     entry.expires = now + expiry_;
@@ -25,7 +25,7 @@ void SessionsByClient::close(const std::string& id, bool unmodified, Clock::time
     clients_[entry.client].unmodified.emplace(entry.closed, id);
 }
 
-void SessionsByClient::reopen(Entry& entry) {
+void SessionsByClient::reopen(SessionInfo& entry) {
     closed_.erase(entry.closed);
     unmodified_.erase(entry.closed);
     clients_[entry.client].unmodified.erase(entry.closed);

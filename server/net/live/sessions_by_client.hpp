@@ -10,9 +10,9 @@
 
 namespace oval4d::net {
 
-/// Records which client opened each session of this process: open sessions, and closed ones that have not expired.
-/// Finds the session to evict when a limit is reached: of the unmodified closed sessions, the one that was closed
-/// first. Not thread-safe.
+/// Records which client opened each session of this process. Covers open sessions, and closed ones that have not
+/// expired. Finds the session to evict when a limit is reached: of the unmodified closed sessions, the one that was
+/// closed first. Not thread-safe.
 class SessionsByClient {
   public:
     using Clock = std::chrono::steady_clock;
@@ -32,33 +32,33 @@ class SessionsByClient {
     /// Returns the number of sessions that a client has opened, both open ones and closed ones that have not expired.
     std::size_t count(const std::string& client, Clock::time_point now);
 
-    /// Returns the id of the unmodified closed session that was closed first, of those of `client` or, if that is null,
-    /// of all clients; nothing if there is none.
+    /// Returns the id of the unmodified closed session that was closed first. Considers only the sessions of `client`,
+    /// or those of all clients if `client` is null. Returns nothing if there is no such session.
     std::optional<std::string> oldestUnmodified(Clock::time_point now, const std::string* client = nullptr);
 
   private:
-    struct Entry {
+    struct SessionInfo {
         std::string client;
         std::uint64_t closed = 0;  // sequence number that increases with each closed session; 0 while open
         bool unmodified = false;
-        Clock::time_point expires;
+        Clock::time_point expires;  // when the session is forgotten, if it is closed
     };
     struct ClientSessions {
         std::size_t sessions = 0;
-        std::map<std::uint64_t, std::string> unmodified;  // unmodified closed sessions: ids by Entry::closed
+        std::map<std::uint64_t, std::string> unmodified;  // unmodified closed sessions: ids by SessionInfo::closed
     };
-    using Sessions = std::map<std::string, Entry, std::less<>>;
+    using Sessions = std::map<std::string, SessionInfo, std::less<>>;
 
     void expire(Clock::time_point now);
-    void reopen(Entry& entry);
+    void reopen(SessionInfo& entry);
     void erase(Sessions::iterator session);
 
     const Clock::duration expiry_;
     Sessions sessions_;
     std::map<std::string, ClientSessions, std::less<>> clients_;  // by client name
-    std::map<std::uint64_t, std::string> closed_;                 // closed sessions: ids by Entry::closed
-    std::map<std::uint64_t, std::string> unmodified_;             // unmodified closed sessions: ids by Entry::closed
-    std::uint64_t last_ = 0;                                      // the last value given to Entry::closed
+    std::map<std::uint64_t, std::string> closed_;                 // closed sessions: ids by SessionInfo::closed
+    std::map<std::uint64_t, std::string> unmodified_;  // unmodified closed sessions: ids by SessionInfo::closed
+    std::uint64_t last_ = 0;                           // the last value given to SessionInfo::closed
 };
 
 }  // namespace oval4d::net

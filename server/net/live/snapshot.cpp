@@ -17,7 +17,7 @@ SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& sta
     made->state = state;
     made->revision = revision;
     made->changed = changed;
-    made->stateText = Bytes(wire::stateMessage(state, revision));
+    made->stateText = SharedBytes(wire::stateMessage(state, revision));
     made->sliced = key.stream != Stream::frames;
     if (made->sliced) pipeline.slice(state, made->slices);
     return made;
@@ -32,11 +32,11 @@ Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, cons
     if (key.stream == Stream::frames) {
         std::vector<std::uint8_t> png;
         pipeline.drawPng(snapshot.state, snapshot.stateText.view(), key.viewport, png, whenDrawn);
-        return {Bytes(std::move(png)), true};
+        return {SharedBytes(std::move(png)), true};
     }
     std::string text;
     pipeline.writeSlices(snapshot.state, snapshot.slices, snapshot.revision, id, key.viewport, key.encoding, text);
-    return {Bytes(std::move(text)), key.encoding != wire::Encoding::json};
+    return {SharedBytes(std::move(text)), key.encoding != wire::Encoding::json};
 }
 
 Seconds pictureCost(const session::State& state, const StreamKey& key) {

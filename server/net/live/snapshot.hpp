@@ -8,7 +8,8 @@
 #include <optional>
 
 #include "net/options.hpp"
-#include "net/ws/peer.hpp"
+#include "net/shared_bytes.hpp"
+#include "net/ws/message.hpp"
 #include "pipeline/pipeline.hpp"
 #include "session/session.hpp"
 #include "slicing/slice_set.hpp"
@@ -16,7 +17,7 @@
 
 namespace oval4d::net {
 
-/// The kind of picture that a client receives for each revision; identifies pictures that clients can share.
+/// The kind of picture that a client receives for each revision. Clients with equal keys share their pictures.
 struct StreamKey {
     wire::Stream stream = wire::Stream::none;
     wire::Encoding encoding = wire::Encoding::json;
@@ -29,26 +30,26 @@ struct Snapshot {
     session::State state;
     std::uint64_t revision = 0;
     std::chrono::steady_clock::time_point changed;  ///< the time at which the session reached this revision
-    Bytes stateText;                                ///< the `state` message of this revision
+    SharedBytes stateText;                          ///< the `state` message of this revision
     bool sliced = false;                            ///< whether `slices` is set
     slicing::SliceSet slices;
 };
 using SnapshotPtr = std::shared_ptr<const Snapshot>;
 
-/// Makes the snapshot of a revision, with slices if pictures of this kind need them. Must be called on a worker.
+/// Makes the snapshot of a revision, with slices if pictures of the kind `key` need them. Must be called on a worker.
 SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
                          std::chrono::steady_clock::time_point changed, const StreamKey& key);
 
-/// Returns whether the snapshot contains all that pictures of this kind need; false for a null pointer.
+/// Returns whether the snapshot contains all that pictures of the kind `key` need. Returns false for a null pointer.
 bool suffices(const SnapshotPtr& snapshot, const StreamKey& key);
 
 /// Makes a picture: a PNG file for the stream of frames, else a `slices` message with this request id. For a PNG file,
 /// calls `whenDrawn` when the picture is drawn, but not yet encoded. Must be called on a worker. Throws
-/// std::runtime_error.
+/// std::runtime_error if the picture cannot be drawn.
 Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
                     std::optional<double> id, const std::function<void()>& whenDrawn = {});
 
-/// Returns the estimated time to make a picture of this kind.
+/// Returns the estimated time to make a picture of the kind `key`.
 Seconds pictureCost(const session::State& state, const StreamKey& key);
 
 }  // namespace oval4d::net

@@ -8,9 +8,9 @@
 
 namespace oval4d::net {
 
-/// Tracks the pictures on their way to one client: each is sent (queued), then written to the socket, then shown by the
-/// client. At most kInFlight pictures may be sent but not yet shown: two keep the client busy, and no queue of outdated
-/// pictures can form.
+/// Tracks the pictures on their way to one client. Each picture is sent (queued), then written to the socket, then
+/// shown by the client. At most kInFlight pictures may be sent but not yet shown. Two of them keep the client busy, and
+/// no queue of outdated pictures can form.
 class Pacing {
   public:
     using Clock = std::chrono::steady_clock;
@@ -23,18 +23,18 @@ class Pacing {
 
     /// Records that the picture of this revision was queued for the client.
     void sent(std::uint64_t revision);
-    /// Records that the client receives no picture of this revision.
+    /// Records that the client will receive no picture of this revision.
     void skipped(std::uint64_t revision) { newest_ = revision; }
     /// Records that the picture of this revision was written to the socket.
     void written(std::uint64_t revision, Clock::time_point now);
     /// Records that the client has shown this revision, and hence all earlier ones.
     void shown(std::uint64_t revision);
 
-    /// Marks the pictures that were written at least `timeout` ago as shown, because some clients do not acknowledge
+    /// Marks as shown the pictures that were written at least `timeout` ago, because some clients do not acknowledge
     /// pictures.
     void expire(Clock::time_point now, Clock::duration timeout);
-    /// Returns the time at which the oldest picture that is not shown expires; nothing if there is no such picture or
-    /// it is not yet written.
+    /// Returns the time from which expire() marks the oldest unshown picture as shown. Returns nothing if there is no
+    /// such picture, or if that picture is not yet written.
     std::optional<Clock::time_point> deadline(Clock::duration timeout) const;
 
   private:

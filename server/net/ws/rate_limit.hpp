@@ -5,8 +5,9 @@
 
 namespace oval4d::net {
 
-/// Limits the rate of requests. Allows bursts of as many requests as are allowed in two seconds, then refuses requests.
-/// A client that goes on to send as many requests again is abusive and should be disconnected. Not thread-safe.
+/// Limits the rate of requests. Allows bursts of as many requests as the rate allows in two seconds, and refuses the
+/// requests beyond that. Refused requests count, too: a client with as many refused requests as a burst may have is
+/// abusive and should be disconnected. Not thread-safe.
 class RateLimit {
   public:
     using Clock = TokenBucket::Clock;

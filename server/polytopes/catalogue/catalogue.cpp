@@ -23,7 +23,7 @@ CatalogueEntry entryOf(Design design, std::string family, std::vector<std::strin
                                  [&](const std::string& alias) { return alias.empty() || alias == design.name; }),
                   aliases.end());
     return {design.name,          std::move(family),
-            std::move(aliases),   symbolOf(design),
+            std::move(aliases),   linearNotationOf(design),
             schlaefliOf(design),  narrow(counts.vertices),
             narrow(counts.edges), narrow(counts.faces),
             narrow(counts.cells), narrow(symmetryOrder(design)),
@@ -40,15 +40,16 @@ CatalogueEntry entryOf(const UniformPolychoron& row) {
             if (std::find(aliases.begin(), aliases.end(), name) == aliases.end()) aliases.push_back(std::move(name));
         }
     };
-    add(row.symbol);
+    add(row.linearNotation);
     for (const std::string_view other : text::splitAtCommas(row.others)) {
         add(other);
         aliases.emplace_back(other);
     }
-    return entryOf(designOf(std::get<Diagram>(parseDiagram(row.symbol))), std::string(row.family), std::move(aliases));
+    return entryOf(designOf(std::get<Diagram>(parseDiagram(row.linearNotation))), std::string(row.family),
+                   std::move(aliases));
 }
 
-// The duoprisms and antiprism prisms in the catalogue, with Bowers' short names, or empty.
+// The duoprisms and antiprism prisms in the catalogue, with Bowers' short names (empty if there is none).
 struct Duoprism {
     int p, q;
     std::string_view bowers;

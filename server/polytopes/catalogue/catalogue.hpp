@@ -37,8 +37,8 @@ std::span<const CatalogueEntry> catalogue();
 /// equivalent.
 const CatalogueEntry* findEntry(std::string_view text);
 
-/// Returns the design of the polytope that a text names: an entry of the catalogue, or any polytope with at most
-/// `maxVertices` vertices that the text describes (see names.hpp).
+/// Returns the design of the polytope that a text names: an entry of the catalogue, or any other polytope that the text
+/// describes (see names.hpp) and that has at most `maxVertices` vertices. Returns an error if there is none.
 DesignOrError designNamed(std::string_view text, std::size_t maxVertices);
 
 /// Returns the name or alias with the least edit distance from `text`, for suggestions ("did you mean").
@@ -48,7 +48,7 @@ std::string_view nearestName(std::string_view text);
 std::vector<std::string_view> nearestNames(std::string_view text);
 
 /// Returns the edit distance (Levenshtein) of two names. Ignores case, blanks, hyphens, and everything after the first
-/// 64 characters.
+/// 64 bytes.
 std::size_t editDistance(std::string_view one, std::string_view other);
 
 }  // namespace oval4d::polytopes

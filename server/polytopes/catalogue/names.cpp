@@ -40,7 +40,7 @@ constexpr auto kOperations = std::to_array<Operation>({
 
 NameError impossible(std::string message) { return {NameError::Reason::impossible, std::move(message)}; }
 
-Diagram diagramOf(const UniformPolychoron& row) { return std::get<Diagram>(parseDiagram(row.symbol)); }
+Diagram diagramOf(const UniformPolychoron& row) { return std::get<Diagram>(parseDiagram(row.linearNotation)); }
 
 bool isRegular(const UniformPolychoron& row) { return row.family == "regular" || row.family == "star"; }
 
@@ -58,10 +58,10 @@ DesignOrError designFrom(const Result& read) {
     return designOf(std::get<Diagram>(read));
 }
 
-std::optional<Design> snubPrismNamed(std::string_view symbol) {
-    const std::string wanted = text::folded(symbol);
+std::optional<Design> snubPrismNamed(std::string_view linearNotation) {
+    const std::string wanted = text::folded(linearNotation);
     for (const NamedPolyhedron& base : namedPolyhedra()) {
-        const std::string own(base.symbol);
+        const std::string own(base.linearNotation);
         if (own.starts_with('s') && (wanted == own + "x" || wanted == "x" + own)) return prismOf(base);
     }
     if (wanted == "s3s3sx" || wanted == "xs3s3s") return prismOf(namedPolyhedra()[4]);  // the icosahedral prism
@@ -130,7 +130,7 @@ DesignOrError operationNamed(const std::vector<std::string>& words) {
             if (!isRegular(row) || !isCalled(row, text::joined(words, 1, words.size()))) continue;
             Diagram diagram = diagramOf(row);
             diagram.ringed = operation.rings;
-            return designFrom(parseDiagram(symbolOf(diagram)));
+            return designFrom(parseDiagram(linearNotationOf(diagram)));
         }
     }
     return NameError{};
@@ -190,8 +190,8 @@ std::vector<std::string> operationNames(const Diagram& diagram) {
     for (const UniformPolychoron& row : uniformPolychora()) {
         if (row.family != "regular") continue;
         for (const Operation& operation : kOperations) {
-            // The other operations that leave the first node without a ring are named as operations on the dual
-            // instead.
+            // Skips the other operations that leave the first node without a ring: their results have names as
+            // operations on the dual.
             if (operation.rings < Rings{true} && operation.name != "rectified" && operation.name != "bitruncated")
                 continue;
             Diagram regular = diagramOf(row);

@@ -10,9 +10,9 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the design that a text describes in one of the notations; kNotations in names.cpp lists these with examples.
-/// Ignores case; blanks and hyphens between words are equivalent. `lookup` finds the design for a name within the text,
-/// as in "dual of" a name.
+/// Returns the design that a text describes in one of the notations, which kNotations in names.cpp lists with examples.
+/// Ignores case; blanks and hyphens between words are equivalent. `lookup` finds the design for the name of another
+/// polytope within the text, as in "dual of rectified 5-cell".
 DesignOrError describedBy(std::string_view text, const DesignLookup& lookup);
 
 /// Returns the names that describe the polytope of a diagram as an operation on a convex regular polychoron, such as

@@ -37,13 +37,18 @@ class PolytopeCache {
     std::size_t bytes() const;
 
   private:
+    // The entry of the cache for one name.
     struct Slot {
         std::mutex building;  // held while the polytope is being built
         std::weak_ptr<const Polytope> polytope;
     };
 
+    // Returns the polytope of this design if it exists, without marking it as used; else nullptr.
     Shared peek(const Design& design) const;
+    // Returns the slot of this name; creates it if necessary.
     std::shared_ptr<Slot> slotOf(const std::string& name);
+    // Moves the polytope to the front of recent_, and removes the least recently used ones beyond the limit. Requires
+    // that mutex_ is held.
     void markUsed(const Shared& polytope);
 
     const std::size_t maxBytes_;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr Branch kSquare{4, 1};
 
-Diagram known(std::string_view symbol) { return std::get<Diagram>(parseDiagram(symbol)); }
+Diagram known(std::string_view linearNotation) { return std::get<Diagram>(parseDiagram(linearNotation)); }
 
 /// Wythoff's construction from a Coxeter–Dynkin diagram.
 class Wythoffian : public Recipe {
@@ -31,12 +31,13 @@ class Wythoffian : public Recipe {
 
     ElementCounts counts() const override { return elementCounts(diagram_); }
     std::uint64_t symmetryOrder() const override { return groupOrder(diagram_) * symmetriesOf(diagram_).size(); }
-    std::string symbol() const override { return symbolOf(diagram_); }
+    std::string linearNotation() const override { return linearNotationOf(diagram_); }
     std::string schlaefli() const override { return schlaefliOf(diagram_); }
 
     Polytope build(const std::string& name) const override {
         Mirrors mirrors = mirrorsOf(diagram_);
-        // The coordinates in common use for the 120-cell (even permutations) are those of its mirror image.
+        // In the coordinates in common use (even permutations), the 120-cell is the mirror image of the one that these
+        // mirrors generate.
         if (name == "120-cell") {
             for (auto& mirror : mirrors) std::swap(mirror.x, mirror.y);
         }
@@ -68,7 +69,7 @@ class SnubPrism : public Recipe {
     // Twice rotations(), because the prism has a mirror between its bases; four times for an antiprism, because it also
     // has symmetries that are not rotations.
     std::uint64_t symmetryOrder() const override { return rotations() * (q_.numerator == 2 ? 4 : 2); }
-    std::string symbol() const override {
+    std::string linearNotation() const override {
         // The chain of mirrors of an antiprism begins with the right angle (branch 2).
         const bool antiprism = q_.numerator == 2;
         return "s" + textOf(antiprism ? q_ : p_) + "s" + textOf(antiprism ? p_ : q_) + "s x";
@@ -94,14 +95,14 @@ const std::map<Diagram, Design>& namedDesigns() {
     static const std::map<Diagram, Design> kDesigns = [] {
         std::map<Diagram, Design> designs;
         for (const UniformPolychoron& row : uniformPolychora()) {
-            const Design design{std::string(row.name), wythoffian(known(row.symbol))};
-            designs.emplace(canonical(known(row.symbol)), design);
+            const Design design{std::string(row.name), wythoffian(known(row.linearNotation))};
+            designs.emplace(canonical(known(row.linearNotation)), design);
             for (const std::string_view other : text::splitAtCommas(row.others))
                 designs.emplace(canonical(known(other)), design);
         }
         for (const NamedPolyhedron& base : namedPolyhedra()) {
-            if (base.symbol.starts_with('s')) continue;
-            const Diagram diagram = known(std::string(base.symbol) + " x");
+            if (base.linearNotation.starts_with('s')) continue;
+            const Diagram diagram = known(std::string(base.linearNotation) + " x");
             designs.emplace(canonical(diagram),
                             base.name == "cube" ? designs.at(canonical(known("x4o3o3o")))
                                                 : Design{std::string(base.adjective) + " prism", wythoffian(diagram)});
@@ -126,7 +127,7 @@ Design designOf(const Diagram& diagram) {
     std::vector<Branch> polygons;
     int single = 0;
     for (const MirrorSet component : componentsOf(diagram)) {
-        if (std::popcount(component) > 2) return {symbolOf(diagram), wythoffian(diagram)};
+        if (std::popcount(component) > 2) return {linearNotationOf(diagram), wythoffian(diagram)};
         if (std::popcount(component) == 1) {
             if (++single % 2 == 0) polygons.push_back(kSquare);
             continue;
@@ -152,14 +153,14 @@ Design antiprismPrism(int sides) {
 }
 
 Design prismOf(const NamedPolyhedron& base) {
-    if (!base.symbol.starts_with('s')) return designOf(known(std::string(base.symbol) + " x"));
-    const auto digit = [&](std::size_t i) { return Branch{base.symbol[i] - '0', 1}; };
+    if (!base.linearNotation.starts_with('s')) return designOf(known(std::string(base.linearNotation) + " x"));
+    const auto digit = [&](std::size_t i) { return Branch{base.linearNotation[i] - '0', 1}; };
     return {std::string(base.adjective) + " prism", std::make_shared<SnubPrism>(digit(1), digit(3))};
 }
 
 ElementCounts elementCounts(const Design& design) { return design.recipe->counts(); }
 std::uint64_t symmetryOrder(const Design& design) { return design.recipe->symmetryOrder(); }
-std::string symbolOf(const Design& design) { return design.recipe->symbol(); }
+std::string linearNotationOf(const Design& design) { return design.recipe->linearNotation(); }
 std::string schlaefliOf(const Design& design) { return design.recipe->schlaefli(); }
 
 Polytope build(const Design& design) {

@@ -12,21 +12,20 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the design of a diagram, which must be one that parseDiagram accepts. If several diagrams describe the same
-/// polytope, they have the same design, that of the diagram with the largest symmetry group: x3o3o *b3o has the design
-/// of x3o3o4o.
+/// Returns the design of a diagram, which must be one that parseDiagram accepts. All diagrams of a polytope have the
+/// same design, which is built from the diagram with the largest symmetry group: x3o3o *b3o has the design of x3o3o4o.
 Design designOf(const Diagram& diagram);
 
 /// Returns the design of the duoprism of the regular polygons p and q, which may be stars and must have at least 3
-/// sides. The name has the smaller number first. For p = q = 4, this is the 8-cell.
+/// sides. The name has the smaller number first, as in "5,7-duoprism". For p = q = 4, the design is that of the 8-cell.
 Design duoprism(Branch p, Branch q);
 
 /// Returns the design of the prism over the antiprism of a regular polygon, such as "pentagonal antiprism prism".
-/// `sides` is the number of sides of the polygon, at least 3. For 3, this is the octahedral prism.
+/// `sides` is the number of sides of the polygon, at least 3. For 3 sides, the design is that of the octahedral prism.
 Design antiprismPrism(int sides);
 
-/// Returns the design of the prism over a polyhedron, such as "truncated cubic prism". For the cube, this is the
-/// 8-cell.
+/// Returns the design of the prism over a polyhedron, such as "truncated cubic prism". For the cube, it is the design
+/// of the 8-cell.
 Design prismOf(const NamedPolyhedron& base);
 
 /// Returns the numbers of elements, computed without building the polytope.
@@ -36,14 +35,14 @@ ElementCounts elementCounts(const Design& design);
 std::uint64_t symmetryOrder(const Design& design);
 
 /// Returns the diagram in linear notation, or empty if there is none.
-std::string symbolOf(const Design& design);
+std::string linearNotationOf(const Design& design);
 
 /// Returns the Schläfli symbol, or empty if there is none.
 std::string schlaefliOf(const Design& design);
 
 /// Builds the polytope, centered at the origin. All edges have length 2, except in duals. Throws std::invalid_argument
-/// if elements of the polytope would coincide, which happens for some star diagrams, or in the cases listed in
-/// dual.hpp.
+/// if elements of the polytope would coincide, which happens for some star diagrams. Also throws it for a dual that
+/// does not exist because a cell's hyperplane passes through the center (see dual.hpp).
 Polytope build(const Design& design);
 
 }  // namespace oval4d::polytopes

@@ -10,8 +10,8 @@ namespace {
 
 MirrorSet bit(int mirror) { return 1U << static_cast<unsigned>(mirror); }
 
-// Returns the mirrors of `set` that are connected, within `set`, to mirrors of `start`; includes those of `start` in
-// `set`.
+// Returns the mirrors of `set` that are connected, within `set`, to mirrors of `start`. Includes the mirrors of `start`
+// that are in `set`.
 MirrorSet connectedTo(const Diagram& diagram, MirrorSet start, MirrorSet set) {
     MirrorSet reached = start & set;
     for (int sweep = 0; sweep < kMirrors; ++sweep) {

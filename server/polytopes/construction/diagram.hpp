@@ -27,7 +27,7 @@ constexpr bool holds(MirrorSet set, int mirror) { return (set >> static_cast<uns
 /// generating vertex under the reflections in the mirrors. The generating vertex lies at distance 1 from each ringed
 /// mirror, so that all edges have length 2, and on all other mirrors.
 struct Diagram {
-    std::array<std::array<Branch, 4>, 4> branches;  ///< by pair of mirrors; symmetric; the diagonal is unused
+    std::array<std::array<Branch, 4>, 4> branches;  ///< for each pair of mirrors; symmetric; the diagonal is unused
     std::array<bool, 4> ringed{};
 
     /// Returns the diagram that is a chain of the four mirrors, with the branches p, q and r.
@@ -49,20 +49,21 @@ std::vector<Permutation> symmetriesOf(const Diagram& diagram);
 /// mirrors.
 Diagram canonical(const Diagram& diagram);
 
-/// Returns the connected components of `set`, ordered by their first mirrors.
+/// Returns the connected components of `set` (by default, of the whole diagram), ordered by their first mirrors.
 std::vector<MirrorSet> componentsOf(const Diagram& diagram, MirrorSet set = 0xf);
 
-/// Returns whether every connected component of `set` contains a ringed mirror. If so, the mirrors generate an element
-/// of the polytope, whose dimension is the number of mirrors; otherwise what they generate has a lower dimension.
+/// Returns whether every connected component of `set` contains a ringed mirror. If so, the images of the generating
+/// vertex under the reflections in these mirrors are the vertices of an element of the polytope; its dimension is the
+/// number of mirrors. Otherwise the images span a lower dimension.
 bool generatesElement(const Diagram& diagram, MirrorSet set);
 
 /// Returns the order of the Coxeter group that the mirrors of `set` generate, or 0 if the group is not finite. The
 /// mirrors may also be those of star polyhedra and star polychora (Coxeter, Regular Polytopes, §11.5 and §14.1).
 std::uint64_t groupOrder(const Diagram& diagram, MirrorSet set = 0xf);
 
-/// Returns the mirrors that generate the stabilizer of the element that `set` generates, which is the group of
-/// symmetries that map the element to itself: the mirrors of `set`, and the unringed mirrors that are perpendicular to
-/// all of these.
+/// Returns the mirrors that generate the stabilizer of the element that `set` generates. The stabilizer is the group of
+/// symmetries that map the element to itself. The mirrors are those of `set`, and the unringed mirrors that are
+/// perpendicular to all mirrors of `set`.
 MirrorSet stabilizerOf(const Diagram& diagram, MirrorSet set);
 
 /// Numbers of vertices, edges, 2-faces and cells.
@@ -71,8 +72,8 @@ struct ElementCounts {
     bool operator==(const ElementCounts&) const = default;
 };
 
-/// Returns the numbers of elements, each the sum of |W| / |stabilizer| over the orbits of elements, where W is the
-/// Coxeter group. The group must be finite.
+/// Returns the numbers of elements of the polytope. Each number is the sum of |W| / |stabilizer| over the orbits of
+/// elements of one dimension, where W is the Coxeter group. W must be finite.
 ElementCounts elementCounts(const Diagram& diagram);
 
 }  // namespace oval4d::polytopes

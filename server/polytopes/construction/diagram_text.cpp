@@ -214,7 +214,7 @@ std::variant<Diagram, NameError> parseSchlaefli(std::string_view text) {
     return builder.checked(text);
 }
 
-std::string symbolOf(const Diagram& diagram) {
+std::string linearNotationOf(const Diagram& diagram) {
     std::string text;
     for (int i = 0; i < kMirrors; ++i) {
         int joined = -1;

@@ -24,8 +24,8 @@ struct NameError {
 
 /// Parses a diagram in linear notation (after Krieger and Klitzing): nodes x (ringed) and o with branch numbers between
 /// them, as in "x5o3o3x" and "x5/2o5o3o". A blank separates connected components, as in "x5o x7o"; "*b" continues from
-/// the second node, as in "x3o3o *b3o". Returns an error unless there are four nodes, the group is finite, every
-/// component has a ringed node, and no polygon would be covered twice.
+/// the second node, as in "x3o3o *b3o". Returns an error unless there are four nodes, the group is finite, and every
+/// component has a ringed node. Also returns an error if a 2-face would be a polygon that covers itself twice.
 std::variant<Diagram, NameError> parseDiagram(std::string_view text);
 
 /// Parses Schläfli symbols of regular and truncated polytopes and of their products: "{3,3,5}", "t0,1{4,3,3}",
@@ -33,7 +33,7 @@ std::variant<Diagram, NameError> parseDiagram(std::string_view text);
 std::variant<Diagram, NameError> parseSchlaefli(std::string_view text);
 
 /// Returns the diagram in linear notation, in the order of its mirrors.
-std::string symbolOf(const Diagram& diagram);
+std::string linearNotationOf(const Diagram& diagram);
 
 /// Returns the Schläfli symbol, such as "{3,3,5}", "t0,1{4,3,3}", "t0,1{4,3}×{}" or "{5}×{7}"; empty for a diagram that
 /// is not a union of chains.

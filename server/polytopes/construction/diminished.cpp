@@ -43,9 +43,9 @@ std::vector<std::uint32_t> loopOf(const std::vector<std::array<std::uint32_t, 2>
     return loop;
 }
 
-// Cuts off vertices of a polytope whose cells are tetrahedra. A cell takes the place of each removed vertex: the convex
-// hull of its remaining neighbors. If two neighboring vertices are removed, their cells share a polygon, whose corners
-// are the common neighbors of the two.
+// Cuts off vertices of a polytope whose cells are tetrahedra. Each removed vertex is replaced by a cell, which is the
+// convex hull of the vertex's remaining neighbors. If two neighboring vertices are removed, the cells that replace them
+// share a polygon, whose corners are the common neighbors of the two vertices.
 Polytope diminished(std::string name, const Polytope& whole, const std::vector<bool>& removed) {
     std::vector<glm::dvec4> vertices;
     std::vector<std::uint32_t> newVertex(whole.vertices.size(), kRemoved);
@@ -54,8 +54,8 @@ Polytope diminished(std::string name, const Polytope& whole, const std::vector<b
         newVertex[v] = static_cast<std::uint32_t>(vertices.size());
         vertices.push_back(whole.vertices[v]);
     }
-    // A tetrahedron with one removed vertex contributes a triangle to the cell that replaces the vertex; one with two
-    // removed vertices contributes an edge to the polygon between the two cells.
+    // A tetrahedron with one removed vertex contributes a triangle to the cell that replaces this vertex. A tetrahedron
+    // with two removed vertices contributes an edge to the polygon between the two cells that replace them.
     const auto partition = [&](const std::set<std::uint32_t>& corners) {
         std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> lostAndKept;
         for (const std::uint32_t v : corners) (removed[v] ? lostAndKept.first : lostAndKept.second).push_back(v);
@@ -130,24 +130,24 @@ class Diminished : public Recipe {
   public:
     using Builder = Polytope (*)(std::string name);
 
-    Diminished(ElementCounts counts, std::uint64_t symmetryOrder, std::string symbol, std::string schlaefli,
+    Diminished(ElementCounts counts, std::uint64_t symmetryOrder, std::string linearNotation, std::string schlaefli,
                Builder builder)
         : counts_(counts),
           symmetryOrder_(symmetryOrder),
-          symbol_(std::move(symbol)),
+          linearNotation_(std::move(linearNotation)),
           schlaefli_(std::move(schlaefli)),
           builder_(builder) {}
 
     ElementCounts counts() const override { return counts_; }
     std::uint64_t symmetryOrder() const override { return symmetryOrder_; }
-    std::string symbol() const override { return symbol_; }
+    std::string linearNotation() const override { return linearNotation_; }
     std::string schlaefli() const override { return schlaefli_; }
     Polytope build(const std::string& name) const override { return builder_(name); }
 
   private:
     ElementCounts counts_;
     std::uint64_t symmetryOrder_;
-    std::string symbol_, schlaefli_;
+    std::string linearNotation_, schlaefli_;
     Builder builder_;
 };
 

@@ -18,8 +18,9 @@ namespace {
 
 /// Returns the point nearest to the origin in the hyperplane of a cell.
 glm::dvec4 footOf(const Polytope& polytope, std::uint32_t cell) {
-    // Starts at a vertex and removes the components along three orthonormal directions in the hyperplane. Gram–Schmidt
-    // finds these from the differences of vertices; it takes the longest remainder each time.
+    // Starts at a vertex and removes the components along three orthonormal directions in the hyperplane. The
+    // Gram–Schmidt process finds the directions from differences of vertices; for accuracy, each direction is that of
+    // the longest remainder.
     std::vector<glm::dvec4> points;
     for (const std::uint32_t f : polytope.cells[cell]) {
         for (const std::uint32_t v : polytope.faces[f]) points.push_back(polytope.vertices[v]);
@@ -49,7 +50,8 @@ class Dual : public Recipe {
     }
     std::uint64_t symmetryOrder() const override { return base_.recipe->symmetryOrder(); }
 
-    // A vertex for each cell, a 2-face for each edge (the loop of the cells around it), a cell for each vertex.
+    // The dual has a vertex for each cell of the base, a 2-face for each edge (the loop of the cells around the edge),
+    // and a cell for each vertex.
     Polytope build(const std::string& name) const override {
         const Polytope base = polytopes::build(base_);
         std::vector<glm::dvec4> vertices;
@@ -83,7 +85,7 @@ class Dual : public Recipe {
 /// Returns the dual of a regular polytope: its diagram has the ring at the other end. Returns std::nullopt for other
 /// polytopes.
 std::optional<Design> dualOfRegular(const Design& base) {
-    const auto read = parseDiagram(base.recipe->symbol());
+    const auto read = parseDiagram(base.recipe->linearNotation());
     const auto* diagram = std::get_if<Diagram>(&read);
     if (diagram == nullptr || componentsOf(*diagram).size() != 1) return {};
     for (const bool reversed : {false, true}) {

@@ -17,10 +17,12 @@ namespace oval4d::polytopes {
 /// The design that a text denotes, or the reason why it denotes none.
 using DesignOrError = std::variant<Design, NameError>;
 
-/// Returns the design that any text denotes. Used by notations in which a text contains the name of another polytope.
+/// A function that returns the design that any text denotes. Notations use it to look up the name of another polytope
+/// within a text, as in "dual of rectified 5-cell".
 using DesignLookup = std::function<DesignOrError(std::string_view text)>;
 
-/// A text that may name a polytope: in lower case and split into words (at least one), with a lookup for names in it.
+/// A text that may name a polytope, split into lower-case words (at least one), and the function that looks up names of
+/// other polytopes within the text.
 struct NameWords {
     const std::vector<std::string>& words;
     const DesignLookup& lookup;

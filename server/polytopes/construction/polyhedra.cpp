@@ -59,10 +59,11 @@ constexpr auto kPolygons = std::to_array<NamedPolygon>({
     {{5, 2}, "pentagrammic", "pentagram"},
 });
 
-// Returns the shape of the base of a prism. In the prism's diagram, the first three mirrors are those of the base: its
-// faces are counted as the elements that they generate, and its circumradius is the distance of the generating vertex.
-Shape shapeOf(const Diagram& prism) {
-    Shape shape;
+// Returns the shape of the base of a prism. In the prism's diagram, the first three mirrors are the mirrors of the
+// base. The faces of the base are counted as the elements that pairs of these mirrors generate; its circumradius is the
+// distance of the generating vertex from the center of the base.
+PolyhedronSignature shapeOf(const Diagram& prism) {
+    PolyhedronSignature shape;
     const MirrorSet solid = 0x7;
     for (MirrorSet set = 0; set < solid; ++set) {
         if (!generatesElement(prism, set)) continue;
@@ -82,22 +83,23 @@ Shape shapeOf(const Diagram& prism) {
     return shape;
 }
 
-Shape shapeOf(const SnubPolyhedron& snub) {
-    Shape shape;
+PolyhedronSignature shapeOf(const SnubPolyhedron& snub) {
+    PolyhedronSignature shape;
     shape.vertices = static_cast<std::uint32_t>(snub.vertices.size());
     shape.circumradius = glm::length(snub.vertices[0]);
     for (std::size_t f = 0; f < snub.faces.size(); ++f) ++shape.faces[{static_cast<int>(snub.faces[f].size()), 1}];
     return shape;
 }
 
-const std::vector<Shape>& namedShapes() {
-    static const std::vector<Shape> kShapes = [] {
-        std::vector<Shape> shapes;
+const std::vector<PolyhedronSignature>& namedShapes() {
+    static const std::vector<PolyhedronSignature> kShapes = [] {
+        std::vector<PolyhedronSignature> shapes;
         for (const NamedPolyhedron& named : kNamed) {
-            if (named.symbol.starts_with('s')) {
-                shapes.push_back(shapeOf(snubOf({named.symbol[1] - '0', 1}, {named.symbol[3] - '0', 1})));
+            if (named.linearNotation.starts_with('s')) {
+                shapes.push_back(
+                    shapeOf(snubOf({named.linearNotation[1] - '0', 1}, {named.linearNotation[3] - '0', 1})));
             } else {
-                shapes.push_back(shapeOf(std::get<Diagram>(parseDiagram(std::string(named.symbol) + " x"))));
+                shapes.push_back(shapeOf(std::get<Diagram>(parseDiagram(std::string(named.linearNotation) + " x"))));
             }
         }
         return shapes;
@@ -131,9 +133,9 @@ std::optional<Branch> polygonNamed(std::string_view word) {
     return parseBranch(word);
 }
 
-std::string nameOf(const Shape& shape, double tolerance) {
+std::string nameOf(const PolyhedronSignature& shape, double tolerance) {
     for (std::size_t i = 0; i < kNamed.size(); ++i) {
-        const Shape& known = namedShapes()[i];
+        const PolyhedronSignature& known = namedShapes()[i];
         if (known.faces == shape.faces && known.vertices == shape.vertices &&
             alike(shape.circumradius, known.circumradius, tolerance)) {
             return std::string(kNamed.at(i).name);

@@ -18,10 +18,10 @@ namespace oval4d::polytopes {
 
 /// A uniform polyhedron with a name of its own: a Platonic, Archimedean or Kepler–Poinsot solid.
 struct NamedPolyhedron {
-    std::string_view name;       ///< "truncated cube"
-    std::string_view adjective;  ///< used in the name of its prism: "truncated cubic"
-    std::string_view symbol;     ///< its diagram, "x4x3o"; a snub polyhedron has nodes s: "s4s3s"
-    std::string_view prism;      ///< Bowers' short name of its prism; empty: no catalogue entry of its own
+    std::string_view name;            ///< "truncated cube"
+    std::string_view adjective;       ///< used in the name of its prism: "truncated cubic"
+    std::string_view linearNotation;  ///< its diagram: "x4x3o"; the nodes of a snub polyhedron are s: "s4s3s"
+    std::string_view prism;  ///< Bowers' short name of its prism; empty if the prism has no own catalogue entry
 };
 
 /// Returns all named polyhedra: the Platonic and Archimedean solids, then the Kepler–Poinsot solids.
@@ -35,14 +35,14 @@ std::string adjectiveOf(Branch polygon);
 std::optional<Branch> polygonNamed(std::string_view word);
 
 /// The properties by which nameOf recognizes a uniform polyhedron, scaled to edge length 2.
-struct Shape {
+struct PolyhedronSignature {
     std::map<Branch, std::uint32_t> faces;  ///< the number of faces of each polygon
     std::uint32_t vertices = 0;
     double circumradius = 0;
 };
 
 /// Returns the name of the uniform polyhedron of this shape, such as "truncated cube", "hexagonal prism" or "pentagonal
-/// antiprism", or empty if there is none. `tolerance` is the relative tolerance of the circumradius.
-std::string nameOf(const Shape& shape, double tolerance);
+/// antiprism", or an empty string if there is none. `tolerance` is the largest relative error of the circumradius.
+std::string nameOf(const PolyhedronSignature& shape, double tolerance);
 
 }  // namespace oval4d::polytopes

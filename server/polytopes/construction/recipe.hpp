@@ -23,13 +23,13 @@ class Recipe {
     virtual std::uint64_t symmetryOrder() const = 0;
 
     /// Returns the Coxeter–Dynkin diagram in linear notation; empty if there is none.
-    virtual std::string symbol() const { return {}; }
+    virtual std::string linearNotation() const { return {}; }
 
     /// Returns the Schläfli symbol; empty if there is none.
     virtual std::string schlaefli() const { return {}; }
 
-    /// Builds the polytope and gives it this name. It is centered at the origin. Throws std::invalid_argument if it
-    /// cannot be built, for example because elements would coincide.
+    /// Builds the polytope and gives it this name. The polytope is centered at the origin. Throws std::invalid_argument
+    /// if the polytope cannot be built, for example because elements would coincide.
     virtual Polytope build(const std::string& name) const = 0;
 };
 

@@ -14,14 +14,14 @@ namespace oval4d::polytopes {
 /// A polyhedron of edge length 2 whose vertices are an orbit of a rotation group.
 struct SnubPolyhedron {
     std::vector<glm::dvec3> vertices;
-    geometry::JaggedArray faces;
-    std::vector<std::uint32_t> orbits;  ///< by face: its orbit: 0: p-gons, 1: q-gons, 2: other triangles
+    geometry::JaggedArray faces;        ///< the vertex loop of each face
+    std::vector<std::uint32_t> orbits;  ///< the orbit of each face: 0 for p-gons, 1 for q-gons, 2 for other triangles
 };
 
-/// Builds the snub of {p, q}: the snub cube for {4, 3}, the snub dodecahedron for {5, 3}, the n-antiprism for {n, 2}.
-/// The vertices are the images of one point under the rotations of {p, q}. The faces are the p-gons and q-gons around
-/// the rotation axes (none for p or q = 2), and the triangles between them (Coxeter, Regular Polytopes, §8.6). p and q
-/// must be integers with 1/p + 1/q > 1/2.
+/// Builds the snub of {p, q}, such as the snub cube for {4, 3}, the snub dodecahedron for {5, 3}, or the n-antiprism
+/// for {n, 2}. The vertices are the images of one point under the rotations of {p, q}. The faces are the p-gons and
+/// q-gons around the rotation axes (none for p or q = 2), and the triangles between them (Coxeter, Regular Polytopes,
+/// §8.6). Requires that p and q are integers with 1/p + 1/q > 1/2.
 SnubPolyhedron snubOf(Branch p, Branch q);
 
 }  // namespace oval4d::polytopes

@@ -13,8 +13,8 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kNoise = 2;    // as a multiple of HullFrame::noise: that of the point plus that of the hull
-constexpr int kMaxRounds = 64;  // the method always ends, usually after a few rounds
+constexpr double kNoise = 2;    // times HullFrame::noise: the noise of the point plus that of the hull
+constexpr int kMaxRounds = 64;  // a safeguard: the method usually ends after a few rounds
 
 // A corner of the current simplex, which contains the nearest point found so far, and the barycentric weight of the
 // corner in this point.

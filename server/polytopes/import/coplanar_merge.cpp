@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 constexpr double kMaxAmplification =
-    16;                                 // the maximum factor by which extrapolation is taken to amplify a flat's noise
+    16;  // limit of the factor by which a flat's noise is assumed to grow by extrapolation
 constexpr double kAmbiguityFactor = 3;  // deviations up to this many times the expected noise are ambiguous
 constexpr int kMaxRefits = 4;
 constexpr int kMaxCorrections = 32;
@@ -582,9 +582,9 @@ class Merger {
     std::vector<std::uint32_t> mark_;
     std::uint32_t latestMark_ = 0;
     std::vector<std::int8_t> signs_;
-    std::vector<Hyperplane> hyperplanes_;  // by cell
+    std::vector<Hyperplane> hyperplanes_;  // per cell
     std::vector<Border> borders_;
-    std::vector<bool> unmerged_;  // by cell: whether its triangles are kept unmerged
+    std::vector<bool> unmerged_;  // per cell: whether its triangles are kept unmerged
 };
 
 }  // namespace

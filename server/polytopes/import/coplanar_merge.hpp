@@ -14,20 +14,22 @@
 
 namespace oval4d::polytopes {
 
-/// A facet of a four-dimensional convex hull whose facets are all simplices: a tetrahedron.
+/// A facet of a four-dimensional convex hull that has only simplices as facets: a tetrahedron.
 struct Simplex {
-    std::array<std::uint32_t, 4> vertices;
+    std::array<std::uint32_t, 4> vertices;   ///< indices of points, in ascending order
     std::array<std::uint32_t, 4> neighbors;  ///< neighbor i shares the 2-face opposite vertex i
 };
 
+/// The 2-faces and cells of a convex hull after merging.
 struct MergedHull {
     geometry::JaggedArray faces, cells;  ///< in the form that makePolytope expects
-    std::size_t ambiguousRidges = 0;     ///< the number of pairs of neighboring cells that may lie in one hyperplane
+    /// The number of pairs of neighboring cells for which the noise leaves open whether they lie in one hyperplane.
+    std::size_t ambiguousRidges = 0;
 };
 
 /// Merges neighboring simplices into one cell if their hyperplanes agree within the noise of the points, and likewise
-/// merges the triangles between two cells into one 2-face. Merges fewer simplices where this is necessary to keep a
-/// cell convex; therefore the cells form a closed boundary, as the simplices do. `points` are in the coordinates of
+/// merges the triangles between two cells into one 2-face. Merges fewer simplices if the cell would not be convex
+/// otherwise. The resulting cells form a closed boundary, as the simplices do. `points` are in the coordinates of
 /// `frame`, which also gives their noise (HullFrame::noise).
 MergedHull mergeCoplanar(std::span<const Simplex> simplices, std::span<const glm::dvec4> points,
                          const HullFrame& frame);

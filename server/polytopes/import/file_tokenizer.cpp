@@ -6,7 +6,7 @@
 
 namespace oval4d::polytopes {
 
-void refuse(std::size_t line, std::string reason) { throw ImportError{line, std::move(reason)}; }
+void throwImportError(std::size_t line, std::string reason) { throw ImportError{line, std::move(reason)}; }
 
 FileTokenizer::FileTokenizer(std::string_view text, bool commas) : text_(text), commas_(commas) {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -58,8 +58,9 @@ std::string inQuotes(std::string_view word) {
 std::uint32_t parseCount(std::string_view word, std::size_t line, const std::string& what) {
     std::uint32_t value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (word.empty()) refuse(line, "the file ends where " + what + " is expected");
-    if (error != std::errc{} || end != word.data() + word.size()) refuse(line, inQuotes(word) + " is not " + what);
+    if (word.empty()) throwImportError(line, "the file ends where " + what + " is expected");
+    if (error != std::errc{} || end != word.data() + word.size())
+        throwImportError(line, inQuotes(word) + " is not " + what);
     return value;
 }
 
@@ -75,8 +76,9 @@ bool tryParseCoordinate(std::string_view word, double& value) {
 
 double parseCoordinate(std::string_view word, std::size_t line) {
     double value = 0;
-    if (word.empty()) refuse(line, "the file ends where a coordinate is expected");
-    if (!tryParseCoordinate(word, value)) refuse(line, inQuotes(word) + " is not a coordinate (a number within ±1e14)");
+    if (word.empty()) throwImportError(line, "the file ends where a coordinate is expected");
+    if (!tryParseCoordinate(word, value))
+        throwImportError(line, inQuotes(word) + " is not a coordinate (a number within ±1e14)");
     return value;
 }
 

@@ -14,7 +14,7 @@ namespace oval4d::polytopes {
 inline constexpr double kMaxCoordinate = 1e14;
 
 /// Throws an ImportError with this line and reason. `line` is 0 if the error is not in a single line.
-[[noreturn]] void refuse(std::size_t line, std::string reason);
+[[noreturn]] void throwImportError(std::size_t line, std::string reason);
 
 /// Splits a text into words separated by white space. Skips comments, which extend from # to the end of the line. With
 /// `commas`, commas and semicolons also separate words. The text must outlive the tokenizer and the words.

@@ -99,10 +99,11 @@ class QhullRun {
 };
 
 [[noreturn]] void refuseRun(int status) {
-    if (status == qh_ERRsingular) refuse(0, "all points lie in one hyperplane");
+    if (status == qh_ERRsingular) throwImportError(0, "all points lie in one hyperplane");
     if (status == qh_ERRprec || status == qh_ERRwide || status == qh_ERRtopology)
-        refuse(0, "the convex hull cannot be determined at the precision of the points; give more decimals");
-    refuse(0, "the convex hull of the points cannot be computed (Qhull status " + std::to_string(status) + ')');
+        throwImportError(0, "the convex hull cannot be determined at the precision of the points; give more decimals");
+    throwImportError(0,
+                     "the convex hull of the points cannot be computed (Qhull status " + std::to_string(status) + ')');
 }
 
 [[noreturn]] void refuseSize(std::size_t maxCells) {
@@ -110,8 +111,8 @@ class QhullRun {
 }
 
 // Returns the simplices of the hull, and sets the perturbation of `frame`. The number of simplices can grow with the
-// square of the number of points. Therefore first computes the hulls of samples of increasing size, which reveal a hull
-// that is too large before it exhausts memory.
+// square of the number of points. Therefore first computes the hulls of samples of increasing size: if the hull is too
+// large, a sample reveals this before memory is exhausted.
 std::vector<Simplex> simplicialHull(const Points& points, HullFrame& frame, std::size_t maxCells) {
     double perturbation = kPerturbation;
     for (std::size_t count = std::min(kFirstSample, points.size());; count = std::min(2 * count, points.size())) {
@@ -163,8 +164,8 @@ Points placesOf(std::span<const std::uint32_t> which, const Points& points) {
 }
 
 // Returns, for each point, whether it is a vertex of the hull: whether it lies outside the hull of the others by more
-// than the noise. Points inside an edge, a 2-face or a cell are not vertices, even if rounding and perturbation have
-// moved them outward so that they are vertices of simplices.
+// than the noise. Points inside an edge, a 2-face or a cell are not vertices of the hull, even if rounding and
+// perturbation have moved them outward and made them vertices of simplices.
 std::vector<bool> verticesOf(std::span<const Simplex> simplices, const Points& points, const HullFrame& frame) {
     const auto links = linksOf(simplices, points.size());
     std::vector<bool> vertex(points.size(), false), doubtful(points.size(), false), reached(points.size(), false);
@@ -200,7 +201,8 @@ std::vector<bool> verticesOf(std::span<const Simplex> simplices, const Points& p
 
 Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, std::size_t maxCells) {
     if (points.size() <= kDimensions) {
-        refuse(0, "a convex hull in four dimensions needs at least 5 points, not " + std::to_string(points.size()));
+        throwImportError(
+            0, "a convex hull in four dimensions needs at least 5 points, not " + std::to_string(points.size()));
     }
     HullFrame frame(points, rounding);
     frame.setPerturbation(kPerturbation);
@@ -210,14 +212,14 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
     std::shuffle(order.begin(), order.end(), std::mt19937(1));
     // Points that are no farther apart than rounding may have moved them are merged.
     Points places;
-    std::vector<std::uint32_t> numbers;  // by place: the number of its point
+    std::vector<std::uint32_t> numbers;  // per place: the index of its point
     geometry::PointIndex index(4 * 2 * frame.largestNoise());
     for (const std::uint32_t i : order) {
         if (index.add(frame(points[i]), places).second) numbers.push_back(i);
     }
     if (places.size() <= kDimensions) {
-        refuse(0, "a convex hull in four dimensions needs at least 5 different points, not " +
-                      std::to_string(places.size()));
+        throwImportError(0, "a convex hull in four dimensions needs at least 5 different points, not " +
+                                std::to_string(places.size()));
     }
 
     std::vector<Simplex> simplices = simplicialHull(places, frame, maxCells);

@@ -47,8 +47,8 @@ HullFrame::HullFrame(std::span<const glm::dvec4> points, const glm::dvec4& round
             static constexpr std::array kFlats{"are the same point", "lie on one line", "lie in one plane",
                                                "lie in one hyperplane"};
             const bool exact = rounding == glm::dvec4(0);
-            refuse(0, std::string("all points ") + kFlats.at(static_cast<std::size_t>(k)) +
-                          (exact ? "" : ", to the precision of their coordinates"));
+            throwImportError(0, std::string("all points ") + kFlats.at(static_cast<std::size_t>(k)) +
+                                    (exact ? "" : ", to the precision of their coordinates"));
         }
         axes_[k] = axis;
         extents_[k] = extent;

@@ -23,8 +23,8 @@ class HullFrame {
     /// Returns the coordinates of a point in the frame.
     glm::dvec4 operator()(const glm::dvec4& point) const;
 
-    /// Returns the largest distance by which a point may have been moved along `direction`, a unit vector. Both are in
-    /// the coordinates of the frame.
+    /// Returns the largest distance by which a point may have been moved along `direction`, a unit vector. The distance
+    /// and the direction are in the coordinates of the frame.
     double noise(const glm::dvec4& direction) const;
 
     /// Returns an upper bound of the noise along any direction.

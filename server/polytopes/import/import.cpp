@@ -32,8 +32,8 @@ struct Counts {
 
 Counts readCounts(FileTokenizer& file) {
     if (const auto header = file.next(); header != "4OFF") {
-        refuse(file.line(),
-               "the file must begin with 4OFF" + (header.empty() ? std::string{} : ", not " + inQuotes(header)));
+        throwImportError(file.line(), "the file must begin with 4OFF" +
+                                          (header.empty() ? std::string{} : ", not " + inQuotes(header)));
     }
     std::vector<std::string_view> words{file.next()};
     while (words.size() < 4) {
@@ -42,9 +42,10 @@ Counts readCounts(FileTokenizer& file) {
         words.push_back(word);
     }
     if (words.size() == 3) {
-        refuse(file.line(),
-               "the file has three counts, as in Geomview's 4OFF format without cells; four are needed: vertices, "
-               "2-faces, edges and cells. Its points can be loaded as a list of points");
+        throwImportError(
+            file.line(),
+            "the file has three counts, as in Geomview's 4OFF format without cells; four are needed: vertices, "
+            "2-faces, edges and cells. Its points can be loaded as a list of points");
     }
     while (words.size() < 4) words.push_back(file.next());
     Counts counts;
@@ -71,21 +72,22 @@ void readLists(FileTokenizer& file, std::uint32_t records, std::size_t below, st
         file.skipLine();
         const std::string owner = what + " " + std::to_string(i);
         const auto first = file.next();
-        if (first.empty()) refuse(file.line(), "the file ends before " + owner + " of " + std::to_string(records));
+        if (first.empty())
+            throwImportError(file.line(), "the file ends before " + owner + " of " + std::to_string(records));
         const std::size_t line = file.line();
         const std::uint32_t size = parseCount(first, line, "the size of " + owner);
         // A loop may pass through a vertex more than once; repair() splits it there. The limit bounds memory.
         if (size < least || size > 2 * below) {
-            refuse(line, owner + " has " + std::to_string(size) + " " + member.many + "; " + std::to_string(least) +
-                             " to " + std::to_string(2 * below) + " are allowed");
+            throwImportError(line, owner + " has " + std::to_string(size) + " " + member.many + "; " +
+                                       std::to_string(least) + " to " + std::to_string(2 * below) + " are allowed");
         }
         list.clear();
         for (std::uint32_t j = 0; j < size; ++j) {
             const auto word = file.next();
             const std::uint32_t index = parseCount(word, file.line(), "the number of a " + member.one);
             if (index >= below) {
-                refuse(file.line(), owner + " refers to " + member.one + ' ' + std::to_string(index) +
-                                        ", but the last is " + member.one + ' ' + std::to_string(below - 1));
+                throwImportError(file.line(), owner + " refers to " + member.one + ' ' + std::to_string(index) +
+                                                  ", but the last is " + member.one + ' ' + std::to_string(below - 1));
             }
             list.push_back(index);
         }
@@ -100,8 +102,8 @@ void checkCells(const PolygonSoup& soup) {
         list.assign(soup.cells[c].begin(), soup.cells[c].end());
         std::sort(list.begin(), list.end());
         if (std::adjacent_find(list.begin(), list.end()) != list.end()) {
-            refuse(soup.cellOrigins[c].line,
-                   "cell " + std::to_string(soup.cellOrigins[c].number) + " lists one of its 2-faces twice");
+            throwImportError(soup.cellOrigins[c].line,
+                             "cell " + std::to_string(soup.cellOrigins[c].number) + " lists one of its 2-faces twice");
         }
     }
 }
@@ -120,7 +122,7 @@ Imported readOff4(std::string_view text, const std::string& name, const ImportLi
     const Counts counts = readCounts(file);
     checkCount(counts.vertices, "vertices", limits.maxVertices, file.line());
     if (counts.vertices * kVertexBytes + counts.faces * kFaceBytes + counts.cells * kCellBytes > text.size() + 1) {
-        refuse(file.line(), "the file is too short for its numbers of vertices, 2-faces and cells");
+        throwImportError(file.line(), "the file is too short for its numbers of vertices, 2-faces and cells");
     }
     PolygonSoup soup;
     soup.vertices.resize(counts.vertices);
@@ -134,12 +136,13 @@ Imported readOff4(std::string_view text, const std::string& name, const ImportLi
     readLists(file, counts.faces, counts.vertices, 3, "2-face", {"vertex", "vertices"}, soup.faces, soup.faceOrigins);
     readLists(file, counts.cells, counts.faces, 4, "cell", {"2-face", "2-faces"}, soup.cells, soup.cellOrigins);
     file.skipLine();
-    if (const auto rest = file.next(); !rest.empty()) refuse(file.line(), inQuotes(rest) + " follows the last cell");
+    if (const auto rest = file.next(); !rest.empty())
+        throwImportError(file.line(), inQuotes(rest) + " follows the last cell");
     checkCells(soup);
 
     Imported result = [&] {
         try {
-            return finish(soup, kMergeDistance * sizeOf(soup.vertices), name);
+            return finish(soup, kMergeDistance * halfDiagonal(soup.vertices), name);
         } catch (const ImportError&) {
             // Coinciding vertices may belong to different components of a compound: try again without merging them.
             try {
@@ -161,7 +164,7 @@ Imported readOff4(std::string_view text, const std::string& name, const ImportLi
 // cells, as for a polytope that was scaled and then rounded to whole numbers.
 Hull hullOf(std::span<const glm::dvec4> points, const WrittenPrecision& precision, std::size_t maxCells,
             std::vector<std::string>& warnings) {
-    const glm::dvec4 rounding = precision.rounding(sizeOf(points));
+    const glm::dvec4 rounding = precision.rounding(halfDiagonal(points));
     if (!precision.whole() || rounding == glm::dvec4(0)) return convexHull(points, rounding, maxCells);
     Hull exact = convexHull(points, glm::dvec4(0), maxCells), rounded;
     try {
@@ -190,11 +193,12 @@ Imported readPoints(std::string_view text, std::string name, const ImportLimits&
         }
         glm::dvec4 point;
         for (int i = 0; i < 4; ++i, word = file.nextOnLine()) {
-            if (word.empty()) refuse(file.line(), "a point has " + std::to_string(i) + " coordinates; four are needed");
+            if (word.empty())
+                throwImportError(file.line(), "a point has " + std::to_string(i) + " coordinates; four are needed");
             point[i] = parseCoordinate(word, file.line());
             precision.add(word, i, point[i]);
         }
-        if (!word.empty()) refuse(file.line(), inQuotes(word) + " follows a point's four coordinates");
+        if (!word.empty()) throwImportError(file.line(), inQuotes(word) + " follows a point's four coordinates");
         points.push_back(point);
         checkCount(points.size(), "points", limits.maxVertices, file.line());
     }
@@ -230,7 +234,7 @@ std::variant<Imported, ImportError> importPolytope(FileFormat format, std::strin
     }
 }
 
-FileFormat formatOf(std::string_view text) {
+FileFormat detectFileFormat(std::string_view text) {
     return FileTokenizer(text).next().ends_with("OFF") ? FileFormat::off4 : FileFormat::points;
 }
 

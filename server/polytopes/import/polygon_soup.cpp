@@ -37,7 +37,7 @@ std::string nameOf(const char* element, const PolygonSoup::Origin& origin) {
 
 }  // namespace
 
-double sizeOf(std::span<const glm::dvec4> points) {
+double halfDiagonal(std::span<const glm::dvec4> points) {
     glm::dvec4 low(std::numeric_limits<double>::infinity());
     glm::dvec4 high = -low;
     for (const auto& p : points) {
@@ -48,15 +48,16 @@ double sizeOf(std::span<const glm::dvec4> points) {
 }
 
 void checkFlat(const PolygonSoup& soup) {
-    const double size = sizeOf(soup.vertices);
+    const double size = halfDiagonal(soup.vertices);
     if (soup.vertices.empty() || deviation(soup.vertices, 3) <= kThin * size)
-        refuse(0, "all vertices lie in one hyperplane");
+        throwImportError(0, "all vertices lie in one hyperplane");
     std::vector<glm::dvec4> points;
     for (std::size_t f = 0; f < soup.faces.size(); ++f) {
         points.clear();
         for (const std::uint32_t v : soup.faces[f]) points.push_back(soup.vertices[v]);
         const auto& origin = soup.faceOrigins[f];
-        if (deviation(points, 2) > kFlat * size) refuse(origin.line, nameOf("2-face", origin) + "is not flat");
+        if (deviation(points, 2) > kFlat * size)
+            throwImportError(origin.line, nameOf("2-face", origin) + "is not flat");
     }
     for (std::size_t c = 0; c < soup.cells.size(); ++c) {
         points.clear();
@@ -65,7 +66,7 @@ void checkFlat(const PolygonSoup& soup) {
         }
         const auto& origin = soup.cellOrigins[c];
         if (deviation(points, 3) > kFlat * size)
-            refuse(origin.line, nameOf("cell", origin) + "does not lie in a hyperplane");
+            throwImportError(origin.line, nameOf("cell", origin) + "does not lie in a hyperplane");
     }
 }
 
@@ -74,9 +75,9 @@ Polytope build(PolygonSoup soup, std::string name) {
         return makePolytope(std::move(name), std::move(soup.vertices), std::move(soup.faces), std::move(soup.cells));
     } catch (const InvalidPolytope& fault) {
         const bool face = fault.part == InvalidPolytope::Part::face;
-        if (fault.part == InvalidPolytope::Part::whole) refuse(0, fault.detail);
+        if (fault.part == InvalidPolytope::Part::whole) throwImportError(0, fault.detail);
         const auto& origin = (face ? soup.faceOrigins : soup.cellOrigins)[fault.index];
-        refuse(origin.line, nameOf(face ? "2-face" : "cell", origin) + fault.detail);
+        throwImportError(origin.line, nameOf(face ? "2-face" : "cell", origin) + fault.detail);
     }
 }
 

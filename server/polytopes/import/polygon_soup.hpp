@@ -18,7 +18,7 @@ struct PolygonSoup {
     /// The position of an element in the file.
     struct Origin {
         std::size_t line = 0;      ///< counted from 1
-        std::uint32_t number = 0;  ///< among the 2-faces or the cells of the file, counted from 0
+        std::uint32_t number = 0;  ///< its index among the 2-faces, or among the cells, of the file; from 0
     };
 
     std::vector<glm::dvec4> vertices;
@@ -28,13 +28,14 @@ struct PolygonSoup {
 
 /// Returns the size of a set of points: half the diagonal of its bounding box; 0 for no points. The tolerances of the
 /// import are relative to this size.
-double sizeOf(std::span<const glm::dvec4> points);
+double halfDiagonal(std::span<const glm::dvec4> points);
 
-/// Throws an ImportError, with the line of the element, if a 2-face is not flat or a cell does not lie in a hyperplane,
-/// within 5/1000 of the size of the polytope. Also throws an ImportError if all vertices lie in one hyperplane.
+/// Throws an ImportError, with the element's line number, if a 2-face is not flat or a cell does not lie in a
+/// hyperplane. Deviations of up to 0.5 % of the polytope's size (see halfDiagonal) are allowed. Also throws an
+/// ImportError if all vertices lie in one hyperplane.
 void checkFlat(const PolygonSoup& soup);
 
-/// Calls makePolytope and converts InvalidPolytope to an ImportError with the line of the element.
+/// Calls makePolytope. Converts an InvalidPolytope exception to an ImportError with the element's line number.
 Polytope build(PolygonSoup soup, std::string name);
 
 }  // namespace oval4d::polytopes

@@ -7,9 +7,9 @@
 
 namespace oval4d::polytopes {
 
-/// Repairs faults of a file that have only one sensible correction (see importPolytope). Appends a warning to
-/// `warnings` for each type of repair. Merges vertices within `mergeDistance` of each other; a negative distance merges
-/// none.
+/// Repairs, in place, faults of a file that have only one sensible correction (see importPolytope). Appends one warning
+/// to `warnings` for each kind of fault that was repaired. Merges vertices within `mergeDistance` of each other; a
+/// negative distance merges none.
 void repair(PolygonSoup& soup, double mergeDistance, std::vector<std::string>& warnings);
 
 }  // namespace oval4d::polytopes

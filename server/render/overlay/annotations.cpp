@@ -103,7 +103,7 @@ void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) 
     shapes.setProjection(projection);
     bool originPainted = false;
     const auto paintOrigin = [&] {
-        if (!originPainted) shapes.ball(origin, kBall, style.text);
+        if (!originPainted) shapes.addBall(origin, kBall, style.text);
         originPainted = true;
     };
     const int size = wholePixels(style.textHeight, scene);
@@ -112,11 +112,11 @@ void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) 
         const bool toward = axis.direction.z > 0;
         if (toward) {
             paintOrigin();
-            shapes.bar(origin + axis.direction * kBall, origin + axis.direction, kBar, axis.color);
-            shapes.ball(origin + axis.direction, kTip, axis.color);
+            shapes.addBar(origin + axis.direction * kBall, origin + axis.direction, kBar, axis.color);
+            shapes.addBall(origin + axis.direction, kTip, axis.color);
         } else {
-            shapes.ball(origin + axis.direction, kTip, axis.color);
-            shapes.bar(origin + axis.direction, origin + axis.direction * kBall, kBar, axis.color);
+            shapes.addBall(origin + axis.direction, kTip, axis.color);
+            shapes.addBar(origin + axis.direction, origin + axis.direction * kBall, kBar, axis.color);
         }
         // The name of an axis that points at the viewer is drawn beside the axis.
         glm::vec2 name = glm::vec2(axis.direction) * kName;

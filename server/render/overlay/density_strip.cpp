@@ -6,7 +6,7 @@
 #include <glm/vec2.hpp>
 
 #include "render/color.hpp"
-#include "scene/density.hpp"
+#include "scene/density_plot.hpp"
 
 namespace oval4d::render {
 
@@ -53,18 +53,18 @@ DensityStrip::DensityStrip() : program_(kVertexSource, kFragmentSource, sizeof(C
     for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
         glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, scene::Density::kColumns, scene::Density::kRows, 0, GL_RED, GL_UNSIGNED_BYTE,
-                 nullptr);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, scene::DensityPlot::kColumns, scene::DensityPlot::kRows, 0, GL_RED,
+                 GL_UNSIGNED_BYTE, nullptr);
 }
 
 DensityStrip::~DensityStrip() { glDeleteTextures(1, &texture_); }
 
 void DensityStrip::draw(const scene::Scene& scene) {
-    using scene::Density;
+    using scene::DensityPlot;
     if (!scene.showsDensity()) return;
     glBindTexture(GL_TEXTURE_2D, texture_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, Density::kColumns, Density::kRows, GL_RED, GL_UNSIGNED_BYTE,
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, DensityPlot::kColumns, DensityPlot::kRows, GL_RED, GL_UNSIGNED_BYTE,
                     scene.density.data());
 
     const scene::CoordinatesLayout& layout = scene.coordinates;
@@ -77,10 +77,10 @@ void DensityStrip::draw(const scene::Scene& scene) {
             const double x = layout.left + static_cast<double>(k) * layout.lineStep + layout.lineWidth / 2;
             const double y = layout.zero + (above != 0 ? 1 : -1) * layout.amplitude;
             // Coordinates of texel centers: the first and the last row are at the ends of the axes.
-            const double column = static_cast<double>(k) * Density::kGap + 0.5;
-            const double row = above != 0 ? 0.5 : Density::kRows - 0.5;
+            const double column = static_cast<double>(k) * DensityPlot::kGap + 0.5;
+            const double row = above != 0 ? 0.5 : DensityPlot::kRows - 0.5;
             corners[2 * k + above] = {{2 * x / aspect - 1, 2 * y - 1},
-                                      {column / Density::kColumns, row / Density::kRows},
+                                      {column / DensityPlot::kColumns, row / DensityPlot::kRows},
                                       rgba(colors[k], 1)};
         }
     constexpr std::array<std::uint32_t, 18> kIndices{0, 2, 1, 1, 2, 3, 2, 4, 3, 3, 4, 5, 4, 6, 5, 5, 6, 7};

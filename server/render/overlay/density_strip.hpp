@@ -1,12 +1,12 @@
 #pragma once
 // Draws the density strip of the parallel coordinates.
 
-#include "render/program.hpp"
+#include "render/shader_program.hpp"
 #include "scene/scene.hpp"
 
 namespace oval4d::render {
 
-/// Draws the density strip of a scene as a texture, whose color is interpolated between the colors of adjacent axes.
+/// Draws the density strip of a scene as a texture. Its color is interpolated between the colors of adjacent axes.
 /// Requires a current GL context throughout its lifetime.
 class DensityStrip {
   public:
@@ -19,7 +19,7 @@ class DensityStrip {
     void draw(const scene::Scene& scene);
 
   private:
-    Program program_;
+    ShaderProgram program_;
     GLuint texture_ = 0;
 };
 

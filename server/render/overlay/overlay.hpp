@@ -8,8 +8,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "render/overlay/text.hpp"
-#include "render/program.hpp"
+#include "render/overlay/font.hpp"
+#include "render/shader_program.hpp"
 #include "scene/scene.hpp"
 
 namespace oval4d::render {
@@ -20,7 +20,7 @@ struct OverlayVertex {
     glm::vec2 at{0};          ///< clip coordinates, −1 … 1
     glm::vec2 fromCenter{0};  ///< position relative to the center of the box, in pixels
     glm::vec3 box{0};         ///< half width, half height and corner radius, in pixels
-    glm::vec2 texel{0.5f};    ///< position in the glyph texture; the default is its solid texel
+    glm::vec2 texel{0.5f};    ///< position in the glyph texture; the default has full coverage
     std::uint32_t color = 0;  ///< as returned by rgba()
 };
 
@@ -39,11 +39,11 @@ class Overlay {
     /// Starts an empty list for a picture of this size.
     void begin(scene::Viewport viewport);
 
-    /// Adds a box. Its edges are antialiased unless they lie on pixel boundaries.
+    /// Adds a box; `cornerRadius` is in pixels. Its edges are antialiased unless they lie on pixel boundaries.
     void box(const Box& box, scene::Color color, float opacity = 1, float cornerRadius = 0);
 
-    /// Adds a line of text, centered at x and with its baseline at y. `size` is that of Font::glyph. The text is moved
-    /// to whole pixels, where it is sharpest.
+    /// Adds a line of text, centered at x and with its baseline at y. `size` is the height of the em square in pixels.
+    /// The text is moved to whole pixels, where it is sharpest.
     void text(float x, float y, int size, std::string_view text, scene::Color color, float opacity = 1);
 
     Font& font() { return font_; }
@@ -54,7 +54,7 @@ class Overlay {
   private:
     void quad(const Box& place, const OverlayVertex& vertex, const Box& fromCenter, const Box& texels);
 
-    Program program_;
+    ShaderProgram program_;
     Font font_;
     glm::vec2 toClip_{0};
     std::vector<OverlayVertex> vertices_;

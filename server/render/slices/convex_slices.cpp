@@ -8,26 +8,36 @@
 
 namespace oval4d::render {
 
-void ConvexSlicePainter::paint(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted) {
+void ConvexSlicePainter::paint(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted,
+                               const std::function<void()>& paintProjection) {
     const glm::dmat4 toView = scene.camera.view();
     out.setProjection(Projection::of(scene.camera, scene.viewport));
     placementOrder_.clear();
     for (std::uint32_t i = 0; i < scene.placements.size(); ++i)
         if (scene.placements[i].drawn && scene.slices->vertexBegin[i] < scene.slices->vertexBegin[i + 1])
             placementOrder_.push_back(i);
-    const auto distance = [&](std::uint32_t i) {
-        const glm::dvec3 d = scene.placements[i].position - scene.camera.eye;
+    const auto distanceOf = [&](const glm::dvec3& position) {
+        const glm::dvec3 d = position - scene.camera.eye;
         return glm::dot(d, d);
     };
+    const auto distance = [&](std::uint32_t i) { return distanceOf(scene.placements[i].position); };
     // Ties are broken by index, so that equal scenes give equal pictures.
     std::sort(placementOrder_.begin(), placementOrder_.end(), [&](std::uint32_t a, std::uint32_t b) {
         const double da = distance(a), db = distance(b);
         return da != db ? da > db : a < b;
     });
+    bool projectionDue = scene.projectionPlacement.shown;
+    const auto paintProjectionIfDue = [&](double nextDistance) {
+        if (!projectionDue || nextDistance >= distanceOf(scene.projectionPlacement.position)) return;
+        projectionDue = false;
+        paintProjection();
+    };
     for (const std::uint32_t i : placementOrder_) {
+        paintProjectionIfDue(distance(i));
         paintSlice({*scene.slices, scene, toView, i}, out);
         painted();
     }
+    paintProjectionIfDue(-1);
 }
 
 void ConvexSlicePainter::paintSlice(const SliceView& slice, ShapeBatch& out) {
@@ -47,7 +57,8 @@ void ConvexSlicePainter::place(const SliceView& slice) {
         points_[i] = transform(slice.set.vertices[slice.firstVertex() + i]);
 }
 
-/// Determines which faces, edges and vertices are turned toward the eye. An edge or a vertex is if any of its faces is.
+/// Determines which faces are turned toward the eye, and which edges and vertices belong to at least one of these
+/// faces.
 void ConvexSlicePainter::classify(const SliceView& slice) {
     vertexSide_.assign(slice.vertices(), Side::away);
     edgeSide_.assign(slice.edges(), Side::away);
@@ -100,7 +111,7 @@ void ConvexSlicePainter::paintFaces(const SliceView& slice, Side side, ShapeBatc
         const auto [begin, end] = slice.loop(f);
         corners_.clear();
         for (std::size_t i = begin; i < end; ++i) corners_.push_back(points_[slice.set.corners[i]]);
-        out.face(corners_, normals_[f], slice.faceColor(f), opacity * visibility, soft);
+        out.addFace(corners_, normals_[f], slice.faceColor(f), opacity * visibility, soft);
     }
 }
 
@@ -109,13 +120,14 @@ void ConvexSlicePainter::paintSkeleton(const SliceView& slice, Side side, ShapeB
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const std::uint32_t v = order_[i];
         if (skeleton.balls && vertexSide_[v] == side)
-            out.ball(points_[v], skeleton.ballRadius * slice.ballScale(v), skeleton.ballColor, slice.vertexOpacity(v));
+            out.addBall(points_[v], skeleton.ballRadius * slice.ballScale(v), skeleton.ballColor,
+                        slice.vertexOpacity(v));
         if (!skeleton.bars) continue;
         for (std::size_t k = edgeBegin_[i]; k < edgeBegin_[i + 1]; ++k) {
             const std::uint32_t e = edgeOrder_[k];
             if (edgeSide_[e] != side) continue;
             const glm::vec3& to = points_[slice.edge(e)[slice.edge(e)[0] == v ? 1 : 0]];
-            skeleton.bar(points_[v], to, slice.edgeOpacity(e), out);
+            skeleton.addBar(points_[v], to, slice.edgeOpacity(e), out);
         }
     }
 }

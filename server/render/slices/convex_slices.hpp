@@ -14,14 +14,16 @@
 
 namespace oval4d::render {
 
-/// Adds the shapes of convex slices to a batch in back-to-front order: slices from far to near and, in each slice, back
-/// faces, the bars and balls that belong only to back faces, front faces, and the other bars and balls. The order is
-/// correct if slices do not overlap in space. Reuses its memory for the next picture.
+/// Adds the shapes of convex slices to a batch in back-to-front order. The slices are ordered from far to near. The
+/// order in each slice is: back faces, the bars and balls that belong only to back faces, front faces, the other bars
+/// and balls. This is correct if slices do not overlap in space. Reuses its memory for the next picture.
 class ConvexSlicePainter {
   public:
     /// Adds all visible slices to `out`, as the scene's camera sees them. Calls `painted` after each slice; `painted`
-    /// may draw the shapes in `out` and clear it.
-    void paint(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted);
+    /// may draw the shapes in `out` and clear it. If the projection of the whole object is shown, calls
+    /// `paintProjection` when all slices farther away than it are added, and no nearer ones.
+    void paint(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted,
+               const std::function<void()>& paintProjection);
 
   private:
     enum class Side : std::uint8_t { away, toward };

@@ -85,13 +85,13 @@ void NonconvexSlicePainter::paintItem(const SliceView& slice, const Item& item, 
     if (item.kind == Kind::patch) return paintPatch(slice, item.number, out);
     const glm::vec3* points = points_.data() + slice.firstVertex();
     if (item.kind == Kind::ball) {
-        out.ball(points[item.number], skeleton.ballRadius * slice.ballScale(item.number), skeleton.ballColor,
-                 slice.vertexOpacity(item.number));
+        out.addBall(points[item.number], skeleton.ballRadius * slice.ballScale(item.number), skeleton.ballColor,
+                    slice.vertexOpacity(item.number));
         return;
     }
     const auto& [a, b] = slice.edge(item.number);
     const bool forth = points[a].z < points[b].z;
-    skeleton.bar(points[forth ? a : b], points[forth ? b : a], slice.edgeOpacity(item.number), out);
+    skeleton.addBar(points[forth ? a : b], points[forth ? b : a], slice.edgeOpacity(item.number), out);
 }
 
 void NonconvexSlicePainter::paintPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out) {
@@ -105,7 +105,7 @@ void NonconvexSlicePainter::paintPatch(const SliceView& slice, std::uint32_t num
         corners_.clear();
         for (std::uint32_t c = fill.cornerBegin[k]; c < fill.cornerBegin[k + 1]; ++c)
             corners_.push_back(transforms_[slice.number](fill.corners[c]));
-        out.face(corners_, normal, color, opacity, false);
+        out.addFace(corners_, normal, color, opacity, false);
     }
 }
 

@@ -11,7 +11,7 @@
 
 namespace oval4d::render {
 
-/// Prepares the shapes of slices that need not be convex, in layers. Reuses its memory for the next picture.
+/// Sorts the shapes of slices that need not be convex into layers. Reuses its memory for the next picture.
 class NonconvexSlicePainter {
   public:
     /// The layers in drawing order: opaque faces from near to far; opaque balls and bars from far to near, so that

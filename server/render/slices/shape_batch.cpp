@@ -64,7 +64,7 @@ void ShapeBatch::quad(const std::array<glm::vec3, 4>& corners, float u, float v,
     for (const std::uint32_t i : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(first + i);
 }
 
-void ShapeBatch::ball(const glm::vec3& center, float radius, scene::Color color, float opacity) {
+void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color color, float opacity) {
     const float distance2 = glm::dot(center, center), inside2 = distance2 - radius * radius;
     if (center.z > -radius || inside2 <= 0) return;  // the ball contains the eye or is behind it
     const Thickness size = thickness(radius * projection_.pixelsPerUnit() / -center.z, 2);
@@ -85,7 +85,7 @@ void ShapeBatch::ball(const glm::vec3& center, float radius, scene::Color color,
           rgba(color, size.alpha * opacity)});
 }
 
-void ShapeBatch::bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity) {
+void ShapeBatch::addBar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity) {
     if (from.z > -radius || to.z > -radius) return;
     // n is the normal of the plane through the eye and the bar's axis. The silhouette is parallel to the axis.
     const glm::vec3 axis = to - from;
@@ -119,8 +119,8 @@ void ShapeBatch::bar(const glm::vec3& from, const glm::vec3& to, float radius, s
     for (const std::uint32_t i : {last, last + 1, first, first, last + 1, first + 1}) indices_.push_back(i);
 }
 
-void ShapeBatch::face(std::span<const glm::vec3> corners, const glm::vec3& normal, scene::Color color, float opacity,
-                      bool soft) {
+void ShapeBatch::addFace(std::span<const glm::vec3> corners, const glm::vec3& normal, scene::Color color, float opacity,
+                         bool soft) {
     const auto first = static_cast<std::uint32_t>(vertices_.size());
     const auto count = static_cast<std::uint32_t>(corners.size());
     const float lit = diffuse_ * std::abs(glm::dot(normal, light_));
@@ -203,12 +203,13 @@ std::string highlight(double shininess) {
     return code;
 }
 
-// A ball or bar is closer to the eye than its flat patch by n.z times its radius, and the radius is 2 place.z pixels.
-constexpr std::string_view kRoundDepth = R"(
+// A point on a ball or bar is closer to the eye than the flat patch by n.z times the radius. The radius is 2 place.z
+// pixels.
+constexpr std::string_view kSurfaceDepth = R"(
     gl_FragDepth = 0.5 + 0.5 * (toDepth.x + toDepth.y * gl_FragCoord.w / (1.0 - toDepth.z * place.z * n.z));
 )";
 
-std::string fragmentSource(const scene::Style& style, ShapeProgram::Depth depth) {
+std::string fragmentSource(const scene::Style& style, ShapeProgram::DepthSource depth) {
     return R"(
 uniform vec3 toDepth;
 noperspective in vec3 place;
@@ -224,7 +225,7 @@ void main() {
            std::to_string(style.specular) + R"( * h;
     float alpha = color.a * clamp(q * place.z + 0.5, 0.0, 1.0);
     pixel = vec4(min(lit, 1.0) * alpha, alpha);
-)" + std::string(depth == ShapeProgram::Depth::round ? kRoundDepth : "") +
+)" + std::string(depth == ShapeProgram::DepthSource::surface ? kSurfaceDepth : "") +
            "}\n";
 }
 
@@ -236,7 +237,7 @@ constexpr Attribute kAttributes[] = {{3, GL_FLOAT, offsetof(ShapeVertex, clip)},
 
 }  // namespace
 
-ShapeProgram::ShapeProgram(const scene::Style& style, Depth depth)
+ShapeProgram::ShapeProgram(const scene::Style& style, DepthSource depth)
     : program_(kVertexSource, fragmentSource(style, depth), sizeof(ShapeVertex), kAttributes),
       toDepth_(program_.uniform("toDepth")) {}
 

@@ -10,8 +10,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "render/program.hpp"
 #include "render/projection.hpp"
+#include "render/shader_program.hpp"
 #include "scene/scene.hpp"
 
 namespace oval4d::render {
@@ -45,16 +45,16 @@ class ShapeBatch {
     void setProjection(const Projection& projection) { projection_ = projection; }
 
     /// Adds a ball. Does nothing if it contains the eye, is behind the eye, or is almost transparent.
-    void ball(const glm::vec3& center, float radius, scene::Color color, float opacity = 1);
+    void addBall(const glm::vec3& center, float radius, scene::Color color, float opacity = 1);
 
-    /// Adds a cylinder. `from` is the end that is farther from the eye; a round foot joins the cylinder to the ball
-    /// there. The end at `to` is flat.
-    void bar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity = 1);
+    /// Adds a cylinder. `from` must be the end that is farther from the eye. The cylinder has a round foot at `from`,
+    /// which joins it to the ball at this end, and is flat at `to`.
+    void addBar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity = 1);
 
     /// Adds a flat convex polygon. `normal` is its unit normal, with either sign. `soft`: whether its edges are
-    /// antialiased over one pixel, as is necessary if no bars cover them.
-    void face(std::span<const glm::vec3> corners, const glm::vec3& normal, scene::Color color, float opacity,
-              bool soft);
+    /// antialiased over one pixel; this is necessary if no bars cover the edges.
+    void addFace(std::span<const glm::vec3> corners, const glm::vec3& normal, scene::Color color, float opacity,
+                 bool soft);
 
     const Projection& projection() const { return projection_; }
     std::span<const ShapeVertex> vertices() const { return vertices_; }
@@ -80,21 +80,23 @@ struct DepthRange {
 /// The shader program that draws a ShapeBatch, lit as `style` specifies.
 class ShapeProgram {
   public:
-    /// The depth of a pixel: that of the flat patch, or that of the ball or bar that the patch represents. With
-    /// `round`, faces are one pixel closer to the eye than they are.
-    enum class Depth : std::uint8_t { flat, round };
-    ShapeProgram(const scene::Style& style, Depth depth);
+    /// The depths that are written to the depth buffer.
+    enum class DepthSource : std::uint8_t {
+        patch,    ///< the depth of the flat patch
+        surface,  ///< the depth of the ball or bar that the patch represents; faces are one pixel closer to the eye
+    };
+    ShapeProgram(const scene::Style& style, DepthSource depth);
 
-    /// Draws the shapes in order, without a depth test.
+    /// Draws the shapes in order. The depth test must be off, because all shapes get the same depth.
     void draw(const ShapeBatch& shapes);
 
-    /// Draws the shapes with depths, for a depth buffer that covers `range`.
+    /// Draws the shapes in order with their depths. The depth buffer covers `range`, which must contain all shapes.
     void drawWithDepth(DepthRange range, const ShapeBatch& shapes);
 
   private:
     void draw(const ShapeBatch& shapes, float scale, float offset);
 
-    Program program_;
+    ShaderProgram program_;
     GLint toDepth_;
 };
 

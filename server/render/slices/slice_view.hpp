@@ -29,7 +29,7 @@ struct SliceView {
     std::size_t faces() const { return set.faceBegin[number + 1] - firstFace(); }
     const std::array<std::uint32_t, 2>& edge(std::size_t e) const { return set.edges[firstEdge() + e]; }
 
-    /// Returns the half-open range of SliceSet::corners that is the loop of face f.
+    /// Returns the half-open range of indices into SliceSet::corners that is the loop of face f.
     std::pair<std::size_t, std::size_t> loop(std::size_t f) const {
         return {set.cornerBegin[firstFace() + f], set.cornerBegin[firstFace() + f + 1]};
     }
@@ -64,7 +64,8 @@ class SliceTransform {
     glm::vec3 origin_;
 };
 
-/// The appearance of balls and bars. If only bars are shown, balls with the bars' radius and color round their joints.
+/// The appearance of balls and bars. If only bars are shown, balls with the radius and color of the bars are drawn at
+/// the vertices, so that the joints of bars are round.
 struct Skeleton {
     bool balls, bars;
     float ballRadius, barRadius;
@@ -81,11 +82,11 @@ struct Skeleton {
           hiddenEndLength(std::sqrt(std::max(ballRadius * ballRadius - barRadius * barRadius, 0.0f))) {}
 
     /// Adds the part of a bar that is outside the balls at its ends. `from` is the end that is farther from the eye.
-    void bar(const glm::vec3& from, const glm::vec3& to, float opacity, ShapeBatch& out) const {
+    void addBar(const glm::vec3& from, const glm::vec3& to, float opacity, ShapeBatch& out) const {
         const float length = glm::length(to - from);
         if (opacity == 0 || length <= 2 * hiddenEndLength) return;
         const glm::vec3 cut = (to - from) * (hiddenEndLength / length);
-        out.bar(from + cut, to - cut, barRadius, barColor, opacity);
+        out.addBar(from + cut, to - cut, barRadius, barColor, opacity);
     }
 };
 

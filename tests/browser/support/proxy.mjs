@@ -58,6 +58,15 @@ export async function startProxy(target, prefix, extraHeaders = {}) {
         restore() {
             broken = false;
         },
+        /** Stops forwarding without closing a connection, as when a cable is pulled; refuses new ones until thaw(). */
+        freeze() {
+            broken = true;
+            sockets.forEach((socket) => socket.pause());
+        },
+        thaw() {
+            broken = false;
+            sockets.forEach((socket) => socket.resume());
+        },
         async stop() {
             this.cut();
             server.closeAllConnections();

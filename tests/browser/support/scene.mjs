@@ -1,4 +1,4 @@
-// Projects the points of a `slices` message, following the specification and not the page's code.
+// Projects the points of a `slices` message, following the specification independently of the page's code.
 
 const minus = (a, b) => a.map((x, i) => x - b[i]);
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);

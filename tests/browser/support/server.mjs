@@ -13,7 +13,7 @@ const webRoot = process.env.OVAL4D_WEB_ROOT ?? join(top, "web_client/dist");
 /** Starts a server; port 0 means any free port. */
 export async function startServer({ port = 0, options = [] } = {}) {
     if (!existsSync(binary)) throw new Error(`there is no server at ${binary}: build it, or set OVAL4D`);
-    if (!existsSync(join(webRoot, "app.js"))) throw new Error(`there is no page in ${webRoot}: npm run build makes it`);
+    if (!existsSync(join(webRoot, "app.js"))) throw new Error(`there is no page in ${webRoot}: build web_client`);
     const child = spawn(binary, ["--port", String(port), "--web-root", webRoot, ...options]);
     atEnd(() => child.kill());
     let said = "";

@@ -1,4 +1,4 @@
-// Runs all tests in one suite, one after the other; everything they opened is closed at the end, even if tests fail.
+// Runs all tests in one suite, one after the other. Functions registered with atEnd run at the end, even if tests fail.
 import { after, describe, it } from "node:test";
 
 const kTimeout = 90_000; // milliseconds per test

@@ -1,6 +1,6 @@
 const kTimeout = 30_000; // milliseconds, long enough for a busy machine
 
-/** The promise's value; throws an error that names `what` if it takes too long. */
+/** Returns the promise's value; throws an error that names `what` if the promise is not resolved in time. */
 export async function within(promise, what) {
     let timer;
     const late = new Promise((_, reject) => {

@@ -31,8 +31,8 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     std::stop_source stop;
     stop.request_stop();
     const auto given = exported(p, none, oval, skeleton, limits, stop.get_token());
-    ASSERT_TRUE(std::holds_alternative<Refusal>(given));
-    EXPECT_EQ(std::get<Refusal>(given).cause, Refusal::Cause::too_long);
+    ASSERT_TRUE(std::holds_alternative<ExportError>(given));
+    EXPECT_EQ(std::get<ExportError>(given).cause, ExportError::Cause::too_long);
 }
 
 /// Returns the points of each body of an OBJ file.

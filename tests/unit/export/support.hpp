@@ -108,14 +108,15 @@ inline scene::Scene composed(const polytopes::Polytope& polytope, const geometry
 }
 
 /// Slices a polytope and exports the slices.
-inline std::variant<std::string, Refusal> exported(const polytopes::Polytope& polytope,
-                                                   const geometry::Rotation& orientation,
-                                                   const geometry::Hyperplanes& planes, const ExportRequest& request,
-                                                   const Limits& limits = {}, std::stop_token stop = {}) {
+inline std::variant<std::string, ExportError> exported(const polytopes::Polytope& polytope,
+                                                       const geometry::Rotation& orientation,
+                                                       const geometry::Hyperplanes& planes,
+                                                       const ExportRequest& request, const Limits& limits = {},
+                                                       std::stop_token stop = {}) {
     slicing::SliceSet slices;
     slicing::PolytopeSlicer().slice(polytope, orientation, planes, slices);
-    return exports::fileOf(composed(polytope, orientation, slices), objectOf(polytope), request, limits,
-                           std::move(stop));
+    return exports::exportScene(composed(polytope, orientation, slices), objectOf(polytope), request, limits,
+                                std::move(stop));
 }
 
 /// Returns the bytes of the file, or "refused: " and the reason.
@@ -123,7 +124,7 @@ inline std::string fileOf(const polytopes::Polytope& polytope, const geometry::R
                           const geometry::Hyperplanes& planes, const ExportRequest& request,
                           const Limits& limits = {}) {
     auto made = exported(polytope, orientation, planes, request, limits);
-    if (auto* refusal = std::get_if<Refusal>(&made)) return "refused: " + refusal->message;
+    if (auto* refusal = std::get_if<ExportError>(&made)) return "refused: " + refusal->message;
     return std::get<std::string>(std::move(made));
 }
 

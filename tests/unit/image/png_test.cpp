@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "image/filter.hpp"
+#include "image/png_filter.hpp"
 #include "unit/render/pictures.hpp"
 
 namespace oval4d::image {

@@ -8,7 +8,7 @@
 namespace oval4d::net {
 namespace {
 
-using Slot = ConnectionRegistry::Slot;
+using Registration = ConnectionRegistry::Registration;
 using Admission = ConnectionRegistry::Admission;
 using EndReason = ConnectionRegistry::EndReason;
 
@@ -21,9 +21,9 @@ class ConnectionRegistryTest : public ::testing::Test {
 
 TEST_F(ConnectionRegistryTest, CountsConnections) {
     ConnectionRegistry connections(10, 10);
-    const auto first = std::make_unique<Slot>(connections, one);
+    const auto first = std::make_unique<Registration>(connections, one);
     {
-        const Slot second(connections, one);
+        const Registration second(connections, one);
         EXPECT_EQ(connections.size(), 2U);
     }
     EXPECT_EQ(connections.size(), 1U);
@@ -31,69 +31,69 @@ TEST_F(ConnectionRegistryTest, CountsConnections) {
 
 TEST_F(ConnectionRegistryTest, AsksEachConnectionOnceToEnd) {
     ConnectionRegistry connections(10, 10);
-    Slot early(connections, one);
+    Registration early(connections, one);
     int asked = 0;
     early.onEndRequest([&](EndReason reason) { asked += reason == EndReason::stopping ? 1 : 100; });
     connections.stopAll();
     EXPECT_EQ(asked, 1);
-    Slot late(connections, one);
+    Registration late(connections, one);
     late.onEndRequest([&](EndReason) { asked += 10; });
     EXPECT_EQ(asked, 11) << "later connections are asked at once";
 }
 
 TEST_F(ConnectionRegistryTest, ASlotMayBeDestroyedInItsEndHandler) {
     ConnectionRegistry connections(10, 10);
-    auto early = std::make_unique<Slot>(connections, one);
+    auto early = std::make_unique<Registration>(connections, one);
     early->onEndRequest([&](EndReason) { early.reset(); });
     connections.stopAll();
     EXPECT_EQ(connections.size(), 0U);
-    auto late = std::make_unique<Slot>(connections, one);
+    auto late = std::make_unique<Registration>(connections, one);
     late->onEndRequest([&](EndReason) { late.reset(); });
     EXPECT_EQ(connections.size(), 0U);
 }
 
 TEST_F(ConnectionRegistryTest, EvictsTheOldestIdleConnectionOfAFullClient) {
     ConnectionRegistry connections(100, 3);
-    std::vector<std::unique_ptr<Slot>> slots;
+    std::vector<std::unique_ptr<Registration>> registrations;
     std::vector<int> ended;
     for (int i = 0; i < 3; ++i) {
         EXPECT_EQ(connections.admit(*one), Admission::admitted);
-        slots.push_back(std::make_unique<Slot>(connections, one));
-        slots.back()->onEndRequest(
+        registrations.push_back(std::make_unique<Registration>(connections, one));
+        registrations.back()->onEndRequest(
             [&ended, i](EndReason reason) { ended.push_back(reason == EndReason::evicted ? i : -1); });
     }
-    slots[0]->setInUse(true);
+    registrations[0]->setInUse(true);
     EXPECT_EQ(connections.admit(*one), Admission::admitted);
     EXPECT_EQ(ended, std::vector<int>{1});
-    const Slot fourth(connections, one);
-    slots[2]->setInUse(true);
+    const Registration fourth(connections, one);
+    registrations[2]->setInUse(true);
     EXPECT_EQ(connections.admit(*one), Admission::client_full) << "the fourth has no end handler";
     EXPECT_EQ(connections.admit(*other), Admission::admitted);
     EXPECT_EQ(connections.size(), 3U);
-    slots[1].reset();
+    registrations[1].reset();
     EXPECT_EQ(connections.size(), 3U) << "it was evicted before";
 }
 
 TEST_F(ConnectionRegistryTest, EvictsFromTheClientWithTheMostConnectionsWhenFull) {
     ConnectionRegistry connections(4, 4);
-    std::vector<std::unique_ptr<Slot>> slots;
+    std::vector<std::unique_ptr<Registration>> registrations;
     int asked = 0;
     for (int i = 0; i < 4; ++i) {
-        slots.push_back(std::make_unique<Slot>(connections, i == 0 ? other : one));
-        slots.back()->onEndRequest([&asked, i](EndReason) { asked = i; });
+        registrations.push_back(std::make_unique<Registration>(connections, i == 0 ? other : one));
+        registrations.back()->onEndRequest([&asked, i](EndReason) { asked = i; });
     }
     EXPECT_EQ(connections.admit(*other), Admission::admitted);
     EXPECT_EQ(asked, 1) << "the first of the three connections of this client";
-    slots.push_back(std::make_unique<Slot>(connections, other));
-    for (const auto& slot : slots) slot->setInUse(true);
+    registrations.push_back(std::make_unique<Registration>(connections, other));
+    for (const auto& registration : registrations) registration->setInUse(true);
     EXPECT_EQ(connections.admit(*other), Admission::server_full);
 }
 
 TEST_F(ConnectionRegistryTest, AConnectionMayMoveToAnotherClient) {
     ConnectionRegistry connections(10, 1);
-    Slot slot(connections, one);
-    slot.setInUse(true);
-    slot.setClient(other);
+    Registration registration(connections, one);
+    registration.setInUse(true);
+    registration.setClient(other);
     EXPECT_EQ(connections.admit(*one), Admission::admitted);
     EXPECT_EQ(connections.admit(*other), Admission::client_full);
     EXPECT_EQ(connections.admit(*other, 1), Admission::admitted) << "its own slot does not count";

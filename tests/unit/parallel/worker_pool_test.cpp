@@ -23,7 +23,7 @@ class WorkerPools : public testing::Test {
   protected:
     using Lane = WorkerPool::LanePtr;
 
-    static Lane lane() { return std::make_shared<WorkerPool::Lane>(std::make_shared<WorkerPool::Client>()); }
+    static Lane lane() { return std::make_shared<WorkerPool::Lane>(std::make_shared<WorkerPool::ClientShare>()); }
 
     static void post(WorkerPool& pool, WorkerPool::Job job, const Lane& in, WorkerPool::Seconds cost = 1ms) {
         EXPECT_TRUE(pool.post(std::move(job), in, cost));
@@ -94,7 +94,7 @@ TEST_F(WorkerPools, JobsAreCarriedOutInTurn) {
 TEST_F(WorkerPools, EachWorkerHasANumberAndBeginsWithTheFirstJob) {
     std::mutex mutex;
     std::vector<std::size_t> begun;
-    WorkerPool pool({.threads = 2, .first = [&](std::size_t worker) {
+    WorkerPool pool({.threads = 2, .onThreadStart = [&](std::size_t worker) {
                          const std::lock_guard lock(mutex);
                          begun.push_back(worker);
                      }});

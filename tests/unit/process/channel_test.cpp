@@ -34,8 +34,8 @@ TEST(Channel, KnowsWhenNobodyIsThere) {
     EXPECT_TRUE(channel.wait(soon()));
     MessageType type{};
     std::string body;
-    EXPECT_EQ(channel.receive(type, body), Transfer::closed);
-    EXPECT_EQ(channel.send(MessageType::ready), Transfer::closed);
+    EXPECT_EQ(channel.receive(type, body), TransferResult::closed);
+    EXPECT_EQ(channel.send(MessageType::ready), TransferResult::closed);
 }
 
 TEST(Channel, WaitsForNoneThatHangs) {
@@ -43,12 +43,12 @@ TEST(Channel, WaitsForNoneThatHangs) {
     const Channel channel(here), hanging(there);
     MessageType type{};
     std::string body;
-    EXPECT_EQ(channel.receive(type, body, nullptr, soon()), Transfer::timed_out);
+    EXPECT_EQ(channel.receive(type, body, nullptr, soon()), TransferResult::timed_out);
     // A message that does not fit into the socket's buffer times out if the receiver does not read.
     const std::string text(5'000'000, 'x');
-    EXPECT_EQ(channel.send(MessageType::object, text, Channel::kNoFile, soon()), Transfer::timed_out);
+    EXPECT_EQ(channel.send(MessageType::object, text, Channel::kNoFile, soon()), TransferResult::timed_out);
     // The sender stopped in the middle of the message: the receiver gets the header and only some of the bytes.
-    EXPECT_EQ(hanging.receive(type, body, nullptr, soon()), Transfer::timed_out);
+    EXPECT_EQ(hanging.receive(type, body, nullptr, soon()), TransferResult::timed_out);
     EXPECT_EQ(type, MessageType::object);
 }
 
@@ -63,7 +63,7 @@ TEST(Channel, WaitsNoLongerWhenAskedToStop) {
     MessageType type{};
     std::string body;
     EXPECT_EQ(channel.receive(type, body, nullptr, {Deadline::Clock::time_point::max(), stop.get_token()}),
-              Transfer::timed_out);
+              TransferResult::timed_out);
     stopping.join();
 }
 
@@ -72,9 +72,9 @@ TEST(Channel, MessagesThatAreTooLongAreRefused) {
     const Channel sender(here), receiver(there);
     MessageType type{};
     std::string body;
-    EXPECT_EQ(sender.send(MessageType::failed, "12345"), Transfer::complete);
-    EXPECT_EQ(receiver.receive(type, body, nullptr, {}, 5), Transfer::complete);
-    EXPECT_EQ(sender.send(MessageType::failed, "123456"), Transfer::complete);
+    EXPECT_EQ(sender.send(MessageType::failed, "12345"), TransferResult::complete);
+    EXPECT_EQ(receiver.receive(type, body, nullptr, {}, 5), TransferResult::complete);
+    EXPECT_EQ(sender.send(MessageType::failed, "123456"), TransferResult::complete);
     EXPECT_THROW((void)receiver.receive(type, body, nullptr, {}, 5), std::runtime_error);
 }
 

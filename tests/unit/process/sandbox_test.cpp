@@ -38,7 +38,7 @@ class Confined : public testing::TestWithParam<Role> {
   protected:
     void SetUp() override {
         std::string why;
-        if (!isSandboxed(SandboxMode::automatic, why)) GTEST_SKIP() << why;
+        if (!shouldSandbox(SandboxMode::automatic, why)) GTEST_SKIP() << why;
     }
     static int end(const std::function<bool()>& act) { return endOf(GetParam(), {true, 0, 0}, act); }
 };
@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Sandbox, Confined, testing::Values(Role::draw, Role::re
 
 TEST(Sandbox, LimitsAdditionalMemory) {
     std::string why;
-    if (!isSandboxed(SandboxMode::automatic, why)) GTEST_SKIP() << why;  // builds with sanitizers have no limit
+    if (!shouldSandbox(SandboxMode::automatic, why)) GTEST_SKIP() << why;  // builds with sanitizers have no limit
     const auto takes = [](std::size_t bytes) {
         return [bytes] {
             try {
@@ -111,7 +111,7 @@ TEST(Sandbox, LimitsAdditionalMemory) {
 
 TEST(Sandbox, LimitsFilesAndCoreDumps) {
     std::string why;
-    if (!isSandboxed(SandboxMode::automatic, why)) GTEST_SKIP() << why;
+    if (!shouldSandbox(SandboxMode::automatic, why)) GTEST_SKIP() << why;
     EXPECT_EQ(endOf(Role::read, {false, 0, 20},
                     [] {
                         rlimit cores{}, files{};
@@ -123,7 +123,7 @@ TEST(Sandbox, LimitsFilesAndCoreDumps) {
 
 TEST(Sandbox, CanBeTurnedOff) {
     std::string why;
-    EXPECT_FALSE(isSandboxed(SandboxMode::off, why));
+    EXPECT_FALSE(shouldSandbox(SandboxMode::off, why));
     EXPECT_TRUE(why.empty());
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 using process::Channel;
 using process::MessageType;
-using process::Transfer;
+using process::TransferResult;
 
 std::pair<int, int> socketPair() {
     int sockets[2];
@@ -34,13 +34,13 @@ TEST(Channel, LongMessagesArriveWholeWithTheirFile) {
     written[999'999] = 42;
     const std::string text(5'000'000, 'x');  // much more than a socket's buffer holds
     std::thread sending([&] {
-        EXPECT_EQ(sender.send(MessageType::draw, text, pixels.file()), Transfer::complete);
-        EXPECT_EQ(sender.send(MessageType::ready), Transfer::complete);
+        EXPECT_EQ(sender.send(MessageType::draw, text, pixels.file()), TransferResult::complete);
+        EXPECT_EQ(sender.send(MessageType::ready), TransferResult::complete);
     });
     MessageType type{};
     std::string body;
     int file = Channel::kNoFile;
-    EXPECT_EQ(receiver.receive(type, body, &file), Transfer::complete);
+    EXPECT_EQ(receiver.receive(type, body, &file), TransferResult::complete);
     sending.join();
     EXPECT_EQ(type, MessageType::draw);
     EXPECT_EQ(body, text);
@@ -48,7 +48,7 @@ TEST(Channel, LongMessagesArriveWholeWithTheirFile) {
     SharedPixels seen(file);
     EXPECT_EQ(seen.inode(), pixels.inode());
     EXPECT_EQ(seen.remap(1'000'000)[999'999], 42);
-    EXPECT_EQ(receiver.receive(type, body, &file), Transfer::complete);
+    EXPECT_EQ(receiver.receive(type, body, &file), TransferResult::complete);
     EXPECT_EQ(type, MessageType::ready);
     EXPECT_TRUE(body.empty());
     EXPECT_EQ(file, Channel::kNoFile);
@@ -62,8 +62,8 @@ TEST(Channel, FilesThatNobodyWantsAreDropped) {
     const int before = dup(0);
     close(before);
     SharedPixels pixels;
-    EXPECT_EQ(sender.send(MessageType::draw, "1", pixels.file()), Transfer::complete);
-    EXPECT_EQ(receiver.receive(type, body), Transfer::complete);
+    EXPECT_EQ(sender.send(MessageType::draw, "1", pixels.file()), TransferResult::complete);
+    EXPECT_EQ(receiver.receive(type, body), TransferResult::complete);
     EXPECT_EQ(body, "1");
     const int after = dup(0);  // the lowest free descriptor: shows whether one leaked
     EXPECT_EQ(after, before + 1);

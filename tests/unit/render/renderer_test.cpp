@@ -233,7 +233,7 @@ TEST_F(Pictures, ShowWhatIsAskedFor) {
 }
 
 TEST_F(Pictures, ShowTheDensityOfManyVertices) {
-    using scene::Density;
+    using scene::DensityPlot;
     const Subject subject("120-cell", randomRotation(21), 3, {}, {960, 540});
     const image::Image image = subject.draw(renderer());
     const scene::CoordinatesLayout& layout = subject.scene.coordinates;
@@ -241,22 +241,22 @@ TEST_F(Pictures, ShowTheDensityOfManyVertices) {
     const std::array colors{style.axisX, style.axisY, style.axisZ, style.axisW};
     const double height = subject.scene.viewport.height;
     const auto xOf = [&](double column) {
-        return static_cast<int>((layout.left + layout.lineWidth / 2 + column / Density::kGap * layout.lineStep) *
+        return static_cast<int>((layout.left + layout.lineWidth / 2 + column / DensityPlot::kGap * layout.lineStep) *
                                 height);
     };
     const auto yOf = [&](int row) {
-        const double level = 1 - 2.0 * row / (Density::kRows - 1);
+        const double level = 1 - 2.0 * row / (DensityPlot::kRows - 1);
         return static_cast<int>((layout.zero + level * layout.amplitude) * height);
     };
     double sum = 0;
     int count = 0;
-    for (int row = 1; row + 1 < Density::kRows; ++row)
-        for (int column = 3; column + 3 < Density::kColumns; ++column) {
+    for (int row = 1; row + 1 < DensityPlot::kRows; ++row)
+        for (int column = 3; column + 3 < DensityPlot::kColumns; ++column) {
             // Columns that the axes cover.
-            if (column % Density::kGap < 3 || column % Density::kGap > Density::kGap - 3) continue;
-            const double opacity = subject.scene.density[Density::index(row, column)] / 255.0;
-            const auto gap = static_cast<std::size_t>(column / Density::kGap);
-            const double part = column % Density::kGap / double(Density::kGap);
+            if (column % DensityPlot::kGap < 3 || column % DensityPlot::kGap > DensityPlot::kGap - 3) continue;
+            const double opacity = subject.scene.density[DensityPlot::index(row, column)] / 255.0;
+            const auto gap = static_cast<std::size_t>(column / DensityPlot::kGap);
+            const double part = column % DensityPlot::kGap / double(DensityPlot::kGap);
             const Rgb from = rgbOf(colors[gap]), to = rgbOf(colors[gap + 1]), behind = rgbOf(style.background);
             const Rgb drawn = pixelAt(image, xOf(column), yOf(row));
             for (std::size_t k = 0; k < 3; ++k)
@@ -265,7 +265,7 @@ TEST_F(Pictures, ShowTheDensityOfManyVertices) {
         }
     EXPECT_LT(sum / count, 5) << "mean difference of a channel from the density in the axes' colors";
     for (std::size_t k = 0; k < 4; ++k) {
-        const Rgb axis = pixelAt(image, xOf(static_cast<double>(k) * Density::kGap), yOf(3));
+        const Rgb axis = pixelAt(image, xOf(static_cast<double>(k) * DensityPlot::kGap), yOf(3));
         EXPECT_LE(difference(axis, rgbOf(colors[k])), 1) << "axis " << k;
     }
     scene::Look without;

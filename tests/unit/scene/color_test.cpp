@@ -1,5 +1,7 @@
 // Colors of cells, and the visibility of elements if cell types are hidden or faded.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -77,11 +79,42 @@ TEST(CellColors, ByWRunFromBlueToAmberAsThePolytopeIsTurned) {
     }
 }
 
+TEST(CellColors, ByLightDependOnTheNormalAlone) {
+    const auto& polytope = named("8-cell");  // its normals are the eight directions of the axes
+    std::vector<glm::dvec4> normals;
+    std::vector<double> offsets;
+    slicing::findCellHyperplanes(objectOf(polytope), normals, offsets);
+    const auto cellToward = [&](const glm::dvec4& direction) {
+        const auto product = [&](const glm::dvec4& normal) { return glm::dot(normal, direction); };
+        return std::ranges::max_element(normals, {}, product) - normals.begin();
+    };
+    const auto brightness = [](Color color) { return red(color) + blue(color) + int(color >> 8U & 255U); };
+    scene::CellColors cellColors;
+    std::vector<Color> colors;
+    cellColors.paint(objectOf(polytope), Coloring::light, {}, colors);
+    EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), 8U);
+    // The light comes from the left, from above, from the front, and from large w.
+    std::array<Color, 8> lit{};
+    for (int axis = 0; axis < 4; ++axis) {
+        glm::dvec4 direction(0);
+        direction[axis] = axis == 0 ? -1 : 1;
+        const Color toward = colors.at(cellToward(direction)), away = colors.at(cellToward(-direction));
+        EXPECT_GT(brightness(toward), brightness(away) + 20) << axis;
+        lit.at(axis) = toward;
+    }
+    // A quarter turn from y to z gives each cell the color of that whose place it takes.
+    const geometry::Rotation quarter(geometry::Turn{geometry::Plane::yz, std::numbers::pi / 2, {}});
+    cellColors.paint(objectOf(polytope), Coloring::light, quarter, colors);
+    EXPECT_EQ(colors.at(cellToward({0, 1, 0, 0})), lit[2]);
+    EXPECT_EQ(colors.at(cellToward({0, 0, 0, 1})), lit[3]);
+}
+
 TEST(CellColors, FollowThePolytopeAndTheColoring) {
     scene::CellColors cellColors;
     std::vector<Color> colors;
     for (const char* name : {"16-cell", "5-cell", "16-cell"}) {
-        for (const Coloring coloring : {Coloring::cell, Coloring::w, Coloring::cell_type, Coloring::plain}) {
+        for (const Coloring coloring :
+             {Coloring::cell, Coloring::w, Coloring::cell_type, Coloring::plain, Coloring::light}) {
             cellColors.paint(objectOf(named(name)), coloring, {}, colors);
             EXPECT_EQ(colors, painted(named(name), coloring)) << name;
         }

@@ -120,7 +120,68 @@ TEST(Single, drawsTheFocusAloneAndLarge) {
     EXPECT_GT(s.camera.eye.z, 0);
 }
 
-TEST(Orbit, turnsTheCameraAboutTheFocus) {
+/// Returns the circle on the screen that a sphere about a world position appears as, nearly: its radius in pixels.
+double radiusOnScreen(const Scene& s, const glm::dvec3& center, double radius) {
+    const double depth = -(s.camera.view() * glm::dvec4(center, 1)).z;
+    return radius / depth * s.viewport.height / (2 * std::tan(s.camera.fieldOfView / 2));
+}
+
+TEST(ObjectProjection, standsInSightAndClearOfTheSlices) {
+    for (const scene::Viewport viewport :
+         {scene::Viewport{1280, 720}, {1920, 1080}, {640, 640}, {375, 667}, {3000, 800}}) {
+        for (const char* name : {"5-cell", "120-cell"}) {
+            for (const int count : {1, 3, 5, 21, 61, 201}) {
+                for (const auto view : {scene::View::oval, scene::View::single}) {
+                    scene::Look look;
+                    look.view = view;
+                    look.projection.kind = scene::ProjectionKind::perspective;
+                    const Scene s = composed(name, count, viewport, look);
+                    ASSERT_TRUE(s.projectionPlacement.shown);
+                    const auto& [shown, position, sphere] = s.projectionPlacement;
+                    const glm::dvec2 at = project(s, position);
+                    const double radius = radiusOnScreen(s, position, sphere);
+                    EXPECT_GT(radius, 0.06 * std::min(viewport.width, viewport.height)) << count;
+                    EXPECT_GT(at.x - radius, 0);
+                    EXPECT_LT(at.x + radius, viewport.width);
+                    EXPECT_GT(at.y - radius, 0);
+                    for (std::size_t i = 0; i < s.placements.size(); ++i) {
+                        const auto& slice = s.placements[i];
+                        if (!slice.drawn) continue;
+                        const double u = count == 1 ? 0 : 2.0 * static_cast<double>(i) / (count - 1) - 1;
+                        const double own =
+                            radiusOnScreen(s, slice.position, s.sliceRadius * std::sqrt(std::max(0.0, 1 - u * u)));
+                        EXPECT_GT(glm::distance(at, project(s, slice.position)), radius + own) << count << ' ' << i;
+                    }
+                    // Everything is inside the sphere, with the balls.
+                    for (const glm::dvec3& vertex : s.projection.elements.vertices)
+                        EXPECT_LE(glm::length(vertex) * s.projection.scale + s.projection.parts[0].ballRadius,
+                                  sphere * (1 + 1e-9));
+                }
+            }
+        }
+    }
+}
+
+TEST(ObjectProjection, hasTheSectionOfTheFocusOrOfAllHyperplanes) {
+    scene::Look look;
+    EXPECT_FALSE(composed("24-cell", 21, {}, look).projectionPlacement.shown);
+    look.projection.kind = scene::ProjectionKind::orthogonal;
+    const Scene focus = composed("24-cell", 21, {}, look);
+    ASSERT_EQ(focus.projection.parts.size(), 2U);
+    EXPECT_EQ(focus.projection.parts[1].barColor, scene::style().axisW);
+    look.parts.sections = true;
+    const Scene all = composed("24-cell", 21, {}, look);
+    ASSERT_EQ(all.projection.parts.size(), 22U);
+    ASSERT_EQ(all.projection.elements.vertexBegin.size(), 23U);
+    for (std::size_t i = 1; i < all.projection.parts.size(); ++i)
+        EXPECT_EQ(all.projection.parts[i].barColor == scene::style().axisW, i == 11);
+    look.parts.bars = look.parts.balls = false;
+    const Scene none = composed("24-cell", 21, {}, look);
+    EXPECT_EQ(none.projection.parts[0].ballRadius, 0);
+    EXPECT_EQ(none.projection.parts[0].barRadius, 0);
+}
+
+TEST(CameraOrbit, turnsTheCameraAboutTheFocus) {
     scene::Look look;
     look.orbit = {0.7, 0.2, 1.5};
     const Scene turned = composed("5-cell", 21, {}, look);

@@ -26,36 +26,36 @@ Session withKinds() {
 
 TEST(CellTypeFilter, AreHiddenFadedAndShownAgain) {
     Session session = withKinds();
-    EXPECT_EQ(session.now.look.cellTypes, CellTypeFilter{});
+    EXPECT_EQ(session.current.look.cellTypes, CellTypeFilter{});
     line(session, ":hide 2 0");
-    EXPECT_EQ(session.now.look.cellTypes, (CellTypeFilter{{0, 2}, {}}));
+    EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{0, 2}, {}}));
     line(session, "fade 3,2");
-    EXPECT_EQ(session.now.look.cellTypes, (CellTypeFilter{{0}, {2, 3}})) << "what fades is no longer hidden";
+    EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{0}, {2, 3}})) << "what fades is no longer hidden";
     line(session, "hide 3");
-    EXPECT_EQ(session.now.look.cellTypes, (CellTypeFilter{{0, 3}, {2}})) << "what hides is no longer faded";
+    EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{0, 3}, {2}})) << "what hides is no longer faded";
     line(session, "show 0 2");
-    EXPECT_EQ(session.now.look.cellTypes, (CellTypeFilter{{3}, {}}));
+    EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{3}, {}}));
     line(session, "fade hexagonal prism");
-    EXPECT_EQ(session.now.look.cellTypes, (CellTypeFilter{{3}, {1, 2}})) << "all of the name";
+    EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{3}, {1, 2}})) << "all of the name";
     line(session, "show");
-    EXPECT_EQ(session.now.look.cellTypes, CellTypeFilter{});
+    EXPECT_EQ(session.current.look.cellTypes, CellTypeFilter{});
 }
 
 TEST(CellTypeFilter, AreSettings) {
     Session session = withKinds();
     line(session, "set hidden=2,1,2 faded=0,1 color=kind");
-    EXPECT_EQ(session.now.look.cellTypes, (CellTypeFilter{{1, 2}, {0}})) << "in both lists: hidden";
-    EXPECT_EQ(session.now.look.coloring, scene::Coloring::cell_type);
+    EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{1, 2}, {0}})) << "in both lists: hidden";
+    EXPECT_EQ(session.current.look.coloring, scene::Coloring::cell_type);
     Set set;
     set.hidden = {{0}};
     must(session, set);
-    EXPECT_EQ(session.now.look.cellTypes, (CellTypeFilter{{0}, {}}));
+    EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{0}, {}}));
     set = {};
     set.faded = {{0, 3}};
     must(session, set);
-    EXPECT_EQ(session.now.look.cellTypes, (CellTypeFilter{{}, {0, 3}}));
+    EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{}, {0, 3}}));
     line(session, "set faded=none");
-    EXPECT_EQ(session.now.look.cellTypes, CellTypeFilter{});
+    EXPECT_EQ(session.current.look.cellTypes, CellTypeFilter{});
 }
 
 TEST(CellTypeFilter, CanBeUndoneAndGoWithThePolytope) {
@@ -63,22 +63,22 @@ TEST(CellTypeFilter, CanBeUndoneAndGoWithThePolytope) {
     line(session, "hide 1");
     line(session, "color w");
     press(session, "u");
-    EXPECT_EQ(session.now.look.coloring, scene::Coloring::cell);
+    EXPECT_EQ(session.current.look.coloring, scene::Coloring::cell);
     line(session, "polytope mixed");
-    EXPECT_EQ(session.now.look.cellTypes, (CellTypeFilter{{1}, {}})) << "the same polytope";
+    EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{1}, {}})) << "the same polytope";
     line(session, "polytope 5-cell");
-    EXPECT_EQ(session.now.look.cellTypes, CellTypeFilter{});
+    EXPECT_EQ(session.current.look.cellTypes, CellTypeFilter{});
     press(session, "u");
-    EXPECT_EQ(session.now.look.cellTypes, (CellTypeFilter{{1}, {}}));
+    EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{1}, {}}));
     press(session, "u");
-    EXPECT_EQ(session.now.look.cellTypes, CellTypeFilter{});
+    EXPECT_EQ(session.current.look.cellTypes, CellTypeFilter{});
 }
 
 TEST(CellTypeFilter, AreCountedInThePolytopeThatIsSetWithThem) {
     Session session = withKinds();
     line(session, "polytope 5-cell");
     line(session, "set hidden=3 polytope=mixed");
-    EXPECT_EQ(session.now.look.cellTypes, (CellTypeFilter{{3}, {}}));
+    EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{3}, {}}));
 }
 
 TEST(CellTypeFilter, MistakesAreExplainedAndChangeNothing) {
@@ -98,7 +98,7 @@ TEST(CellTypeFilter, MistakesAreExplainedAndChangeNothing) {
     refused("set hidden=0.5", ErrorCode::bad_expression, "hidden: '0.5' is not the number of a kind of cell");
     refused("set faded=7", ErrorCode::out_of_range, "there is no 7");
     refused("set polytope=5-cell hidden=1", ErrorCode::out_of_range, "one kind of cell, 0; there is no 1");
-    refused("color", ErrorCode::bad_expression, "color must be cell, kind, w or plain, not ''");
+    refused("color", ErrorCode::bad_expression, "color must be cell, kind, w, plain or light, not ''");
     refused("color red", ErrorCode::bad_expression, "not 'red'");
 }
 

@@ -14,39 +14,39 @@ using std::numbers::pi;
 TEST(CommandLine, DoesWhatTheMethodPageShows) {
     Session session;
     line(session, ":polytope 24-cell");
-    EXPECT_EQ(infoOf(session.now).name, "24-cell");
+    EXPECT_EQ(infoOf(session.current).name, "24-cell");
     line(session, "set slices=31");
-    EXPECT_EQ(session.now.slices.count, 31);
+    EXPECT_EQ(session.current.slices.count, 31);
     line(session, ":set alpha=pi/12 faces=off  view=single");
-    EXPECT_DOUBLE_EQ(session.now.alpha, pi / 12);
-    EXPECT_FALSE(session.now.look.parts.faces);
-    EXPECT_EQ(session.now.look.view, scene::View::single);
+    EXPECT_DOUBLE_EQ(session.current.alpha, pi / 12);
+    EXPECT_FALSE(session.current.look.parts.faces);
+    EXPECT_EQ(session.current.look.view, scene::View::single);
     line(session, "rotate xw,yz pi/8 pi/sqrt(3)-pi/8");
-    EXPECT_EQ(session.now.lastTurn, (geometry::Turn{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}));
+    EXPECT_EQ(session.current.lastTurn, (geometry::Turn{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}));
     line(session, " : rotate zw 0.1");
-    EXPECT_EQ(session.now.lastTurn, (geometry::Turn{geometry::Plane::zw, 0.1, {}}));
+    EXPECT_EQ(session.current.lastTurn, (geometry::Turn{geometry::Plane::zw, 0.1, {}}));
     line(session, "rotate xw,yz");
-    EXPECT_EQ(session.now.lastTurn, (geometry::Turn{geometry::Plane::xw, pi / 12, session.now.beta}))
+    EXPECT_EQ(session.current.lastTurn, (geometry::Turn{geometry::Plane::xw, pi / 12, session.current.beta}))
         << "by the keys' angles";
     line(session, "view oval");
-    EXPECT_EQ(session.now.look.view, scene::View::oval);
+    EXPECT_EQ(session.current.look.view, scene::View::oval);
     line(session, "focus 3");
-    EXPECT_EQ(session.now.slices.focus, 3);
+    EXPECT_EQ(session.current.slices.focus, 3);
     line(session, "undo");
-    EXPECT_EQ(session.now.slices.focus, 0);
+    EXPECT_EQ(session.current.slices.focus, 0);
     line(session, "redo");
-    EXPECT_EQ(session.now.slices.focus, 3);
+    EXPECT_EQ(session.current.slices.focus, 3);
     line(session, "reset");
-    EXPECT_EQ(session.now.orientation, geometry::Rotation{});
+    EXPECT_EQ(session.current.orientation, geometry::Rotation{});
     line(session, "key y");
-    EXPECT_EQ(session.now.lastTurn->plane, geometry::Plane::xy);
+    EXPECT_EQ(session.current.lastTurn->plane, geometry::Plane::xy);
     line(session, "key space");
-    EXPECT_TRUE(session.now.turning);
+    EXPECT_TRUE(session.current.turning);
     line(session, "key u");
     line(session, "key Ctrl-r");
-    EXPECT_TRUE(session.now.turning);
+    EXPECT_TRUE(session.current.turning);
     line(session, "set polytope=hyper cube");
-    EXPECT_EQ(infoOf(session.now).name, "8-cell") << "blanks in names do not matter";
+    EXPECT_EQ(infoOf(session.current).name, "8-cell") << "blanks in names do not matter";
 }
 
 TEST(CommandLine, EverySettingCanBeSet) {
@@ -56,7 +56,7 @@ TEST(CommandLine, EverySettingCanBeSet) {
          "set polytope=16-cell alpha=0.1 beta=-0.2 step=0.01 slices=11 spacing=0.2 focus=-2 view=single turning=on "
          "faces=off "
          "bars=off balls=off coordinates=off azimuth=0.3 elevation=-0.1 zoom=2 color=w hidden=0 faded=none");
-    const State& now = session.now;
+    const State& now = session.current;
     EXPECT_EQ(infoOf(now).name, "16-cell");
     EXPECT_EQ(now.alpha, 0.1);
     EXPECT_EQ(now.beta, -0.2);
@@ -105,7 +105,7 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("focus 1e8", ErrorCode::out_of_range, "the focus must be from");
     refused("rotate", ErrorCode::bad_expression, "needs planes and angles");
     refused("rotate xw 1 2", ErrorCode::bad_expression, "one plane needs one angle");
-    refused("rotate xw,yw 1 2", ErrorCode::bad_expression, "xw goes with yz");
+    refused("rotate xw,yw 1 2", ErrorCode::bad_expression, "combine xw with yz");
     refused("rotate xw 1e7", ErrorCode::out_of_range, "an angle must be from");
     refused("key", ErrorCode::unknown_key, "needs one key");
     refused("key q", ErrorCode::unknown_key, "'q' has no meaning");
@@ -127,7 +127,7 @@ TEST(Query, DescribesAState) {
     line(session, "rotate xw,yz pi/8 0.2");
     line(session, "rotate xy 1");
     line(session, "set slices=11 spacing=0.05 view=single coordinates=off");
-    expectNear(*state, session.now, 1e-15);
+    expectNear(*state, session.current, 1e-15);
     EXPECT_EQ(state->slices.spacing, 0.05) << "whatever the order";
     const auto nothing = stateFromQuery({}, {});
     ASSERT_TRUE(nothing);

@@ -91,7 +91,8 @@ TEST(Turn, MistakesAreExplained) {
     };
     says("xw", "not a rotation");
     says("xq:1", "no plane is called 'xq'");
-    says("xw,xy:1,2", "xw goes with yz");
+    says("xw,xy:1,2",
+         "xw and xy share an axis; a double rotation needs planes without a common axis: combine xw with yz");
     says("xw:1,2", "one plane needs one angle");
     says("xw,yz:1", "two planes need two angles");
     says("xw:pi/", "a number, a name or '(' is expected");

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "contract/embedded.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
+#include "protocol_data/embedded_files.hpp"
 #include "session/key_actions.hpp"
 #include "session/keymap.hpp"
 #include "unit/session/support.hpp"
@@ -19,7 +19,7 @@ using std::numbers::pi;
 
 const std::vector<nlohmann::json>& rows() {
     static const auto table =
-        nlohmann::json::parse(contract::embedded("keymap.json")).at("keys").get<std::vector<nlohmann::json>>();
+        nlohmann::json::parse(protocol_data::embeddedFile("keymap.json")).at("keys").get<std::vector<nlohmann::json>>();
     return table;
 }
 
@@ -84,7 +84,7 @@ TEST(Keys, TheTableHasEveryKeyOfTheMethod) {
     for (const auto& row : rows()) all += row.at("name").get<std::string>() + "\n";
     EXPECT_EQ(all,
               "2\n3\n4\n5\n6\n7\nr\nt\ny\nk\nj\nK\nJ\nh\nl\n0\ngg\nG\n[\n]\n{\n}\nSpace\n.\nu\nCtrl-"
-              "r\ns\ni\nn\nN\no\np\na\nf\nb\ne\nx\n:\n?\n");
+              "r\ns\ni\nn\nN\no\np\na\nf\nb\ne\nw\nc\nW\nC\nx\n:\n?\n");
 }
 
 TEST(Keys, AKeyAndItsInverseRestoreTheState) {
@@ -109,7 +109,10 @@ TEST(Keys, AKeyAndItsInverseRestoreTheState) {
                                                                                {"p", "p"},
                                                                                {"f", "f"},
                                                                                {"b", "b"},
-                                                                               {"e", "e"}}) {
+                                                                               {"e", "e"},
+                                                                               {"c", "c"},
+                                                                               {"W", "W"},
+                                                                               {"C", "C"}}) {
         couples.push_back({{a, false, false}, {b, false, false}});
         couples.push_back({{b, false, false}, {a, false, false}});
     }
@@ -117,11 +120,11 @@ TEST(Keys, AKeyAndItsInverseRestoreTheState) {
         SCOPED_TRACE(key.key + (key.shift ? " with shift" : ""));
         Session session = busy();
         line(session, "focus 0");  // a new polytope starts with focus 0
-        const State before = session.now;
+        const State before = session.current;
         must(session, key);
-        EXPECT_FALSE(session.now == before);
+        EXPECT_FALSE(session.current == before);
         must(session, inverse);
-        expectNear(session.now, before, 1e-12);
+        expectNear(session.current, before, 1e-12);
     }
 }
 
@@ -132,8 +135,8 @@ TEST(Keys, AMillionDoNotDrift) {
         for (const char* key : {"r", "2", "t", "y", "5"}) must(session, Key{key, false, false}, limits);
         for (const char* key : {"5", "y", "t", "2", "r"}) must(session, Key{key, true, false}, limits);
     }
-    expectNear(session.now, Session{}.now, 1e-9);
-    const glm::dmat4 m = session.now.orientation.matrix();
+    expectNear(session.current, Session{}.current, 1e-9);
+    const glm::dmat4 m = session.current.orientation.matrix();
     const glm::dmat4 product = glm::transpose(m) * m;
     for (int c = 0; c < 4; ++c) {
         for (int r = 0; r < 4; ++r) EXPECT_NEAR(product[c][r], c == r ? 1 : 0, 1e-12);
@@ -147,7 +150,7 @@ TEST(Keys, TurnInTheirPlanes) {
         Session session;
         line(session, "set alpha=0.25 beta=0.5");
         must(session, key);
-        return session.now.lastTurn.value();
+        return session.current.lastTurn.value();
     };
     EXPECT_EQ(lastAfter({"2"}), (Turn{Plane::xy, 0.25, {}}));
     EXPECT_EQ(lastAfter({"3"}), (Turn{Plane::xz, 0.25, {}}));
@@ -166,7 +169,7 @@ TEST(Keys, TurnInTheirPlanes) {
 TEST(Keys, ShiftCountsForLettersAndDigitsOnly) {
     Session session;
     must(session, Key{"}", true, false});
-    EXPECT_EQ(session.now.slices.count, 23);
+    EXPECT_EQ(session.current.slices.count, 23);
     expectRefused(session, Key{"L", false, false}, ErrorCode::unknown_key, "'L' has no meaning");
     expectRefused(session, Key{"l", true, false}, ErrorCode::unknown_key, "has no meaning");
     expectRefused(session, Key{"0", true, false}, ErrorCode::unknown_key, "has no meaning");
@@ -177,7 +180,7 @@ TEST(Keys, SpaceHasManyNames) {
         Session session;
         press(session, "2");
         must(session, Key{name, false, false});
-        EXPECT_TRUE(session.now.turning);
+        EXPECT_TRUE(session.current.turning);
     }
 }
 
@@ -185,24 +188,24 @@ TEST(Keys, TwoGsGoToTheFirstSliceThatIsNotEmpty) {
     Session session;
     line(session, "polytope 8-cell");  // w from −1 to 1, spacing 0.2
     must(session, Key{"g", false, false});
-    EXPECT_EQ(session.now.slices.focus, 0);
+    EXPECT_EQ(session.current.slices.focus, 0);
     must(session, Key{"g", false, false});
-    EXPECT_EQ(session.now.slices.focus, -5);
+    EXPECT_EQ(session.current.slices.focus, -5);
     press(session, "G");
-    EXPECT_EQ(session.now.slices.focus, 5) << "the hyperplane w = 1 holds a whole cell";
+    EXPECT_EQ(session.current.slices.focus, 5) << "the hyperplane w = 1 holds a whole cell";
     line(session, "set spacing=0.3");
     press(session, "G");
-    EXPECT_EQ(session.now.slices.focus, 3);
+    EXPECT_EQ(session.current.slices.focus, 3);
     press(session, "glgg");
-    EXPECT_EQ(session.now.slices.focus, -3) << "any other key ends a sequence and acts by itself";
+    EXPECT_EQ(session.current.slices.focus, -3) << "any other key ends a sequence and acts by itself";
 }
 
 TEST(Keys, AnglesStayWithinAFullTurn) {
     Session session;
     line(session, "set step=1");
     press(session, "kkkkkkkkkJJJJJJJJJ");
-    EXPECT_EQ(session.now.alpha, 2 * pi);
-    EXPECT_EQ(session.now.beta, -2 * pi);
+    EXPECT_EQ(session.current.alpha, 2 * pi);
+    EXPECT_EQ(session.current.beta, -2 * pi);
     const auto revision = session.revision;
     press(session, "k");
     EXPECT_EQ(session.revision, revision) << "a key that changes nothing is not a change";
@@ -210,30 +213,30 @@ TEST(Keys, AnglesStayWithinAFullTurn) {
 
 TEST(Keys, SlicesKeepTheirSpan) {
     Session session;
-    const double span = session.now.slices.spacing * 20;
+    const double span = session.current.slices.spacing * 20;
     press(session, "}");
-    EXPECT_EQ(session.now.slices.count, 23);
-    EXPECT_NEAR(session.now.slices.spacing * 22, span, 1e-14);
+    EXPECT_EQ(session.current.slices.count, 23);
+    EXPECT_NEAR(session.current.slices.spacing * 22, span, 1e-14);
     for (int i = 0; i < 20; ++i) press(session, "{");
-    EXPECT_EQ(session.now.slices.count, 1);
+    EXPECT_EQ(session.current.slices.count, 1);
     for (int i = 0; i < 150; ++i) press(session, "}");
-    EXPECT_EQ(session.now.slices.count, Limits{}.maxSlices);
+    EXPECT_EQ(session.current.slices.count, Limits{}.maxSlices);
     for (int i = 0; i < 1000; ++i) press(session, "[");
-    EXPECT_GT(session.now.slices.spacing, 0);
+    EXPECT_GT(session.current.slices.spacing, 0);
 }
 
 TEST(Keys, WalkTheCatalogueRoundAndRound) {
     Session session;
     press(session, "r");
-    const State before = session.now;
+    const State before = session.current;
     for (const auto& entry : polytopes::catalogue()) {
-        EXPECT_EQ(infoOf(session.now).name, entry.name);
-        EXPECT_NEAR(session.now.slices.spacing / infoOf(session.now).circumradius, 0.1, 1e-12);
+        EXPECT_EQ(infoOf(session.current).name, entry.name);
+        EXPECT_NEAR(session.current.slices.spacing / infoOf(session.current).circumradius, 0.1, 1e-12);
         press(session, "n");
     }
-    expectNear(session.now, before, 1e-12);
+    expectNear(session.current, before, 1e-12);
     press(session, "N");
-    EXPECT_EQ(infoOf(session.now).name, polytopes::catalogue().back().name);
+    EXPECT_EQ(infoOf(session.current).name, polytopes::catalogue().back().name);
 }
 
 TEST(Keys, UnknownOnesAreRefused) {

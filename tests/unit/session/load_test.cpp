@@ -14,20 +14,20 @@ using support::kPentachoron;
 TEST(Load, ShowsThePolytopeAndKeepsIt) {
     Session session;
     press(session, "rll");
-    const State before = session.now;
+    const State before = session.current;
     must(session, Load{"mine", "off", kPentachoron});
-    EXPECT_EQ(infoOf(session.now).name, "mine");
-    EXPECT_EQ(session.now.orientation, before.orientation);
-    EXPECT_EQ(session.now.slices.focus, 0);
-    EXPECT_NEAR(session.now.slices.spacing, infoOf(session.now).circumradius / 10, 1e-12);
+    EXPECT_EQ(infoOf(session.current).name, "mine");
+    EXPECT_EQ(session.current.orientation, before.orientation);
+    EXPECT_EQ(session.current.slices.focus, 0);
+    EXPECT_NEAR(session.current.slices.spacing, infoOf(session.current).circumradius / 10, 1e-12);
     press(session, "u");
-    EXPECT_EQ(session.now, before);
+    EXPECT_EQ(session.current, before);
     line(session, "polytope mine");
-    EXPECT_EQ(infoOf(session.now).name, "mine");
+    EXPECT_EQ(infoOf(session.current).name, "mine");
     press(session, "n");
-    EXPECT_EQ(infoOf(session.now).name, polytopes::catalogue().front().name);
+    EXPECT_EQ(infoOf(session.current).name, polytopes::catalogue().front().name);
     press(session, "N");
-    EXPECT_EQ(infoOf(session.now).name, "mine");
+    EXPECT_EQ(infoOf(session.current).name, "mine");
     expectRefused(session, CommandLine{"polytope mined"}, ErrorCode::unknown_polytope, "did you mean 'mine'?");
 }
 
@@ -37,7 +37,7 @@ TEST(Load, RefusesWhatItCannotRead) {
     expectRefused(session, Load{"mine", "off", "4OFF\n5 10 10 5\nx"}, ErrorCode::bad_polytope,
                   "line 2: the file is too short");
     expectRefused(session, Load{"mine", "stl", "solid"}, ErrorCode::unsupported_format,
-                  "'stl' cannot be read; allowed are off");
+                  "'stl' cannot be read; allowed formats: off (4OFF), points, cloud");
     expectRefused(session, Load{"tesseract", "off", kPentachoron}, ErrorCode::bad_polytope, "a name of the catalogue");
     expectRefused(session, Load{"a\nb", "off", kPentachoron}, ErrorCode::bad_message, "printable");
     expectRefused(session, Load{"mine", "off", kPentachoron}, ErrorCode::too_large, "at most 4 are allowed",
@@ -57,12 +57,12 @@ int ordersOf(Session& session, const Command& command, ObjectLoader& loader, Res
 }
 
 TEST(Load, TheFirstWordTellsTheFormat) {
-    EXPECT_EQ(formatOf(kPentachoron), "off");
-    EXPECT_EQ(formatOf("1 0 0 0\n"), "points");
-    EXPECT_EQ(formatOf(""), "points");
+    EXPECT_EQ(detectFormat(kPentachoron), "off");
+    EXPECT_EQ(detectFormat("1 0 0 0\n"), "points");
+    EXPECT_EQ(detectFormat(""), "points");
     for (const std::string keyword : {"CLOUD", "cloud", "# from a simulation\nCLOUD # of two points"}) {
         const std::string text = keyword + "\n1 0 0 0\n0 1 0 0 0.25\n";
-        ASSERT_EQ(formatOf(text), "cloud");
+        ASSERT_EQ(detectFormat(text), "cloud");
         const auto read = readObject("cloud", text, "two points", Limits{});
         ASSERT_TRUE(read) << read.error().message;
         EXPECT_EQ(slicing::elementCounts(read->object)[0], 2U);
@@ -80,8 +80,8 @@ TEST(Load, MayBeReadAhead) {
     EXPECT_EQ(ordersOf(session, load, reader, done), 1);
     EXPECT_TRUE(done);
     EXPECT_EQ(reader.warnings().size(), 1U);
-    EXPECT_EQ(infoOf(session.now).name, "mine");
-    EXPECT_EQ(slicing::elementCounts(session.now.object)[3], 5U);
+    EXPECT_EQ(infoOf(session.current).name, "mine");
+    EXPECT_EQ(slicing::elementCounts(session.current.object)[3], 5U);
 
     ObjectLoader refuser(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, Load{"other", "points", "1 2 3\n"}, refuser, done), 1);
@@ -96,11 +96,11 @@ TEST(Load, PolytopesAreBuiltAheadOnlyWhereTheyAreNotBuiltYet) {
     ObjectLoader first(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, unusual, first, done), 1);
     EXPECT_TRUE(done);
-    EXPECT_EQ(infoOf(session.now).name, "17,19-duoprism");
+    EXPECT_EQ(infoOf(session.current).name, "17,19-duoprism");
     Session other;
     ObjectLoader second(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_EQ(ordersOf(other, unusual, second, done), 0);
-    EXPECT_EQ(other.now.object, session.now.object);
+    EXPECT_EQ(other.current.object, session.current.object);
 
     ObjectLoader turner(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, Key{"y", false, false}, turner, done), 0);

@@ -16,12 +16,12 @@ class ObjectTable {
     ObjectKeyLookup keyOf = [this](const slicing::Object& object) {
         const auto [found, isNew] =
             keys_.try_emplace(slicing::infoOf(object).serial, "key" + std::to_string(keys_.size()));
-        if (isNew) bytes_[found->second] = encodeObject(object);
+        if (isNew) bytes_[found->second] = encodeObjectRecord(object);
         return found->second;
     };
     ObjectLookup objectOf = [this](const std::string& key) {
         auto& object = built_[key];
-        if (!object && bytes_.contains(key)) object = decodeObject(bytes_[key]);
+        if (!object && bytes_.contains(key)) object = decodeObjectRecord(bytes_[key]);
         return object;
     };
     std::size_t size() const { return bytes_.size(); }
@@ -62,27 +62,33 @@ TEST(Codec, AppliesTheHead) {
             continue;
         }
         Session bare, expected;
-        bare.now = back.now;
-        expected.now = session.now;
+        bare.current = back.current;
+        expected.current = session.current;
         EXPECT_TRUE(same(expected, bare));
-        ASSERT_EQ(back.past.size(), before.past.size() + 1) << "one undo step leads back to the state of `whole`";
-        bare.now = back.past.back();
-        expected.now = before.now;
+        ASSERT_EQ(back.undoSteps.size(), before.undoSteps.size() + 1)
+            << "one undo step leads back to the state of `whole`";
+        bare.current = back.undoSteps.back();
+        expected.current = before.current;
         EXPECT_TRUE(same(expected, bare));
     }
 }
 
 TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
     Session session;
-    session.now.look.parts.bars = session.now.look.parts.labels = false;
+    session.current.look.parts.bars = session.current.look.parts.labels = false;
+    session.current.look.projection = {scene::ProjectionKind::orthogonal, 2};
     ObjectTable table;
     auto record = nlohmann::json::from_cbor(encodeWhole(session, 10, table.keyOf));
-    nlohmann::json& flags = record.at(3).at(5).at(1);  // of the current state
+    nlohmann::json& look = record.at(3).at(5);  // of the current state
+    nlohmann::json& flags = look.at(1);
     ASSERT_EQ(flags.size(), scene::kParts.size());
-    flags.erase(4);  // 0.1.0 knew faces, bars, balls and coordinates
-    const Session back = decode(bytesOf(record), "", table.objectOf, support::cache());
-    EXPECT_FALSE(back.now.look.parts.bars);
-    EXPECT_TRUE(back.now.look.parts.faces && back.now.look.parts.labels);
+    while (flags.size() > 4) flags.erase(4);  // 0.1.0 knew faces, bars, balls and coordinates,
+    while (look.size() > 6) look.erase(6);    // and no projection
+    const Session back = decode(encodeCbor(record), "", table.objectOf, support::cache());
+    EXPECT_FALSE(back.current.look.parts.bars);
+    EXPECT_TRUE(back.current.look.parts.faces && back.current.look.parts.labels && back.current.look.parts.back);
+    EXPECT_FALSE(back.current.look.parts.cells || back.current.look.parts.sections);
+    EXPECT_EQ(back.current.look.projection, scene::ProjectionSettings{});
 }
 
 TEST(Codec, LimitsUndoSteps) {
@@ -91,8 +97,8 @@ TEST(Codec, LimitsUndoSteps) {
     wander(session, random, 200);
     ObjectTable table;
     const Session back = decode(encodeWhole(session, 7, table.keyOf), "", table.objectOf, support::cache());
-    ASSERT_EQ(back.past.size(), 7U);
-    session.past.erase(session.past.begin(), session.past.end() - 7);
+    ASSERT_EQ(back.undoSteps.size(), 7U);
+    session.undoSteps.erase(session.undoSteps.begin(), session.undoSteps.end() - 7);
     EXPECT_TRUE(same(session, back));
 }
 
@@ -105,12 +111,12 @@ TEST(Codec, RefusesOtherVersionsAndOtherData) {
     try {
         decode(bytes, "", none, support::cache());
         FAIL() << "a later version was read";
-    } catch (const Unreadable& fault) {
+    } catch (const UnreadableRecord& fault) {
         EXPECT_NE(std::string(fault.what()).find("version 2"), std::string::npos) << fault.what();
     }
     for (const std::string other : {"", "x", "\x80", "\xa0", "\x81\x01", "{\"a\":1}"}) {
-        EXPECT_THROW(decode(other, "", none, support::cache()), Unreadable) << other;
-        EXPECT_THROW(decodeObject(other), Unreadable) << other;
+        EXPECT_THROW(decode(other, "", none, support::cache()), UnreadableRecord) << other;
+        EXPECT_THROW(decodeObjectRecord(other), UnreadableRecord) << other;
     }
 }
 
@@ -121,8 +127,9 @@ TEST(Codec, RefusesInvalidValues) {
     Session session;
     const auto refused = [&](auto change) {
         Session other = session;
-        change(other.now);
-        EXPECT_THROW(decode(encodeWhole(other, 10, table.keyOf), "", table.objectOf, support::cache()), Unreadable);
+        change(other.current);
+        EXPECT_THROW(decode(encodeWhole(other, 10, table.keyOf), "", table.objectOf, support::cache()),
+                     UnreadableRecord);
     };
     ASSERT_NO_THROW(decode(encodeWhole(session, 10, table.keyOf), "", none, support::cache()));
     using session::State;
@@ -160,12 +167,12 @@ TEST(Codec, RefusesExcessiveSizesAndNesting) {
         many += "\x81\x70" + std::to_string(1000 - i) + "," + std::to_string(900 + i) + "-duoprism";
     inputs.push_back(many + std::string("\x80\x80\x80\x80\x60", 5));
     for (const std::string& input : inputs) {
-        EXPECT_THROW(decode(input, "", none, support::cache()), Unreadable);
-        EXPECT_THROW(decodeObject(input), Unreadable);
+        EXPECT_THROW(decode(input, "", none, support::cache()), UnreadableRecord);
+        EXPECT_THROW(decodeObjectRecord(input), UnreadableRecord);
     }
 }
 
-/// Damaged bytes decode to a session that can be sliced, or throw Unreadable.
+/// Damaged bytes decode to a session that can be sliced, or throw UnreadableRecord.
 TEST(Codec, SurvivesDamage) {
     std::mt19937 random(7);
     Session session;
@@ -173,7 +180,7 @@ TEST(Codec, SurvivesDamage) {
     ASSERT_TRUE(session::apply(session, ownObject("own", 1)));
     ObjectTable table;
     const std::string whole = encodeWhole(session, 100, table.keyOf);
-    const std::string object = encodeObject(session.loaded.at("own"));
+    const std::string object = encodeObjectRecord(session.loaded.at("own"));
     int unreadable = 0;
     for (int round = 0; round < 3000; ++round) {
         std::string damaged = round % 2 == 0 ? whole : object;
@@ -182,14 +189,14 @@ TEST(Codec, SurvivesDamage) {
         if (random() % 4 == 0) damaged.resize(random() % damaged.size());
         try {
             if (round % 2 == 1) {
-                decodeObject(damaged);
+                decodeObjectRecord(damaged);
             } else {
                 const Session read = decode(damaged, "", table.objectOf, support::cache());
-                EXPECT_GT(read.now.hyperplanes().count, 0);
-                for (const std::uint32_t kind : read.now.look.cellTypes.hidden)
-                    EXPECT_LT(kind, slicing::infoOf(read.now.object).cellTypes.size());
+                EXPECT_GT(read.current.hyperplanes().count, 0);
+                for (const std::uint32_t kind : read.current.look.cellTypes.hidden)
+                    EXPECT_LT(kind, slicing::infoOf(read.current.object).cellTypes.size());
             }
-        } catch (const Unreadable&) {
+        } catch (const UnreadableRecord&) {
             ++unreadable;
         }
     }

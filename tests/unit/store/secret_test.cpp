@@ -27,12 +27,12 @@ TEST(Secret, ComparesSecrets) {
 }
 
 TEST(Secret, HashIsBlake2b) {
-    EXPECT_EQ(hashOf("abc"), "bddd813c634239723171ef3fee98579b94964e3bb1cb3e427262c8c068d52319");
-    EXPECT_NE(hashOf(""), hashOf(std::string(1, '\0')));
+    EXPECT_EQ(hashToken("abc"), "bddd813c634239723171ef3fee98579b94964e3bb1cb3e427262c8c068d52319");
+    EXPECT_NE(hashToken(""), hashToken(std::string(1, '\0')));
 }
 
 TEST(Secret, DigestDependsOnPartBoundaries) {
-    const auto digest = [](std::vector<std::string_view> parts) { return digestOf(parts); };
+    const auto digest = [](std::vector<std::string_view> parts) { return recordDigest(parts); };
     EXPECT_EQ(digest({"ab", "c"}), digest({"ab", "c"}));
     EXPECT_EQ(digest({"ab", "c"}).size(), 16U);
     EXPECT_NE(digest({"ab", "c"}), digest({"a", "bc"}));

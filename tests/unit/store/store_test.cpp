@@ -137,7 +137,7 @@ TEST_P(AnyStore, ReturnsSavedRecords) {
     EXPECT_FALSE(store->tokenHash("one"));
     EXPECT_FALSE(store->claim("one"));
     EXPECT_EQ(save(whole(1, kBytes)), SaveResult::saved);
-    EXPECT_EQ(store->tokenHash("one"), hashOf("secret of one"));
+    EXPECT_EQ(store->tokenHash("one"), hashToken("secret of one"));
     auto record = store->claim("one");
     ASSERT_TRUE(record);
     EXPECT_EQ(record->whole, kBytes);
@@ -208,7 +208,7 @@ TEST_P(AnyStore, ExpiresUntouchedSessions) {
 TEST_P(AnyStore, RemovesSessionsWithTheirPolytopes) {
     RecordUpdate update = whole(1, "s");
     update.objects = {{"p", "bytes of p"}};
-    update.last = true;
+    update.closed = true;
     save(update);
     save(whole(1, "other", "two"));
     const std::vector<std::string> ids{"one", "nobody"};
@@ -399,7 +399,7 @@ TEST(SqliteStore, SessionsSurviveARestart) {
     SqliteStore(path).save({&update, 1});
     SqliteStore store(path);
     EXPECT_EQ(store.size(), 1U);
-    EXPECT_EQ(store.tokenHash("one"), hashOf("secret"));
+    EXPECT_EQ(store.tokenHash("one"), hashToken("secret"));
     const auto record = store.claim("one");
     EXPECT_EQ(record->whole, "whole");
     EXPECT_EQ(record->objects, update.objects);

@@ -15,15 +15,15 @@ namespace oval4d::store {
 
 /// Replaces `other` by `one` if their encodings are equal.
 inline void share(const slicing::Object& one, slicing::Object& other) {
-    if (encodeObject(one) == encodeObject(other)) other = one;
+    if (encodeObjectRecord(one) == encodeObjectRecord(other)) other = one;
 }
 
 /// Whether the sessions are equal, even if they refer to equal objects that were built separately.
 inline bool same(const session::Session& one, session::Session other) {
-    if (one.past.size() != other.past.size() || one.future.size() != other.future.size()) return false;
-    share(one.now.object, other.now.object);
-    for (std::size_t i = 0; i < one.past.size(); ++i) share(one.past[i].object, other.past[i].object);
-    for (std::size_t i = 0; i < one.future.size(); ++i) share(one.future[i].object, other.future[i].object);
+    if (one.undoSteps.size() != other.undoSteps.size() || one.redoSteps.size() != other.redoSteps.size()) return false;
+    share(one.current.object, other.current.object);
+    for (std::size_t i = 0; i < one.undoSteps.size(); ++i) share(one.undoSteps[i].object, other.undoSteps[i].object);
+    for (std::size_t i = 0; i < one.redoSteps.size(); ++i) share(one.redoSteps[i].object, other.redoSteps[i].object);
     for (auto& [name, object] : other.loaded) {
         const auto found = one.loaded.find(name);
         if (found != one.loaded.end()) share(found->second, object);
@@ -71,7 +71,7 @@ inline void wander(session::Session& session, std::mt19937& random, int steps) {
                 break;
         }
         (void)session::apply(session, command);  // some commands fail, for example with nothing to undo
-        if (session.now.turning) session::advance(session, 0.01);
+        if (session.current.turning) session::advance(session, 0.01);
     }
 }
 

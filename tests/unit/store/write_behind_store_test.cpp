@@ -213,8 +213,8 @@ TEST_F(WriteBehindStoreTest, WritesPolytopesAgainAfterAFailure) {
     EXPECT_EQ(record->objects.size(), 1U);
 }
 
-/// While the store fails, closed sessions in memory are limited by the quota: those that were never changed are evicted
-/// first, then the oldest.
+/// While the store is unavailable, closed sessions in memory are limited by the quota: those that were never changed
+/// are evicted first, then the oldest.
 TEST(WriteBehindStore, EvictsClosedSessionsBeyondTheQuota) {
     const auto control = std::make_shared<StoreControl>();
     control->fails = true;
@@ -256,7 +256,7 @@ TEST_F(WriteBehindStoreTest, WritesAPolytopeOnce) {
     EXPECT_TRUE(save(credentials.id, session));
     const auto first = writeBehind.unsaved() == 0 ? polytopes() : decltype(polytopes()){};
     ASSERT_EQ(first.size(), 1U);
-    EXPECT_EQ(first[0].second, encodeObject(session.loaded.at("own")));
+    EXPECT_EQ(first[0].second, encodeObjectRecord(session.loaded.at("own")));
 }
 
 TEST_F(WriteBehindStoreTest, StopWritesPendingChanges) {

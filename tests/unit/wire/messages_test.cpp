@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "contract/embedded.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
+#include "protocol_data/embedded_files.hpp"
 #include "session/session.hpp"
 #include "unit/wire/support.hpp"
 #include "wire/messages.hpp"
@@ -49,7 +49,7 @@ void expectSame(const State& a, const State& b) {
 TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
     Session session;
     ASSERT_TRUE(apply(session, session::CommandLine{"rotate xw,yz pi/8 0.2"}));
-    const json message = fitting(wire::stateMessage(session.now, 7, 3));
+    const json message = fitting(wire::stateMessage(session.current, 7, 3));
     EXPECT_EQ(message.at("type"), "state");
     EXPECT_EQ(message.at("id"), 3);
     EXPECT_EQ(message.at("revision"), 7);
@@ -57,7 +57,7 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
                               "kinds":[{"name":"tetrahedron","cells":5}]})");
     polytope["kinds"][0]["color"] = scene::cellTypeColor(0, 1);
     EXPECT_EQ(message.at("polytope"), polytope);
-    EXPECT_EQ(message.at("orientation").at(0).at(3), session.now.orientation.matrix()[3][0]) << "rows";
+    EXPECT_EQ(message.at("orientation").at(0).at(3), session.current.orientation.matrix()[3][0]) << "rows";
     EXPECT_EQ(message.at("alpha"), std::numbers::pi / 36);
     EXPECT_EQ(message.at("step"), std::numbers::pi / 180);
     EXPECT_EQ(message.at("slices").at("count"), 21);
@@ -65,7 +65,8 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
     EXPECT_EQ(message.at("view"), "oval");
     EXPECT_EQ(message.at("turning"), false);
     EXPECT_EQ(message.at("shown"),
-              json::parse(R"({"faces":true,"bars":true,"balls":true,"coordinates":true,"labels":true})"));
+              json::parse(R"({"faces":true,"bars":true,"balls":true,"coordinates":true,"labels":true,
+                                        "cells":false,"back":true,"sections":false})"));
     EXPECT_EQ(message.at("camera"), json::parse(R"({"azimuth":0,"elevation":0,"zoom":1})"));
     EXPECT_EQ(message.at("color"), "cell");
     EXPECT_EQ(message.at("hidden"), json::array());
@@ -79,14 +80,14 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
 TEST(StateMessage, SetInANewSessionGivesTheSameState) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         const Session session = randomSession(seed);
-        const std::string text = wire::stateMessage(session.now, session.revision, 1);
+        const std::string text = wire::stateMessage(session.current, session.revision, 1);
         fitting(text);
         const auto set = setFromState(text);
         ASSERT_TRUE(set) << set.error().message;
         Session fresh;
         const auto done = apply(fresh, *set);
         ASSERT_TRUE(done) << done.error().message;
-        expectSame(fresh.now, session.now);
+        expectSame(fresh.current, session.current);
 
         Session same = session;
         ASSERT_TRUE(apply(same, *set));
@@ -96,11 +97,11 @@ TEST(StateMessage, SetInANewSessionGivesTheSameState) {
 
 TEST(StateMessage, BecomesASetByItsType) {
     const Session session = randomSession(3);
-    json message = json::parse(wire::stateMessage(session.now, session.revision));
+    json message = json::parse(wire::stateMessage(session.current, session.revision));
     message["type"] = "set";
     Session fresh;
     ASSERT_TRUE(apply(fresh, parsedCommand<session::Set>(message.dump())));
-    expectSame(fresh.now, session.now);
+    expectSame(fresh.current, session.current);
 }
 
 TEST(StateMessage, WhatIsNoStateIsRefused) {
@@ -139,7 +140,7 @@ TEST(OtherMessages, FitTheirSchemas) {
 
     const json keymap = fitting(wire::keymapMessage(4));
     EXPECT_EQ(keymap.at("id"), 4);
-    EXPECT_EQ(keymap.at("keys"), json::parse(contract::embedded("keymap.json")).at("keys"));
+    EXPECT_EQ(keymap.at("keys"), json::parse(protocol_data::embeddedFile("keymap.json")).at("keys"));
     fitting(wire::keymapMessage({}));
 }
 
@@ -152,7 +153,7 @@ TEST(OtherMessages, GiveIdsBackAsTheyWere) {
         const std::string member = R"("id":)" + std::string(text) + ',';
         EXPECT_NE(wire::doneMessage(id, 1).find(member), std::string::npos) << wire::doneMessage(id, 1);
         EXPECT_NE(wire::errorMessage({ErrorCode::internal, "x"}, id).find(member), std::string::npos) << text;
-        EXPECT_NE(wire::stateMessage(Session{}.now, 1, id).find(member), std::string::npos) << text;
+        EXPECT_NE(wire::stateMessage(Session{}.current, 1, id).find(member), std::string::npos) << text;
         EXPECT_NE(wire::catalogueMessage(id).find(member), std::string::npos) << text;
         EXPECT_NE(wire::keymapMessage(id).find(member), std::string::npos) << text;
         EXPECT_NE(wire::welcomeMessage("s", "t", "{}", id).find(member), std::string::npos) << text;
@@ -160,7 +161,7 @@ TEST(OtherMessages, GiveIdsBackAsTheyWere) {
 }
 
 TEST(StateMessage, WritesIntegersWithoutExponent) {
-    session::State state = Session{}.now;
+    session::State state = Session{}.current;
     state.alpha = -3'000'000;
     state.slices.spacing = 100'000;
     const std::string message = wire::stateMessage(state, 1, {});
@@ -187,7 +188,7 @@ TEST(OtherMessages, TheCatalogueIsTheGeometrys) {
 }
 
 TEST(OtherMessages, TheCatalogueEndsWithWhatWasLoaded) {
-    const std::vector<slicing::Object> loaded{Session{}.now.object};
+    const std::vector<slicing::Object> loaded{Session{}.current.object};
     const json catalogue = fitting(wire::catalogueMessage({}, loaded)).at("polytopes");
     ASSERT_EQ(catalogue.size(), polytopes::catalogue().size() + 1);
     EXPECT_EQ(catalogue.back(), json::parse(R"({"name":"5-cell","family":"loaded","aliases":[],"diagram":"",

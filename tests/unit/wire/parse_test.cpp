@@ -62,6 +62,10 @@ TEST(Parse, GetAndShown) {
     EXPECT_FALSE(std::get<Get>(parsed(R"({"type":"get","what":"frame"})").body).viewport);
     EXPECT_EQ(std::get<Get>(parsed(R"({"type":"get","what":"frame","width":64,"height":32})").body).viewport,
               (scene::Viewport{64, 32}));
+    for (const std::string name : {"skeleton", "frame"}) {  // "frame" is the former name
+        const std::string text = R"({"type":"get","what":"file","format":"stl","body":")" + name + "\"}";
+        EXPECT_EQ(std::get<Get>(parsed(text).body).file.body, exports::Body::skeleton);
+    }
     EXPECT_EQ(std::get<ShownRevision>(parsed(R"({"type":"shown","revision":7})").body).revision, 7U);
 }
 
@@ -165,16 +169,16 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"{}", kBadMessage, "must have a member \"type\", one of hello, key", {}},
         Bad{R"({"type":7,"id":1})", kBadMessage, "must have a member \"type\"", 1},
         Bad{R"({"type":"rotat","id":1})", kUnknownType, "no message has the type 'rotat' (did you mean 'rotate'?)", 1},
-        Bad{R"({"type":"state","id":1})", kUnknownType, "allowed are hello, key", 1},
+        Bad{R"({"type":"state","id":1})", kUnknownType, "; allowed types: hello, key", 1},
         Bad{R"({"type":"undo","id":"x"})", kBadMessage, "undo: /id must be a number", {}},
-        Bad{R"({"type":"undo","id":2,"x":1})", kBadMessage, "undo: there is no member 'x'; allowed are id, type", 2},
+        Bad{R"({"type":"undo","id":2,"x":1})", kBadMessage, "undo: unknown member 'x'; allowed members: id, type", 2},
         Bad{R"({"type":"key","id":2})", kBadMessage, "key: /key is missing; it must be the key as typed", 2},
         Bad{R"({"type":"key","id":2,"key":""})", kBadMessage, "key: /key must be the key as typed", 2},
         Bad{R"({"type":"key","id":2,"key":"y","shift":1})", kBadMessage, "key: /shift must be true or false, not 1", 2},
         Bad{R"({"type":"key","id":2,"keys":"y"})", kBadMessage, "key: /key is missing", 2},
         Bad{R"({"type":"rotate","id":2,"angle":[1]})", kBadMessage, "rotate: /planes is missing", 2},
         Bad{R"({"type":"rotate","id":2,"planes":["xw"],"angles":[1],"angel":2})", kBadMessage,
-            "no member 'angel' (did you mean 'angles'?)", 2},
+            "unknown member 'angel' (did you mean 'angles'?)", 2},
         Bad{R"({"type":"rotate","id":2,"planes":["xw"],"angles":["1"]})", kBadMessage,
             "/angles/0 must be a finite number of radians", 2},
         Bad{R"({"type":"rotate","id":2,"planes":["xw","xy"],"angles":[1,2]})", kBadMessage,
@@ -199,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{R"({"type":"set","id":3,"slices":{"spacing":0}})", kOutOfRange,
             "set: /slices/spacing must be a distance greater than 0, not 0", 3},
         Bad{R"({"type":"set","id":3,"slices":{"cuont":3}})", kBadMessage,
-            "set: /slices: there is no member 'cuont' (did you mean 'count'?)", 3},
+            "set: /slices: unknown member 'cuont' (did you mean 'count'?)", 3},
         Bad{R"({"type":"set","id":3,"slices":3})", kBadMessage, "set: /slices must be an object", 3},
         Bad{R"({"type":"set","id":3,"slices":{"focus":1e300}})", kBadMessage, "set: /slices/focus must be", 3},
         Bad{R"({"type":"set","id":3,"slices":{"focus":99999999999999999999}})", kBadMessage,

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "contract/embedded.hpp"
+#include "protocol_data/embedded_files.hpp"
 #include "unit/session/support.hpp"
 #include "wire/parse.hpp"
 #include "wire/schema.hpp"
@@ -29,7 +29,7 @@ C parsedCommand(std::string_view text) {
 /// Returns the text of a schema with references to other schemas replaced by their content.
 inline nlohmann::json schemaText(const std::string& file) {
     const auto resolve = [](const auto& self, nlohmann::json& schema) -> void {
-        if (schema.is_object() && schema.contains("$ref")) {
+        if (schema.is_object() && schema.contains("$ref") && schema.at("$ref").get<std::string>()[0] != '#') {
             auto merged = schemaText(schema.at("$ref"));
             schema.erase("$ref");
             merged.update(schema);
@@ -38,7 +38,7 @@ inline nlohmann::json schemaText(const std::string& file) {
         if (!schema.is_structured()) return;
         for (nlohmann::json& part : schema) self(self, part);
     };
-    auto schema = nlohmann::json::parse(contract::embedded("schema/" + file));
+    auto schema = nlohmann::json::parse(protocol_data::embeddedFile("schema/" + file));
     resolve(resolve, schema);
     return schema;
 }

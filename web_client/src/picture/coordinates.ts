@@ -1,16 +1,16 @@
-// Draws the parallel coordinates along the bottom: the lines of each vertex, or for many vertices the density of lines.
+// Draws the parallel coordinates at the bottom: four lines for each vertex, or the density of lines for many vertices.
 
 import type { SceneDescription, Slices, Viewport } from "@oval4d/protocol";
 
 import { DensityImage } from "./density_image";
-import { css, kMinTextSize, setFont } from "./pen";
+import { cssColor, kMinTextSize, setFont } from "./pen";
 
 const kFocusMark = 0.009; // half the width of the focus mark, as a fraction of the viewport's height
 
 const density = new DensityImage();
 
 export function drawCoordinates(pen: CanvasRenderingContext2D, picture: Slices, viewport: Viewport): void {
-    if (picture.scene.coordinates.columns > 0) drawStrip(pen, picture, viewport);
+    if (picture.scene.coordinates.columns > 0) drawDensityStrip(pen, picture, viewport);
     else drawLines(pen, picture.coordinates, picture.scene, viewport);
 }
 
@@ -29,14 +29,14 @@ function drawLines(
     const zeroOf = (row: number): number => height - Math.round((layout.zero - row * layout.row_step) * height);
     const count = values.length / 4;
 
-    pen.fillStyle = css(scene.colors.zero);
+    pen.fillStyle = cssColor(scene.colors.zero);
     for (let row = 0; row * perRow < count; ++row) {
         const columns = Math.min(perRow, count - row * perRow);
         pen.fillRect(snap(left), zeroOf(row) - 0.5, snap((columns - 1) * columnStep + 3 * lineStep + thickness), 1);
     }
     const unit = (amplitude * height) / scene.circumradius;
     for (let k = 0; k < 4; ++k) {
-        pen.fillStyle = css(scene.colors.axes[k]!);
+        pen.fillStyle = cssColor(scene.colors.axes[k]!);
         pen.beginPath();
         for (let i = 0; i < count; ++i) {
             const x = snap(left + (i % perRow) * columnStep + k * lineStep);
@@ -47,7 +47,7 @@ function drawLines(
     if (!named) return;
     const minSize = columnStep > 3 * kMinTextSize * devicePixelRatio ? kMinTextSize * devicePixelRatio : 0;
     const digits = setFont(pen, Math.max(0.85 * scene.text * height, minSize));
-    pen.fillStyle = css(scene.colors.text);
+    pen.fillStyle = cssColor(scene.colors.text);
     for (let i = 0; i < count; ++i) {
         const x = left + (i % perRow) * columnStep + (3 * lineStep + thickness) / 2;
         pen.fillText(
@@ -58,24 +58,24 @@ function drawLines(
     }
 }
 
-function drawStrip(pen: CanvasRenderingContext2D, picture: Slices, { height }: Viewport): void {
+function drawDensityStrip(pen: CanvasRenderingContext2D, picture: Slices, { height }: Viewport): void {
     const { colors, circumradius, coordinates: layout, text } = picture.scene;
     const [zero, amplitude] = [(1 - layout.zero) * height, layout.amplitude * height];
     const centerOf = (k: number): number => (layout.left + k * layout.line_step + layout.line_width / 2) * height;
-    density.take(picture);
+    density.update(picture);
     density.draw(pen, centerOf(0), zero - amplitude, centerOf(3) - centerOf(0), 2 * amplitude);
 
     const thickness = Math.max(1, Math.round(layout.line_width * height));
     const digits = setFont(pen, Math.max(0.85 * text * height, kMinTextSize * devicePixelRatio));
     for (let k = 0; k < 4; ++k) {
         const left = Math.round(centerOf(k) - thickness / 2);
-        pen.fillStyle = css(colors.axes[k]!);
+        pen.fillStyle = cssColor(colors.axes[k]!);
         pen.fillRect(left, zero - amplitude, thickness, 2 * amplitude);
         if (layout.named) pen.fillText("xyzw"[k]!, left + thickness / 2, Math.round(zero + amplitude + 1.4 * digits));
     }
     const focus = picture.slices.find((slice) => slice.focus);
     if (!focus || Math.abs(focus.w) > circumradius) return;
     const level = Math.round(zero - (focus.w / circumradius) * amplitude);
-    pen.fillStyle = css(colors.focus);
+    pen.fillStyle = cssColor(colors.focus);
     pen.fillRect(centerOf(3) - kFocusMark * height, level - thickness / 2, 2 * kFocusMark * height, thickness);
 }

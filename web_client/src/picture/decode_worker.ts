@@ -1,5 +1,5 @@
-// A web worker that decodes PNG files outside the page's thread, one after the other. Each message is a file; each
-// answer is its bitmap, or the text of an error.
+// A web worker that decodes PNG files one after the other. Each message is a file; the answer is its bitmap, or the
+// message of an error.
 
 let last = Promise.resolve();
 

@@ -6,12 +6,12 @@ export class DensityImage {
     private readonly canvas = document.createElement("canvas");
     private readonly pen = this.canvas.getContext("2d")!;
     private pixels: ImageData | undefined;
-    private taken: Uint8Array | undefined;
+    private density: Uint8Array | undefined;
 
     /** Converts the density to pixels. Between two axes, the color is interpolated between the colors of the axes. */
-    take({ density, scene: { colors, coordinates } }: Slices): void {
-        if (density === this.taken) return;
-        this.taken = density;
+    update({ density, scene: { colors, coordinates } }: Slices): void {
+        if (density === this.density) return;
+        this.density = density;
         const { columns } = coordinates;
         const rows = density.length / columns;
         if (this.pixels?.width !== columns || this.pixels.height !== rows) {

@@ -1,5 +1,4 @@
-// The vertices, edges and faces of all drawn slices in world coordinates, in flat arrays that are reused from picture
-// to picture.
+// The vertices, edges and faces of all drawn slices in world coordinates, in flat arrays that all pictures reuse.
 
 import type { SceneDescription, Slice, Slices, Vector } from "@oval4d/protocol";
 
@@ -13,7 +12,7 @@ export interface Body {
     vertices: Range;
     edges: Range;
     faces: Range;
-    distance: number; // from the eye, at the last sorting
+    distance: number; // from the eye, at the last sort
 }
 
 export class Elements {
@@ -29,23 +28,23 @@ export class Elements {
     cornerEdges = new Uint32Array(0); // the edge from each corner to the next
     normals = new Float32Array(0); // x, y, z of each face, outward
     readonly buckets = new Buckets();
-    private readonly spare: Body[] = []; // for reuse in pictures with more slices
+    private readonly spare: Body[] = []; // unused bodies, kept for pictures with more slices
 
-    /** Takes over the slices of a new picture. */
-    take({ slices, scene }: Slices): void {
+    /** Replaces the elements by those of a new picture. */
+    update({ slices, scene }: Slices): void {
         this.vertexCount = this.edgeCount = this.faceCount = this.cornerCount = 0;
         while (this.bodies.length > 0) this.spare.push(this.bodies.pop()!);
-        for (const slice of slices) if (slice.drawn && slice.vertices.length > 0) this.bodies.push(this.body(slice));
-        this.points = roomFor(this.points, 3 * this.vertexCount);
-        this.edges = roomFor(this.edges, 2 * this.edgeCount);
-        this.cornerBegin = roomFor(this.cornerBegin, this.faceCount + 1);
-        this.corners = roomFor(this.corners, this.cornerCount);
-        this.cornerEdges = roomFor(this.cornerEdges, this.cornerCount);
-        this.normals = roomFor(this.normals, 3 * this.faceCount);
-        for (const body of this.bodies) this.place(body, scene);
+        for (const slice of slices) if (slice.drawn && slice.vertices.length > 0) this.bodies.push(this.addBody(slice));
+        this.points = ensureCapacity(this.points, 3 * this.vertexCount);
+        this.edges = ensureCapacity(this.edges, 2 * this.edgeCount);
+        this.cornerBegin = ensureCapacity(this.cornerBegin, this.faceCount + 1);
+        this.corners = ensureCapacity(this.corners, this.cornerCount);
+        this.cornerEdges = ensureCapacity(this.cornerEdges, this.cornerCount);
+        this.normals = ensureCapacity(this.normals, 3 * this.faceCount);
+        for (const body of this.bodies) this.writeBody(body, scene);
     }
 
-    private body(slice: Slice): Body {
+    private addBody(slice: Slice): Body {
         const { vertexCount, edgeCount, faceCount } = this;
         this.vertexCount += slice.vertices.length / 3;
         this.edgeCount += slice.edges.length / 2;
@@ -60,7 +59,7 @@ export class Elements {
         return body;
     }
 
-    private place({ slice, position, vertices, edges, faces }: Body, scene: SceneDescription): void {
+    private writeBody({ slice, position, vertices, edges, faces }: Body, scene: SceneDescription): void {
         const begin = slice.faces.begin;
         const firstCorner = this.cornerBegin[faces[0]]!;
         for (let i = 0; i < slice.vertices.length; ++i) {
@@ -73,20 +72,20 @@ export class Elements {
         }
         this.buckets.sort(vertices, edges, (e) => Math.min(this.edges[2 * e]!, this.edges[2 * e + 1]!));
         for (let f = faces[0]; f < faces[1]; ++f) {
-            this.findNormal(f);
-            this.findEdges(f);
+            this.computeNormal(f);
+            this.findCornerEdges(f);
         }
     }
 
-    /** The corner after corner c of face f. */
-    private next(f: number, c: number): number {
+    /** The vertex of the corner that follows corner c of face f. */
+    private nextCorner(f: number, c: number): number {
         return this.corners[c + 1 < this.cornerBegin[f + 1]! ? c + 1 : this.cornerBegin[f]!]!;
     }
 
-    private findEdges(f: number): void {
+    private findCornerEdges(f: number): void {
         for (let c = this.cornerBegin[f]!; c < this.cornerBegin[f + 1]!; ++c) {
             const a = this.corners[c]!;
-            const b = this.next(f, c);
+            const b = this.nextCorner(f, c);
             const { begin, items } = this.buckets;
             const lower = Math.min(a, b);
             for (let k = begin[lower]!; k < begin[lower + 1]!; ++k) {
@@ -96,12 +95,12 @@ export class Elements {
         }
     }
 
-    private findNormal(f: number): void {
+    private computeNormal(f: number): void {
         const { points, corners, normals } = this;
         let [x, y, z] = [0, 0, 0];
         for (let c = this.cornerBegin[f]!; c < this.cornerBegin[f + 1]!; ++c) {
             const p = 3 * corners[c]!;
-            const q = 3 * this.next(f, c);
+            const q = 3 * this.nextCorner(f, c);
             x += (points[p + 1]! - points[q + 1]!) * (points[p + 2]! + points[q + 2]!);
             y += (points[p + 2]! - points[q + 2]!) * (points[p]! + points[q]!);
             z += (points[p]! - points[q]!) * (points[p + 1]! + points[q + 1]!);
@@ -122,14 +121,14 @@ function setRange(range: Range, begin: number, end: number): void {
     range[1] = end;
 }
 
-/** A counting sort of one slice's edges by vertex: those of vertex v are items[begin[v]] … items[begin[v + 1] − 1]. */
+/** A counting sort of a slice's edges by vertex: vertex v has the edges items[begin[v]] … items[begin[v + 1] − 1]. */
 export class Buckets {
     begin = new Uint32Array(0);
     items = new Uint32Array(0);
 
     sort(vertices: Range, edges: Range, vertexOf: (edge: number) => number): void {
-        this.begin = roomFor(this.begin, vertices[1] + 1);
-        this.items = roomFor(this.items, edges[1] - edges[0]);
+        this.begin = ensureCapacity(this.begin, vertices[1] + 1);
+        this.items = ensureCapacity(this.items, edges[1] - edges[0]);
         const { begin, items } = this;
         begin.fill(0, vertices[0], vertices[1] + 1);
         for (let e = edges[0]; e < edges[1]; ++e) ++begin[vertexOf(e)]!;
@@ -139,8 +138,8 @@ export class Buckets {
     }
 }
 
-/** The array if it has at least `length` elements, otherwise a larger one with the same contents. */
-export function roomFor<T extends Float32Array | Uint32Array | Uint8Array>(array: T, length: number): T {
+/** Returns the array if it has at least `length` elements, otherwise a larger array with the same contents. */
+export function ensureCapacity<T extends Float32Array | Uint32Array | Uint8Array>(array: T, length: number): T {
     if (array.length >= length) return array;
     const larger = new (array.constructor as new (length: number) => T)(2 ** Math.ceil(Math.log2(length)));
     larger.set(array);

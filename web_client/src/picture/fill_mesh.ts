@@ -1,13 +1,14 @@
-// The triangles that are drawn instead of the faces of slices that need not be convex, with a depth buffer: first all
-// fully visible ones, then the faded ones, with the slices ordered from far to near.
+// Draws slices that may be nonconvex: triangles that fill their faces, with a depth buffer. The opaque triangles come
+// first, then the faded ones; within each group, slices are ordered from far to near.
 
 import { BufferGeometry } from "three";
 
 import type { Fill, Slices, Vector } from "@oval4d/protocol";
 
-import { GrowingBuffer } from "./growing";
+import { GrowingBuffer } from "./growing_buffer";
 import type { Lens } from "./lens";
 import { kFace } from "./shaders";
+import { ShapeBuffers } from "./shape_buffers";
 
 /** Values of a fill's `seen`. */
 const kFaded = 1;
@@ -23,14 +24,11 @@ interface Part {
 export class FillMesh {
     readonly geometry = new BufferGeometry();
     private parts: Part[] = [];
-    private readonly at = new GrowingBuffer(Float32Array, 3);
-    private readonly to = new GrowingBuffer(Float32Array, 3);
-    private readonly shape = new GrowingBuffer(Int8Array, 4);
-    private readonly color = new GrowingBuffer(Uint8Array, 4, true);
+    private readonly shapes = new ShapeBuffers();
     private readonly index = new GrowingBuffer(Uint32Array, 1);
 
-    /** Takes over the slices of a new picture; returns false if none of them has a fill. */
-    fill(picture: Slices): boolean {
+    /** Writes the triangles of a new picture; returns false if no slice has a fill. */
+    update(picture: Slices): boolean {
         const { slices, scene } = picture;
         let points = 0;
         let corners = 0;
@@ -42,13 +40,13 @@ export class FillMesh {
             corners += fill.triangles.length;
         }
         this.reserve(points, corners);
-        for (const part of this.parts) this.place(part, picture);
-        for (const buffer of [this.at, this.to, this.shape, this.color]) buffer.written();
+        for (const part of this.parts) this.writePart(part, picture);
+        this.shapes.markChanged();
         return slices.some((slice) => slice.fill);
     }
 
-    /** Orders the slices for this camera. */
-    arrange({ eye }: Lens): void {
+    /** Orders the triangles for this camera. */
+    sortForCamera({ eye }: Lens): void {
         const distance = ({ position: [x, y, z] }: Part): number => Math.hypot(x - eye.x, y - eye.y, z - eye.z);
         this.parts.sort((a, b) => distance(b) - distance(a));
         let used = 0;
@@ -61,29 +59,23 @@ export class FillMesh {
             }
         }
         this.index.used = used;
-        this.index.written();
+        this.index.markChanged();
         this.geometry.setDrawRange(0, used);
     }
 
     private reserve(points: number, corners: number): void {
-        const { at, to, shape, color, index } = this;
-        let grown = index.reserve(corners);
-        for (const buffer of [at, to, shape, color]) grown = buffer.reserve(points) || grown;
-        if (!grown && this.geometry.index) return;
-        this.geometry.dispose();
-        for (const [name, { attribute }] of Object.entries({ at, to, shape, color })) {
-            this.geometry.setAttribute(name, attribute);
-        }
-        this.geometry.setIndex(index.attribute);
+        const indexGrown = this.index.reserve(corners);
+        if (!this.shapes.reserve(points) && !indexGrown && this.geometry.index) return;
+        this.shapes.attachTo(this.geometry);
+        this.geometry.setIndex(this.index.attribute);
     }
 
-    private place({ fill, position, first }: Part, { scene }: Slices): void {
+    private writePart({ fill, position, first }: Part, { scene }: Slices): void {
         const { points, triangles, tints, seen } = fill;
         const { colors, opacity, faded } = scene;
-        const { array: normals } = this.to;
-        const { array: rgba } = this.color;
+        const { shapes } = this;
         for (let i = 0; i < points.length; ++i) {
-            this.at.array[3 * first + i] = position[i % 3]! + scene.scale * points[i]!;
+            shapes.at.array[3 * first + i] = position[i % 3]! + scene.scale * points[i]!;
         }
         for (let t = 0; t < tints.length; ++t) {
             const [a, b, c] = [3 * triangles[3 * t]!, 3 * triangles[3 * t + 1]!, 3 * triangles[3 * t + 2]!];
@@ -92,19 +84,11 @@ export class FillMesh {
             const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
             const length = Math.hypot(nx, ny, nz) || 1;
             const tint = colors.cells[tints[t]!] ?? colors.bar;
-            const alpha = 255 * opacity * (seen?.[t] === kFaded ? faded : 1);
-            // A triangle takes its values from its last point, which is never the last point of another tint.
+            // A triangle takes its values from its last point, which is never the last point of a triangle of another tint.
             const item = first + c / 3;
-            normals[3 * item] = nx / length;
-            normals[3 * item + 1] = ny / length;
-            normals[3 * item + 2] = nz / length;
-            this.shape.array[4 * item + 2] = kFace;
-            rgba[4 * item] = tint >> 16;
-            rgba[4 * item + 1] = tint >> 8;
-            rgba[4 * item + 2] = tint;
-            rgba[4 * item + 3] = alpha;
-            this.shape.array[4 * (first + a / 3) + 2] = kFace;
-            this.shape.array[4 * (first + b / 3) + 2] = kFace;
+            shapes.setVector("to", item, nx / length, ny / length, nz / length);
+            shapes.setColor(item, tint, opacity * (seen?.[t] === kFaded ? faded : 1));
+            for (const corner of [a, b, c]) shapes.setShape(first + corner / 3, kFace);
         }
     }
 }

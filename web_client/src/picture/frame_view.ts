@@ -11,8 +11,8 @@ export class FrameView {
         this.context = canvas.getContext("bitmaprenderer", { alpha: false })!;
     }
 
-    /** Decodes a frame off this thread, to be drawn next. Transfers the buffer: the caller can no longer use it. */
-    async take(png: Uint8Array): Promise<void> {
+    /** Decodes the frame that draw() shows next, in a worker. Transfers the buffer: the caller can no longer use it. */
+    async decode(png: Uint8Array): Promise<void> {
         this.decoder ??= new Decoder();
         const bitmap = await this.decoder.decode(png as Uint8Array<ArrayBuffer>);
         this.bitmap?.close();

@@ -1,4 +1,4 @@
-// Geometry mode: renders the slices with WebGL; draws labels, axes and parallel coordinates on a canvas above.
+// Geometry mode: renders the slices with WebGL, and draws labels, axes and parallel coordinates on a 2-D canvas above.
 
 import { type BufferGeometry, Camera, Color, ColorManagement, GLSL3, LinearSRGBColorSpace } from "three";
 import { Mesh as Drawing, RawShaderMaterial, Scene, Vector3, Vector4, WebGLRenderer } from "three";
@@ -9,6 +9,7 @@ import { FillMesh } from "./fill_mesh";
 import { Lens } from "./lens";
 import { Mesh } from "./mesh";
 import { drawOverlay } from "./overlay";
+import { ProjectionMesh } from "./projection_mesh";
 import { fragmentShader, vertexShader } from "./shaders";
 
 ColorManagement.enabled = false; // colors are sRGB values, shown unchanged
@@ -29,12 +30,18 @@ export class GeometryView {
         barRadius: { value: 0 },
         pixels: { value: 1 },
     };
-    private readonly flat = this.material(false);
-    private readonly solid = this.material(true);
+    private readonly projectionUniforms = { ...this.uniforms, ballRadius: { value: 1 }, barRadius: { value: 0 } };
+    private readonly flat = this.material("painted");
+    private readonly solid = this.material("solid");
+    private readonly projectionMesh = new ProjectionMesh();
+    private readonly projectionDrawings = [
+        new Drawing(this.projectionMesh.solid, this.material("solid", this.projectionUniforms)),
+        new Drawing(this.projectionMesh.translucent, this.material("blended", this.projectionUniforms)),
+    ] as const;
     private readonly pen: CanvasRenderingContext2D;
     private picture: Slices | undefined;
     private pictureOrbit: Orbit | undefined;
-    private arranged: Orbit | undefined; // the orbit for which the mesh is ordered
+    private sortedOrbit: Orbit | undefined; // the orbit for which the mesh is ordered
     private readonly background = new Color();
 
     /** Requires WebGL 2. */
@@ -43,53 +50,60 @@ export class GeometryView {
         private readonly overlay: HTMLCanvasElement,
     ) {
         this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: false });
+        this.renderer.autoClear = false;
         this.renderer.outputColorSpace = LinearSRGBColorSpace;
         this.pen = overlay.getContext("2d")!;
         const drawings = [
             new Drawing(this.mesh.geometry, this.flat),
-            new Drawing(this.fillMesh.geometry, this.material(false)),
+            new Drawing(this.fillMesh.geometry, this.material("painted")),
         ] as const;
-        for (const drawing of drawings) {
+        for (const drawing of [...drawings, ...this.projectionDrawings]) {
             drawing.frustumCulled = drawing.matrixAutoUpdate = false;
             this.scene.add(drawing);
         }
         [this.drawing, this.fillDrawing] = drawings;
         this.fillDrawing.renderOrder = 1;
+        this.projectionDrawings[1].renderOrder = 2;
         this.fillDrawing.material.depthTest = this.fillDrawing.material.depthWrite = true;
         this.scene.matrixWorldAutoUpdate = false;
         this.camera.matrixWorldAutoUpdate = false;
     }
 
     /**
-     * The material of the mesh: if `solid`, balls and bars have depth and are antialiased by alpha to coverage;
-     * otherwise everything is drawn in painter's order.
+     * The material of a mesh. `painted`: everything is drawn in painter's order, without a depth test. `solid`: balls and
+     * bars have depth, and are antialiased by alpha to coverage. `blended`: as `solid`, but in painter's order, and
+     * nothing hides what is drawn later.
      */
-    private material(solid: boolean): RawShaderMaterial {
+    private material(kind: "painted" | "solid" | "blended", uniforms = this.uniforms): RawShaderMaterial {
+        const [painted, solid] = [kind === "painted", kind === "solid"];
         return new RawShaderMaterial({
-            ...{ vertexShader, fragmentShader, glslVersion: GLSL3, uniforms: this.uniforms },
-            ...{ transparent: !solid, alphaToCoverage: solid, depthTest: solid, depthWrite: solid },
-            defines: solid ? { SOLID: 1 } : {},
+            ...{ vertexShader, fragmentShader, glslVersion: GLSL3, uniforms },
+            ...{ transparent: !solid, alphaToCoverage: solid, depthTest: !painted, depthWrite: solid },
+            defines: painted ? {} : { SOLID: 1 },
             side: 2, // DoubleSide: patches may be seen from either side
         });
     }
 
-    /** Takes over the newest slices; `orbit` is the orbit for which they were laid out. */
-    take(picture: Slices, orbit: Orbit): void {
+    /** Replaces the slices to draw; `orbit` is the orbit for which the server placed the camera. */
+    update(picture: Slices, orbit: Orbit): void {
         this.picture = picture;
         this.pictureOrbit = orbit;
-        const filled = this.fillMesh.fill(picture);
-        this.mesh.fill(picture, !filled);
+        const filled = this.fillMesh.update(picture);
+        this.mesh.update(picture, !filled);
         this.fillDrawing.visible = filled;
         this.drawing.material = filled ? this.solid : this.flat;
-        this.arranged = undefined;
+        this.sortedOrbit = undefined;
         const { light, ball, bar } = picture.scene;
         this.uniforms.light.value.fromArray(light.direction).normalize();
         this.uniforms.shading.value.set(light.ambient, light.diffuse, light.specular, light.shininess);
         this.uniforms.ballRadius.value = picture.scene.shown.balls ? ball : bar;
         this.uniforms.barRadius.value = bar;
+        const projected = this.projectionMesh.update(picture);
+        for (const drawing of this.projectionDrawings) drawing.visible = projected;
+        this.projectionUniforms.barRadius.value = this.projectionMesh.barRadius;
     }
 
-    /** Draws the slices taken last, as seen in this orbit; `size` is in device pixels. */
+    /** Draws the slices as seen from this orbit; `size` is in device pixels. */
     draw(orbit: Orbit, size: Viewport): void {
         if (!this.picture || !this.pictureOrbit) return;
         const { scene } = this.picture;
@@ -99,22 +113,45 @@ export class GeometryView {
         }
         this.lens.set(scene.camera, size, this.pictureOrbit, orbit);
         const { azimuth, elevation } = orbit;
-        if (azimuth !== this.arranged?.azimuth || elevation !== this.arranged.elevation) {
-            this.mesh.arrange(this.lens);
-            this.fillMesh.arrange(this.lens);
+        if (azimuth !== this.sortedOrbit?.azimuth || elevation !== this.sortedOrbit.elevation) {
+            this.mesh.sortForCamera(this.lens, this.picture.projection?.position);
+            this.fillMesh.sortForCamera(this.lens);
+            if (this.picture.projection) this.projectionMesh.sortForCamera(this.lens);
         }
-        this.arranged = orbit;
+        this.sortedOrbit = orbit;
         this.uniforms.pixels.value = this.lens.pixels;
         this.camera.projectionMatrix.copy(this.lens.projection);
         this.camera.matrixWorldInverse.copy(this.lens.view);
         this.renderer.setClearColor(this.background.setHex(scene.colors.background));
-        this.renderer.render(this.scene, this.camera);
+        this.render();
         drawOverlay(this.pen, this.picture, this.lens, size);
+    }
+
+    /**
+     * Renders the slices and the projection. Painted slices have no depth, so the projection is drawn after the farther
+     * ones and before the nearer ones.
+     */
+    private render(): void {
+        const { renderer, mesh, drawing, projectionDrawings } = this;
+        renderer.clear();
+        if (!this.picture!.projection || drawing.material === this.solid) {
+            renderer.render(this.scene, this.camera);
+            return;
+        }
+        const passes = [["farther", true], ["all", false], ["nearer", true]] as const;
+        for (const [slices, paintsSlices] of passes) {
+            drawing.visible = paintsSlices;
+            for (const projection of projectionDrawings) projection.visible = !paintsSlices;
+            mesh.select(slices);
+            renderer.render(this.scene, this.camera);
+        }
+        drawing.visible = true;
     }
 
     dispose(): void {
         this.mesh.geometry.dispose();
         this.fillMesh.geometry.dispose();
+        this.projectionMesh.dispose();
         this.renderer.dispose();
     }
 }

@@ -1,4 +1,5 @@
-// The view and projection matrices of the scene's camera, with the viewer's orbit since the server placed it applied.
+// The view and projection matrices of the camera: the server's camera, moved by the change of the viewer's orbit since
+// the server placed it.
 
 import { Matrix4, Vector3, Vector4 } from "three";
 
@@ -48,7 +49,7 @@ export class Lens {
         );
     }
 
-    /** Projects a world position to pixels from the viewport's upper left corner; undefined behind the viewer. */
+    /** Projects a world position to pixels from the upper left corner; undefined for a position behind the viewer. */
     project(world: readonly [number, number, number]): Point | undefined {
         const { x, y, w } = this.clip
             .set(...world, 1)

@@ -1,11 +1,11 @@
-// Draws the axes, the labels and the parallel coordinates over the picture. Positions are in canvas pixels, so that
-// lines are sharp.
+// Draws the axes, the labels and the parallel coordinates over the picture. Positions are rounded to canvas pixels, so
+// that lines are sharp.
 
 import type { SceneDescription, Slice, Slices, Viewport } from "@oval4d/protocol";
 
 import { drawCoordinates } from "./coordinates";
 import type { Lens } from "./lens";
-import { css, kMinTextSize, setFont } from "./pen";
+import { cssColor, kMinTextSize, setFont } from "./pen";
 
 export function drawOverlay(pen: CanvasRenderingContext2D, picture: Slices, lens: Lens, viewport: Viewport): void {
     const { scene, slices } = picture;
@@ -26,7 +26,7 @@ interface Label {
     half: number; // half the width of the text
 }
 
-/** Draws the w below each slice. Labels too small to read are enlarged, and omitted where they overlap. */
+/** Draws the labels of the slices. A label that is too small to read is enlarged, or omitted if it overlaps another. */
 function drawLabels(
     pen: CanvasRenderingContext2D,
     slices: Slice[],
@@ -35,7 +35,7 @@ function drawLabels(
     viewport: Viewport,
 ): void {
     const minSize = kMinTextSize * devicePixelRatio;
-    const taken: Label[] = [];
+    const placed: Label[] = [];
     const labeled = slices.filter((slice) => slice.drawn && slice.label !== "");
     labeled.sort((a, b) => Number(b.focus) - Number(a.focus) || Math.abs(a.position[0]) - Math.abs(b.position[0]));
     for (const slice of labeled) {
@@ -46,14 +46,14 @@ function drawLabels(
         const digits = setFont(pen, size);
         const label = { slice, ...at, size, digits, half: pen.measureText(slice.label).width / 2 };
         if (wanted < minSize) {
-            const apart = (one: Label): boolean =>
-                Math.abs(one.x - label.x) > one.half + label.half + digits / 2 ||
-                Math.abs(one.y - label.y) > 1.5 * digits;
-            if (!taken.every(apart)) continue;
+            const apart = (other: Label): boolean =>
+                Math.abs(other.x - label.x) > other.half + label.half + digits / 2 ||
+                Math.abs(other.y - label.y) > 1.5 * digits;
+            if (!placed.every(apart)) continue;
         }
-        taken.push(label);
+        placed.push(label);
     }
-    for (const label of taken.reverse()) drawLabel(pen, scene, label); // the focus slice's label last, on top
+    for (const label of placed.reverse()) drawLabel(pen, scene, label); // the focus slice's label last, on top
 }
 
 function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, label: Label): void {
@@ -62,21 +62,21 @@ function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, 
     setFont(pen, label.size);
     const x = Math.round(label.x);
     const baseline = Math.round(label.y + digits);
-    // A background plate keeps the label legible where it covers another slice.
+    // A background behind the label keeps it legible where it covers another slice.
     const half = Math.round(label.half) + Math.round((focus ? 0.9 : 0.45) * digits);
     const margin = Math.round((focus ? 0.6 : 0.35) * digits);
     const height = digits + 2 * margin;
     pen.beginPath();
     pen.roundRect(x - half, baseline - digits - margin, 2 * half, height, height / 2);
     const fill = (color: number, opacity: number): void => {
-        pen.fillStyle = css(color);
+        pen.fillStyle = cssColor(color);
         pen.globalAlpha = opacity;
         pen.fill();
     };
     fill(colors.background, focus ? 0.8 : 0.6);
     if (focus) fill(colors.focus, 0.16);
     pen.globalAlpha = 1;
-    pen.fillStyle = css(focus ? colors.focus : colors.text);
+    pen.fillStyle = cssColor(focus ? colors.focus : colors.text);
     pen.fillText(slice.label, x, baseline);
 }
 
@@ -91,7 +91,7 @@ function drawAxes(pen: CanvasRenderingContext2D, scene: SceneDescription, lens: 
         pen.fill();
     };
     const axes = ([0, 1, 2] as const).map((i) => {
-        return { direction: lens.axis(i), color: css(scene.colors.axes[i]), name: "xyz"[i]! };
+        return { direction: lens.axis(i), color: cssColor(scene.colors.axes[i]), name: "xyz"[i]! };
     });
     axes.sort((a, b) => a.direction.z - b.direction.z);
     const digits = setFont(pen, scene.text * viewport.height);
@@ -110,6 +110,6 @@ function drawAxes(pen: CanvasRenderingContext2D, scene: SceneDescription, lens: 
         pen.fillText(name, Math.round(x + nameX * length), Math.round(y - nameY * length + 0.4 * digits));
     };
     for (const axis of axes) if (axis.direction.z <= 0) paint(axis);
-    ball(x, y, 0.1, css(scene.colors.text));
+    ball(x, y, 0.1, cssColor(scene.colors.text));
     for (const axis of axes) if (axis.direction.z > 0) paint(axis);
 }

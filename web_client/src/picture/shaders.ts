@@ -1,7 +1,7 @@
-// Shaders that draw balls, bars and faces as flat patches with coordinates (u, v); the normal is
-// X·u + Y·v + Z·√(1 − u² − v²). A ball fills the unit disk and Z points to the eye; on a bar, v is 0 and u runs across;
-// on a face, u = v = 0. The light is given by its dot products with the axes X, Y and Z. Edges fade over one pixel, and
-// anything thinner than a pixel is drawn fainter instead.
+// Shaders that draw balls, bars and faces as flat patches with coordinates (u, v) and axes X, Y, Z. The normal is
+// X·u + Y·v + Z·√(1 − u² − v²). A ball is the unit disk, and Z points to the eye; on a bar, v is 0 and u runs across
+// the bar; on a face, u = v = 0. Directions of light are passed as dot products with X, Y and Z. Edges are
+// antialiased over one pixel. An element that is thinner than kThinnest is drawn with that width and reduced opacity.
 
 /** Values of the attribute `shape`'s third component. */
 export const kBall = 0;
@@ -15,14 +15,14 @@ uniform vec3 light;
 uniform vec4 shading;  // ambient, diffuse, specular, shininess
 uniform float ballRadius, barRadius, pixels;
 in vec3 at, to;  // a ball's center and relative radius (to.x); a bar's ends; a face's corner and normal
-in vec4 shape;   // across: -1, 1; along: -1, 1; the kind of patch
+in vec4 shape;   // across: -1, 1; along: -1, 1; the kind of patch; a bar's relative radius in percent
 in vec4 color;
 out vec3 place;  // u, v, and half the radius in pixels
 flat out vec3 diffuse, specular, tint;
 flat out float alpha;
 #ifdef SOLID
 out float depth;        // of the patch, along the camera's axis
-flat out float bulge;   // how far the body rises from it toward the viewer
+flat out float bulge;   // how far the body rises from the patch toward the viewer
 #endif
 
 const float kThinnest = 0.6;  // radius in pixels
@@ -52,22 +52,23 @@ void ball(vec3 center, float radius, vec3 h) {
 }
 
 void bar(vec3 from, vec3 end, vec3 h) {
-    if (from.z > -barRadius || end.z > -barRadius) return;
+    float radius = barRadius * shape.w / 100.0;
+    if (from.z > -radius || end.z > -radius) return;
     // The eye and the bar's axis lie in a plane with normal n; the silhouette runs parallel to the axis.
     vec3 axis = end - from, n = cross(from, end);
-    float n2 = dot(n, n), axis2 = dot(axis, axis), inside2 = n2 - barRadius * barRadius * axis2;
+    float n2 = dot(n, n), axis2 = dot(axis, axis), inside2 = n2 - radius * radius * axis2;
     if (inside2 <= 0.0) return;
-    float wide = widen(barRadius * pixels / (-0.5 * (from.z + end.z)), false), reach = sqrt(1.0 + 0.5 / place.z);
+    float wide = widen(radius * pixels / (-0.5 * (from.z + end.z)), false), reach = sqrt(1.0 + 0.5 / place.z);
     vec3 x = n / sqrt(n2), z = cross(x, axis) / sqrt(axis2);
     if (dot(z, from) > 0.0) z = -z;
     place.xy = vec2(shape.x * reach, 0.0);
     diffuse = shading.y * vec3(dot(x, light), 0.0, dot(z, light));
     specular = vec3(dot(x, h), 0.0, dot(z, h));
-    vec3 side = x * (place.x * barRadius * wide * sqrt(n2 / inside2));
+    vec3 side = x * (place.x * radius * wide * sqrt(n2 / inside2));
     gl_Position = projectionMatrix * vec4((shape.y < 0.0 ? from : end) + side, 1.0);
 #ifdef SOLID
     depth = (shape.y < 0.0 ? from : end).z;
-    bulge = barRadius * z.z;
+    bulge = radius * z.z;
 #endif
 }
 
@@ -91,6 +92,9 @@ void main() {
         place.z = 0.5;
         diffuse.z = shading.y * abs(dot(mat3(viewMatrix) * to, light));
         gl_Position = projectionMatrix * vec4(seen, 1.0);
+#ifdef SOLID
+        depth = seen.z;
+#endif
     }
     alpha *= color.a;
 }

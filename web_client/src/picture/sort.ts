@@ -1,4 +1,4 @@
-// A stable merge sort that allocates no memory, unlike the built-in sort.
+// A stable merge sort; unlike the built-in sort, it allocates no memory.
 
 const kRun = 8; // items per run that is sorted by insertion
 

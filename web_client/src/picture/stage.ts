@@ -1,5 +1,5 @@
-// The area of the picture: draws either kind of stream, only when needed, and reports when a picture has been
-// presented.
+// The area of the picture. Draws the newest slices or frame, only when something has changed, and reports when a
+// picture has been presented.
 
 import { pngText, type Orbit, type Slices, type State, type Viewport } from "@oval4d/protocol";
 
@@ -12,8 +12,8 @@ export type Mode = "geometry" | "frames";
 export interface StageEvents {
     presented(revision: number, by: Mode): void;
     resized(size: Viewport): void;
-    /** The WebGL context was lost. */
-    lost(): void;
+    /** The WebGL context was lost, or restored after a loss. */
+    graphicsChanged(isAvailable: boolean): void;
 }
 
 /** The server's limits on the size of pictures. */
@@ -29,13 +29,14 @@ const kMaxPixels = 4_000_000; // more pixels take time without a visible benefit
 export class Stage {
     orbit: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
     size: Viewport = { width: 1280, height: 720 }; // device pixels
-    private current: Mode = "frames";
-    private geometry: GeometryView | undefined;
+    private currentMode: Mode = "frames";
+    private readonly geometry: GeometryView | undefined;
+    private isContextLost = false;
     private readonly frames: FrameView;
     private readonly canvases: Record<"solids" | "overlay" | "frame", HTMLCanvasElement>;
-    private unpresented: number | undefined;
+    private unpresentedRevision: number | undefined; // of the picture that the next drawing presents
     private drawn: { revision: number; by: Mode } = { revision: 0, by: "frames" };
-    private readonly painted = new MessageChannel(); // delivers a message after the browser has painted
+    private readonly painted = new MessageChannel(); // its message is a task after the rendering of the animation frame
     private scheduled = false;
     private limits: SizeLimits = {};
 
@@ -49,49 +50,52 @@ export class Stage {
         if (document.createElement("canvas").getContext("webgl2")) {
             this.geometry = new GeometryView(this.canvases.solids, this.canvases.overlay);
         }
-        this.canvases.solids.addEventListener("webglcontextlost", () => {
-            this.geometry = undefined;
-            this.events.lost();
-        });
-        this.painted.port1.onmessage = () => this.presented();
-        this.measure();
-        new ResizeObserver(() => this.measure()).observe(root);
+        // After a loss, three.js lets the browser restore the context, and then fills the new one.
+        for (const change of ["lost", "restored"]) {
+            this.canvases.solids.addEventListener(`webglcontext${change}`, () => {
+                this.isContextLost = change === "lost";
+                this.events.graphicsChanged(!this.isContextLost);
+            });
+        }
+        this.painted.port1.onmessage = () => this.reportPresented();
+        this.updateSize();
+        new ResizeObserver(() => this.updateSize()).observe(root);
     }
 
     get canDrawGeometry(): boolean {
-        return this.geometry !== undefined;
+        return this.geometry !== undefined && !this.isContextLost;
     }
 
     get mode(): Mode {
-        return this.current;
+        return this.currentMode;
     }
 
     set mode(mode: Mode) {
-        this.current = mode;
+        this.currentMode = mode;
         this.root.dataset["mode"] = mode;
-        this.unpresented = undefined;
+        this.unpresentedRevision = undefined;
     }
 
     showSlices(slices: Slices, orbit: Orbit): void {
-        if (this.current !== "geometry" || !this.geometry) return;
-        this.geometry.take(slices, orbit);
-        this.unpresented = slices.revision;
+        if (this.currentMode !== "geometry" || !this.geometry) return;
+        this.geometry.update(slices, orbit);
+        this.unpresentedRevision = slices.revision;
         this.redraw();
     }
 
     async showFrame(png: Uint8Array): Promise<void> {
-        if (this.current !== "frames") return;
+        if (this.currentMode !== "frames") return;
         const state = JSON.parse(pngText(png) ?? "{}") as Partial<State>;
-        await this.frames.take(png);
-        if (this.current !== "frames") return;
-        this.unpresented = state.revision;
+        await this.frames.decode(png);
+        if (this.currentMode !== "frames") return;
+        this.unpresentedRevision = state.revision;
         this.redraw();
     }
 
-    /** Sets the limits on the size. */
-    limit(limits: SizeLimits): void {
+    /** Sets the server's limits on the size of pictures. */
+    setSizeLimits(limits: SizeLimits): void {
         this.limits = limits;
-        this.measure();
+        this.updateSize();
     }
 
     /** Schedules a drawing for the next animation frame. */
@@ -103,22 +107,22 @@ export class Stage {
 
     private draw(): void {
         this.scheduled = false;
-        if (this.current === "geometry") this.geometry?.draw(this.orbit, this.size);
+        if (this.currentMode === "geometry") this.geometry?.draw(this.orbit, this.size);
         else this.frames.draw();
-        if (this.unpresented === undefined) return;
-        this.drawn = { revision: this.unpresented, by: this.current };
-        this.unpresented = undefined;
+        if (this.unpresentedRevision === undefined) return;
+        this.drawn = { revision: this.unpresentedRevision, by: this.currentMode };
+        this.unpresentedRevision = undefined;
         this.painted.port2.postMessage(null);
     }
 
-    private presented(): void {
+    private reportPresented(): void {
         const { revision, by } = this.drawn;
         this.root.dataset["revision"] = String(revision);
         this.root.dataset["drawnBy"] = by;
         this.events.presented(revision, by);
     }
 
-    private measure(): void {
+    private updateSize(): void {
         const { clientWidth, clientHeight } = this.root;
         if (clientWidth === 0 || clientHeight === 0) return;
         const { min_side: minSide = 1, max_width: maxWidth = Infinity, max_height: maxHeight = Infinity } = this.limits;

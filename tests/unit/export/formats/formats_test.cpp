@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "contract/embedded.hpp"
 #include "polytopes/import/import.hpp"
+#include "protocol_data/embedded_files.hpp"
 #include "unit/export/support.hpp"
 
 namespace {
@@ -18,7 +18,7 @@ using namespace oval4d::polytopes;
 using namespace oval4d::slicing;
 
 TEST(Formats, areThoseOfTheTable) {
-    const auto rows = nlohmann::json::parse(contract::embedded("export_formats.json")).at("formats");
+    const auto rows = nlohmann::json::parse(protocol_data::embeddedFile("export_formats.json")).at("formats");
     ASSERT_EQ(formats().size(), rows.size());
     std::set<std::string_view> names;
     for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -66,13 +66,13 @@ TEST(Label, isCutIntoAFaceAndTheBodyStaysClosed) {
     for (const char* name : {"5-cell", "8-cell", "16-cell", "24-cell"}) {
         const Polytope& p = named(name);
         const Grid grid(80, 80);
-        const Caption caption(name, "w = \u22120.25");
+        const LabelText label(name, "w = \u22120.25");
         for (int trial = 0; trial < 12; ++trial) {
             Mesh mesh =
                 solidOf(cutAt(p, randomRotation(random), 0.1 * trial), 0, 40 / p.circumradius, grid, unhurried());
             if (mesh.triangles.empty()) continue;
             const Mesh plain = mesh;
-            if (!caption.engrave(mesh, 80, grid)) {
+            if (!label.engrave(mesh, 80, grid)) {
                 EXPECT_EQ(mesh.triangles, plain.triangles);
                 continue;
             }
@@ -93,13 +93,13 @@ TEST(Label, isRefusedWhereThereIsNoRoom) {
     const Polytope& p = named("600-cell");
     const Grid grid(20, 20);
     Mesh mesh = solidOf(cutAt(p, {}, 0.1), 0, 10 / p.circumradius, grid, unhurried());
-    EXPECT_FALSE(Caption("600-cell", "w = 0.1").engrave(mesh, 20, grid));
+    EXPECT_FALSE(LabelText("600-cell", "w = 0.1").engrave(mesh, 20, grid));
 }
 
 TEST(Label, aPlateIsABodyOfItsOwn) {
     for (const double size : {10.0, 60.0, 500.0}) {
         const Grid grid(size, size);
-        const Mesh plate = Caption("omnitruncated 120-cell", "w = 1.25").plate(size, grid);
+        const Mesh plate = LabelText("omnitruncated 120-cell", "w = 1.25").plate(size, grid);
         expectPrintable(plate);
         const glm::dvec3 extent = boxOf(plate).size();
         EXPECT_NEAR(extent.z, 2, 0.01);

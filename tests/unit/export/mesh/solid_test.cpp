@@ -244,7 +244,7 @@ TEST(Skeleton, isClosedHoweverTurned) {
             const Rotation orientation = randomRotation(random);
             const SliceSet s = cutAt(p, orientation, level(random) * p.circumradius);
             if (s.vertexCount(0) == 0) continue;
-            const SkeletonRadii thick = thicknessFor(composed(p, orientation, s), scaleOf(p));
+            const SkeletonRadii thick = skeletonRadii(composed(p, orientation, s), scaleOf(p));
             expectPrintable(skeletonOf(s, 0, scaleOf(p), thick, thick.bar, grid, unhurried()));
         }
     }

@@ -34,9 +34,9 @@ std::string nameOf(std::string_view text) {
 
 TEST(Symbols, roundTrip) {
     for (const char* symbol : {"x5o3o3x", "x5/2o5o3o", "x3o3o *b3o", "x5o x7o", "o4x3x x", "x x x x", "x5/2o x7/3o"})
-        EXPECT_EQ(symbolOf(diagram(symbol)), symbol);
-    EXPECT_EQ(symbolOf(diagram("  x4o3o   x")), "x4o3o x");
-    EXPECT_EQ(symbolOf(diagram("x4o3o2x")), "x4o3o x");
+        EXPECT_EQ(linearNotationOf(diagram(symbol)), symbol);
+    EXPECT_EQ(linearNotationOf(diagram("  x4o3o   x")), "x4o3o x");
+    EXPECT_EQ(linearNotationOf(diagram("x4o3o2x")), "x4o3o x");
     EXPECT_EQ(diagram("x3o3o*b3o"), diagram("x3o3o *b3o"));
 }
 
@@ -51,7 +51,7 @@ TEST(Symbols, agreeWithSchlaefliSymbols) {
                                             {"tr{4,3}x{}", "x4x3x x"}}) {
         const auto read = parseSchlaefli(schlaefli);
         ASSERT_TRUE(std::holds_alternative<Diagram>(read)) << schlaefli << std::get<NameError>(read).message;
-        EXPECT_EQ(symbolOf(std::get<Diagram>(read)), symbol);
+        EXPECT_EQ(linearNotationOf(std::get<Diagram>(read)), symbol);
     }
     EXPECT_EQ(schlaefliOf(diagram("x5x3o3x")), "t0,1,3{5,3,3}");
     EXPECT_EQ(schlaefliOf(diagram("x4x3o x")), "t0,1{4,3}×{}");

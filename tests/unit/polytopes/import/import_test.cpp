@@ -169,7 +169,7 @@ TEST(Points, AreReadFromTables) {
     for (const char* between : {",", ", ", ";", "\t"}) {
         const std::string text = "# a comment\nx,y,z,w\n" + asPoints(points, 17, between);
         EXPECT_EQ(sound(importPoints(text)).polytope.cellCount(), 16U);
-        EXPECT_EQ(formatOf(text), FileFormat::points);
+        EXPECT_EQ(detectFileFormat(text), FileFormat::points);
     }
 }
 
@@ -384,7 +384,7 @@ TEST(Import, SurvivesGarbage) {
                     break;
             }
         }
-        const auto result = importPolytope(formatOf(text), text, "p", {1000, 1000});
+        const auto result = importPolytope(detectFileFormat(text), text, "p", {1000, 1000});
         if (const auto* error = std::get_if<ImportError>(&result)) {
             EXPECT_FALSE(error->reason.empty());
         }

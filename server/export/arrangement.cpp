@@ -1,0 +1,75 @@
+#include "export/arrangement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "scene/scene.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+double gapFor(double size) { return std::max(size / 12, 2.0); }
+
+Box boxOf(const SliceBodies& group) {
+    Box box;
+    for (const NamedMesh& solid : group.solids) {
+        const Box own = exports::boxOf(solid.mesh);
+        box.include(own.min + solid.at);
+        box.include(own.max + solid.at);
+    }
+    return box;
+}
+
+void move(SliceBodies& group, const glm::dvec3& by, const Grid& grid) {
+    for (NamedMesh& solid : group.solids) solid.at += grid.snap(by);
+}
+
+}  // namespace
+
+void arrangeOnPlate(std::vector<SliceBodies>& groups, double size, const Grid& grid) {
+    const auto perRow = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(groups.size()))));
+    const double gap = gapFor(size);
+    double y = 0;
+    for (std::size_t row = 0; row < groups.size(); row += perRow) {
+        double x = 0;
+        double depth = 0;
+        for (std::size_t i = row; i < std::min(row + perRow, groups.size()); ++i) {
+            const Box box = boxOf(groups[i]);
+            move(groups[i], glm::dvec3(x, y, 0) - box.min, grid);
+            x += box.size().x + gap;
+            depth = std::max(depth, box.size().y);
+        }
+        y += depth + gap;
+    }
+}
+
+void arrangeInOval(std::vector<SliceBodies>& groups, const scene::Scene& scene, double size, const Grid& grid) {
+    const double perWorld = size / 2 / (scene.scale * scene.circumradius);  // millimeters
+    std::vector<glm::dvec3> places;
+    std::vector<double> radii;
+    for (const SliceBodies& group : groups) {
+        places.push_back(scene.placements[group.slice].position * perWorld);
+        const Box box = boxOf(group);
+        radii.push_back(std::max(glm::length(box.min), glm::length(box.max)));
+    }
+    double grow = 1;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            grow = std::max(grow, (radii[i] + radii[j]) / glm::distance(places[i], places[j]));
+        }
+    }
+    for (std::size_t i = 0; i < groups.size(); ++i) move(groups[i], places[i] * grow, grid);
+}
+
+double coordinateBound(int slices, double size) {
+    const double onPlate = std::ceil(std::sqrt(slices)) * (size + gapFor(size)) * 1.5;
+    // Neighboring slices are at least about a diameter apart, so an oval of many slices grows with their number. An
+    // oval of few slices is as large as in the picture.
+    const double inOval = 60.0 * size * std::max(1.0, slices / 21.0);
+    return std::max(onPlate, inOval);
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,105 @@
+#include "image/png_filter.hpp"
+
+#include <cstdlib>
+#include <cstring>
+
+// All rows except the first have the same filter. Choosing the best filter for each row, as libpng does, would take
+// longer than deflate and would not make the files of these pictures smaller.
+
+namespace oval4d::image {
+
+namespace {
+
+constexpr std::uint8_t kSub = 1, kPaeth = 4;
+
+int paeth(int left, int above, int upperLeft) {
+    const int toLeft = std::abs(above - upperLeft), toAbove = std::abs(left - upperLeft);
+    const int toUpperLeft = std::abs(left + above - 2 * upperLeft);
+    if (toLeft <= toAbove && toLeft <= toUpperLeft) return left;
+    return toAbove <= toUpperLeft ? above : upperLeft;
+}
+
+/// Subtracts the Paeth prediction from `count` RGBA pixels, which begin at `row`, and writes the differences as RGB to
+/// `out`. `above` is the pixel above the first one. Also reads the pixels to the left of `row` and of `above`.
+void subtractPaethScalar(const std::uint8_t* row, const std::uint8_t* above, std::uint8_t* out, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint8_t* here = row + 4 * i + c;
+            const std::uint8_t* up = above + 4 * i + c;
+            out[3 * i + c] = static_cast<std::uint8_t>(*here - paeth(here[-4], *up, up[-4]));
+        }
+    }
+}
+
+#if defined(__x86_64__)
+
+using Block = std::uint8_t __attribute__((vector_size(32)));
+
+// Like subtractPaethScalar, but processes eight pixels at a time, in 8-bit arithmetic. x is the pixel, and a, b and c
+// are its left, upper and upper-left neighbors. If a and b are both greater or both less than c, then c is the farthest
+// of the three from a + b − c. In this case, its exact distance, which may not fit into a byte, does not matter. Each
+// store writes eight bytes too many, which the next store overwrites; the scalar loop processes the last pixels of a
+// row, so that nothing is written past its end.
+__attribute__((target("avx2"))) void subtractPaethAvx2(const std::uint8_t* row, const std::uint8_t* above,
+                                                       std::uint8_t* out, std::size_t count) {
+    std::size_t i = 0;
+    for (; i + 11 <= count; i += 8) {
+        Block x, a, b, c;
+        std::memcpy(&x, row + 4 * i, sizeof x);
+        std::memcpy(&a, row + 4 * i - 4, sizeof a);
+        std::memcpy(&b, above + 4 * i, sizeof b);
+        std::memcpy(&c, above + 4 * i - 4, sizeof c);
+        const Block mostA = a > c ? a : c, leastA = a < c ? a : c;
+        const Block mostB = b > c ? b : c, leastB = b < c ? b : c;
+        const Block toA = mostB - leastB, toB = mostA - leastA;
+        const Block nearer = toA < toB ? toA : toB, farther = toA > toB ? toA : toB;
+        const Block sameSide = (mostA == a) == (mostB == b);
+        const Block toC = (farther - nearer) | sameSide;
+        const Block best = nearer < toC ? nearer : toC;
+        const Block d = x - (best == toA ? a : best == toB ? b : c);
+        const Block rgb = __builtin_shufflevector(d, d, 0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, 16, 17, 18, 20, 21, 22,
+                                                  24, 25, 26, 28, 29, 30, 3, 7, 11, 15, 19, 23, 27, 31);
+        std::memcpy(out + 3 * i, &rgb, sizeof rgb);
+    }
+    subtractPaethScalar(row + 4 * i, above + 4 * i, out + 3 * i, count - i);
+}
+
+void subtractPaeth(const std::uint8_t* row, const std::uint8_t* above, std::uint8_t* out, std::size_t count) {
+    static const bool blocks = __builtin_cpu_supports("avx2") != 0;
+    blocks ? subtractPaethAvx2(row, above, out, count) : subtractPaethScalar(row, above, out, count);
+}
+
+#else
+
+void subtractPaeth(const std::uint8_t* row, const std::uint8_t* above, std::uint8_t* out, std::size_t count) {
+    subtractPaethScalar(row, above, out, count);
+}
+
+#endif
+
+}  // namespace
+
+void filterRows(const image::ImageView& image, int from, int to, std::vector<std::uint8_t>& out) {
+    const auto width = static_cast<std::size_t>(image.width);
+    out.resize((3 * width + 1) * static_cast<std::size_t>(to - from));
+    std::uint8_t* at = out.data();
+    for (int y = from; y < to; ++y, at += 3 * width + 1) {
+        const std::uint8_t* row = image.pixels.data() + static_cast<std::size_t>(image.height - 1 - y) * width * 4;
+        const std::uint8_t* above = row + width * 4;
+        at[0] = y == 0 ? kSub : kPaeth;
+        for (std::size_t c = 0; c < 3; ++c) {  // no left neighbor: the prediction is the upper neighbor
+            at[1 + c] = static_cast<std::uint8_t>(row[c] - (y == 0 ? 0 : above[c]));
+        }
+        if (y == 0) {
+            for (std::size_t i = 1; i < width; ++i) {
+                for (std::size_t c = 0; c < 3; ++c) {
+                    at[1 + 3 * i + c] = static_cast<std::uint8_t>(row[4 * i + c] - row[4 * i + c - 4]);
+                }
+            }
+        } else {
+            subtractPaeth(row + 4, above + 4, at + 4, width - 1);
+        }
+    }
+}
+
+}  // namespace oval4d::image

@@ -1,0 +1,73 @@
+#pragma once
+// Access control for HTTP requests: Host, Origin and token.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace oval4d::net {
+
+/// The parts of a request that the access rules check: the values of header fields, and the token in the query. A part
+/// that is absent is empty. The views refer to the memory of the request.
+struct AccessFields {
+    std::string_view host{}, origin{}, authorization{}, cookie{};
+    std::string_view fetchSite{};  ///< Sec-Fetch-Site: the browser's verdict, such as "same-origin" or "cross-site"
+    std::string_view token{};      ///< the query parameter "token"
+};
+
+/// The host and port of a URL: "localhost:8080", "[::1]".
+struct Authority {
+    std::string_view host;  ///< an IPv6 address keeps its brackets
+    std::string_view port;  ///< digits, 0 to 65535; empty if none is given
+};
+
+/// Parses the host and port of a URL (RFC 3986, section 3.2). Returns nothing if the text is malformed or contains user
+/// information, a space or a port that is not a number.
+std::optional<Authority> parseAuthority(std::string_view text);
+
+/// Decides whether requests are allowed. All requests except health probes are checked. The Origin check keeps out
+/// pages of other sites, the Host check prevents DNS rebinding, and the token keeps out everybody on the network who
+/// does not have it.
+class AccessControl {
+  public:
+    /// `loopback`: whether the server listens only on loopback addresses. `hosts`: the allowed host names; if empty,
+    /// only the loopback names if `loopback` is true, else all names. `origins`: the allowed foreign origins; the
+    /// server's own origin is always allowed. In both lists, "*" allows all. `token`: the required token; empty if none
+    /// is required.
+    AccessControl(std::vector<std::string> hosts, std::vector<std::string> origins, std::string token, bool loopback);
+
+    enum class Verdict { allowed, bad_host, bad_origin, bad_token };
+    /// Checks the host, then the origin, then the token, and returns the first failure.
+    Verdict check(const AccessFields& fields) const;
+
+    /// Returns whether a browser sent the request for a page of another site (W3C Fetch Metadata) whose origin is not
+    /// in the list of allowed foreign origins. Such requests must not cause expensive work.
+    bool isCrossSite(const AccessFields& fields) const;
+
+    /// Returns whether this origin is in the list of allowed foreign origins.
+    bool isListedOrigin(std::string_view origin) const;
+
+    /// Returns whether any foreign origin is allowed.
+    bool allowsForeignOrigins() const { return !origins_.empty(); }
+
+    /// Returns whether requests need a token.
+    bool requiresToken() const { return !token_.empty(); }
+
+    /// Returns whether the request contains a token, correct or not.
+    static bool hasToken(const AccessFields& fields);
+
+    /// Returns the value of a Set-Cookie field that stores the token in a cookie, so that later requests of the page
+    /// need no token in the query. Returns an empty text unless the query contains the correct token.
+    std::string cookieFor(const AccessFields& fields) const;
+
+  private:
+    bool isAllowedHost(std::string_view host) const;
+    bool isAllowedOrigin(std::string_view origin, std::string_view host) const;
+    bool hasCorrectToken(const AccessFields& fields) const;
+
+    std::vector<std::string> hosts_, origins_;
+    std::string token_;
+};
+
+}  // namespace oval4d::net

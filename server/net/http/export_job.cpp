@@ -1,0 +1,51 @@
+#include "net/http/export_job.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "net/http/spool.hpp"
+
+namespace oval4d::net {
+
+namespace {
+
+/// Counts a file as being made as long as this object exists; then records how long it took, if it succeeded.
+class ScopedFileMetrics {
+  public:
+    explicit ScopedFileMetrics(Metrics& metrics) : metrics_(metrics) { metrics_.filesUnderWay.Increment(); }
+    ~ScopedFileMetrics() {
+        metrics_.filesUnderWay.Decrement();
+        if (succeeded_) metrics_.fileTime.Observe(Seconds(std::chrono::steady_clock::now() - start_).count());
+    }
+    void markSucceeded() { succeeded_ = true; }
+    ScopedFileMetrics(const ScopedFileMetrics&) = delete;
+    ScopedFileMetrics& operator=(const ScopedFileMetrics&) = delete;
+
+  private:
+    Metrics& metrics_;
+    bool succeeded_ = false;
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+std::function<FileResult(std::size_t worker)> fileJob(Services services, const session::State& state,
+                                                      const exports::ExportRequest& request, const ClientPtr& client) {
+    return [services, state, request, client](std::size_t /*worker*/) -> FileResult {
+        ScopedFileMetrics fileMetrics(services.metrics);
+        auto held = client->byteAccount().forceReserve(0);
+        exports::Limits limits = services.options.file;
+        limits.reserve = [&held](std::size_t bytes) { return bytes <= held.size() || held.grow(bytes); };
+        auto made = pipeline::exportState(state, request, limits, services.fileWorkers.stopToken());
+        if (!made) {
+            const bool overBudget = made.error().code == ErrorCode::too_many;
+            return Result<SharedBytes>(overBudget ? kTooManyBytes : made.error());
+        }
+        fileMetrics.markSucceeded();
+        held.resize(made->size());
+        return Result<SharedBytes>(spool(std::move(*made), services.options.spool)
+                                       .keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(held))));
+    };
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,23 @@
+#pragma once
+// The job that makes a file for export on a worker.
+
+#include <functional>
+#include <optional>
+
+#include "net/clients.hpp"
+#include "net/services.hpp"
+#include "net/shared_bytes.hpp"
+#include "pipeline/export_pipeline.hpp"
+
+namespace oval4d::net {
+
+/// The file, or an error; empty only until the job is done.
+using FileResult = std::optional<Result<SharedBytes>>;
+
+/// Returns a job that makes the requested file. The bytes of the file are reserved on the client's byte account until
+/// the last copy of the Bytes is destroyed. Errors: those of pipeline::exportState; `too_many` means that the account
+/// has no room.
+std::function<FileResult(std::size_t worker)> fileJob(Services services, const session::State& state,
+                                                      const exports::ExportRequest& request, const ClientPtr& client);
+
+}  // namespace oval4d::net

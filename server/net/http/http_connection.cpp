@@ -1,0 +1,410 @@
+#include "net/http/http_connection.hpp"
+
+#include <netinet/tcp.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http.hpp>
+#include <optional>
+
+#include "net/coroutine_helpers.hpp"
+#include "net/http/request_validation.hpp"
+#include "net/ws/min_read_rate.hpp"
+#include "net/ws/websocket_connection.hpp"
+
+namespace oval4d::net {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+
+namespace {
+
+constexpr std::uint32_t kMaxHeaderBytes = 16U << 10U;
+constexpr std::size_t kReadBufferBytes = 64U << 10U;
+
+// After a refusal, the server continues to read up to these limits: closing a socket with unread bytes would reset the
+// connection, and the client might not receive the reply.
+constexpr std::size_t kMaxLingerBytes = 256U << 10U;
+constexpr auto kLingerTime = std::chrono::seconds(1);
+
+constexpr unsigned kUpgradeRequired = 426;
+
+constexpr int kNotSentLowat = 256 << 10;  // approximate maximum of unsent bytes that the kernel buffers
+
+/// Serves the HTTP requests of one connection, one after another.
+class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
+  public:
+    HttpConnection(asio::ip::tcp::socket socket, ServerContext context, ClientPtr client,
+                   ConnectionRegistry::Admission admission)
+        : stream_(std::move(socket)),
+          context_(std::move(context)),
+          client_(std::move(client)),
+          registration_(context_.connections, client_),
+          admission_(admission) {}
+
+    asio::awaitable<void> run();
+
+  private:
+    asio::awaitable<std::optional<HttpRequest>> read();
+    asio::awaitable<bool> serve(HttpRequest request);
+    asio::awaitable<Reply> answer(const HttpRequest& request);
+    asio::awaitable<bool> write(const HttpRequest& request, Reply reply);
+    asio::awaitable<void> refuse(const HttpRequest& request, Reply reply);
+    asio::awaitable<void> linger();
+    void identifyClient(const HttpRequest& request);
+    std::string resourcePolicy(const RequestTarget& target) const;
+    std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget& target,
+                                     std::string& cookie) const;
+    std::optional<Reply> checkHandshake(const HttpRequest& request, std::string& session) const;
+    asio::awaitable<void> upgrade(HttpRequest request, std::string session);
+    void end(ConnectionRegistry::EndReason reason);
+
+    const Options& options() const { return context_.services.options; }
+
+    beast::tcp_stream stream_;
+    const ServerContext context_;
+    ClientPtr client_;
+    ConnectionRegistry::Registration registration_;
+    ConnectionRegistry::Admission admission_;
+    std::string resourcePolicy_;  // the Cross-Origin-Resource-Policy of the reply
+    beast::flat_buffer buffer_{kReadBufferBytes};
+    bool first_ = true, reading_ = false, stopping_ = false;
+};
+
+std::string_view field(const HttpRequest& request, http::field name) {
+    const auto found = request.find(name);
+    if (found == request.end()) return {};
+    return {found->value().data(), found->value().size()};
+}
+
+std::optional<RequestTarget> targetOf(const HttpRequest& request) {
+    return parseRequestTarget({request.target().data(), request.target().size()});
+}
+
+AccessFields accessFieldsOf(const HttpRequest& request, const RequestTarget& target) {
+    const session::Query& query = target.query;
+    const auto token = std::ranges::find(query, "token", &session::Query::value_type::first);
+    const auto site = request.find("Sec-Fetch-Site");
+    // A target in absolute form overrides the Host field (RFC 9112, section 3.2.2).
+    return {target.authority.empty() ? field(request, http::field::host) : std::string_view(target.authority),
+            field(request, http::field::origin),
+            field(request, http::field::authorization),
+            field(request, http::field::cookie),
+            site == request.end() ? std::string_view() : std::string_view(site->value().data(), site->value().size()),
+            token == query.end() ? std::string_view() : std::string_view(token->second)};
+}
+
+Reply plainReply(unsigned status, std::string text) {
+    return {status, "text/plain; charset=utf-8", SharedBytes(std::move(text)), {}};
+}
+
+Reply plainReply(const HttpError& refusal) {
+    Reply reply = plainReply(refusal.status, refusal.reason + "\n");
+    if (refusal.status == kUpgradeRequired) reply.headers = {{"Upgrade", "websocket"}, {"Sec-WebSocket-Version", "13"}};
+    return reply;
+}
+
+Reply tooMany(std::string text) {
+    Reply reply = plainReply(429, std::move(text));
+    reply.headers.emplace_back("Retry-After", "10");
+    return reply;
+}
+
+/// Returns the session id in a WebSocket path: "" for "/ws", "abc" for "/ws/abc", nothing for other paths.
+std::optional<std::string> sessionIn(const std::string& path) {
+    if (path == "/ws" || path == "/ws/") return "";
+    if (path.starts_with("/ws/")) return path.substr(4);
+    return {};
+}
+
+/// Returns whether the offered subprotocols include that of the server, or none is offered. Names are case-sensitive
+/// (RFC 6455, section 11.5).
+bool offersSubprotocol(const std::string& offered) {
+    const http::token_list names(offered);
+    return offered.empty() || std::ranges::any_of(names, [](beast::string_view name) { return name == kSubprotocol; });
+}
+
+/// Returns whether pages of other sites must not request this target: the API and WebSockets, which cause work or
+/// reveal data.
+bool isRestricted(const RequestTarget& target) {
+    return target.path.starts_with("/api/") || target.path.starts_with("/ws");
+}
+
+/// Returns the reply to a request that could not be parsed; nothing if the client has disconnected.
+std::optional<Reply> parseErrorReply(boost::system::error_code fault) {
+    if (fault == http::error::header_limit || fault == http::error::buffer_overflow)
+        return plainReply(431, "the header is too long; at most 16 KiB are allowed\n");
+    if (fault == http::error::end_of_stream || fault == http::error::partial_message) return {};
+    const bool malformed = fault.category() == http::make_error_code(http::error::bad_method).category();
+    return malformed ? std::optional(plainReply(400, "malformed HTTP/1.1 request: " + fault.message() + "\n"))
+                     : std::nullopt;
+}
+
+asio::awaitable<void> HttpConnection::run() {
+    registration_.onEndRequest([weak = weak_from_this()](ConnectionRegistry::EndReason reason) {
+        if (const auto self = weak.lock())
+            asio::post(self->stream_.get_executor(), [self, reason] { self->end(reason); });
+    });
+    for (bool open = true; open && !stopping_;) {
+        auto request = co_await read();
+        if (!request) break;
+        registration_.setInUse(true);
+        open = co_await serve(std::move(*request));
+        registration_.setInUse(false);
+        first_ = false;
+    }
+    if (!stream_.socket().is_open()) co_return;  // a WebSocket has taken it over, or it was closed
+    boost::system::error_code ignored;
+    (void)stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+}
+
+/// Serves one request. Returns whether another request may follow on this connection.
+asio::awaitable<bool> HttpConnection::serve(HttpRequest request) {
+    if (auto fault = validateHeader(request)) {
+        co_await refuse(request, plainReply(*fault));
+        co_return false;
+    }
+    identifyClient(request);
+    const auto wait = client_->countMessage(request.target().size(), Client::Clock::now());
+    if (wait.count() > 0) {
+        asio::steady_timer pause(stream_.get_executor(), toSteadyDuration(wait));
+        co_await pause.async_wait(kAsTuple);
+    }
+    if (!isWebSocketUpgrade(request) || admission_ != ConnectionRegistry::Admission::admitted) {
+        Reply reply = co_await answer(request);
+        co_return co_await write(request, std::move(reply));
+    }
+    std::string session;
+    if (auto refusal = checkHandshake(request, session)) {
+        co_await refuse(request, std::move(*refusal));
+    } else {
+        co_await upgrade(std::move(request), std::move(session));
+    }
+    co_return false;
+}
+
+asio::awaitable<std::optional<HttpRequest>> HttpConnection::read() {
+    http::request_parser<http::empty_body> parser;
+    parser.header_limit(kMaxHeaderBytes);
+    parser.body_limit(boost::none);  // no limit is needed: bodies are never read
+    // The timeout applies to the whole header.
+    stream_.expires_after(toSteadyDuration(first_ ? options().helloTimeout : options().idleTimeout));
+    reading_ = true;
+    const auto [fault, size] = co_await http::async_read_header(stream_, buffer_, parser, kAsTuple);
+    reading_ = false;
+    if (!fault) co_return parser.release();
+    if (auto reply = parseErrorReply(fault)) co_await refuse(HttpRequest(), std::move(*reply));
+    co_return std::nullopt;
+}
+
+/// Assigns the connection to the client that a trusted proxy names in X-Forwarded-For.
+void HttpConnection::identifyClient(const HttpRequest& request) {
+    boost::system::error_code fault;
+    const auto peer = stream_.socket().remote_endpoint(fault);
+    if (fault || !context_.services.clients.isTrustedProxy(peer.address())) return;
+    const auto origin =
+        context_.services.clients.clientAddress(combinedFieldValue(request, "X-Forwarded-For"), peer.address());
+    const ClientPtr client = context_.services.clients.at(origin);
+    if (client == client_) return;
+    registration_.setClient(client);
+    client_ = client;
+    admission_ = context_.connections.admit(*client_, 1);
+}
+
+/// Checks the access rules. If the request is refused, returns the reply; otherwise returns nothing, and sets `cookie`
+/// if the reply is to set a cookie.
+std::optional<Reply> HttpConnection::checkAccess(const HttpRequest& request, const RequestTarget& target,
+                                                 std::string& cookie) const {
+    const AccessFields fields = accessFieldsOf(request, target);
+    const auto now = Client::Clock::now();
+    switch (context_.access.check(fields)) {
+        case AccessControl::Verdict::bad_host:
+            return plainReply(403, "this server does not accept this host name (--allow-host)\n");
+        case AccessControl::Verdict::bad_origin:
+            return plainReply(403, "pages of this origin may not use this server (--allow-origin)\n");
+        case AccessControl::Verdict::bad_token: {
+            if (!client_->mayTryToken(now)) return tooMany("too many wrong tokens; try again in a minute\n");
+            if (AccessControl::hasToken(fields)) client_->countWrongToken(now);
+            Reply refusal = errorReply({ErrorCode::bad_token,
+                                        "this server requires a token: open the address that it "
+                                        "printed at startup, or send Authorization: Bearer …"});
+            refusal.headers.emplace_back("WWW-Authenticate", "Bearer");
+            return refusal;
+        }
+        case AccessControl::Verdict::allowed:
+            break;
+    }
+    // Refuse correct tokens, too, so that a client that guesses tokens learns nothing.
+    if (context_.access.requiresToken() && !client_->mayTryToken(now))
+        return tooMany("too many wrong tokens; try again in a minute\n");
+    if (isRestricted(target) && context_.access.isCrossSite(fields))
+        return plainReply(403, "pages of other sites may not request this (--allow-origin)\n");
+    cookie = context_.access.cookieFor(fields);
+    return {};
+}
+
+/// Checks a WebSocket handshake. If it is refused, returns the reply; otherwise returns nothing, and sets `session` to
+/// the session id in the path.
+std::optional<Reply> HttpConnection::checkHandshake(const HttpRequest& request, std::string& session) const {
+    const auto target = targetOf(request);
+    const auto wanted = target ? sessionIn(target->path) : std::nullopt;
+    if (!wanted) return errorReply({ErrorCode::not_found, "WebSockets are served at /ws and /ws/{session}"});
+    std::string cookie;
+    if (auto refusal = checkAccess(request, *target, cookie)) return refusal;
+    if (auto fault = validateHandshake(request)) return plainReply(*fault);
+    if (!offersSubprotocol(combinedFieldValue(request, "Sec-WebSocket-Protocol")))
+        return plainReply(400, "the only supported WebSocket subprotocol is " + std::string(kSubprotocol) + "\n");
+    if (buffer_.size() > 0) return plainReply(400, "a client must send nothing before the reply to its handshake\n");
+    session = *wanted;
+    return {};
+}
+
+asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
+    if (admission_ == ConnectionRegistry::Admission::server_full)
+        co_return plainReply(503, "the server has too many connections; try again later\n");
+    if (admission_ == ConnectionRegistry::Admission::client_full)
+        co_return tooMany("this address has too many connections; close some or try again later\n");
+    auto target = targetOf(request);
+    if (!target) co_return plainReply(400, "the request target is malformed\n");
+    std::string cookie;
+    // Health probes may use any host name and need no token, because they reveal only whether the server works.
+    const bool probe = target->path == "/healthz" || target->path == "/readyz";
+    if (!probe) {
+        if (auto refusal = checkAccess(request, *target, cookie)) co_return std::move(*refusal);
+    }
+    resourcePolicy_ = resourcePolicy(*target);
+    const bool reads = request.method() == http::verb::get || request.method() == http::verb::head;
+    if (reads && sessionIn(target->path))
+        co_return plainReply({kUpgradeRequired, "this path serves WebSockets: request an upgrade"});
+    Routes::ParsedRequest parsed{std::string(request.method_string()),
+                                 std::move(*target),
+                                 combinedFieldValue(request, "If-None-Match"),
+                                 combinedFieldValue(request, "Accept-Encoding"),
+                                 std::string(field(request, http::field::range)),
+                                 std::string(field(request, http::field::if_range)),
+                                 client_};
+    Reply reply = co_await context_.routes.answer(std::move(parsed));
+    if (!cookie.empty()) reply.headers.emplace_back("Set-Cookie", std::move(cookie));
+    co_return reply;
+}
+
+/// Returns the Cross-Origin-Resource-Policy of a reply. If any foreign origin is allowed, pages of all origins may
+/// embed replies of the API, because browsers do not tell which page embeds a picture.
+std::string HttpConnection::resourcePolicy(const RequestTarget& target) const {
+    return isRestricted(target) && context_.access.allowsForeignOrigins() ? "cross-origin" : "same-origin";
+}
+
+/// Replies to a request and closes the connection, because it is uncertain where a further request would begin.
+asio::awaitable<void> HttpConnection::refuse(const HttpRequest& request, Reply reply) {
+    resourcePolicy_ = "same-origin";
+    HttpRequest last(request);
+    last.keep_alive(false);
+    if (co_await write(last, std::move(reply))) co_return;
+    co_await linger();
+}
+
+/// Reads and discards input for a short time and then closes the socket, so that the client receives the reply.
+asio::awaitable<void> HttpConnection::linger() {
+    boost::system::error_code ignored;
+    (void)stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+    stream_.expires_after(kLingerTime);
+    buffer_.clear();
+    for (std::size_t lingering = 0; lingering < kMaxLingerBytes;) {
+        const auto [fault, size] = co_await stream_.async_read_some(buffer_.prepare(kReadBufferBytes), kAsTuple);
+        if (fault) break;
+        lingering += size;
+    }
+    stream_.close();
+}
+
+/// Writes a reply. Returns whether the connection stays open.
+asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, Reply reply) {
+    http::response<http::span_body<const char>> response{static_cast<http::status>(reply.status), 11};
+    const std::string_view body = request.method() == http::verb::head ? std::string_view() : reply.body.view();
+    response.set(http::field::server, "oval4d");
+    if (!reply.type.empty()) response.set(http::field::content_type, reply.type);
+    response.set("X-Content-Type-Options", "nosniff");
+    response.set("Referrer-Policy", "no-referrer");
+    response.set("Cross-Origin-Resource-Policy", resourcePolicy_.empty() ? "same-origin" : resourcePolicy_);
+    response.set("Cross-Origin-Opener-Policy", "same-origin");
+    for (const auto& [name, value] : reply.headers) response.set(name, value);
+    response.body() = {body.data(), body.size()};
+    if (reply.status != 304) response.content_length(reply.body.size());
+    const bool rejected = admission_ != ConnectionRegistry::Admission::admitted;
+    response.keep_alive(request.keep_alive() && !rejected && !stopping_);
+    if (reply.status == kUpgradeRequired) response.set(http::field::connection, "close, upgrade");
+    context_.services.metrics.countRequest(reply.status);
+    // Log the target without its query, which may contain the token.
+    const std::string_view target(request.target().data(), request.target().size());
+    spdlog::debug("request method={} path=\"{}\" status={}", std::string_view(request.method_string()),
+                  target.substr(0, target.find('?')), reply.status);
+    http::response_serializer<http::span_body<const char>> serializer(response);
+    MinReadRate rate(options());
+    while (!serializer.is_done()) {
+        stream_.expires_after(rate.timeout());
+        const auto [fault, size] = co_await http::async_write_some(stream_, serializer, kAsTuple);
+        if (fault) {
+            if (fault == beast::error::timeout) context_.services.metrics.slowReaders.Increment();
+            co_return false;
+        }
+        rate.count(size);
+    }
+    co_return response.keep_alive();
+}
+
+asio::awaitable<void> HttpConnection::upgrade(HttpRequest request, std::string session) {
+    auto connection =
+        std::make_shared<WebSocketConnection>(std::move(stream_), context_.services, context_.sessions, client_,
+                                              std::move(session), [this] { registration_.setInUse(true); });
+    registration_.setInUse(false);
+    registration_.onEndRequest([weak = std::weak_ptr(connection)](ConnectionRegistry::EndReason reason) {
+        const auto self = weak.lock();
+        if (!self) return;
+        if (reason == ConnectionRegistry::EndReason::stopping) {
+            self->stop();
+        } else {
+            self->drop();
+        }
+    });
+    // Beast checks only the first of several fields with the same name; their combined value has already been checked.
+    request.set(http::field::connection, "upgrade");
+    request.set(http::field::upgrade, "websocket");
+    co_await connection->run(std::move(request));
+}
+
+void HttpConnection::end(ConnectionRegistry::EndReason reason) {
+    stopping_ = true;
+    if (reading_ || reason == ConnectionRegistry::EndReason::evicted) stream_.close();
+}
+
+}  // namespace
+
+asio::awaitable<void> serveHttp(asio::ip::tcp::socket socket, ServerContext context) {
+    boost::system::error_code fault;
+    (void)socket.set_option(asio::ip::tcp::no_delay(true), fault);
+    // Limit the bytes that the kernel buffers, so that the server can see how fast a client reads.
+    using NotSentLimit = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
+    (void)socket.set_option(NotSentLimit(kNotSentLowat), fault);
+    const auto peer = socket.remote_endpoint(fault);
+    if (fault) co_return;  // the client has disconnected
+    context.services.metrics.connections.Increment();
+    auto& connections = context.services.metrics.connections;
+    try {
+        ClientPtr client = context.services.clients.at(peer.address());
+        // Many clients share the connections of a trusted proxy; each request names its client in X-Forwarded-For.
+        const bool isProxy = context.services.clients.isTrustedProxy(peer.address());
+        const auto admission = context.connections.admit(*client, 0, isProxy);
+        co_await std::make_shared<HttpConnection>(std::move(socket), std::move(context), std::move(client), admission)
+            ->run();
+    } catch (const std::exception& failure) {
+        spdlog::error("connection failed fault=\"{}\"", failure.what());
+    }
+    connections.Decrement();
+}
+
+}  // namespace oval4d::net

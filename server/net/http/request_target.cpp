@@ -1,0 +1,77 @@
+#include "net/http/request_target.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "net/http/access_control.hpp"
+
+namespace oval4d::net {
+
+namespace {
+
+/// Decodes percent escapes; returns nothing if a "%" is not followed by two hexadecimal digits.
+std::optional<std::string> percentDecoded(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '%') {
+            out += text[i];
+            continue;
+        }
+        const std::string_view digits = text.substr(i + 1, 2);
+        unsigned char byte = 0;
+        const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), byte, 16);
+        if (fault != std::errc{} || end != digits.data() + 2) return {};
+        out += static_cast<char>(byte);
+        i += 2;
+    }
+    return out;
+}
+
+/// Returns the length of "http://" or "https://", in upper or lower case, at the beginning of the text; 0 if there is
+/// neither.
+std::size_t schemeLength(std::string_view text) {
+    for (const std::string_view scheme : {"http://", "https://"}) {
+        const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 'a' - 'A') : c; };
+        if (std::ranges::equal(text.substr(0, scheme.size()), scheme, {}, lower)) return scheme.size();
+    }
+    return 0;
+}
+
+/// Removes the text up to and including the first separator, and returns the removed text without the separator.
+/// Without a separator, removes and returns all of the text.
+std::string_view takeUntil(std::string_view& text, char separator) {
+    const std::size_t at = text.find(separator);
+    const std::string_view head = text.substr(0, at);
+    text.remove_prefix(at == std::string_view::npos ? text.size() : at + 1);
+    return head;
+}
+
+}  // namespace
+
+std::optional<RequestTarget> parseRequestTarget(std::string_view text) {
+    RequestTarget target;
+    if (const std::size_t scheme = schemeLength(text); scheme > 0) {
+        text.remove_prefix(scheme);
+        const std::size_t end = std::min(text.find_first_of("/?"), text.size());
+        if (!parseAuthority(text.substr(0, end))) return {};
+        target.authority = text.substr(0, end);
+        text.remove_prefix(end);
+        if (text.empty() || text.front() == '?') target.path = "/";
+    }
+    if (target.path.empty() && !text.starts_with('/')) return {};
+    auto path = percentDecoded(takeUntil(text, '?'));
+    if (!path) return {};
+    target.path += *path;
+    while (!text.empty()) {
+        std::string_view pair = takeUntil(text, '&');
+        if (pair.empty()) continue;
+        auto name = percentDecoded(takeUntil(pair, '='));
+        auto value = percentDecoded(pair);
+        if (!name || !value) return {};
+        target.query.emplace_back(std::move(*name), std::move(*value));
+    }
+    return target;
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,24 @@
+#pragma once
+// Parses the target of an HTTP request into path and query.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "session/query.hpp"
+
+namespace oval4d::net {
+
+/// A request target (RFC 9112, section 3.2).
+struct RequestTarget {
+    std::string path;       ///< percent-decoded
+    std::string authority;  ///< host and port in absolute form, such as "localhost:8080"; empty in origin form
+    session::Query query;   ///< names and values, percent-decoded
+};
+
+/// Parses "/path?name=value&…" (origin form) or "http://host:port/path?…" (absolute form; RFC 9112, section 3.2).
+/// Decodes percent escapes, but does not decode "+" as a space, because queries contain arithmetic. Returns nothing if
+/// an escape is malformed, the authority is invalid, or the path does not begin with a slash.
+std::optional<RequestTarget> parseRequestTarget(std::string_view text);
+
+}  // namespace oval4d::net

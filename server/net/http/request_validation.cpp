@@ -1,0 +1,104 @@
+#include "net/http/request_validation.hpp"
+
+#include <algorithm>
+#include <boost/beast/core/string.hpp>
+#include <boost/beast/http/rfc7230.hpp>
+
+#include "net/http/access_control.hpp"
+
+namespace oval4d::net {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+using http::field;
+
+namespace {
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+/// Returns whether the key is 16 bytes in base64: 22 digits, the last of which encodes only two bits, and two padding
+/// characters.
+bool isWebSocketKey(std::string_view key) {
+    constexpr std::size_t kLength = 24, kDigits = 22;
+    constexpr std::string_view kLast = "AQgw";
+    const auto isBase64 = [](char c) {
+        return isDigit(c) || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '+' || c == '/';
+    };
+    return key.size() == kLength && std::all_of(key.begin(), key.begin() + kDigits, isBase64) &&
+           kLast.find(key[kDigits - 1]) != std::string_view::npos && key.ends_with("==");
+}
+
+bool isControl(char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F; }
+
+std::string_view text(beast::string_view view) { return {view.data(), view.size()}; }
+
+}  // namespace
+
+std::optional<HttpError> validateHeader(const HttpRequest& request) {
+    constexpr unsigned kBad = 400, kExpectationFailed = 417;
+    for (const field once : {field::host, field::origin, field::content_length, field::transfer_encoding,
+                             field::sec_websocket_key, field::sec_websocket_version, field::authorization}) {
+        if (request.count(once) > 1)
+            return HttpError{
+                kBad, "the header field " + std::string(http::to_string(once)) + " is repeated; it may occur once"};
+    }
+    for (const auto& each : request) {
+        if (std::ranges::any_of(text(each.value()), isControl))
+            return HttpError{kBad, "a header field value contains a control character; only tabs are allowed"};
+    }
+    if (request.version() >= 11 && request.count(field::host) == 0)
+        return HttpError{kBad, "an HTTP/1.1 request must have a Host header field"};
+    if (const auto host = request.find(field::host);
+        host != request.end() && !host->value().empty() && !parseAuthority(text(host->value()))) {
+        return HttpError{kBad, "the Host header field must be a host name with an optional port"};
+    }
+    if (const auto coding = request.find(field::transfer_encoding); coding != request.end()) {
+        if (request.version() < 11) return HttpError{kBad, "Transfer-Encoding is not allowed in HTTP/1.0"};
+        if (!beast::iequals(coding->value(), "chunked"))
+            return HttpError{kBad, "the only supported Transfer-Encoding is chunked"};
+        return HttpError{413, "request bodies are not accepted"};
+    }
+    if (const auto length = request.find(field::content_length); length != request.end()) {
+        const std::string_view digits = text(length->value());
+        if (digits.empty() || !std::ranges::all_of(digits, isDigit))
+            return HttpError{kBad, "Content-Length must be a decimal number"};
+        if (digits.find_first_not_of('0') != std::string_view::npos)
+            return HttpError{413, "request bodies are not accepted"};
+    }
+    if (const auto expected = request.find(field::expect);
+        expected != request.end() && !beast::iequals(expected->value(), "100-continue")) {
+        return HttpError{kExpectationFailed, "the only supported Expect value is 100-continue"};
+    }
+    return {};
+}
+
+bool isWebSocketUpgrade(const HttpRequest& request) {
+    const auto lists = [&request](std::string_view name, beast::string_view token) {
+        return http::token_list(combinedFieldValue(request, name)).exists(token);
+    };
+    return request.version() >= 11 && request.method() == http::verb::get && lists("Connection", "upgrade") &&
+           lists("Upgrade", "websocket");
+}
+
+std::optional<HttpError> validateHandshake(const HttpRequest& request) {
+    constexpr unsigned kBad = 400, kUpgradeRequired = 426;
+    if (const auto version = request.find(field::sec_websocket_version);
+        version == request.end() || version->value() != "13") {
+        return HttpError{kUpgradeRequired, "the only supported WebSocket version is 13"};
+    }
+    if (!isWebSocketKey(text(request[field::sec_websocket_key])))
+        return HttpError{kBad, "Sec-WebSocket-Key must be 16 bytes in base64"};
+    return {};
+}
+
+std::string combinedFieldValue(const HttpRequest& request, std::string_view name) {
+    std::string list;
+    for (const auto& each : request) {
+        if (!beast::iequals(each.name_string(), {name.data(), name.size()})) continue;
+        if (!list.empty()) list += ", ";
+        list += text(each.value());
+    }
+    return list;
+}
+
+}  // namespace oval4d::net

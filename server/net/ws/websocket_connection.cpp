@@ -1,0 +1,407 @@
+#include "net/ws/websocket_connection.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/post.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+
+#include "net/coroutine_helpers.hpp"
+#include "net/run_on_pool.hpp"
+#include "store/secret.hpp"
+#include "wire/messages.hpp"
+#include "wire/parse.hpp"
+
+namespace oval4d::net {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+
+namespace {
+
+constexpr std::size_t kMaxIdleBuffer = 64U << 10U;   // bytes; a larger read buffer is shrunk after each message
+constexpr std::size_t kWriteFragment = 256U << 10U;  // maximum number of bytes per write
+constexpr std::size_t kReadChunk = 64U << 10U;       // maximum number of bytes per read
+
+// The number of bytes that may be queued for a connection even if the client's byte account is full.
+constexpr std::size_t kMinQueue = 64U << 10U;
+
+constexpr double kParseSecondsPerByte = 1e-8;  // a rough estimate
+
+using Parsed = std::variant<wire::Request, wire::BadRequest>;
+
+Error tooLong(const Options& options) {
+    return {ErrorCode::too_large, "a message may have at most " + std::to_string(options.maxRequestBytes) +
+                                      " bytes; only a load message may be longer, up to " +
+                                      std::to_string(options.maxMessage)};
+}
+
+/// Returns a job that parses a long message. The result is an error unless the message is a `load`, because no other
+/// message may be long. `text` must outlive the job.
+std::function<Parsed(std::size_t worker)> parseJob(std::string_view text, const Options& options) {
+    return [text, &options](std::size_t /*worker*/) -> Parsed {
+        const auto seen = wire::peekRequest(text);
+        if (!seen.type || *seen.type != "load") return wire::BadRequest{seen.id, tooLong(options)};
+        return wire::parseRequest(text, options.maxDepth);
+    };
+}
+
+}  // namespace
+
+WebSocketConnection::WebSocketConnection(beast::tcp_stream stream, Services services,
+                                         std::shared_ptr<SessionManager> sessions, ClientPtr client,
+                                         std::string session, std::function<void()> joined)
+    : stream_(std::move(stream)),
+      services_(services),
+      sessions_(std::move(sessions)),
+      client_(std::move(client)),
+      requestedId_(std::move(session)),
+      joined_(std::move(joined)),
+      rate_(services.options.maxRequests, RateLimit::Clock::now()),
+      deadline_(stream_.get_executor()),
+      drained_(stream_.get_executor()),
+      helloDeadline_(stream_.get_executor()) {}
+
+asio::awaitable<void> WebSocketConnection::run(HttpRequest upgrade) {
+    configureStream(upgrade.count(beast::http::field::sec_websocket_protocol) > 0);
+    const auto [fault] = co_await stream_.async_accept(upgrade, kAsTuple);
+    if (fault) co_return;
+    services_.metrics.webSockets.Increment();
+    startHelloTimer();
+    co_await readLoop();
+    services_.metrics.webSockets.Decrement();
+    ended_ = true;
+    outbox_.clear();
+    deadline_.cancel();
+    helloDeadline_.cancel();
+    if (session_) sessions_->leave(std::exchange(session_, nullptr), shared_from_this());
+    services_.pictureWorkers.workers().cleanUpWhenIdle();
+}
+
+void WebSocketConnection::configureStream(bool offersSubprotocol) {
+    // The WebSocket stream has its own timeouts, so Beast requires that those of the TCP stream are off.
+    beast::get_lowest_layer(stream_).expires_never();
+    const auto ping = toSteadyDuration(services_.options.pingInterval);
+    stream_.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), 2 * ping, true});
+    stream_.set_option(websocket::stream_base::decorator([offersSubprotocol](websocket::response_type& response) {
+        response.set(beast::http::field::server, "oval4d");
+        if (offersSubprotocol) response.set(beast::http::field::sec_websocket_protocol, kSubprotocol);
+    }));
+    stream_.read_message_max(services_.options.maxRequestBytes);  // raised to maxMessage after the hello
+    stream_.auto_fragment(false);
+}
+
+/// Closes the connection if no hello arrives in time.
+void WebSocketConnection::startHelloTimer() {
+    helloDeadline_.expires_after(toSteadyDuration(services_.options.helloTimeout));
+    helloDeadline_.async_wait([weak = weak_from_this()](boost::system::error_code canceled) {
+        const auto self = weak.lock();
+        if (canceled || !self || self->session_ || self->ended_) return;
+        self->sendError({ErrorCode::hello_first, "no hello arrived in time"}, {});
+        self->close(close_code::kPolicy, "no hello");
+    });
+}
+
+asio::awaitable<void> WebSocketConnection::readLoop() {
+    for (;;) {
+        co_await waitUntilDrained();
+        Incoming incoming = co_await read();
+        if (incoming.fault) {
+            if (incoming.fault == websocket::error::message_too_big) services_.metrics.countError(ErrorCode::too_large);
+            spdlog::debug("connection ended reason=\"{}\"", incoming.fault.message());
+            co_return;
+        }
+        services_.metrics.messagesReceived.Increment();
+        co_await pause(client_->countMessage(buffer_.size(), Client::Clock::now()));
+        if (closing_) {
+            // Ignore all messages that arrive before the client's close frame.
+        } else if (!stream_.got_text()) {
+            sendError({ErrorCode::bad_message, "messages to the server must be JSON text, not binary"}, {});
+            close(close_code::kNotText, "text expected");
+        } else if (incoming.refusal) {
+            sendError(*incoming.refusal, incoming.id);
+        } else {
+            co_await handle({static_cast<const char*>(buffer_.cdata().data()), buffer_.size()});
+        }
+        buffer_.consume(buffer_.size());
+        if (buffer_.capacity() > kMaxIdleBuffer) buffer_.shrink_to_fit();
+    }
+}
+
+/// Reads one message into `buffer_`. If the message is refused because of its length, reads it to its end and discards
+/// it.
+asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
+    Incoming incoming;
+    bool checked = false;
+    do {
+        const auto [fault, size] = co_await stream_.async_read_some(buffer_, kReadChunk, kAsTuple);
+        incoming.fault = fault;
+        if (fault) break;
+        if (!checked && buffer_.size() > services_.options.maxRequestBytes) {
+            checked = true;
+            checkLongMessage(incoming);
+        }
+        if (incoming.refusal) {
+            client_->countMessage(buffer_.size(), Client::Clock::now());
+            buffer_.consume(buffer_.size());
+        }
+    } while (!stream_.is_message_done());
+    co_return incoming;
+}
+
+/// Decides from the beginning of a long message whether to keep the message. It is kept if its type is `load` or is not
+/// yet known, and if its memory fits in the client's byte account. Otherwise sets `incoming.refusal`.
+void WebSocketConnection::checkLongMessage(Incoming& incoming) {
+    constexpr std::size_t kCopies = 3;  // the message, its parsed members, and a member while it is reallocated
+    const auto seen =
+        wire::peekRequest({static_cast<const char*>(buffer_.cdata().data()), services_.options.maxRequestBytes});
+    incoming.id = seen.id;
+    if (seen.type && *seen.type != "load") {
+        incoming.refusal = tooLong(services_.options);
+    } else if (auto held = client_->byteAccount().reserve(kCopies * services_.options.maxMessage)) {
+        incoming.held = std::move(*held);
+    } else {
+        incoming.refusal = kTooManyBytes;
+    }
+}
+
+asio::awaitable<void> WebSocketConnection::pause(std::chrono::duration<double> wait) {
+    if (wait.count() <= 0) co_return;
+    asio::steady_timer timer(stream_.get_executor(), toSteadyDuration(wait));
+    co_await timer.async_wait(kAsTuple);
+}
+
+/// Waits until the send queue is short enough to accept further requests.
+asio::awaitable<void> WebSocketConnection::waitUntilDrained() {
+    while (unsent_ > services_.options.maxUnsent && !ended_) {
+        drained_.expires_at(asio::steady_timer::time_point::max());
+        co_await drained_.async_wait(kAsTuple);
+    }
+}
+
+asio::awaitable<void> WebSocketConnection::handle(std::string_view text) {
+    RequestId id;
+    try {
+        if (const auto verdict = rate_.take(RateLimit::Clock::now()); verdict != RateLimit::Verdict::allowed) {
+            sendError({ErrorCode::too_many, "at most " + std::to_string(services_.options.maxRequests) +
+                                                " messages per second are allowed; this one was ignored"},
+                      wire::peekRequest(text.substr(0, services_.options.maxRequestBytes)).id);
+            if (verdict == RateLimit::Verdict::abusive) close(close_code::kPolicy, "too many requests");
+            co_return;
+        }
+        auto parsed = co_await parse(text);
+        const auto* bad = std::get_if<wire::BadRequest>(&parsed);
+        id = bad != nullptr ? bad->id : std::get<wire::Request>(parsed).id;
+        if (bad != nullptr) {
+            sendError(bad->error, id);
+            if (bad->notJson) close(close_code::kNotJson, "not JSON");
+        } else {
+            co_await execute(std::move(std::get<wire::Request>(parsed)));
+        }
+    } catch (const parallel::QueueFull&) {
+        sendError(kTooManyJobs, id);
+    } catch (const std::exception& fault) {
+        spdlog::error("request failed fault=\"{}\"", fault.what());
+        sendError(kInternalError, id);
+    }
+}
+
+/// Parses a message; a long one on a worker.
+asio::awaitable<Parsed> WebSocketConnection::parse(std::string_view text) {
+    if (text.size() <= services_.options.maxRequestBytes)
+        co_return wire::parseRequest(text, services_.options.maxDepth);
+    auto work = parseJob(text, services_.options);
+    co_return co_await runOnPool<Parsed>(services_.pictureWorkers.workers(), std::move(work), client_->lane(),
+                                         Seconds(kParseSecondsPerByte * static_cast<double>(text.size())));
+}
+
+asio::awaitable<void> WebSocketConnection::execute(wire::Request request) {
+    if (auto* hello = std::get_if<wire::Hello>(&request.body)) {
+        co_await handleHello(std::move(*hello), request.id);
+        co_return;
+    }
+    if (!session_) {
+        sendError({ErrorCode::hello_first, "the first message must be a hello"}, request.id);
+        co_return;
+    }
+    if (const auto* get = std::get_if<wire::Get>(&request.body); get != nullptr && get->viewport) {
+        if (const auto fits = pipeline::checkViewport(*get->viewport, services_.options.frame); !fits) {
+            sendError(fits.error(), request.id);
+            co_return;
+        }
+    }
+    co_await session_->execute(shared_from_this(), std::move(request));
+}
+
+asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, RequestId id) {
+    if (const auto fits = pipeline::checkViewport(hello.viewport, services_.options.frame); !fits) {
+        sendError(fits.error(), id);
+        co_return;
+    }
+    const auto joined = co_await joinSession(hello);
+    if (!joined) {
+        sendError(joined.error(), id);
+        if (joined.error().code == ErrorCode::not_found) close(close_code::kNoSession, "no such session");
+        if (joined.error().code == ErrorCode::bad_token) close(close_code::kBadToken, "wrong token");
+        if (joined.error().code == ErrorCode::internal) close(close_code::kTryLater, "try again later");
+        co_return;
+    }
+    if (!session_) {
+        session_ = *joined;
+        helloDeadline_.cancel();
+        stream_.read_message_max(services_.options.maxMessage);
+        if (joined_) joined_();
+    }
+    co_await session_->welcome(shared_from_this(), std::move(hello), id);
+}
+
+/// Joins or creates the session that a hello requests. If the connection has already joined a session, returns that
+/// session.
+asio::awaitable<SessionManager::JoinResult> WebSocketConnection::joinSession(wire::Hello hello) {
+    const std::string token = hello.token.value_or("");
+    if (session_) {
+        if (hello.token && !store::equalInConstantTime(token, session_->credentials().token)) {
+            co_return Error{ErrorCode::bad_token, "this token does not match the session"};
+        }
+        co_return session_;
+    }
+    if (requestedId_.empty() && hello.token) {
+        co_return Error{ErrorCode::bad_token, "a token requires a session in the path: /ws/{session}"};
+    }
+    // Refuse correct tokens, too, so that a client that guesses tokens learns nothing.
+    if (hello.token && !client_->mayTryToken(Client::Clock::now()))
+        co_return Error{ErrorCode::too_many, "this address has sent too many wrong tokens; try again in a minute"};
+    auto open = sessionOpener(token);
+    auto joined = co_await awaitCallback<SessionManager::JoinResult>(std::move(open));
+    if (!joined && joined.error().code == ErrorCode::bad_token) client_->countWrongToken(Client::Clock::now());
+    co_return joined;
+}
+
+/// Returns a function that joins the requested session, or creates one if none is requested, and passes the result to
+/// its argument.
+std::function<void(SessionManager::JoinHandler)> WebSocketConnection::sessionOpener(const std::string& token) {
+    return [sessions = sessions_, client = client_,
+            credentials = store::SessionCredentials{requestedId_, token}](const SessionManager::JoinHandler& done) {
+        if (credentials.id.empty()) {
+            sessions->create(client, done);
+        } else {
+            sessions->join(credentials, client, done);
+        }
+    };
+}
+
+void WebSocketConnection::sendError(const Error& error, RequestId id) {
+    services_.metrics.countError(error.code);
+    send(textMessage(wire::errorMessage(error, id)));
+}
+
+void WebSocketConnection::send(Message message, std::function<void()> written) {
+    asio::post(stream_.get_executor(),
+               [self = shared_from_this(), message = std::move(message), written = std::move(written)]() mutable {
+                   if (self->ended_ || self->closing_) return;
+                   const std::size_t size = message.bytes.size();
+                   auto& account = self->client_->byteAccount();
+                   auto held = account.reserve(size);
+                   if (!held && self->unsent_ + size > kMinQueue) return self->dropSlowReader();
+                   self->unsent_ += size;
+                   self->outbox_.push_back(
+                       {std::move(message), std::move(written), held ? std::move(*held) : account.forceReserve(size)});
+                   if (!self->writing_) self->writeNext();
+               });
+}
+
+/// Closes the connection because the messages that the client has not read exceed the byte limits.
+void WebSocketConnection::dropSlowReader() {
+    services_.metrics.slowReaders.Increment();
+    spdlog::warn("client dropped: too many unread bytes client={}", client_->name());
+    startClosing(close_code::kTryLater, "too many unread bytes");
+}
+
+void WebSocketConnection::close(std::uint16_t code, std::string reason) {
+    asio::post(stream_.get_executor(), [self = shared_from_this(), code, reason = std::move(reason)]() mutable {
+        if (!self->ended_) self->startClosing(code, std::move(reason));
+    });
+}
+
+void WebSocketConnection::stop() {
+    asio::post(stream_.get_executor(), [self = shared_from_this()] {
+        while (self->outbox_.size() > (self->writing_ ? 1U : 0U)) self->outbox_.pop_back();
+        if (!self->ended_) self->startClosing(close_code::kStopping, "the server is stopping");
+    });
+}
+
+void WebSocketConnection::drop() {
+    asio::post(stream_.get_executor(), [self = shared_from_this()] { beast::get_lowest_layer(self->stream_).close(); });
+}
+
+/// Sends a close frame after the queued messages. The pending read receives the client's close frame and ends the read
+/// loop.
+void WebSocketConnection::startClosing(std::uint16_t code, std::string reason) {
+    if (closing_) return;
+    closing_.emplace(static_cast<websocket::close_code>(code), reason);
+    if (!writing_) writeNext();
+}
+
+void WebSocketConnection::writeNext() {
+    writing_ = !outbox_.empty();
+    if (writing_) {
+        stream_.binary(outbox_.front().message.binary);
+        minReadRate_.emplace(services_.options);
+        writeFragment(0);
+    } else if (closing_ && !ended_) {
+        stream_.async_close(*closing_, [self = shared_from_this()](boost::system::error_code) {});
+    }
+}
+
+/// Writes the rest of the first message in the queue, from this offset, in fragments. Each fragment has a deadline of
+/// its own, so that a slow client is not dropped as long as it reads fast enough (see MinReadRate).
+void WebSocketConnection::writeFragment(std::size_t from) {
+    const std::string_view rest = outbox_.front().message.bytes.view().substr(from);
+    const std::string_view fragment = rest.substr(0, kWriteFragment);
+    const bool last = fragment.size() == rest.size();
+    startWriteDeadline();
+    stream_.async_write_some(
+        last, asio::buffer(fragment),
+        [self = shared_from_this(), last, to = from + fragment.size()](boost::system::error_code fault, std::size_t) {
+            if (last || fault || self->ended_) {
+                self->onWritten(fault);
+            } else {
+                ++self->writes_;
+                self->minReadRate_->count(kWriteFragment);
+                self->writeFragment(to);
+            }
+        });
+}
+
+void WebSocketConnection::onWritten(boost::system::error_code fault) {
+    ++writes_;
+    deadline_.cancel();
+    if (ended_ || fault) {
+        outbox_.clear();
+        unsent_ = 0;
+        writing_ = false;
+        drained_.cancel();
+        if (!ended_) beast::get_lowest_layer(stream_).close();
+        return;
+    }
+    const Outgoing done = std::move(outbox_.front());
+    outbox_.pop_front();
+    unsent_ -= done.message.bytes.size();
+    services_.metrics.bytesSent.Increment(static_cast<double>(done.message.bytes.size()));
+    if (unsent_ <= services_.options.maxUnsent) drained_.cancel();
+    if (done.written) done.written();
+    writeNext();
+}
+
+/// Starts the deadline of the current write. If the write is not complete by then, the client is dropped.
+void WebSocketConnection::startWriteDeadline() {
+    deadline_.expires_after(minReadRate_->timeout());
+    deadline_.async_wait([self = shared_from_this(), watched = writes_](boost::system::error_code canceled) {
+        if (canceled || self->writes_ != watched || !self->writing_ || self->ended_) return;
+        self->services_.metrics.slowReaders.Increment();
+        spdlog::warn("client dropped: it reads too slowly");
+        beast::get_lowest_layer(self->stream_).close();
+    });
+}
+
+}  // namespace oval4d::net

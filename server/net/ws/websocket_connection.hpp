@@ -1,0 +1,110 @@
+#pragma once
+// A WebSocket connection.
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <chrono>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "net/http/request_validation.hpp"
+#include "net/live/session_manager.hpp"
+#include "net/services.hpp"
+#include "net/ws/beast_close_code_fix.hpp"
+#include "net/ws/min_read_rate.hpp"
+#include "net/ws/peer.hpp"
+#include "net/ws/rate_limit.hpp"
+#include "wire/parse.hpp"
+#include "wire/request.hpp"
+
+namespace oval4d::net {
+
+/// The WebSocket subprotocol that the server supports.
+inline constexpr std::string_view kSubprotocol = "oval4d.v1";
+
+/// Handles the requests of one client over a WebSocket. It answers each request before it reads the next one, so TCP
+/// back-pressure slows down a client that sends too fast. It writes one message at a time, and drops a client that
+/// reads too slowly. send(), close(), stop() and drop() may be called from any thread; all other functions run on the
+/// stream's strand.
+class WebSocketConnection final : public Peer, public std::enable_shared_from_this<WebSocketConnection> {
+  public:
+    /// `session`: the session id in the request path; empty for a new session. `joined`: called when the client has
+    /// sent its first hello and has joined a session; may be empty.
+    WebSocketConnection(boost::beast::tcp_stream stream, Services services, std::shared_ptr<SessionManager> sessions,
+                        ClientPtr client, std::string session, std::function<void()> joined);
+
+    /// Serves the connection, from the handshake until the connection ends. `upgrade`: the client's handshake request.
+    boost::asio::awaitable<void> run(HttpRequest upgrade);
+
+    void send(Message message, std::function<void()> written = {}) override;
+    const ClientPtr& client() const override { return client_; }
+    void close(std::uint16_t code, std::string reason) override;
+    /// Discards the queued messages, except the one that is being written, and closes the connection with code
+    /// kStopping.
+    void stop();
+    /// Closes the socket without a close frame.
+    void drop();
+
+  private:
+    using RequestId = LiveSession::RequestId;
+    /// A message in the send queue.
+    struct Outgoing {
+        Message message;
+        std::function<void()> written;  ///< called once the message is written; may be empty
+        ByteBudget::Reservation held;   ///< reserves the bytes of the message
+    };
+    /// The result of reading a message.
+    struct Incoming {
+        boost::system::error_code fault;  ///< why reading failed; empty if it succeeded
+        std::optional<Error> refusal;     ///< set if the message was long and was discarded
+        RequestId id;                     ///< the request id of a discarded message, if it was found
+        ByteBudget::Reservation held;     ///< reserves the memory of a long message
+    };
+
+    void configureStream(bool offersSubprotocol);
+    void startHelloTimer();
+    boost::asio::awaitable<void> readLoop();
+    boost::asio::awaitable<void> waitUntilDrained();
+    boost::asio::awaitable<Incoming> read();
+    void checkLongMessage(Incoming& incoming);
+    boost::asio::awaitable<void> pause(std::chrono::duration<double> wait);
+    boost::asio::awaitable<void> handle(std::string_view text);
+    boost::asio::awaitable<std::variant<wire::Request, wire::BadRequest>> parse(std::string_view text);
+    boost::asio::awaitable<void> execute(wire::Request request);
+    boost::asio::awaitable<void> handleHello(wire::Hello hello, RequestId id);
+    boost::asio::awaitable<SessionManager::JoinResult> joinSession(wire::Hello hello);
+    std::function<void(SessionManager::JoinHandler)> sessionOpener(const std::string& token);
+    void sendError(const Error& error, RequestId id);
+
+    void dropSlowReader();
+    void startClosing(std::uint16_t code, std::string reason);
+    void writeNext();
+    void writeFragment(std::size_t from);
+    void onWritten(boost::system::error_code fault);
+    void startWriteDeadline();
+
+    boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
+    const Services services_;
+    const std::shared_ptr<SessionManager> sessions_;
+    const ClientPtr client_;
+    const std::string requestedId_;  // the session id in the request path; empty for a new session
+    std::function<void()> joined_;
+    std::shared_ptr<LiveSession> session_;  // null until the client has joined a session
+    RateLimit rate_;
+    boost::beast::flat_buffer buffer_;
+
+    std::deque<Outgoing> outbox_;
+    std::size_t unsent_ = 0;  // total size of the messages in outbox_, in bytes
+    bool writing_ = false, ended_ = false;
+    std::uint64_t writes_ = 0;  // number of completed writes; tells deadline_ whether its write has completed
+    std::optional<boost::beast::websocket::close_reason> closing_;  // set once the connection is to be closed
+    std::optional<MinReadRate> minReadRate_;                        // for the message that is being written
+    boost::asio::steady_timer deadline_, drained_, helloDeadline_;
+};
+
+}  // namespace oval4d::net

@@ -1,0 +1,95 @@
+#include "pipeline/export_pipeline.hpp"
+
+#include <charconv>
+#include <utility>
+
+#include "scene/composer.hpp"
+#include "slicing/slicer.hpp"
+#include "text/choice.hpp"
+#include "text/message_text.hpp"
+
+namespace oval4d::pipeline {
+
+namespace {
+
+template <typename Choices, typename Value>
+Result<std::monostate> choose(const std::string& name, const std::string& value, const Choices& choices, Value& into) {
+    if (const auto found = text::valueNamed(choices, value)) {
+        into = *found;
+        return std::monostate{};
+    }
+    return Error{ErrorCode::bad_message,
+                 name + " must be " + text::alternatives(text::namesOf(choices)) + ", not " + text::inQuotes(value)};
+}
+
+Result<std::monostate> takeSize(const std::string& text, double& size) {
+    const char* const end = text.data() + text.size();
+    double value = 0;
+    const auto [stopped, fault] = std::from_chars(text.data(), end, value);
+    if (fault != std::errc{} || stopped != end || !(value >= exports::kMinSize && value <= exports::kMaxSize)) {
+        return Error{ErrorCode::out_of_range,
+                     "size must be a number of millimeters from " + text::shortestDecimal(exports::kMinSize) + " to " +
+                         text::shortestDecimal(exports::kMaxSize) + ", not " + text::inQuotes(text)};
+    }
+    size = value;
+    return std::monostate{};
+}
+
+}  // namespace
+
+Result<std::string> exportState(const session::State& state, const exports::ExportRequest& request,
+                                const exports::Limits& limits, std::stop_token stop) {
+    auto planes = state.hyperplanes();
+    if (request.extent == exports::SliceSelection::focus) planes = {state.slices.focus, 1, planes.spacing};
+    slicing::SliceSet slices;
+    slicing::Slicer().slice(state.object, state.orientation, planes, slices);
+    scene::Look look;
+    look.parts.faces = look.parts.coordinates = false;  // formats fill faces and draw coordinates themselves
+    look.coloring = state.look.coloring;
+    scene::Scene scene;
+    scene::Composer composer;
+    composer.compose(state.object, state.orientation, slices, state.slices.focus, look, {}, scene);
+    auto made = exports::exportScene(scene, state.object, request, limits, std::move(stop));
+    if (auto* error = std::get_if<exports::ExportError>(&made)) {
+        using Cause = exports::ExportError::Cause;
+        const ErrorCode code = error->cause == Cause::no_body   ? ErrorCode::no_body
+                               : error->cause == Cause::no_room ? ErrorCode::too_many
+                                                                : ErrorCode::too_large;
+        return Error{code, std::move(error->message)};
+    }
+    return std::get<std::string>(std::move(made));
+}
+
+Result<exports::ExportRequest> takeExportRequest(session::Query& query, const exports::Format& format) {
+    exports::ExportRequest request;
+    request.format = &format;
+    session::Query rest;
+    for (auto& [name, value] : query) {
+        Result<std::monostate> done = std::monostate{};
+        if (name == "of") {
+            done = choose(name, value, exports::kSliceSelections, request.extent);
+        } else if (name == "body") {
+            done = choose(name, value, exports::kBodies, request.body);
+        } else if (name == "label") {
+            done = choose(name, value, exports::kLabels, request.label);
+        } else if (name == "size") {
+            done = takeSize(value, request.size);
+        } else {
+            rest.emplace_back(std::move(name), std::move(value));
+        }
+        if (!done) return done.error();
+    }
+    query = std::move(rest);
+    return request;
+}
+
+std::string fileName(const session::State& state, const exports::ExportRequest& request) {
+    std::string name;
+    for (const char c : slicing::infoOf(state.object).name) {
+        const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-';
+        name += plain ? c : '_';
+    }
+    return name + "." + request.format->name;
+}
+
+}  // namespace oval4d::pipeline

@@ -1,0 +1,12 @@
+#pragma once
+// The data files of protocol/ (keymap.json, errors.json, export_formats.json, schema/*.json), compiled into the
+// program.
+
+#include <string_view>
+
+namespace oval4d::protocol_data {
+
+/// Returns the text of a file by its path relative to protocol/, such as "keymap.json"; empty if there is no such file.
+std::string_view embeddedFile(std::string_view path);
+
+}  // namespace oval4d::protocol_data

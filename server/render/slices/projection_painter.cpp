@@ -1,0 +1,109 @@
+#include "render/slices/projection_painter.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+namespace oval4d::render {
+
+using slicing::Visibility;
+
+void ProjectionPainter::paint(const scene::Scene& scene, Layers& out) {
+    const scene::ObjectProjection& projection = scene.projection;
+    const slicing::SliceSet& elements = projection.elements;
+    const glm::dmat4 toView = scene.camera.view();
+    const glm::dvec3 origin(toView * glm::dvec4(scene.projectionPlacement.position, 1));
+    const glm::dmat3 turn = glm::dmat3(toView) * projection.scale;
+    points_.clear();
+    for (const glm::dvec3& vertex : elements.vertices) points_.emplace_back(turn * vertex + origin);
+    DepthRange depths{std::numeric_limits<float>::max(), 0};
+    for (const glm::vec3& point : points_) depths = {std::min(depths.from, -point.z), std::max(depths.to, -point.z)};
+    float thickest = 0;
+    for (const scene::ProjectionPart& part : projection.parts)
+        thickest = std::max({thickest, static_cast<float>(part.ballRadius), static_cast<float>(part.barRadius)});
+    out.depths = {std::max(depths.from - thickest, static_cast<float>(scene.camera.near)), depths.to + thickest};
+
+    solid_.clear();
+    translucent_.clear();
+    for (std::uint32_t part = 0; part < projection.parts.size(); ++part) collect(scene, part);
+    // Ties are broken by index, so that equal scenes give equal pictures; std::stable_sort would allocate memory.
+    const auto farther = [](const Item& a, const Item& b) {
+        return a.depth != b.depth ? a.depth > b.depth
+                                  : std::tie(a.part, a.kind, a.number) < std::tie(b.part, b.kind, b.number);
+    };
+    for (auto& [items, shapes] : {std::tie(solid_, out.solid), std::tie(translucent_, out.translucent)}) {
+        std::sort(items.begin(), items.end(), farther);
+        shapes.begin(scene::style());
+        shapes.setProjection(Projection::of(scene.camera, scene.viewport));
+        for (const Item& item : items) paintItem(scene, item, shapes);
+    }
+}
+
+void ProjectionPainter::collect(const scene::Scene& scene, std::uint32_t part) {
+    const slicing::SliceSet& elements = scene.projection.elements;
+    const scene::ProjectionPart& look = scene.projection.parts[part];
+    const auto add = [&](const Item& item, Visibility visibility) {
+        if (visibility == Visibility::hidden) return;
+        // The bars of sections are so thin that they do not cover whole pixels, so faces must be visible behind them.
+        const bool solid = item.kind != Kind::face && part == 0 && visibility == Visibility::full;
+        (solid ? solid_ : translucent_).push_back(item);
+    };
+    const std::uint32_t first = elements.vertexBegin[part];
+    if (look.ballRadius > 0) {
+        for (std::uint32_t v = first; v < elements.vertexBegin[part + 1]; ++v)
+            add({-points_[v].z, Kind::ball, part, v}, scene.visibilities.vertex(elements.vertexSource[v]));
+    }
+    if (look.barRadius > 0) {
+        for (std::uint32_t e = elements.edgeBegin[part]; e < elements.edgeBegin[part + 1]; ++e) {
+            const auto& [a, b] = elements.edges[e];
+            // The depth of the far end, so that a bar is drawn after everything that is farther away than this end.
+            add({-std::min(points_[first + a].z, points_[first + b].z), Kind::bar, part, e},
+                scene.visibilities.edge(elements.edgeSource[e]));
+        }
+    }
+    if (look.faceOpacity > 0) {
+        for (std::uint32_t f = elements.faceBegin[part]; f < elements.faceBegin[part + 1]; ++f) {
+            float sum = 0;
+            const std::uint32_t begin = elements.cornerBegin[f], end = elements.cornerBegin[f + 1];
+            for (std::uint32_t c = begin; c < end; ++c) sum -= points_[first + elements.corners[c]].z;
+            add({sum / static_cast<float>(end - begin), Kind::face, part, f},
+                scene.visibilities.face(elements.faceSource[f]));
+        }
+    }
+}
+
+void ProjectionPainter::paintItem(const scene::Scene& scene, const Item& item, ShapeBatch& out) {
+    const slicing::SliceSet& elements = scene.projection.elements;
+    const scene::ProjectionPart& part = scene.projection.parts[item.part];
+    const glm::vec3* points = points_.data() + elements.vertexBegin[item.part];
+    const auto opacity = [](Visibility visibility) { return static_cast<float>(slicing::opacityOf(visibility)); };
+    if (item.kind == Kind::ball) {
+        const float scale = elements.ballScale.empty() ? 1 : elements.ballScale[item.number];
+        const float own = elements.ballOpacity.empty() ? 1 : elements.ballOpacity[item.number];
+        out.addBall(points_[item.number], static_cast<float>(part.ballRadius) * scale, part.ballColor,
+                    own * opacity(scene.visibilities.vertex(elements.vertexSource[item.number])));
+    } else if (item.kind == Kind::bar) {
+        const auto& [a, b] = elements.edges[item.number];
+        const bool forth = points[a].z < points[b].z;
+        out.addBar(points[forth ? a : b], points[forth ? b : a], static_cast<float>(part.barRadius), part.barColor,
+                   opacity(scene.visibilities.edge(elements.edgeSource[item.number])));
+    } else {
+        corners_.clear();
+        for (std::uint32_t c = elements.cornerBegin[item.number]; c < elements.cornerBegin[item.number + 1]; ++c)
+            corners_.push_back(points[elements.corners[c]]);
+        glm::vec3 area(0);
+        for (std::size_t i = 2; i < corners_.size(); ++i)
+            area += glm::cross(corners_[i - 1] - corners_[0], corners_[i] - corners_[0]);
+        const float length = glm::length(area);
+        out.addFace(
+            corners_, length > 0 ? area / length : glm::vec3(0, 0, 1),
+            scene.cellColors[scene.projection.faceCells[item.number]],
+            static_cast<float>(part.faceOpacity) * opacity(scene.visibilities.face(elements.faceSource[item.number])),
+            false);
+    }
+}
+
+}  // namespace oval4d::render

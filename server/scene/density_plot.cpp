@@ -1,0 +1,76 @@
+#include "scene/density_plot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace oval4d::scene {
+
+namespace {
+
+constexpr int kReach =
+    static_cast<int>(DensityPlot::kLine) * (DensityPlot::kRows - 1) / 2;  // steps from 0 to the circumradius
+constexpr int kSteps = 2 * kReach + 1;
+
+// Adding this number to a float rounds the float to an integer, because the last bit of the sum has the value 1. Halves
+// are rounded to the even integer, so opposite values remain opposite.
+constexpr float kRounder = 12582912.0F;  // 1.5 · 2²³
+
+std::uint32_t stepOf(float level) {
+    return std::bit_cast<std::uint32_t>(level + kRounder) - (std::bit_cast<std::uint32_t>(kRounder) - kReach);
+}
+
+}  // namespace
+
+void DensityPlot::measure(std::span<const glm::dvec4> vertices, const glm::dmat4& turn, double circumradius) {
+    const glm::dmat4 toSteps = turn * (kReach / circumradius);
+    for (std::vector<float>& levels : levels_) levels.resize(vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const glm::dvec4 at = toSteps * vertices[i];
+        for (int k = 0; k < 4; ++k) levels_[k][i] = static_cast<float>(std::clamp<double>(at[k], -kReach, kReach));
+    }
+    weights_.assign(static_cast<std::size_t>(kRows) * kColumns, 0);
+    for (int column = 0; column < kColumns; ++column) countColumn(column);
+
+    tones_.resize(weights_.size());
+    const std::uint32_t most = *std::max_element(weights_.begin(), weights_.end());
+    const float unit = most > 0 ? 255.0F / std::sqrt(static_cast<float>(most)) : 0;
+    std::transform(weights_.begin(), weights_.end(), tones_.begin(), [unit](std::uint32_t weight) {
+        return static_cast<std::uint8_t>(std::lround(unit * std::sqrt(static_cast<float>(weight))));
+    });
+}
+
+void DensityPlot::countColumn(int column) {
+    const int gap = std::min(column / kGap, 2);
+    const float t = static_cast<float>(column - gap * kGap) / kGap;
+    const float *from = levels_[gap].data(), *to = levels_[gap + 1].data();
+    const std::size_t count = levels_[gap].size();
+
+    // Consecutive vertices often have the same step. Counting them in different tables keeps each increment independent
+    // of the previous one.
+    constexpr std::size_t kTables = 4, kBatch = 256;
+    std::array<std::array<std::uint32_t, kSteps>, kTables> tables{};
+    std::array<std::uint32_t, kBatch> steps;
+    for (std::size_t begin = 0; begin < count; begin += kBatch) {
+        const std::size_t size = std::min(kBatch, count - begin);
+        for (std::size_t i = 0; i < size; ++i)
+            steps[i] = stepOf(from[begin + i] + t * (to[begin + i] - from[begin + i]));
+        for (std::size_t i = 0; i < size; ++i) ++tables[i % kTables][steps[i]];
+    }
+
+    const auto add = [&](int rowFromBelow, std::uint32_t weight) {
+        weights_[index(kRows - 1 - rowFromBelow, column)] += weight;
+    };
+    for (std::uint32_t step = 0; step < kSteps; ++step) {
+        std::uint32_t lines = 0;
+        for (const auto& table : tables) lines += table[step];
+        if (lines == 0) continue;
+        const std::uint32_t above = step % kLine;
+        const int row = static_cast<int>(step / kLine);
+        add(row, lines * (kLine - above));
+        if (above > 0) add(row + 1, lines * above);
+    }
+}
+
+}  // namespace oval4d::scene

@@ -1,0 +1,52 @@
+#pragma once
+// Parallel coordinates of very many vertices as a density plot, which shows the number of lines through each point
+// instead of the lines (Inselberg, Parallel Coordinates, ch. 2; Artero et al., Uncovering Clusters in Crowded Parallel
+// Coordinates).
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+namespace oval4d::scene {
+
+/// A density plot of kRows × kColumns weights. The axes x, y, z and w are the columns 0, kGap, 2 kGap and 3 kGap. Each
+/// vertex is a line from its value on one axis to its value on the next axis. Row 0 is at +circumradius, the last row
+/// at −circumradius. Reuses its memory between measurements.
+class DensityPlot {
+  public:
+    static constexpr int kGap = 64;  ///< columns from one axis to the next
+    static constexpr int kColumns = 3 * kGap + 1;
+    static constexpr int kRows = 65;
+    /// The weight that a line adds to each column, shared by the two rows between which it passes.
+    static constexpr std::uint32_t kLine = 4;
+
+    /// Computes the density plot of the vertices, multiplied by the matrix `turn`. Coordinates are clamped to
+    /// ±circumradius.
+    void measure(std::span<const glm::dvec4> vertices, const glm::dmat4& turn, double circumradius);
+
+    /// Returns the weights, row by row. The sum of each column is kLine times the number of vertices.
+    std::span<const std::uint32_t> weights() const { return weights_; }
+
+    /// Returns the square roots of the weights, row by row, scaled so that the largest is 255. The square root keeps
+    /// small weights visible beside large ones.
+    std::span<const std::uint8_t> tones() const { return tones_; }
+
+    /// Returns the index of a row and column in weights() and tones().
+    static constexpr std::size_t index(int row, int column) {
+        return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column);
+    }
+
+  private:
+    void countColumn(int column);
+
+    std::array<std::vector<float>, 4> levels_;  // x, y, z and w of each vertex, in steps; a row is kLine steps high
+    std::vector<std::uint32_t> weights_;
+    std::vector<std::uint8_t> tones_;
+};
+
+}  // namespace oval4d::scene

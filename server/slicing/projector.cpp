@@ -1,0 +1,169 @@
+#include "slicing/projector.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "geometry/point_cloud.hpp"
+#include "polytopes/polytope.hpp"
+#include "slicing/cloud_slicer.hpp"
+#include "slicing/visitor.hpp"
+
+namespace oval4d::slicing {
+
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+// The elements of a polytope that part 0 contains.
+struct Selection {
+    const std::vector<bool>* facing;  // null if all cells are selected
+    bool cell(std::uint32_t c) const { return facing == nullptr || (*facing)[c]; }
+    bool face(const polytopes::Polytope& p, std::size_t f) const {
+        return cell(p.faceCells[f][0]) || cell(p.faceCells[f][1]);
+    }
+};
+
+// Numbers the vertices and edges of the selected 2-faces: writes their indices in part 0, or kNone.
+void numberElements(const polytopes::Polytope& p, const Selection& selection, std::vector<std::uint32_t>& vertices,
+                    std::vector<std::uint32_t>& edges) {
+    vertices.assign(p.vertices.size(), kNone);
+    edges.assign(p.edges.size(), kNone);
+    for (std::size_t f = 0; f < p.faces.size(); ++f) {
+        if (!selection.face(p, f)) continue;
+        for (const std::uint32_t e : p.faceEdges[f]) edges[e] = 0;
+    }
+    std::uint32_t count = 0;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        if (edges[e] == kNone) continue;
+        edges[e] = count++;
+        for (const std::uint32_t v : p.edges[e]) vertices[v] = 0;
+    }
+    count = 0;
+    for (std::uint32_t& v : vertices) {
+        if (v != kNone) v = count++;
+    }
+}
+
+void clear(SliceSet& out) {
+    out.vertexBegin.assign(1, 0);
+    out.edgeBegin.assign(1, 0);
+    out.faceBegin.assign(1, 0);
+    out.cornerBegin.assign(1, 0);
+    out.vertices.clear();
+    out.vertexSource.clear();
+    out.ballScale.clear();
+    out.ballOpacity.clear();
+    out.edges.clear();
+    out.edgeSource.clear();
+    out.corners.clear();
+    out.cornerEdges.clear();
+    out.faceSource.clear();
+}
+
+void endPart(SliceSet& out) {
+    out.vertexBegin.push_back(static_cast<std::uint32_t>(out.vertices.size()));
+    out.edgeBegin.push_back(static_cast<std::uint32_t>(out.edges.size()));
+    out.faceBegin.push_back(static_cast<std::uint32_t>(out.faceSource.size()));
+}
+
+}  // namespace
+
+void Projector::project(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices,
+                        const Options& options, SliceSet& out, std::vector<std::uint32_t>& faceCells) {
+    clear(out);
+    faceCells.clear();
+    const HyperplaneProjection& projection = options.projection;
+    const auto addPolytope = [&](const polytopes::Polytope& p) {
+        const auto edges = static_cast<std::uint32_t>(p.edges.size());
+        const auto faces = static_cast<std::uint32_t>(p.faces.size());
+        const auto cells = static_cast<std::uint32_t>(p.cells.size());
+        if (options.culled || options.cells) findFacingCells(object, orientation, projection);
+        const Selection selection{options.culled ? &cellFaces_ : nullptr};
+        numberElements(p, selection, number_, edgeNumber_);
+        for (std::uint32_t v = 0; v < number_.size(); ++v) {
+            if (number_[v] == kNone) continue;
+            out.vertices.push_back(projection(slices.rotatedVertices[v]));
+            out.vertexSource.push_back(edges + v);
+        }
+        for (std::uint32_t e = 0; e < edges; ++e) {
+            if (edgeNumber_[e] == kNone) continue;
+            out.edges.push_back({number_[p.edges[e][0]], number_[p.edges[e][1]]});
+            out.edgeSource.push_back(faces + e);
+        }
+        for (std::uint32_t f = 0; options.cells && p.convexFaces && f < faces; ++f) {
+            if (!selection.face(p, f)) continue;
+            for (const std::uint32_t v : p.faces[f]) out.corners.push_back(number_[v]);
+            for (const std::uint32_t e : p.faceEdges[f]) out.cornerEdges.push_back(edgeNumber_[e]);
+            out.cornerBegin.push_back(static_cast<std::uint32_t>(out.corners.size()));
+            out.faceSource.push_back(cells + f);
+            const auto [first, second] = p.faceCells[f];
+            faceCells.push_back(cellFaces_[second] && !cellFaces_[first] ? second : first);
+        }
+    };
+    const auto addCloud = [&](const geometry::PointCloud& cloud) {
+        const double usual = ballRadius(cloud) * cloud.circumradius;
+        for (std::uint32_t p = 0; p < cloud.points.size(); ++p) {
+            out.vertices.push_back(projection(slices.rotatedVertices[p]));
+            out.vertexSource.push_back(p);
+            out.ballScale.push_back(static_cast<float>(cloud.radii[p] > 0 ? cloud.radii[p] / usual : 1));
+        }
+        out.ballOpacity.assign(out.ballScale.size(), 1);
+    };
+    std::visit(Visitor{[&](const PolytopePtr& p) { addPolytope(*p); }, [&](const CloudPtr& p) { addCloud(*p); }},
+               object);
+    endPart(out);
+    for (int i = options.firstSlice; i < options.endSlice; ++i) addSlice(slices, i, projection, out, faceCells);
+}
+
+void Projector::addSlice(const SliceSet& slices, int slice, const HyperplaneProjection& projection, SliceSet& out,
+                         std::vector<std::uint32_t>& faceCells) {
+    const auto append = [](auto& to, const auto& from, std::uint32_t begin, std::uint32_t end) {
+        to.insert(to.end(), from.begin() + begin, from.begin() + end);
+    };
+    const std::uint32_t v0 = slices.vertexBegin[slice], v1 = slices.vertexBegin[slice + 1];
+    const std::uint32_t e0 = slices.edgeBegin[slice], e1 = slices.edgeBegin[slice + 1];
+    const std::uint32_t f0 = slices.faceBegin[slice], f1 = slices.faceBegin[slice + 1];
+    const std::uint32_t c0 = slices.cornerBegin[f0], c1 = slices.cornerBegin[f1];
+    const double magnification = projection.magnification(slices.planes.w(slice));
+    if (slices.ballScale.empty()) {
+        for (std::uint32_t v = v0; v < v1; ++v) out.vertices.push_back(slices.vertices[v] * magnification);
+    } else {  // the points of a cloud lie near the hyperplane, not in it
+        for (std::uint32_t v = v0; v < v1; ++v)
+            out.vertices.push_back(projection(slices.rotatedVertices[slices.vertexSource[v]]));
+        append(out.ballScale, slices.ballScale, v0, v1);
+        append(out.ballOpacity, slices.ballOpacity, v0, v1);
+    }
+    append(out.vertexSource, slices.vertexSource, v0, v1);
+    append(out.edges, slices.edges, e0, e1);
+    append(out.edgeSource, slices.edgeSource, e0, e1);
+    const auto corner = static_cast<std::uint32_t>(out.corners.size());
+    for (std::uint32_t f = f0; f < f1; ++f) out.cornerBegin.push_back(corner + slices.cornerBegin[f + 1] - c0);
+    append(out.corners, slices.corners, c0, c1);
+    append(out.cornerEdges, slices.cornerEdges, c0, c1);
+    append(out.faceSource, slices.faceSource, f0, f1);
+    append(faceCells, slices.faceSource, f0, f1);
+    endPart(out);
+}
+
+// A cell's outer side is turned toward the eye E if E lies on the outer side of its hyperplane: n·E > n·p for its
+// outward normal n and any of its points p. With E = (0, 0, 0, d), divided by d: n_w > (n·p) / d.
+void Projector::findFacingCells(const Object& object, const geometry::Rotation& orientation,
+                                const HyperplaneProjection& projection) {
+    const geometry::ObjectInfo& info = infoOf(object);
+    if (object_ != info.serial) {
+        object_ = info.serial;
+        findCellHyperplanes(object, normals_, offsets_);
+    }
+    const glm::dmat4 matrix = orientation.matrix();
+    const glm::dvec4 toW(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
+    cellFaces_.resize(normals_.size());
+    for (std::size_t c = 0; c < normals_.size(); ++c) {
+        const double slack = kOnPlane * glm::length(normals_[c]);  // a cell seen edge-on is not turned toward the eye
+        cellFaces_[c] = glm::dot(toW, normals_[c]) > offsets_[c] * projection.inverseDistance + slack;
+    }
+}
+
+}  // namespace oval4d::slicing

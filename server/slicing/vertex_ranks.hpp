@@ -1,0 +1,22 @@
+#pragma once
+// The positions of vertices among parallel hyperplanes.
+
+#include <cstdint>
+#include <span>
+
+namespace oval4d::slicing {
+
+/// The positions of a polytope's vertices relative to the hyperplanes. below[v] is the number of hyperplanes strictly
+/// below vertex v; upTo[v] is the number of hyperplanes below or through v. If upTo[v] > below[v], v lies in the
+/// hyperplane with the index below[v].
+struct VertexRanks {
+    std::span<const std::int32_t> below, upTo;
+    bool anyOnPlane = false;  ///< whether any vertex lies in a hyperplane
+
+    /// Returns whether the vertex lies in the hyperplane with the index `plane`.
+    bool liesIn(std::uint32_t vertex, std::int32_t plane) const {
+        return below[vertex] == plane && upTo[vertex] > plane;
+    }
+};
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,168 @@
+#include "wire/slices_message.hpp"
+
+#include "scene/density_plot.hpp"
+#include "text/choice.hpp"
+#include "wire/cbor_writer.hpp"
+#include "wire/json_writer.hpp"
+
+namespace oval4d::wire {
+
+namespace {
+
+using scene::Scene;
+
+template <typename W>
+void writeNumbers(W& w, std::string_view name, std::initializer_list<double> list) {
+    w.key(name);
+    w.beginArray();
+    for (const double number : list) w.value(number);
+    w.endArray();
+}
+
+template <typename W>
+void writeCamera(W& w, const scene::Camera& camera) {
+    w.key("camera");
+    w.beginObject();
+    writeNumbers(w, "eye", {camera.eye.x, camera.eye.y, camera.eye.z});
+    writeNumbers(w, "target", {camera.target.x, camera.target.y, camera.target.z});
+    writeNumbers(w, "up", {camera.up.x, camera.up.y, camera.up.z});
+    w.member("fov", camera.fieldOfView);
+    w.member("near", camera.near);
+    w.member("far", camera.far);
+    writeNumbers(w, "shift", {camera.shiftX, camera.shiftY});
+    w.endObject();
+}
+
+template <typename W>
+void writeColors(W& w, const scene::Style& style, const std::vector<scene::Color>& cells) {
+    w.key("colors");
+    w.beginObject();
+    w.member("background", style.background);
+    w.member("text", style.text);
+    w.member("focus", style.focusText);
+    w.member("ball", style.ball);
+    w.member("bar", style.bar);
+    w.member("zero", style.zeroLine);
+    w.key("axes");
+    w.beginArray();
+    for (const scene::Color color : {style.axisX, style.axisY, style.axisZ, style.axisW}) w.value(color);
+    w.endArray();
+    w.key("cells");
+    w.numbers(cells);
+    w.endObject();
+}
+
+template <typename W>
+void writeCoordinatesLayout(W& w, const scene::CoordinatesLayout& layout) {
+    w.key("coordinates");
+    w.beginObject();
+    w.member("rows", layout.rows);
+    w.member("per_row", layout.perRow);
+    w.member("left", layout.left);
+    w.member("zero", layout.zero);
+    w.member("row_step", layout.rowStep);
+    w.member("column_step", layout.columnStep);
+    w.member("line_step", layout.lineStep);
+    w.member("line_width", layout.lineWidth);
+    w.member("amplitude", layout.amplitude);
+    w.member("named", layout.named);
+    w.member("columns", layout.density ? scene::DensityPlot::kColumns : 0);
+    w.endObject();
+}
+
+template <typename W>
+void writeStaticScene(W&& w, const SlicesMessageWriter::StaticScene& fixed) {
+    const scene::Style& style = scene::style();
+    w.member("view", text::nameOf(scene::kViews, fixed.view));
+    w.key("shown");
+    w.beginObject();
+    for (const scene::PartRow& part : scene::kParts) w.member(part.name, fixed.shown.*part.flag);
+    w.endObject();
+    w.key("viewport");
+    w.beginObject();
+    w.member("width", fixed.viewport.width);
+    w.member("height", fixed.viewport.height);
+    w.endObject();
+    writeCamera(w, fixed.camera);
+    w.member("scale", fixed.scale);
+    w.member("circumradius", fixed.circumradius);
+    w.member("ball", fixed.ball);
+    w.member("bar", fixed.bar);
+    w.member("opacity", fixed.opacity);
+    w.member("faded", slicing::opacityOf(slicing::Visibility::faded));
+    w.key("light");
+    w.beginObject();
+    writeNumbers(w, "direction", {style.light.x, style.light.y, style.light.z});
+    w.member("ambient", style.ambient);
+    w.member("diffuse", style.diffuse);
+    w.member("specular", style.specular);
+    w.member("shininess", style.shininess);
+    w.endObject();
+    w.key("axes");
+    w.beginObject();
+    w.member("x", fixed.axes.x);
+    w.member("y", fixed.axes.y);
+    w.member("length", fixed.axes.length);
+    w.endObject();
+    writeCoordinatesLayout(w, fixed.coordinates);
+    w.member("text", style.textHeight);
+}
+
+}  // namespace
+
+template <typename W>
+void SlicesMessageWriter::writeMessage(W&& w, CachedText<StaticScene>& cache, const Scene& scene,
+                                       std::uint64_t revision, std::optional<double> id) {
+    w.beginObject();
+    w.member("type", "slices");
+    if (id) {
+        w.key("id");
+        w.id(*id);
+    }
+    w.member("revision", revision);
+    w.key("scene");
+    w.beginObject();
+    const StaticScene fixed{scene.look.view,   scene.look.parts,   scene.viewport,   scene.camera,
+                            scene.scale,       scene.circumradius, scene.ballRadius, scene.barRadius,
+                            scene.faceOpacity, scene.axes,         scene.coordinates};
+    w.raw(cache.textFor(fixed, [&](std::string& out) { writeStaticScene(W(out), fixed); }));
+    writeColors(w, scene::style(), scene.cellColors);
+    w.endObject();
+    if (scene.look.parts.coordinates) {
+        w.key("coordinates");
+        w.vectors(std::span<const glm::dvec4>(scene.slices->rotatedVertices));
+        if (scene.coordinates.density) {
+            w.key("density");
+            w.image(scene.density, scene::DensityPlot::kColumns);
+        }
+    }
+    w.key("slices");
+    list_.write(w, scene);
+    if (scene.projectionPlacement.shown) writeProjection(w, scene);
+    w.endObject();
+}
+
+template <typename W>
+void SlicesMessageWriter::writeProjection(W& w, const Scene& scene) {
+    const glm::dvec3& position = scene.projectionPlacement.position;
+    w.key("projection");
+    w.beginObject();
+    w.member("kind", text::nameOf(scene::kProjectionKinds, scene.look.projection.kind));
+    w.member("eye", scene.look.projection.eye);
+    writeNumbers(w, "position", {position.x, position.y, position.z});
+    w.member("scale", scene.projection.scale);
+    w.key("parts");
+    list_.writeProjection(w, scene);
+    w.endObject();
+}
+
+void SlicesMessageWriter::write(const Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
+                                std::string& out) {
+    if (encoding == Encoding::cbor) {
+        writeMessage(CborWriter(out), cborStatic_, scene, revision, id);
+    } else {
+        writeMessage(JsonWriter(out), jsonStatic_, scene, revision, id);
+    }
+}
+
+}  // namespace oval4d::wire

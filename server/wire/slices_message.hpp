@@ -1,0 +1,50 @@
+#pragma once
+// Writes the `slices` message. It contains everything that a client needs to draw the picture, so the client need not
+// compute slices, colors or positions.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "scene/scene.hpp"
+#include "wire/cached_text.hpp"
+#include "wire/request.hpp"
+#include "wire/slice_list.hpp"
+
+namespace oval4d::wire {
+
+/// Writes `slices` messages. Caches the parts that stay the same from one message to the next. A writer may be used by
+/// one thread at a time.
+class SlicesMessageWriter {
+  public:
+    /// Writes the message of this scene as JSON, or as CBOR (RFC 8949) with typed arrays (RFC 8746). Overwrites `out`
+    /// and reuses its memory.
+    void write(const scene::Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
+               std::string& out);
+
+    /// The values of a scene that stay the same while the object turns. The placements stay the same, too, but
+    /// SliceListWriter caches them.
+    struct StaticScene {
+        scene::View view{};
+        scene::Parts shown;
+        scene::Viewport viewport;
+        scene::Camera camera;
+        double scale = 0, circumradius = 0, ball = 0, bar = 0, opacity = 0;
+        scene::AxesLayout axes;
+        scene::CoordinatesLayout coordinates;
+        bool operator==(const StaticScene&) const = default;
+    };
+
+  private:
+    template <typename W>
+    void writeMessage(W&& w, CachedText<StaticScene>& cache, const scene::Scene& scene, std::uint64_t revision,
+                      std::optional<double> id);
+    template <typename W>
+    void writeProjection(W& w, const scene::Scene& scene);
+
+    CachedText<StaticScene> jsonStatic_, cborStatic_;
+    SliceListWriter list_;
+};
+
+}  // namespace oval4d::wire

@@ -1,0 +1,73 @@
+// The projection of the whole object in the middle of the oval.
+import assert from "node:assert/strict";
+import { test } from "./support/suite.mjs";
+
+import { openWithScript } from "./support/browser.mjs";
+import { decode, distance, pixelAt } from "./support/pixels.mjs";
+import { project, worldPoints } from "./support/scene.mjs";
+
+async function picture(page) {
+    await page.evaluate(() => document.activeElement.blur()); // removes the focus frame around the drawing
+    const shown = decode(await page.locator("#drawing").screenshot());
+    await page.focus("#drawing");
+    return shown;
+}
+
+/** Left, top, right and bottom of these points. */
+function boundsOf(points) {
+    const [x, y] = [0, 1].map((axis) => points.map((point) => point[axis]));
+    return [Math.min(...x), Math.min(...y), Math.max(...x), Math.max(...y)];
+}
+
+/** The points within `box` at which the pictures differ. */
+function changedPoints(before, after, [left, top, right, bottom]) {
+    const points = [];
+    for (let y = Math.ceil(top); y <= bottom; ++y) {
+        for (let x = Math.ceil(left); x <= right; ++x) {
+            if (distance(pixelAt(before, x, y), pixelAt(after, x, y)) > 24) points.push([x, y]);
+        }
+    }
+    return points;
+}
+
+function assertBounds(actual, expected, tolerance) {
+    const isNear = actual.every((value, i) => Math.abs(value - expected[i]) <= tolerance);
+    assert.ok(isNear, `${actual} is not within ${tolerance} pixels of ${expected.map((value) => value.toFixed(1))}`);
+}
+
+test("projection: w shows the whole object in the middle of the oval, in the same place in both streams", async () => {
+    const { page, script, press, errors, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "24-cell" });
+    await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.4, 1.1] });
+    await press("k"); // its picture also shows the changes before
+    const without = { geometry: await picture(page) };
+    const kinds = ["perspective", "orthogonal"];
+    const shown = {};
+    for (const kind of kinds) {
+        assert.equal((await press("w")).projection, kind);
+        shown[kind] = { geometry: await picture(page) };
+    }
+    await press("w");
+    await page.click("[data-page-tool=frames]");
+    await page.waitForSelector("#drawing[data-drawn-by=frames]");
+    without.frames = await picture(page);
+    for (const kind of kinds) {
+        assert.equal((await press("w")).projection, kind);
+        shown[kind].frames = await picture(page);
+
+        const { width, height } = without.geometry;
+        const { scene, projection } = await script.request({ type: "get", what: "slices", width, height });
+        const { position, scale, parts } = projection;
+        const vertices = worldPoints({ scale }, { position, vertices: parts[0].vertices });
+        const expected = boundsOf(vertices.map((vertex) => project(scene, vertex, { width, height })));
+        const box = expected.map((value, i) => value + (i < 2 ? -24 : 24));
+        for (const mode of ["geometry", "frames"]) {
+            const bounds = boundsOf(changedPoints(without[mode], shown[kind][mode], box));
+            assertBounds(bounds, expected, 8); // balls extend beyond the vertices
+            shown[kind][mode].bounds = bounds;
+        }
+        assertBounds(shown[kind].geometry.bounds, shown[kind].frames.bounds, 2);
+    }
+    assert.deepEqual(errors, []);
+    await close();
+});

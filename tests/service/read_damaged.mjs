@@ -1,0 +1,92 @@
+// node read_damaged.mjs <folder> <seed>: damages the messages, pictures and links in the folder at random, and reads
+// them with the TypeScript client, bundled as <folder>/readers.mjs. Prints how many inputs were read and how many
+// refused.
+import { readdirSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [folder, seed] = process.argv.slice(2);
+const kRounds = 400; // damaged copies of each file
+const kMaxArrayBytes = 256 * 1024 * 1024; // bytes in typed arrays, including garbage of earlier inputs
+const kMaxMilliseconds = 2000; // milliseconds for one input
+
+globalThis.location = { pathname: "/", search: "", hash: "", href: "http://localhost/" };
+const { Arena, commandLines, decodeCbor, decodeText, pngText } = await import(pathToFileURL(join(folder, "readers.mjs")));
+
+// Mulberry32, a pseudorandom generator with a seed.
+let state = Number(seed);
+function random(below) {
+    state = (state + 0x6d2b79f5) | 0;
+    let t = Math.imul(state ^ (state >>> 15), 1 | state);
+    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+    return ((t ^ (t >>> 14)) >>> 0) % below;
+}
+
+/** Returns a copy with some bytes changed, removed, repeated, or set to large values. */
+function damagedCopy(bytes) {
+    let out = Uint8Array.from(bytes);
+    for (let changes = 1 + random(4); changes > 0; --changes) {
+        const at = random(out.length + 1);
+        const some = 1 + random(16);
+        switch (random(5)) {
+            case 0:
+                if (at < out.length) out[at] = random(256);
+                break;
+            case 1:
+                if (at < out.length) out[at] ^= 1 << random(8);
+                break;
+            case 2:
+                out = Uint8Array.from([...out.subarray(0, at), ...out.subarray(at + some)]);
+                break;
+            case 3:
+                out = Uint8Array.from([...out.subarray(0, at), ...out.subarray(at, at + some), ...out.subarray(at)]);
+                break;
+            default:
+                out.fill(255, at, at + random(9));
+        }
+        if (random(16) === 0) out = out.slice(0, at);
+    }
+    return out;
+}
+
+const arena = new Arena();
+const asText = (bytes) => Buffer.from(bytes).toString("latin1");
+const readers = {
+    cbor: (bytes) => decodeCbor(bytes, random(2) ? arena : undefined),
+    json: (bytes) => decodeText(new TextDecoder().decode(bytes)),
+    png: (bytes) => {
+        const text = pngText(bytes);
+        if (text !== undefined && typeof text !== "string") throw "pngText returned a value other than a string";
+        return text ?? null;
+    },
+    link: (bytes) => {
+        const lines = commandLines(asText(bytes)); // must not throw: otherwise the page would not start
+        if (lines.some((line) => typeof line !== "string")) throw "commandLines returned a value other than strings";
+        return lines;
+    },
+};
+const counts = {};
+for (const name of readdirSync(folder)) {
+    const kind = name.split(".").pop();
+    const reader = readers[kind];
+    if (!reader) continue;
+    const whole = Uint8Array.from(readFileSync(join(folder, name)));
+    if (reader(whole) === null) throw new Error(`${name} cannot be read undamaged`);
+    const count = (counts[kind] ??= { read: 0, refused: 0 });
+    for (let round = 0; round < kRounds; ++round) {
+        const bytes = damagedCopy(whole);
+        const start = performance.now();
+        try {
+            reader(bytes) === null ? ++count.refused : ++count.read;
+        } catch (fault) {
+            if (!(fault instanceof Error) || kind === "link") throw fault;
+            ++count.refused;
+        }
+        const elapsed = performance.now() - start;
+        const { arrayBuffers } = process.memoryUsage();
+        if (elapsed > kMaxMilliseconds || arrayBuffers > kMaxArrayBytes) {
+            throw new Error(`${name}: ${elapsed} ms, ${arrayBuffers} bytes`);
+        }
+    }
+}
+console.log(JSON.stringify(counts));

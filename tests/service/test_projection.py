@@ -1,0 +1,99 @@
+"""The projection of the whole object: settings, both encodings of the geometry, and frames."""
+
+import math
+
+import png
+import pytest
+from test_cloud import torus_points
+from wire import Client, Refused
+
+SIZE = {"width": 640, "height": 360}
+
+
+async def projection_of(client):
+    return (await client.request("get", what="slices", **SIZE)).get("projection")
+
+
+async def test_keys_messages_and_commands_agree(server):
+    async with Client(server, stream="none") as client:
+        async def settings():
+            state = await client.request("get", what="state")
+            return state["projection"], state["eye"]
+
+        assert await settings() == ("off", 3)
+        for expected in ("perspective", "orthogonal", "off"):
+            await client.request("key", key="w")
+            assert (await settings())[0] == expected
+        await client.request("command", line=":project orthogonal")
+        await client.request("command", line=":set eye=2.5")
+        assert await settings() == ("orthogonal", 2.5)
+        await client.request("undo")
+        assert await settings() == ("orthogonal", 3)
+        await client.request("set", projection="perspective", eye=1.05, shown={"cells": True, "back": False})
+        assert await settings() == ("perspective", 1.05)
+        for key, part, expected in (("c", "cells", False), ("W", "back", True), ("C", "sections", True)):
+            await client.request("key", key=key)
+            assert (await client.request("get", what="state"))["shown"][part] is expected
+
+
+@pytest.mark.parametrize("members, says", [
+    ({"projection": "parallel"}, "orthogonal"), ({"projection": 1}, "projection"), ({"eye": 1}, "1.05"),
+    ({"eye": 1001}, "1000"), ({"eye": "far"}, "eye"), ({"shown": {"cells": 1}}, "cells"),
+])
+async def test_bad_settings_are_refused(server, members, says):
+    async with Client(server, stream="none") as client:
+        with pytest.raises(Refused, match=says):
+            await client.request("set", **members)
+        assert (await client.request("get", what="state"))["projection"] == "off"
+        with pytest.raises(Refused, match="circumradii"):
+            await client.request("command", line=":set eye=0.5")
+
+
+async def test_the_geometry_has_the_whole_object_and_its_sections(server):
+    async with Client(server, stream="none") as client:
+        await client.request("set", polytope="tesseract")
+        assert await projection_of(client) is None
+        await client.request("rotate", planes=["xw", "yz"], angles=[0.4, 0.3])
+        await client.request("set", projection="perspective", eye=2, shown={"cells": True})
+        slices = await client.request("get", what="slices", **SIZE)
+        projection, radius = slices["projection"], slices["scene"]["circumradius"]
+        whole, section = projection["parts"]
+        assert (len(whole["vertices"]), len(whole["edges"]), len(whole["faces"])) == (16, 32, 24)
+        for vertex, (x, y, z, w) in zip(whole["vertices"], slices["coordinates"]):
+            factor = 2 * radius / (2 * radius - w)
+            assert vertex == pytest.approx([factor * x, factor * y, factor * z], rel=1e-4, abs=1e-5)
+        focus = next(one for one in slices["slices"] if one["focus"])
+        assert section["of"] == focus["of"] and section["edges"] == focus["edges"]
+        factor = 2 * radius / (2 * radius - focus["w"])
+        for inside, outside in zip(section["vertices"], focus["vertices"]):
+            assert inside == pytest.approx([factor * c for c in outside], rel=1e-4, abs=1e-5)
+        await client.request("set", shown={"sections": True, "back": False})
+        parts = (await projection_of(client))["parts"]
+        assert len(parts) == 1 + len(slices["slices"])
+        assert len(parts[0]["vertices"]) < 16
+
+
+async def test_frames_and_stored_sessions_have_it(server):
+    async with Client(server, stream="none") as client:
+        await client.request("set", polytope="24-cell")
+        plain = png.pixels(await client.request_frame(**SIZE))
+        pictures = []
+        for line in ("project perspective", "project orthogonal", "set cells=on", "set sections=on", "set back=off"):
+            await client.request("command", line=line)
+            pictures.append(png.pixels(await client.request_frame(**SIZE)))
+        assert len({hash(picture) for picture in [plain, *pictures]}) == 6
+        state = png.state_in(await client.request_frame(**SIZE))
+        assert (state["projection"], state["shown"]["sections"]) == ("orthogonal", True)
+        await client.request("set", projection="off")
+        assert png.pixels(await client.request_frame(**SIZE)) == plain
+
+
+async def test_a_cloud_has_points_only(server):
+    text, _ = torus_points(50)
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="torus", format="cloud", data=text)
+        await client.request("set", projection="perspective", slices={"focus": 3, "spacing": 0.3})
+        whole, section = (await projection_of(client))["parts"]
+        assert len(whole["vertices"]) == 50 and whole["edges"] == [] and whole["faces"] == []
+        for source, vertex in zip(section["of"]["vertices"], section["vertices"]):
+            assert math.dist(vertex, whole["vertices"][source]) < 1e-6

@@ -1,0 +1,156 @@
+// Loads files that the user chooses or drops on the page. Shows the progress, and the server's warnings or error.
+
+import type { Client, Done, RequestError } from "@oval4d/protocol";
+
+import { byId, element } from "./element";
+import { FileError, linesAround, type PolytopeFile, readFile } from "./files";
+import { toSentence } from "./format";
+
+const kProgressInterval = 100; // milliseconds
+const kDefaultLimit = 8 * 2 ** 20; // bytes of a message, if the server states no limit
+const kMaxKeptFiles = 8; // as many as a session holds
+const kMaxExcerptWidth = 120; // characters of a line of the file
+
+export class FileLoading {
+    private readonly root = byId("loading");
+    private readonly title = byId("loading-title");
+    private readonly progress = this.root.querySelector("progress")!;
+    private readonly report = this.root.querySelector<HTMLElement>(".report")!;
+    private readonly chooser = byId<HTMLInputElement>("file");
+    private readonly dropTarget = byId("drop");
+    private readonly keptFiles = new Map<string, PolytopeFile>(); // loaded from this page, by name
+    private queue: Promise<void> = Promise.resolve();
+
+    constructor(private readonly client: Client) {
+        this.chooser.addEventListener("change", () => {
+            this.enqueue([...(this.chooser.files ?? [])]);
+            this.chooser.value = ""; // so that the user can choose the same file again after correcting it
+        });
+        this.root.querySelector("[data-close]")!.addEventListener("click", () => this.hide());
+        this.root.addEventListener("keydown", (event) => event.key === "Escape" && this.hide());
+        this.listenForDrops();
+    }
+
+    /** Opens the browser's file chooser. */
+    chooseFile(): void {
+        this.chooser.click();
+    }
+
+    /** Loads a file of this page into a new session; does nothing if this page has loaded no file of this name. */
+    async reload(name: string): Promise<void> {
+        const file = this.keptFiles.get(name);
+        if (file) await this.client.request({ type: "load", ...file });
+    }
+
+    /** Hides the panel, unless a file is being loaded. */
+    hide(): void {
+        if (this.root.hasAttribute("aria-busy")) return;
+        const within = this.root.contains(document.activeElement);
+        this.root.hidden = true;
+        if (within) byId("drawing").focus();
+    }
+
+    private enqueue(files: File[]): void {
+        for (const file of files) this.queue = this.queue.then(() => this.load(file));
+    }
+
+    private async load(file: File): Promise<void> {
+        let read: PolytopeFile | undefined;
+        try {
+            this.showProgress(file.name);
+            read = await readFile(file, this.client.welcome?.limits["message"] ?? kDefaultLimit);
+            const done = await this.send(read);
+            this.keepFile(read);
+            this.showWarnings(done.warnings ?? []);
+        } catch (error) {
+            this.showError(error as Error, read?.data ?? "");
+        }
+    }
+
+    private async send(file: PolytopeFile): Promise<Done> {
+        const answer = this.client.request({ type: "load", ...file });
+        const all = this.client.unsent;
+        const timer = setInterval(() => {
+            const { unsent } = this.client;
+            const sent = 1 - unsent / all;
+            this.showReport(unsent > 0 ? `Sending the file: ${Math.floor(100 * sent)}%` : "Checking the file");
+            if (unsent > 0) this.progress.value = sent;
+            else this.progress.removeAttribute("value"); // the server does not report progress
+        }, kProgressInterval);
+        return await answer.finally(() => clearInterval(timer));
+    }
+
+    private keepFile(file: PolytopeFile): void {
+        this.keptFiles.delete(file.name);
+        this.keptFiles.set(file.name, file);
+        if (this.keptFiles.size > kMaxKeptFiles) this.keptFiles.delete([...this.keptFiles.keys()][0]!);
+    }
+
+    private showProgress(name: string): void {
+        this.title.textContent = name;
+        this.root.hidden = false;
+        this.root.dataset["outcome"] = "";
+        this.root.setAttribute("aria-busy", "true");
+        this.progress.hidden = false;
+        this.progress.removeAttribute("value");
+        this.showReport("Reading the file");
+    }
+
+    private showWarnings(warnings: string[]): void {
+        this.endProgress("done");
+        if (warnings.length === 0) return this.hide();
+        const list = element("ul", {}, ...warnings.map((warning) => element("li", {}, toSentence(warning))));
+        this.showReport("Loaded, with these warnings:", list);
+        return undefined;
+    }
+
+    private showError(error: Error, data: string): void {
+        this.endProgress("failed");
+        const [, line] = /\bline (\d+)/.exec(error.message) ?? [];
+        const refused = error instanceof FileError || (error as RequestError).code !== "not_connected";
+        this.showReport(
+            refused ? toSentence(error.message) : "The connection was lost before the file was loaded. Try again.",
+            ...(line !== undefined && data !== "" ? [excerpt(data, Number(line))] : []),
+        );
+    }
+
+    private endProgress(outcome: "done" | "failed"): void {
+        this.root.removeAttribute("aria-busy");
+        this.root.dataset["outcome"] = outcome;
+        this.progress.hidden = true;
+    }
+
+    private showReport(text: string, ...more: Node[]): void {
+        if (this.report.firstChild?.textContent === text && more.length === 0) return;
+        this.report.replaceChildren(element("p", {}, text), ...more);
+    }
+
+    private listenForDrops(): void {
+        const hasFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") ?? false;
+        const showDropTarget = (over: boolean): void => void (this.dropTarget.hidden = !over);
+        window.addEventListener("dragover", (event) => {
+            if (!hasFiles(event)) return;
+            event.preventDefault();
+            event.dataTransfer!.dropEffect = "copy";
+            showDropTarget(true);
+        });
+        window.addEventListener("dragleave", (event) => event.relatedTarget === null && showDropTarget(false));
+        window.addEventListener("drop", (event) => {
+            if (!hasFiles(event)) return;
+            event.preventDefault();
+            showDropTarget(false);
+            this.enqueue([...event.dataTransfer!.files]);
+        });
+    }
+}
+
+/** The faulty line of the file, with its neighboring lines. */
+function excerpt(data: string, faulty: number): HTMLElement {
+    const lines = linesAround(data, faulty).map(({ number, text }) => {
+        const shown = text.length > kMaxExcerptWidth ? `${text.slice(0, kMaxExcerptWidth)}…` : text;
+        const attributes = number === faulty ? { class: "faulty" } : {};
+        return element("div", attributes, element("i", {}, String(number)), element("code", {}, shown));
+    });
+    return element("div", { class: "excerpt", role: "group", "aria-label": "Excerpt of the file" }, ...lines);
+}
+

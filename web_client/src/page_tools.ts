@@ -1,0 +1,64 @@
+// Buttons for actions of the page that have no key.
+
+import { element } from "./element";
+import type { Mode } from "./picture/stage";
+import type { Section } from "./tools";
+
+export interface PageActions {
+    mode: Mode;
+    canDrawGeometry: boolean;
+    setMode(mode: Mode): void;
+    reset(): void;
+    resetView(): void;
+    share(): void;
+    save(): void;
+}
+
+export function pageSections(actions: PageActions): Section[] {
+    const renderer = (mode: Mode, label: string, title: string): HTMLElement => {
+        const made = button(mode, label, title, () => actions.setMode(mode));
+        made.toggleAttribute("disabled", mode === "geometry" && !actions.canDrawGeometry);
+        made.setAttribute("aria-pressed", String(actions.mode === mode));
+        return made;
+    };
+    return [
+        {
+            title: "Reset",
+            content: [
+                button("reset", "Orientation", "Restore the initial orientation and focus", actions.reset),
+                button("reset-view", "Viewpoint", "Restore the initial viewpoint (double click)", actions.resetView),
+            ],
+        },
+        {
+            title: "Rendered by",
+            content: [
+                renderer(
+                    "geometry",
+                    "This device",
+                    actions.canDrawGeometry ? "Render in this browser with WebGL" : "WebGL 2 is not available here",
+                ),
+                renderer("frames", "Server", "Render on the server, which sends pictures"),
+            ],
+        },
+        {
+            title: "Export and share",
+            content: [
+                button("save", "Save picture", "Save the picture as a PNG file", actions.save),
+                button("share", "Copy link", "Copy a link with which others can join this session", actions.share),
+            ],
+        },
+    ];
+}
+
+/** Marks the button of the active mode as pressed. */
+export function markMode(mode: Mode): void {
+    for (const name of ["geometry", "frames"]) {
+        document.querySelector(`[data-page-tool="${name}"]`)?.setAttribute("aria-pressed", String(name === mode));
+    }
+}
+
+function button(name: string, label: string, title: string, act: () => void): HTMLElement {
+    const made = element("button", { type: "button", "data-page-tool": name, title }, label);
+    made.addEventListener("click", act);
+    return made;
+}

@@ -1,0 +1,43 @@
+// A vertex buffer that is overwritten for each picture and grows by doubling. Once it is large enough, pictures
+// allocate nothing.
+
+import { BufferAttribute, DynamicDrawUsage } from "three";
+
+type Numbers = Float32Array | Int8Array | Uint8Array | Uint32Array;
+
+export class GrowingBuffer<T extends Numbers> {
+    attribute: BufferAttribute;
+    used = 0; // items
+
+    constructor(
+        private readonly make: new (length: number) => T,
+        private readonly itemSize: number,
+        private readonly normalized = false,
+    ) {
+        this.attribute = this.allocate(1024);
+    }
+
+    get array(): T {
+        return this.attribute.array as T;
+    }
+
+    /** Sets the number of items, all of which must then be written; returns true if a larger buffer was allocated. */
+    reserve(items: number): boolean {
+        this.used = items;
+        if (items <= this.attribute.count) return false;
+        this.attribute = this.allocate(2 ** Math.ceil(Math.log2(items)));
+        return true;
+    }
+
+    /** Marks the items as changed, so that the next rendering uploads them to the graphics card. */
+    markChanged(): void {
+        this.attribute.clearUpdateRanges();
+        this.attribute.addUpdateRange(0, this.used * this.itemSize);
+        this.attribute.needsUpdate = true;
+    }
+
+    private allocate(items: number): BufferAttribute {
+        const attribute = new BufferAttribute(new this.make(items * this.itemSize), this.itemSize, this.normalized);
+        return attribute.setUsage(DynamicDrawUsage);
+    }
+}

@@ -1,0 +1,188 @@
+// The projection of the whole object as two meshes, both with a depth test: balls and bars of the object, which hide
+// what is behind them; and faces, sections and faded elements, which are blended from far to near.
+
+import { BufferGeometry } from "three";
+
+import type { ObjectProjection, Slices } from "@oval4d/protocol";
+
+import { ensureCapacity } from "./elements";
+import { GrowingBuffer } from "./growing_buffer";
+import type { Lens } from "./lens";
+import { kBall, kBar, kFace } from "./shaders";
+import { kQuad, ShapeBuffers } from "./shape_buffers";
+import { sortByKey } from "./sort";
+
+export class ProjectionMesh {
+    readonly solid = new BufferGeometry();
+    readonly translucent = new BufferGeometry();
+    /** The radius of the thickest bar. */
+    barRadius = 0;
+    /** The center, in world space. */
+    position: readonly [number, number, number] = [0, 0, 0];
+
+    private readonly shapes = new ShapeBuffers();
+    private readonly solidIndex = new GrowingBuffer(Uint32Array, 1);
+    private readonly translucentIndex = new GrowingBuffer(Uint32Array, 1);
+    private used = 0; // vertices
+    // The translucent shapes: the first vertex of each, the number of its vertices, and a quad or a fan of triangles.
+    private first = new Uint32Array(0);
+    private size = new Uint32Array(0);
+    private quad = new Uint8Array(0);
+    private depth = new Float32Array(0);
+    private order = new Uint32Array(0);
+    private scratch = new Uint32Array(0);
+    private count = 0;
+
+    /** Takes over the projection of a new picture; returns whether there is one. */
+    update({ projection, scene }: Slices): boolean {
+        if (!projection) return false;
+        const { parts, position } = projection;
+        this.position = position;
+        this.barRadius = Math.max(...parts.map((part) => part.bar));
+        this.reserve(parts);
+        this.used = this.count = 0;
+        let solids = 0;
+        const opacities = [0, scene.faded, 1];
+        parts.forEach((part, i) => {
+            const addQuad = (opacity: number): void => {
+                if (opacity === 0) this.used -= 4;
+                else if (i > 0 || opacity < 1) this.addTranslucent(4, true);
+                else for (const corner of kQuad) this.solidIndex.array[solids++] = this.used - 4 + corner;
+            };
+            const point = (v: number): [number, number, number] => [
+                position[0] + projection.scale * part.vertices[3 * v]!,
+                position[1] + projection.scale * part.vertices[3 * v + 1]!,
+                position[2] + projection.scale * part.vertices[3 * v + 2]!,
+            ];
+            for (let v = 0; part.ball > 0 && v < part.vertices.length / 3; ++v) {
+                const opacity = opacities[part.seen?.vertices[v] ?? 2]! * (part.balls?.opacity[v] ?? 1);
+                for (let corner = 0; corner < 4; ++corner, ++this.used) {
+                    this.shapes.setVector("at", this.used, ...point(v));
+                    this.shapes.setVector("to", this.used, part.ball * (part.balls?.scale[v] ?? 1), 0, 0);
+                    this.shapes.setShape(this.used, kBall, corner);
+                    this.shapes.setColor(this.used, part.ball_color, opacity);
+                }
+                addQuad(opacity);
+            }
+            for (let e = 0; part.bar > 0 && e < part.edges.length / 2; ++e) {
+                const opacity = opacities[part.seen?.edges[e] ?? 2]!;
+                for (let corner = 0; corner < 4; ++corner, ++this.used) {
+                    this.shapes.setVector("at", this.used, ...point(part.edges[2 * e]!));
+                    this.shapes.setVector("to", this.used, ...point(part.edges[2 * e + 1]!));
+                    this.shapes.setShape(this.used, kBar, corner, part.bar / this.barRadius);
+                    this.shapes.setColor(this.used, part.bar_color, opacity);
+                }
+                addQuad(opacity);
+            }
+            if (part.opacity > 0) this.addFaces(part, point, scene.colors.cells, opacities);
+        });
+        this.solidIndex.used = solids;
+        this.solidIndex.markChanged();
+        this.solid.setDrawRange(0, solids);
+        this.shapes.markChanged();
+        return true;
+    }
+
+    /** Orders the translucent shapes for this camera. */
+    sortForCamera({ view: { elements: view } }: Lens): void {
+        const { array: at } = this.shapes.at;
+        const { array: index } = this.translucentIndex;
+        for (let i = 0; i < this.count; ++i) {
+            let nearest = 0;
+            // A bar begins and ends at `at` and `to`; the far end determines when it is drawn.
+            const vertices = this.quad[i] ? 1 : this.size[i]!;
+            for (let v = this.first[i]!; v < this.first[i]! + vertices; ++v) {
+                nearest += view[2]! * at[3 * v]! + view[6]! * at[3 * v + 1]! + view[10]! * at[3 * v + 2]!;
+            }
+            this.depth[i] = nearest / vertices;
+            this.order[i] = i;
+        }
+        sortByKey(this.order, [0, this.count], this.depth, this.scratch);
+        let used = 0;
+        for (let k = 0; k < this.count; ++k) {
+            const i = this.order[k]!;
+            const first = this.first[i]!;
+            if (this.quad[i]) for (const corner of kQuad) index[used++] = first + corner;
+            else {
+                for (let v = 2; v < this.size[i]!; ++v) {
+                    index[used++] = first;
+                    index[used++] = first + v - 1;
+                    index[used++] = first + v;
+                }
+            }
+        }
+        this.translucentIndex.used = used;
+        this.translucentIndex.markChanged();
+        this.translucent.setDrawRange(0, used);
+    }
+
+    dispose(): void {
+        this.solid.dispose();
+        this.translucent.dispose();
+    }
+
+    private addFaces(
+        part: ObjectProjection["parts"][number],
+        point: (v: number) => [number, number, number],
+        colors: Uint32Array,
+        opacities: readonly number[],
+    ): void {
+        const { begin, corners } = part.faces;
+        const tints = part.tints ?? part.of.faces;
+        for (let f = 0; f + 1 < begin.length; ++f) {
+            const opacity = part.opacity * opacities[part.seen?.faces[f] ?? 2]!;
+            if (opacity === 0) continue;
+            const normal = normalOf(corners.subarray(begin[f]!, begin[f + 1]!), part.vertices);
+            for (let c = begin[f]!; c < begin[f + 1]!; ++c, ++this.used) {
+                this.shapes.setVector("at", this.used, ...point(corners[c]!));
+                this.shapes.setVector("to", this.used, ...normal);
+                this.shapes.setShape(this.used, kFace);
+                this.shapes.setColor(this.used, colors[tints[f]!] ?? part.bar_color, opacity);
+            }
+            this.addTranslucent(begin[f + 1]! - begin[f]!, false);
+        }
+    }
+
+    /** Adds a shape that consists of the last vertices. */
+    private addTranslucent(vertices: number, quad: boolean): void {
+        this.first[this.count] = this.used - vertices;
+        this.size[this.count] = vertices;
+        this.quad[this.count++] = quad ? 1 : 0;
+    }
+
+    private reserve(parts: ObjectProjection["parts"]): void {
+        let [quads, faces, corners] = [0, 0, 0];
+        for (const part of parts) {
+            quads += part.vertices.length / 3 + part.edges.length / 2;
+            faces += part.faces.begin.length - 1;
+            corners += part.faces.corners.length;
+        }
+        for (const name of ["first", "size", "order", "scratch"] as const) {
+            this[name] = ensureCapacity(this[name], quads + faces);
+        }
+        this.quad = ensureCapacity(this.quad, quads + faces);
+        this.depth = ensureCapacity(this.depth, quads + faces);
+        const solidGrown = this.solidIndex.reserve(6 * quads);
+        const translucentGrown = this.translucentIndex.reserve(6 * quads + 3 * corners);
+        const grown = this.shapes.reserve(4 * quads + corners);
+        if (!grown && !solidGrown && !translucentGrown && this.solid.index) return;
+        this.shapes.attachTo(this.solid);
+        this.shapes.attachTo(this.translucent);
+        this.solid.setIndex(this.solidIndex.attribute);
+        this.translucent.setIndex(this.translucentIndex.attribute);
+    }
+}
+
+/** The unit normal of a polygon, by Newell's method. */
+function normalOf(loop: Uint32Array, vertices: Float32Array): [number, number, number] {
+    let [x, y, z] = [0, 0, 0];
+    loop.forEach((corner, i) => {
+        const p = 3 * corner;
+        const q = 3 * loop[(i + 1) % loop.length]!;
+        x += (vertices[p + 1]! - vertices[q + 1]!) * (vertices[p + 2]! + vertices[q + 2]!);
+        y += (vertices[p + 2]! - vertices[q + 2]!) * (vertices[p]! + vertices[q]!);
+        z += (vertices[p]! - vertices[q]!) * (vertices[p + 1]! + vertices[q + 1]!);
+    });
+    const length = Math.hypot(x, y, z) || 1;
+    return [x / length, y / length, z / length];
+}

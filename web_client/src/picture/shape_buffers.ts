@@ -1,0 +1,67 @@
+// The vertex buffers of balls, bars and faces, in the format of the shaders.
+
+import type { BufferGeometry } from "three";
+
+import { GrowingBuffer } from "./growing_buffer";
+
+/** The x and y of each corner of the quad that a ball or a bar is drawn on. */
+const kCorners = [-1, -1, 1, -1, -1, 1, 1, 1] as const;
+
+/** The triangles of a quad. */
+export const kQuad = [0, 1, 2, 2, 1, 3] as const;
+
+/** A relative thickness of 1, as a number in `shape`. */
+export const kFullThickness = 100;
+
+export class ShapeBuffers {
+    readonly at = new GrowingBuffer(Float32Array, 3);
+    readonly to = new GrowingBuffer(Float32Array, 3);
+    readonly shape = new GrowingBuffer(Int8Array, 4);
+    readonly color = new GrowingBuffer(Uint8Array, 4, true);
+
+    /** Makes room for this many vertices; returns whether buffers were replaced, and must be attached again. */
+    reserve(vertices: number): boolean {
+        let grown = false;
+        for (const buffer of [this.at, this.to, this.shape, this.color]) grown = buffer.reserve(vertices) || grown;
+        return grown;
+    }
+
+    attachTo(geometry: BufferGeometry): void {
+        geometry.dispose();
+        const { at, to, shape, color } = this;
+        for (const [name, { attribute }] of Object.entries({ at, to, shape, color })) {
+            geometry.setAttribute(name, attribute);
+        }
+    }
+
+    /** Marks the contents as changed. */
+    markChanged(): void {
+        for (const buffer of [this.at, this.to, this.shape, this.color]) buffer.markChanged();
+    }
+
+    /** Sets the attribute `at` or `to` of a vertex. */
+    setVector(buffer: "at" | "to", vertex: number, x: number, y: number, z: number): void {
+        const { array } = this[buffer];
+        array[3 * vertex] = x;
+        array[3 * vertex + 1] = y;
+        array[3 * vertex + 2] = z;
+    }
+
+    /** Sets the kind of patch, the corner of its quad (0 for faces), and the thickness relative to the uniform radius. */
+    setShape(vertex: number, kind: number, corner = 0, thickness = 1): void {
+        const { array } = this.shape;
+        array[4 * vertex] = kCorners[2 * corner]!;
+        array[4 * vertex + 1] = kCorners[2 * corner + 1]!;
+        array[4 * vertex + 2] = kind;
+        array[4 * vertex + 3] = Math.round(kFullThickness * thickness);
+    }
+
+    /** Sets the color, 0xRRGGBB, and the opacity, 0 … 1. */
+    setColor(vertex: number, color: number, opacity: number): void {
+        const { array } = this.color;
+        array[4 * vertex] = color >> 16;
+        array[4 * vertex + 1] = color >> 8;
+        array[4 * vertex + 2] = color;
+        array[4 * vertex + 3] = 255 * opacity;
+    }
+}
