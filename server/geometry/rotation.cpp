@@ -70,7 +70,7 @@ Rotation::Rotation(const Turn& turn) {
 }
 
 std::optional<Rotation> Rotation::fromQuaternions(const glm::dquat& left, const glm::dquat& right) {
-    const auto unit = [](const glm::dquat& q) { return std::abs(glm::length(q) - 1) < 1e-9; };  // also false for NaN
+    const auto unit = [](const glm::dquat& q) { return std::abs(glm::length(q) - 1) < 1e-10; };  // also false for NaN
     if (!unit(left) || !unit(right)) return std::nullopt;
     Rotation found;
     found.left_ = left;

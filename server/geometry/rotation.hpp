@@ -58,7 +58,7 @@ class Rotation {
     static std::optional<Rotation> fromMatrix(const glm::dmat4& matrix, double tolerance = 1e-6);
 
     /// Returns the rotation with exactly these quaternions, without normalizing them again, so that a stored rotation
-    /// is restored bit by bit. Returns std::nullopt if their lengths differ from 1 by 1e-9 or more.
+    /// is restored bit by bit. Returns std::nullopt if their lengths differ from 1 by 1e-10 or more.
     static std::optional<Rotation> fromQuaternions(const glm::dquat& left, const glm::dquat& right);
 
     /// Returns the rotation that undoes this one.

@@ -18,6 +18,9 @@ constexpr int kTrimThreshold = 2 * kMapThreshold;
 Heap::Heap() {
     mallopt(M_MMAP_THRESHOLD, kMapThreshold);
     mallopt(M_TRIM_THRESHOLD, kTrimThreshold);
+    // A sanitizer's allocator replaces mallopt too, so glibc's own allocator is initialized by the first malloc_trim,
+    // which several threads must not call at once.
+    malloc_trim(0);
 }
 
 /// malloc_trim does not return the free memory at the end of a thread's arena, however large that is. glibc returns it

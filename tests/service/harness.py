@@ -139,7 +139,11 @@ class Server:
 
     def open_files(self):
         """Returns the targets of the server's open file descriptors."""
-        return [os.readlink(file) for file in Path(f"/proc/{self.process.pid}/fd").iterdir()]
+        targets = []
+        for file in Path(f"/proc/{self.process.pid}/fd").iterdir():
+            with contextlib.suppress(FileNotFoundError):  # closed in the meantime
+                targets.append(os.readlink(file))
+        return targets
 
     def resident_memory(self):
         """Returns the server's resident memory in bytes."""

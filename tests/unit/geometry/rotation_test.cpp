@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "geometry/rotation.hpp"
 
@@ -115,6 +116,33 @@ TEST(Rotation, isRecoveredFromItsMatrix) {
         EXPECT_LT(difference(found->matrix(), made.matrix()), 1e-14);
     }
     EXPECT_LT(difference(Rotation::fromMatrix(glm::dmat4(-1))->matrix(), glm::dmat4(-1)), 1e-15);
+}
+
+TEST(Rotation, isRestoredFromItsQuaternionsBitByBit) {
+    std::mt19937 random(29);
+    for (int i = 0; i < 100; ++i) {
+        const Rotation rotation(randomTurn(random, true));
+        EXPECT_EQ(Rotation::fromQuaternions(rotation.left(), rotation.right()), rotation);
+    }
+}
+
+TEST(Rotation, isRestoredOnlyIfItIsOrthogonal) {
+    std::mt19937 random(30);
+    int restored = 0;
+    int refused = 0;
+    for (double excess = 1e-12; excess < 1e-6; excess *= 1.5) {
+        for (const double sign : {-1.0, 1.0}) {
+            const Rotation rotation(randomTurn(random, true));
+            const double factor = 1 + sign * excess;
+            const auto found = Rotation::fromQuaternions(rotation.left() * factor, rotation.right() * factor);
+            ++(found ? restored : refused);
+            if (!found) continue;
+            const glm::dmat4 m = found->matrix();
+            EXPECT_LT(difference(glm::transpose(m) * m, glm::dmat4(1)), 1e-9) << "for an excess of " << excess;
+        }
+    }
+    EXPECT_GT(restored, 0);
+    EXPECT_GT(refused, 0);
 }
 
 TEST(Rotation, isNotRecoveredFromOtherMatrices) {
