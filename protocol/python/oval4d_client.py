@@ -117,6 +117,11 @@ class Client:
         """Rotates by one angle in radians for each plane: rotate("xw", 0.1) or rotate("xw,yz", 0.1, 0.2)."""
         return self.request("rotate", planes=planes.split(","), angles=list(angles))
 
+    def toward(self, element, number=None, immediately=False):
+        """Turns a "vertex", "edge", "face" or "cell" toward +w: the one with this number, or else the closest one."""
+        chosen = {} if number is None else {"number": number}
+        return self.request("toward", element=element, immediately=immediately, **chosen)
+
     def set(self, **settings):
         return self.request("set", **settings)
 

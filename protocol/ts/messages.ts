@@ -26,7 +26,12 @@ export interface SliceSettings {
     count: number;
     spacing: number;
     focus: number;
+    /** w of the hyperplane n = 0. */
+    offset: number;
 }
+
+/** The kinds of elements of a polytope, by dimension. */
+export type ElementKind = "vertex" | "edge" | "face" | "cell";
 
 export interface Viewport {
     width: number;
@@ -71,7 +76,8 @@ export interface FileOptions {
 export type Request =
     | { type: "hello"; stream: Stream; encoding?: Encoding; token?: string; width?: number; height?: number }
     | { type: "key"; key: string; shift?: boolean; ctrl?: boolean }
-    | { type: "rotate"; planes: Plane[]; angles: number[] }
+    | { type: "rotate"; planes: Plane[]; angles: number[]; continues?: boolean }
+    | { type: "toward"; element: ElementKind; number?: number; immediately?: boolean }
     | ({ type: "set" } & Settings)
     | { type: "load"; name: string; format: string; data: string }
     | { type: "undo" }

@@ -2,14 +2,15 @@
 
 namespace oval4d::geometry {
 
-/// A set of parallel hyperplanes of 4-D space: w = n · spacing for the integers n = first … first + count − 1.
+/// A set of parallel hyperplanes of 4-D space: w = offset + n · spacing for the integers n = first … first + count − 1.
 struct Hyperplanes {
     int first = -10;
     int count = 21;
     double spacing = 0.1;  ///< in the units of the object
+    double offset = 0;     ///< w of the hyperplane n = 0, in the units of the object
 
     /// Returns the w coordinate of the hyperplane with the index i, from 0 to count − 1. Its n is first + i.
-    double w(int i) const { return (first + i) * spacing; }
+    double w(int i) const { return offset + (first + i) * spacing; }
     bool operator==(const geometry::Hyperplanes&) const = default;
 };
 

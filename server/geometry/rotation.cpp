@@ -1,6 +1,8 @@
 #include "geometry/rotation.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace oval4d::geometry {
 
@@ -29,6 +31,15 @@ glm::dquat exponential(Plane plane, double angle) {
             break;
     }
     return {c, 0, 0, s};
+}
+
+// Returns the unit quaternion q to the power `fraction`: exp(u θ) becomes exp(u θ · fraction), for θ from 0 to π.
+glm::dquat powerOf(const glm::dquat& q, double fraction) {
+    const glm::dvec3 imaginary(q.x, q.y, q.z);
+    const double sine = glm::length(imaginary);
+    if (sine == 0) return q;  // ±1; power() avoids −1, except for the rotation v ↦ −v, which has no unique power
+    const double angle = std::atan2(sine, q.w) * fraction;
+    return {std::cos(angle), imaginary * (std::sin(angle) / sine)};
 }
 
 bool containsW(Plane plane) { return plane == Plane::xw || plane == Plane::yw || plane == Plane::zw; }
@@ -78,7 +89,38 @@ std::optional<Rotation> Rotation::fromQuaternions(const glm::dquat& left, const 
     return found;
 }
 
+// A simple rotation that takes a to b is v ↦ (m ā) v (ā m), where m = (a + b) / |a + b| is half way: a becomes
+// m ā a ā m = m ā m, which is a reflected in m, that is b.
+Rotation Rotation::between(const glm::dvec4& from, const glm::dvec4& to) {
+    const glm::dquat a = asQuaternion(glm::normalize(from));
+    const glm::dquat b = asQuaternion(glm::normalize(to));
+    const glm::dquat sum = a + b;
+    constexpr double kOpposite = 1e-8;  // the length of a + b below which its direction is lost to rounding
+    glm::dquat middle = sum;
+    if (glm::length(sum) < kOpposite) {
+        // a·i is perpendicular to a, and half way between a and −a.
+        middle = a * glm::dquat(0, 1, 0, 0);
+    }
+    middle = glm::normalize(middle);
+    return {middle * glm::conjugate(a), glm::conjugate(a) * middle};
+}
+
 Rotation Rotation::inverse() const { return {glm::conjugate(left_), glm::conjugate(right_)}; }
+
+// With the left angle λ and the right angle ρ, the rotation angles are λ + ρ and λ − ρ. (l, r) and (−l, −r) are the same
+// rotation; the pair with the smaller angles is the one whose real parts have a sum that is not negative.
+Rotation Rotation::power(double fraction) const {
+    const double sign = left_.w + right_.w < 0 ? -1 : 1;
+    return {powerOf(sign * left_, fraction), powerOf(sign * right_, fraction)};
+}
+
+double Rotation::angle() const {
+    const auto halfAngle = [](const glm::dquat& q) {
+        return std::atan2(glm::length(glm::dvec3(q.x, q.y, q.z)), q.w);
+    };
+    const double sum = halfAngle(left_) + halfAngle(right_);
+    return std::min(sum, 2 * std::numbers::pi - sum);
+}
 
 glm::dvec4 Rotation::operator()(const glm::dvec4& v) const { return asVector(left_ * asQuaternion(v) * right_); }
 

@@ -61,8 +61,18 @@ class Rotation {
     /// is restored bit by bit. Returns std::nullopt if their lengths differ from 1 by 1e-10 or more.
     static std::optional<Rotation> fromQuaternions(const glm::dquat& left, const glm::dquat& right);
 
+    /// Returns the rotation by the smallest angle that takes the direction of `from` to the direction of `to`: a simple
+    /// rotation in the plane that they span. If the directions are opposite, the plane contains `from` and one other
+    /// direction, which is not unique. Neither vector may be 0.
+    static Rotation between(const glm::dvec4& from, const glm::dvec4& to);
+
     /// Returns the rotation that undoes this one.
     Rotation inverse() const;
+    /// Returns the part of this rotation from the identity (fraction 0) to itself (fraction 1), with both rotation angles
+    /// multiplied by `fraction`, along the shorter way.
+    Rotation power(double fraction) const;
+    /// Returns the larger of the two rotation angles, in radians from 0 to π.
+    double angle() const;
     /// Returns v rotated.
     glm::dvec4 operator()(const glm::dvec4& v) const;
     /// Returns the matrix M with v' = M v.

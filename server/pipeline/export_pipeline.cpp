@@ -40,7 +40,7 @@ Result<std::monostate> takeSize(const std::string& text, double& size) {
 Result<std::string> exportState(const session::State& state, const exports::ExportRequest& request,
                                 const exports::Limits& limits, std::stop_token stop) {
     auto planes = state.hyperplanes();
-    if (request.extent == exports::SliceSelection::focus) planes = {state.slices.focus, 1, planes.spacing};
+    if (request.extent == exports::SliceSelection::focus) planes = {state.slices.focus, 1, planes.spacing, planes.offset};
     slicing::SliceSet slices;
     slicing::Slicer().slice(state.object, state.orientation, planes, slices);
     scene::Look look;

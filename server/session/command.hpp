@@ -13,6 +13,7 @@
 
 #include "geometry/rotation.hpp"
 #include "scene/scene.hpp"
+#include "slicing/element.hpp"
 
 namespace oval4d::session {
 
@@ -24,6 +25,14 @@ struct Key {
 /// Rotates the object.
 struct Rotate {
     geometry::Turn turn;
+    bool continues = false;  ///< whether it belongs to the undo step of the previous command, as in a gesture
+};
+/// Turns an element of the object toward +w, by the shortest rotation.
+struct Toward {
+    slicing::ElementKind kind = slicing::ElementKind::cell;
+    /// The index of the element; if absent, the element closest to +w, or the next one if that is already there.
+    std::optional<std::size_t> index;
+    bool immediately = false;  ///< whether to jump there instead of moving
 };
 /// Changes the settings that are present; the others keep their values.
 struct Set {
@@ -34,6 +43,7 @@ struct Set {
     std::optional<int> count;           ///< SliceSettings::count, which is odd
     std::optional<double> spacing;      ///< SliceSettings::spacing
     std::optional<int> focus;           ///< SliceSettings::focus
+    std::optional<double> offset;       ///< SliceSettings::offset
     std::optional<scene::View> view;
     std::optional<bool> turning;                                  ///< whether the object turns continuously
     std::array<std::optional<bool>, scene::kParts.size()> parts;  ///< per row of scene::kParts: whether it is shown
@@ -58,6 +68,6 @@ struct Reset {};
 struct CommandLine {
     std::string line;  ///< with or without the ':'
 };
-using Command = std::variant<Key, Rotate, Set, Load, Undo, Redo, Reset, CommandLine>;
+using Command = std::variant<Key, Rotate, Toward, Set, Load, Undo, Redo, Reset, CommandLine>;
 
 }  // namespace oval4d::session

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -35,6 +36,7 @@ const auto kSettings = std::to_array<Setting>({{"polytope", &Set::object},
                                                {"slices", &Set::count},
                                                {"spacing", &Set::spacing},
                                                {"focus", &Set::focus},
+                                               {"offset", &Set::offset},
                                                {"view", &Set::view},
                                                {"turning", &Set::turning},
                                                {"azimuth", &Set::azimuth},
@@ -61,7 +63,8 @@ struct ValueReader {
     std::string_view name, text;
 
     Result<std::monostate> operator()(std::optional<double> Set::* member) const {
-        const auto value = evaluate(text);
+        const bool isAngle = member == &Set::alpha || member == &Set::beta || member == &Set::step;
+        const auto value = isAngle ? evaluateAngle(text) : evaluate(text);
         if (!value) return bad(value.error().code, std::string(name) + ": " + value.error().message);
         set.*member = *value;
         return std::monostate{};
@@ -172,7 +175,21 @@ Result<Command> rotateLine(std::string_view /*rest*/, const Words& words, const 
     }
     const auto turn = makeTurn(words[0], angles);
     if (!turn) return turn.error();
+    for (const std::string_view angle : angles) {
+        if (const auto value = evaluateAngle(angle); !value) return value.error();
+    }
     return Command{Rotate{*turn}};
+}
+
+Result<Command> towardLine(std::string_view rest, const Words& words, const State& /*state*/) {
+    const auto toward = words.size() == 1 || words.size() == 2
+                            ? parseToward(words[0], words.size() == 2 ? words[1] : std::string_view())
+                            : Result<Toward>(bad(ErrorCode::bad_expression,
+                                                 "toward needs " + text::alternatives(text::namesOf(slicing::kElementKinds)) +
+                                                     " and optionally a number, such as toward cell 3" +
+                                                     (rest.empty() ? "" : ", not " + text::inQuotes(rest))));
+    if (!toward) return toward.error();
+    return Command{*toward};
 }
 
 Result<Command> keyLine(std::string_view rest, const Words& words, const State& /*state*/) {
@@ -219,6 +236,7 @@ constexpr auto kVerbs = std::to_array<Verb>(
     {{"polytope", polytopeLine},
      {"set", setLine},
      {"rotate", rotateLine},
+     {"toward", towardLine},
      {"view", [](std::string_view rest, const Words&, const State&) { return oneSetting("view", rest); }},
      {"focus", [](std::string_view rest, const Words&, const State&) { return oneSetting("focus", rest); }},
      {"color", [](std::string_view rest, const Words&, const State&) { return oneSetting("color", rest); }},
@@ -234,6 +252,26 @@ constexpr auto kVerbs = std::to_array<Verb>(
 }  // namespace
 
 std::string settingNames() { return text::commaSeparated(names()); }
+
+Result<Toward> parseToward(std::string_view kind, std::string_view number) {
+    Toward toward;
+    const auto named = text::valueNamed(slicing::kElementKinds, kind);
+    if (!named) {
+        return bad(ErrorCode::bad_expression, "an element is " +
+                                                  text::alternatives(text::namesOf(slicing::kElementKinds)) + ", not " +
+                                                  text::inQuotes(kind));
+    }
+    toward.kind = *named;
+    if (number.empty()) return toward;
+    std::uint32_t index = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
+    if (error != std::errc{} || end != number.data() + number.size()) {
+        return bad(ErrorCode::bad_expression, "the number of a " + std::string(kind) +
+                                                  " must be a whole number from 0, not " + text::inQuotes(number));
+    }
+    toward.index = index;
+    return toward;
+}
 
 Result<std::monostate> putSetting(std::string_view name, std::string_view value, Set& set) {
     for (const Setting& setting : kSettings) {

@@ -13,6 +13,10 @@ namespace oval4d::session {
 /// for an invalid value.
 Result<std::monostate> putSetting(std::string_view name, std::string_view value, Set& set);
 
+/// Parses the arguments of the command "toward": the kind of an element, and its number, or "" for the closest one.
+/// Error: `bad_expression`.
+Result<Toward> parseToward(std::string_view kind, std::string_view number);
+
 /// Returns all names that putSetting accepts, separated by commas.
 std::string settingNames();
 

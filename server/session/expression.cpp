@@ -38,7 +38,7 @@ bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 
 // A recursive-descent parser that evaluates the expression while it parses. Throws SyntaxError, which evaluate()
 // catches.
-//   sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power   power = atom [^ signed]
+//   sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power   power = angle [^ signed]   angle = atom [unit]
 class Parser {
   public:
     explicit Parser(std::string_view text) : text_(text) {}
@@ -84,8 +84,14 @@ class Parser {
         const Depth deeper(*this);
         if (take("-") || take(kMinusSign)) return -signedPower();
         if (take("+")) return signedPower();
-        const double base = atom();
+        const double base = angle();
         return take("^") ? std::pow(base, signedPower()) : base;
+    }
+    double angle() {
+        const double value = atom();
+        if (take("°") || takeWord("deg")) return value * std::numbers::pi / 180;
+        takeWord("rad");
+        return value;
     }
     double atom() {
         if (take("(")) {
@@ -132,6 +138,14 @@ class Parser {
         at_ += token.size();
         return true;
     }
+    // Like take(), but not if further letters follow.
+    bool takeWord(std::string_view word) {
+        skipBlanks();
+        const std::string_view rest = text_.substr(at_);
+        if (!rest.starts_with(word) || (rest.size() > word.size() && isLetter(rest[word.size()]))) return false;
+        at_ += word.size();
+        return true;
+    }
     void skipBlanks() {
         while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
     }
@@ -169,6 +183,18 @@ Result<double> evaluate(std::string_view text) {
     } catch (const Parser::SyntaxError& error) {
         return bad(text::inQuotes(text) + ", position " + std::to_string(error.position + 1) + ": " + error.what);
     }
+}
+
+Result<double> evaluateAngle(std::string_view text) {
+    const auto value = evaluate(text);
+    const bool isBareNumber = text.find_first_not_of(" \t+-.0123456789") == std::string_view::npos;
+    if (value && isBareNumber && std::abs(*value) > 2 * std::numbers::pi) {
+        const std::size_t first = text.find_first_not_of(" \t");
+        const std::string number(text.substr(first, text.find_last_not_of(" \t") + 1 - first));
+        return Error{ErrorCode::out_of_range, number + " radians are more than a full turn; did you mean " + number +
+                                                  "°? Write " + number + "° or " + number + "rad"};
+    }
+    return value;
 }
 
 Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles) {

@@ -10,9 +10,14 @@
 namespace oval4d::session {
 
 /// Evaluates an expression. It may contain + − * / ^, parentheses, decimal numbers with or without exponent, `pi`,
-/// `phi`, and the functions sqrt, sin, cos, tan, asin, acos, atan and deg (degrees to radians). Error:
-/// `bad_expression`, with the position of a syntax error; also if the value is not finite.
+/// `phi`, the functions sqrt, sin, cos, tan, asin, acos, atan and deg (degrees to radians), and the units ° and deg
+/// (degrees) and rad after a number, name or parenthesis. Error: `bad_expression`, with the position of a syntax error;
+/// also if the value is not finite.
 Result<double> evaluate(std::string_view text);
+
+/// Evaluates an expression that is an angle in radians. Errors: those of evaluate(); `out_of_range` if `text` is a number
+/// without a unit and larger than a full turn, since degrees are probably meant.
+Result<double> evaluateAngle(std::string_view text);
 
 /// Returns a rotation. `planes` names one plane, such as "xw", or two perpendicular planes, such as "xw,yz". `angles`
 /// must have one expression for each plane: the angle in radians. Error: `bad_expression`.

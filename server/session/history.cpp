@@ -60,6 +60,13 @@ void commit(Session& session, State next, const Limits& limits) {
     if (grows) limitHistoryBytes(session, limits.maxUndoBytes);
 }
 
+void amend(Session& session, State next, const Limits& limits) {
+    if (session.undoSteps.empty() || !session.redoSteps.empty()) return commit(session, std::move(next), limits);
+    if (next == session.current) return;
+    session.current = std::move(next);
+    ++session.revision;
+}
+
 void forgetOlderHalf(Session& session) {
     const auto half = static_cast<std::ptrdiff_t>((session.undoSteps.size() + 1) / 2);
     session.undoSteps.erase(session.undoSteps.begin(), session.undoSteps.begin() + half);

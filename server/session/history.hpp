@@ -10,6 +10,10 @@ namespace oval4d::session {
 /// the history is within `limits`. Does nothing if `next` equals the current state.
 void commit(Session& session, State next, const Limits& limits);
 
+/// Like commit(), but `next` becomes a part of the last undo step: undo returns to the state before that step. Adds an
+/// undo step of its own if there is none, or if the last command was an undo.
+void amend(Session& session, State next, const Limits& limits);
+
 /// Removes the older half of the undo steps, to free memory.
 void forgetOlderHalf(Session& session);
 

@@ -30,9 +30,9 @@ void moveFocus(State& state, int to) { state.slices.focus = std::clamp(to, -kMax
 std::pair<int, int> nonemptySlices(const State& state) {
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
     const double slack = slicing::kOnPlane * slicing::infoOf(state.object).circumradius;
-    const double spacing = state.slices.spacing;
-    return {static_cast<int>(std::ceil((least - slack) / spacing)),
-            static_cast<int>(std::floor((most + slack) / spacing))};
+    const auto [count, spacing, focus, offset] = state.slices;
+    return {static_cast<int>(std::ceil((least - slack - offset) / spacing)),
+            static_cast<int>(std::floor((most + slack - offset) / spacing))};
 }
 
 void scaleSpacing(State& state, double factor) {
@@ -73,6 +73,7 @@ constexpr auto kActions = std::to_array<Action>({
      [](ActionContext& c) -> Done {
          if (!c.state.lastTurn) return kNoRotationYet;
          c.state.turning = !c.state.turning;
+         c.state.approach.reset();
          return std::monostate{};
      }},
     {"alpha_up", always<[](ActionContext& c) { stepAngle(c.state.alpha, c.state.step); }>},
@@ -81,9 +82,14 @@ constexpr auto kActions = std::to_array<Action>({
     {"beta_down", always<[](ActionContext& c) { stepAngle(c.state.beta, -c.state.step); }>},
     {"focus_right", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus + 1); }>},
     {"focus_left", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus - 1); }>},
-    {"focus_zero", always<[](ActionContext& c) { moveFocus(c.state, 0); }>},
+    {"focus_zero", always<[](ActionContext& c) {
+         moveFocus(c.state, 0);
+         c.state.slices.offset = 0;
+     }>},
     {"focus_first", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).first); }>},
     {"focus_last", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).second); }>},
+    {"vertex_next", always<[](ActionContext& c) { moveFocusToVertex(c.state, true); }>},
+    {"vertex_previous", always<[](ActionContext& c) { moveFocusToVertex(c.state, false); }>},
     {"spacing_smaller", always<[](ActionContext& c) { scaleSpacing(c.state, 1 / kSpacingFactor); }>},
     {"spacing_larger", always<[](ActionContext& c) { scaleSpacing(c.state, kSpacingFactor); }>},
     {"slices_fewer", always<[](ActionContext& c) { setCount(c.state, std::max(c.state.slices.count - 2, 1)); }>},
@@ -113,17 +119,26 @@ constexpr Action toggleAction() {
             }>};
 }
 
-template <std::size_t... parts>
-std::vector<Action> allActions(std::index_sequence<parts...> /*unused*/) {
+// Returns the action that turns an element of the kind slicing::kElementKinds[kind] toward +w.
+template <std::size_t kind>
+Action towardAction() {
+    static const std::string name = "toward_" + std::string(slicing::kElementKinds[kind].name);
+    return {name, [](ActionContext& c) { return turnToward(c.state, {slicing::kElementKinds[kind].value, {}}); }};
+}
+
+template <std::size_t... parts, std::size_t... kinds>
+std::vector<Action> allActions(std::index_sequence<parts...> /*unused*/, std::index_sequence<kinds...> /*unused*/) {
     std::vector<Action> actions(kActions.begin(), kActions.end());
     (actions.push_back(toggleAction<parts>()), ...);
+    (actions.push_back(towardAction<kinds>()), ...);
     return actions;
 }
 
 }  // namespace
 
 std::span<const Action> keyActions() {
-    static const std::vector<Action> actions = allActions(std::make_index_sequence<scene::kParts.size()>());
+    static const std::vector<Action> actions = allActions(std::make_index_sequence<scene::kParts.size()>(),
+                                                         std::make_index_sequence<slicing::kElementKinds.size()>());
     return actions;
 }
 

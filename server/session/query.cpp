@@ -1,5 +1,7 @@
 #include "session/query.hpp"
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,15 +18,23 @@ Result<State> stateFromQuery(const Query& query, const Limits& limits, ObjectLoa
     // Settings are collected and applied together, so that a count and a spacing in either order give the same state.
     Set set;
     std::vector<geometry::Turn> turns;
+    std::optional<Toward> toward;
     for (const auto& [name, value] : query) {
         if (name == "rotate") {
             const auto turn = parseTurn(value);
             if (!turn) return turn.error();
             if (auto valid = checkTurn(*turn); !valid) return valid.error();
             turns.push_back(*turn);
+        } else if (name == "toward") {
+            const std::string_view element = value;
+            const std::size_t colon = std::min(element.find(':'), element.size());
+            auto parsed = parseToward(element.substr(0, colon), element.substr(std::min(colon + 1, element.size())));
+            if (!parsed) return parsed.error();
+            toward = *parsed;
+            toward->immediately = true;
         } else if (auto done = putSetting(name, value, set); !done) {
             Error error = done.error();
-            if (error.code == ErrorCode::unknown_command) error.message += ", rotate";
+            if (error.code == ErrorCode::unknown_command) error.message += ", rotate, toward";
             return error;
         }
     }
@@ -32,6 +42,9 @@ Result<State> stateFromQuery(const Query& query, const Limits& limits, ObjectLoa
     if (object) replaceObject(state, std::move(*object));
     for (const geometry::Turn& turn : turns) rotate(state, turn);
     if (auto done = applySet(state, set, {}, limits, loader); !done) return done.error();
+    if (toward) {
+        if (auto done = turnToward(state, *toward); !done) return done.error();
+    }
     return state;
 }
 

@@ -36,6 +36,12 @@ class Applier {
         if (Done valid = checkTurn(command.turn); !valid) return valid;
         State next = session_.current;
         rotate(next, command.turn);
+        (command.continues ? amend : commit)(session_, std::move(next), limits_);
+        return std::monostate{};
+    }
+    Done operator()(const Toward& command) {
+        State next = session_.current;
+        if (Done done = turnToward(next, command); !done) return done;
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
@@ -64,7 +70,9 @@ class Applier {
         State next = session_.current;
         next.orientation = {};
         next.slices.focus = 0;
+        next.slices.offset = 0;
         next.turning = false;
+        next.approach.reset();
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
@@ -93,7 +101,7 @@ class Applier {
 }  // namespace
 
 geometry::Hyperplanes State::hyperplanes() const {
-    return {slices.focus - (slices.count - 1) / 2, slices.count, slices.spacing};
+    return {slices.focus - (slices.count - 1) / 2, slices.count, slices.spacing, slices.offset};
 }
 
 State initialState() {
@@ -140,9 +148,22 @@ std::size_t objectBytes(const Session& session) {
 }
 
 void advance(Session& session, double seconds) {
-    if (!session.current.turning || !session.current.lastTurn) return;
-    const geometry::Rotation turn(session.current.lastTurn->scaled(kTurnsPerSecond * seconds));
-    session.current.orientation = turn * session.current.orientation;
+    State& state = session.current;
+    if (state.approach) {
+        auto& [goal, left] = *state.approach;
+        if (seconds < left) {
+            const geometry::Rotation way = goal * state.orientation.inverse();
+            state.orientation = way.power(seconds / left) * state.orientation;
+            left -= seconds;
+        } else {
+            state.orientation = goal;
+            state.approach.reset();
+        }
+    } else if (state.turning && state.lastTurn) {
+        state.orientation = geometry::Rotation(state.lastTurn->scaled(kTurnsPerSecond * seconds)) * state.orientation;
+    } else {
+        return;
+    }
     ++session.revision;
 }
 

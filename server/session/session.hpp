@@ -21,12 +21,20 @@ namespace oval4d::session {
 /// The objects loaded into a session, by name.
 using LoadedObjects = std::map<std::string, slicing::Object, std::less<>>;
 
-/// The hyperplanes that cut the object into slices: w = n · spacing, for `count` consecutive integers n.
+/// The hyperplanes that cut the object into slices: w = offset + n · spacing, for `count` consecutive integers n.
 struct SliceSettings {
     int count = 21;      ///< odd; n is from focus − h to focus + h, where h = (count − 1) / 2
     double spacing = 0;  ///< δ, the distance between neighboring hyperplanes, in the object's units
     int focus = 0;       ///< f, the index of the focus slice
+    double offset = 0;   ///< w of the hyperplane n = 0, in the object's units
     bool operator==(const SliceSettings&) const = default;
+};
+
+/// A motion that ends at an orientation, along the shortest way at constant speed.
+struct Approach {
+    geometry::Rotation goal;
+    double seconds = 0;  ///< the time that is left; greater than 0
+    bool operator==(const Approach&) const = default;
 };
 
 /// Everything that determines a picture except the viewport. Undo restores all members except the camera's orbit.
@@ -39,9 +47,14 @@ struct State {
     scene::Look look;
     bool turning = false;                    ///< whether the object turns continuously: advance() repeats `lastTurn`
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
+    std::optional<Approach> approach;        ///< where the object moves by itself, as advance() is called; never while `turning`
 
     /// Returns the hyperplanes that `slices` describes.
     geometry::Hyperplanes hyperplanes() const;
+    /// Returns w of the focus slice.
+    double focusW() const { return slices.offset + slices.focus * slices.spacing; }
+    /// Returns whether the object moves without further commands: it turns, or approaches an orientation.
+    bool moves() const { return turning || approach; }
     bool operator==(const State&) const = default;
 };
 
@@ -91,8 +104,9 @@ Result<std::monostate> apply(Session& session, const Command& command, const Lim
 
 /// The speed of continuous turning: how often the last rotation is repeated per second.
 inline constexpr double kTurnsPerSecond = 6;
-/// Rotates the object by `seconds` of continuous turning. Does nothing if the session is not turning. Continuous
-/// turning is one undo step from its start to its end, so this function adds none.
+/// Moves the object as it moves in `seconds` of continuous turning, or of the approach to an orientation, which ends
+/// there. Does nothing if the object does not move. The motion is one undo step from its start to its end, so this
+/// function adds none.
 void advance(Session& session, double seconds);
 
 /// Parses a ':' line, with or without the ':', such as "polytope 24-cell", "set slices=31", "rotate xw,yz pi/8 pi/5" or

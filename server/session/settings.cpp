@@ -59,7 +59,7 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
         }
         state.slices.focus = *set.focus;
     }
-    return std::monostate{};
+    return put("the offset", set.offset, {-kMaxOffset * radius, kMaxOffset * radius, ""}, state.slices.offset);
 }
 
 }  // namespace
@@ -71,6 +71,8 @@ void replaceObject(State& state, slicing::Object object) {
     state.slices.spacing =
         std::clamp(spacing, kMinSpacing * radius, kMaxSpacing * radius);  // rounding may exceed the bounds
     state.slices.focus = 0;
+    state.slices.offset = 0;
+    state.approach.reset();
     state.look.cellTypes = {};
     state.object = std::move(object);
 }
@@ -98,6 +100,7 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
                          "the orientation must be an orthogonal 4×4 matrix with determinant 1, to within 1e-6"};
         }
         state.orientation = *orientation;
+        state.approach.reset();
     }
     if (set.lastTurn) {
         if (auto valid = checkTurn(*set.lastTurn); !valid) return valid;
@@ -122,6 +125,7 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
     state.look.coloring = set.coloring.value_or(state.look.coloring);
     if (auto done = setCellTypes(state, set); !done) return done;
     put(set.turning, state.turning);
+    if (set.turning) state.approach.reset();
     if (state.turning && !state.lastTurn) {
         return Error{ErrorCode::nothing_to_undo, "nothing to repeat: no rotation has been made yet"};
     }
@@ -142,6 +146,47 @@ Result<std::monostate> checkTurn(const geometry::Turn& turn) {
 void rotate(State& state, const geometry::Turn& turn) {
     state.orientation = geometry::Rotation(turn) * state.orientation;
     state.lastTurn = turn;
+    state.approach.reset();
+}
+
+Result<std::monostate> turnToward(State& state, const Toward& command) {
+    const std::size_t count = slicing::elementCount(state.object, command.kind);
+    const auto element = command.index && *command.index < count
+                             ? std::optional(slicing::Element{command.kind, *command.index})
+                         : command.index ? std::nullopt
+                                         : slicing::elementToTurnTo(state.object, command.kind, state.orientation);
+    if (!element) {
+        const std::string kind(text::nameOf(slicing::kElementKinds, command.kind));
+        const std::string& name = slicing::infoOf(state.object).name;
+        if (count == 0) return Error{ErrorCode::out_of_range, "the " + name + " has no " + kind + " to turn toward"};
+        return Error{ErrorCode::out_of_range, "the number of the " + kind + " must be from 0 to " +
+                                                  std::to_string(count - 1) + " for the " + name + ", not " +
+                                                  std::to_string(*command.index)};
+    }
+    const glm::dvec4 w(0, 0, 0, 1);
+    const glm::dvec4 own = slicing::directionOf(state.object, *element, state.orientation.inverse()(w));
+    const geometry::Rotation way = geometry::Rotation::between(state.orientation(own), w);
+    const geometry::Rotation goal = way * state.orientation;
+    state.turning = false;
+    state.approach.reset();
+    constexpr double kRadiansPerSecond = std::numbers::pi / 2;
+    const double seconds = way.angle() / kRadiansPerSecond;
+    constexpr double kShortest = 1e-3;  // an approach that takes less time is not seen
+    if (command.immediately || seconds < kShortest) {
+        state.orientation = goal;
+    } else {
+        state.approach = Approach{goal, seconds};
+    }
+    return std::monostate{};
+}
+
+void moveFocusToVertex(State& state, bool upward) {
+    const auto height = slicing::nextVertexHeight(state.object, state.orientation, state.focusW(), upward);
+    if (!height) return;
+    const double spacing = state.slices.spacing;
+    const double limit = kMaxFocus;  // a spacing far below the circumradius cannot reach every height
+    state.slices.focus = static_cast<int>(std::clamp(std::round(*height / spacing), -limit, limit));
+    state.slices.offset = *height - state.slices.focus * spacing;
 }
 
 }  // namespace oval4d::session

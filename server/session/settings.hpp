@@ -11,12 +11,14 @@ inline constexpr double kMaxAngle = 1e6;        ///< absolute value of an angle 
 inline constexpr int kMaxFocus = 1'000'000;     ///< absolute value of the focus index
 inline constexpr double kMinSpacing = 1e-6;     ///< as a multiple of the object's circumradius
 inline constexpr double kMaxSpacing = 10;       ///< as a multiple of the object's circumradius
+inline constexpr double kMaxOffset = 10;        ///< absolute value of the offset, as a multiple of the circumradius
+inline constexpr double kMaxApproachSeconds = 10;  ///< Approach::seconds
 inline constexpr double kMaxOrbitAngle = 1000;  ///< absolute value of azimuth and elevation in radians
 inline constexpr double kMinZoom = 0.05, kMaxZoom = 20;
 inline constexpr double kMinEye = 1.05, kMaxEye = 1000;  ///< in circumradii
 
 /// Replaces the object of the state; does nothing if the object is the same. The orientation stays the same, the
-/// spacing keeps its ratio to the circumradius, the focus becomes 0, and all cell types become fully visible.
+/// spacing keeps its ratio to the circumradius, focus and offset become 0, and all cell types become fully visible.
 void replaceObject(State& state, slicing::Object object);
 
 /// Changes the number of slices. If the old and the new count are greater than 1, also changes the spacing, within its
@@ -32,7 +34,16 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
 /// Returns the error `out_of_range` unless the angles are finite and within ±kMaxAngle.
 Result<std::monostate> checkTurn(const geometry::Turn& turn);
 
-/// Rotates the object, and stores the rotation as State::lastTurn.
+/// Rotates the object, stores the rotation as State::lastTurn, and ends an approach.
 void rotate(State& state, const geometry::Turn& turn);
+
+/// Lets the object approach the orientation in which the element points to +w, or brings it there immediately. Continuous
+/// turning ends. Error: `out_of_range` if the object has no such element.
+Result<std::monostate> turnToward(State& state, const Toward& command);
+
+/// Moves the focus to the next vertex height above the focus's w (below it if `upward` is false), where the section
+/// changes its type: to the hyperplane closest to this height, whose offset becomes such that it goes through the
+/// vertex. Does nothing if there is no such height.
+void moveFocusToVertex(State& state, bool upward);
 
 }  // namespace oval4d::session

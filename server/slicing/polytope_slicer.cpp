@@ -61,7 +61,7 @@ void PolytopeSlicer::cutSingle(const polytopes::Polytope& polytope, std::int32_t
         below_[v] = std::clamp(allBelow_[v] - plane, 0, 1);
         upTo_[v] = std::clamp(allUpTo_[v] - plane, 0, 1);
     }
-    single.planes = {all.planes.first + plane, 1, all.planes.spacing};
+    single.planes = {all.planes.first + plane, 1, all.planes.spacing, all.planes.offset};
     single.rotatedVertices.swap(all.rotatedVertices);
     cutGeneral(polytope, single);
     single.rotatedVertices.swap(all.rotatedVertices);
@@ -80,7 +80,7 @@ void PolytopeSlicer::locateVertices(const polytopes::Polytope& polytope, const g
     anyOnPlane_ = false;
     for (std::size_t v = 0; v < n; ++v) {
         out.rotatedVertices[v] = m * polytope.vertices[v];
-        const double level = out.rotatedVertices[v].w * inverse - out.planes.first;
+        const double level = (out.rotatedVertices[v].w - out.planes.offset) * inverse - out.planes.first;
         const double above = std::clamp(level - tolerance, 0.0, count);
         const auto whole = static_cast<std::int32_t>(above);
         below_[v] = whole + (above > whole ? 1 : 0);  // rounded up

@@ -129,6 +129,24 @@ std::optional<geometry::Turn> turnIn(const json& value) {
     return turn;
 }
 
+json encoded(const std::optional<session::Approach>& approach) {
+    if (!approach) return nullptr;
+    const auto& [goal, seconds] = *approach;
+    return {quaternion(goal.left()), quaternion(goal.right()), seconds};
+}
+
+geometry::Rotation rotationIn(const json& left, const json& right) {
+    const auto rotation = geometry::Rotation::fromQuaternions(quaternionIn(left), quaternionIn(right));
+    if (!rotation) throwUnreadable("an orientation is not a rotation");
+    return *rotation;
+}
+
+std::optional<session::Approach> approachIn(const json& value) {
+    if (value.is_null()) return std::nullopt;
+    return session::Approach{rotationIn(value.at(0), value.at(1)),
+                             readNumber(value.at(2), std::numeric_limits<double>::min(), session::kMaxApproachSeconds)};
+}
+
 json encoded(const scene::Look& look) {
     const auto& [view, parts, orbit, coloring, cellTypes, projection] = look;
     const auto& [azimuth, elevation, zoom] = orbit;
@@ -184,45 +202,48 @@ scene::Look lookIn(const json& value, std::size_t kinds) {
 // --- States
 
 json encoded(const State& state, ObjectTable& objects) {
-    const auto& [object, orientation, alpha, beta, step, slices, look, turning, last] = state;
-    const auto& [count, spacing, focus] = slices;
+    const auto& [object, orientation, alpha, beta, step, slices, look, turning, last, approach] = state;
+    const auto& [count, spacing, focus, offset] = slices;
     return {objects.number(object),
             quaternion(orientation.left()),
             quaternion(orientation.right()),
             {alpha, beta, step},
-            {count, spacing, focus},
+            {count, spacing, focus, offset},
             encoded(look),
             turning,
-            encoded(last)};
+            encoded(last),
+            encoded(approach)};
 }
 
 State stateIn(const json& value, const ObjectList& objects) {
     const slicing::Object& object = objectAt(value.at(0), objects);
     const geometry::ObjectInfo& info = slicing::infoOf(object);
-    const auto orientation = geometry::Rotation::fromQuaternions(quaternionIn(value.at(1)), quaternionIn(value.at(2)));
-    if (!orientation) throwUnreadable("an orientation is not a rotation");
     const json& angles = value.at(3);
     const json& slices = value.at(4);
     constexpr double kTwoPi = 2 * std::numbers::pi;
-    // The spacing is limited in proportion to the circumradius; kSlack allows for rounding errors.
+    // Spacing and offset are limited in proportion to the circumradius; kSlack allows for rounding errors. Records written
+    // by earlier versions of the program have no offset and no approach.
     const double radius = info.circumradius;
     constexpr double kSlack = 1e-9;
     State state{object,
-                *orientation,
+                rotationIn(value.at(1), value.at(2)),
                 readNumber(angles.at(0), kTwoPi),
                 readNumber(angles.at(1), kTwoPi),
                 readNumber(angles.at(2), std::numeric_limits<double>::min(), kTwoPi),
                 {readInteger<int>(slices.at(0)),
                  readNumber(slices.at(1), session::kMinSpacing * radius * (1 - kSlack),
                             session::kMaxSpacing * radius * (1 + kSlack)),
-                 readInteger<int>(slices.at(2))},
+                 readInteger<int>(slices.at(2)),
+                 slices.size() > 3 ? readNumber(slices.at(3), session::kMaxOffset * radius * (1 + kSlack)) : 0},
                 lookIn(value.at(5), info.cellTypes.size()),
                 value.at(6).get<bool>(),
-                turnIn(value.at(7))};
-    const auto& [count, spacing, focus] = state.slices;
+                turnIn(value.at(7)),
+                value.size() > 8 ? approachIn(value.at(8)) : std::nullopt};
+    const auto& [count, spacing, focus, offset] = state.slices;
     if (count < 1 || count > kMaxSlices || count % 2 == 0 || !(spacing > 0))
         throwUnreadable("the number of slices or their spacing is not allowed");
     if (focus < -session::kMaxFocus || focus > session::kMaxFocus) throwUnreadable("the focus is out of range");
+    if (state.turning && state.approach) throwUnreadable("a state both turns and approaches an orientation");
     if (state.turning && !state.lastTurn) throwUnreadable("a state is turning, but has no last rotation");
     return state;
 }

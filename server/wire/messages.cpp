@@ -102,6 +102,7 @@ void stateMessage(const session::State& state, std::uint64_t revision, std::opti
     w.member("count", state.slices.count);
     w.member("spacing", state.slices.spacing);
     w.member("focus", state.slices.focus);
+    w.member("offset", state.slices.offset);
     w.endObject();
     w.member("view", text::nameOf(scene::kViews, state.look.view));
     w.member("turning", state.turning);

@@ -86,6 +86,7 @@ session::Set setOf(const json& message) {
         take(*slices, "count", set.count);
         take(*slices, "spacing", set.spacing);
         take(*slices, "focus", set.focus);
+        take(*slices, "offset", set.offset);
     }
     choose(message, "view", scene::kViews, set.view);
     if (const auto parts = message.find("shown"); parts != message.end()) {
@@ -104,6 +105,14 @@ session::Set setOf(const json& message) {
     if (const auto last = message.find("last"); last != message.end() && !last->is_null())
         set.lastTurn = turnOf(*last, "set: /last");
     return set;
+}
+
+session::Toward towardOf(const json& message) {
+    session::Toward toward;
+    choose(message, "element", slicing::kElementKinds, toward.kind);
+    take(message, "number", toward.index);
+    toward.immediately = message.value("immediately", false);
+    return toward;
 }
 
 exports::ExportRequest exportRequestOf(const json& message) {
@@ -137,7 +146,9 @@ decltype(Request::body) bodyOf(const std::string& type, const json& message) {
         return session::Command{
             session::Key{message.at("key"), message.value("shift", false), message.value("ctrl", false)}};
     if (type == "shown") return ShownRevision{message.at("revision")};
-    if (type == "rotate") return session::Command{session::Rotate{turnOf(message, "rotate: ")}};
+    if (type == "rotate") 
+        return session::Command{session::Rotate{turnOf(message, "rotate: "), message.value("continues", false)}};
+    if (type == "toward") return session::Command{towardOf(message)};
     if (type == "set") return session::Command{setOf(message)};
     if (type == "undo") return session::Command{session::Undo{}};
     if (type == "redo") return session::Command{session::Redo{}};

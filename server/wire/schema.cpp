@@ -24,7 +24,7 @@ using nlohmann::json;
 using valijson::adapters::NlohmannJsonAdapter;
 
 constexpr auto kRequests = std::to_array<std::string_view>(
-    {"hello", "key", "rotate", "set", "load", "undo", "redo", "reset", "command", "get", "shown"});
+    {"hello", "key", "rotate", "toward", "set", "load", "undo", "redo", "reset", "command", "get", "shown"});
 constexpr auto kAnswers =
     std::to_array<std::string_view>({"welcome", "state", "slices", "done", "error", "catalogue", "keymap"});
 

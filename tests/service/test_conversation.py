@@ -57,7 +57,7 @@ async def test_set_changes_all_given_members_or_none(server):
         await client.request("set", polytope="24-cell", slices={"count": 31, "spacing": 0.1, "focus": 2}, alpha=0.5)
         state = await client.wait_for_state(1)
         assert state["polytope"]["cells"] == 24 and state["alpha"] == 0.5
-        assert state["slices"] == {"count": 31, "spacing": 0.1, "focus": 2}
+        assert state["slices"] == {"count": 31, "spacing": 0.1, "focus": 2, "offset": 0}
         with pytest.raises(Refused) as refused:
             await client.request("set", alpha=0.7, slices={"count": 4})
         assert refused.value.code == "out_of_range"

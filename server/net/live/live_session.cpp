@@ -42,11 +42,11 @@ session::FileReader fileReader(const Services& services) {
     };
 }
 
-// Minimum time between two steps of a continuous turn.
-constexpr auto kTurnInterval = std::chrono::duration_cast<Pacing::Clock::duration>(1s) / 60;
-// Maximum time that one step of a continuous turn covers. Because of this maximum, the turn continues without a large
+// Minimum time between two steps of a moving object.
+constexpr auto kMotionInterval = std::chrono::duration_cast<Pacing::Clock::duration>(1s) / 60;
+// Maximum time that one step of a moving object covers. Because of this maximum, the motion continues without a large
 // jump after a pause, and for a client that shows one picture per second.
-constexpr auto kMaxTurnStep = 250ms;
+constexpr auto kMaxMotionStep = 250ms;
 
 // Time until the next attempt after the job queue was full.
 constexpr auto kRetryInterval = 100ms;
@@ -66,7 +66,7 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
       objectBytes_(session::objectBytes(session_)),
       held_(client_->byteAccount().forceReserve(objectBytes_ + session::historyBytes(session_))),
       changed_(Clock::now()),
-      turnTimer_(strand_),
+      motionTimer_(strand_),
       paceTimer_(strand_),
       saveTimer_(strand_),
       retryTimer_(strand_) {}
@@ -338,7 +338,7 @@ void LiveSession::sendError(Peer& peer, const Error& error, RequestId id) {
 /// receive a picture, or a worker may have become available.
 void LiveSession::update() {
     assertOnStrand();
-    advanceTurn();
+    advanceMotion();
     std::vector<StreamKey> missing;
     bool allServed = true;
     for (auto& [key, client] : clients_) {
@@ -364,24 +364,24 @@ void LiveSession::update() {
     }
 }
 
-/// Advances a continuous turn if the next step is due and a client that has the current revision can receive the next
-/// one.
-void LiveSession::advanceTurn() {
+/// Moves an object that turns continuously or approaches an orientation, if the next step is due and a client that has
+/// the current revision can receive the next one.
+void LiveSession::advanceMotion() {
     assertOnStrand();
-    if (!session_.current.turning) {
-        lastTurn_.reset();
+    if (!session_.current.moves()) {
+        lastMotion_.reset();
         return;
     }
     if (drawing_ != 0 ||
         std::ranges::none_of(clients_, [this](const auto& entry) { return readyForNext(entry.second); }))
         return;
     const auto now = Clock::now();
-    if (lastTurn_ && now - *lastTurn_ < kTurnInterval) {
-        turnTimer_.start(weak_from_this(), *lastTurn_ + kTurnInterval, &LiveSession::update);
+    if (lastMotion_ && now - *lastMotion_ < kMotionInterval) {
+        motionTimer_.start(weak_from_this(), *lastMotion_ + kMotionInterval, &LiveSession::update);
         return;
     }
-    const auto passed = lastTurn_ ? std::min<Clock::duration>(now - *lastTurn_, kMaxTurnStep) : kTurnInterval;
-    lastTurn_ = now;
+    const auto passed = lastMotion_ ? std::min<Clock::duration>(now - *lastMotion_, kMaxMotionStep) : kMotionInterval;
+    lastMotion_ = now;
     changed_ = now;
     session::advance(session_, Seconds(passed).count());
     scheduleSave();

@@ -118,6 +118,47 @@ TEST(Rotation, isRecoveredFromItsMatrix) {
     EXPECT_LT(difference(Rotation::fromMatrix(glm::dmat4(-1))->matrix(), glm::dmat4(-1)), 1e-15);
 }
 
+TEST(Rotation, betweenTwoDirectionsIsTheShortestOne) {
+    std::mt19937 random(31);
+    std::normal_distribution<double> normal;
+    const auto vector = [&] { return glm::dvec4(normal(random), normal(random), normal(random), normal(random)); };
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec4 from = vector();
+        const glm::dvec4 to = i % 10 == 0 ? -2.0 * from : i % 10 == 1 ? from + 1e-9 * vector() : vector();
+        const Rotation rotation = Rotation::between(from, to);
+        EXPECT_LT(glm::distance(rotation(glm::normalize(from)), glm::normalize(to)), 1e-7);
+        const double angle = std::acos(std::clamp(glm::dot(glm::normalize(from), glm::normalize(to)), -1.0, 1.0));
+        EXPECT_NEAR(rotation.angle(), angle, 1e-7);
+        if (i % 10 == 0) continue;
+        // What is perpendicular to both directions stays.
+        const glm::dvec4 a = glm::normalize(from);
+        const glm::dvec4 b = glm::normalize(glm::normalize(to) - glm::dot(a, glm::normalize(to)) * a);
+        const glm::dvec4 v = vector();
+        const glm::dvec4 rest = v - glm::dot(v, a) * a - glm::dot(v, b) * b;
+        if (i % 10 != 1) EXPECT_LT(glm::distance(rotation(rest), rest), 1e-7);
+    }
+}
+
+TEST(Rotation, hasPowersThatAddUp) {
+    std::mt19937 random(32);
+    std::uniform_real_distribution<double> fraction(0, 1);
+    for (int i = 0; i < 200; ++i) {
+        const Rotation rotation(randomTurn(random, i % 2 == 0));
+        const double f = fraction(random);
+        EXPECT_LT(difference(rotation.power(0).matrix(), glm::dmat4(1)), 1e-12);
+        EXPECT_LT(difference(rotation.power(1).matrix(), rotation.matrix()), 1e-12);
+        EXPECT_LT(difference((rotation.power(f) * rotation.power(1 - f)).matrix(), rotation.matrix()), 1e-9);
+        EXPECT_NEAR(rotation.power(f).angle(), f * rotation.angle(), 1e-9);
+    }
+    for (const double angle : {0.1, 1.0, 3.0}) {
+        for (const double f : {0.25, 0.5, 0.75}) {
+            EXPECT_LT(difference(Rotation(Turn{Plane::xw, angle, {}}).power(f).matrix(),
+                                 Rotation(Turn{Plane::xw, f * angle, {}}).matrix()),
+                      1e-12);
+        }
+    }
+}
+
 TEST(Rotation, isRestoredFromItsQuaternionsBitByBit) {
     std::mt19937 random(29);
     for (int i = 0; i < 100; ++i) {

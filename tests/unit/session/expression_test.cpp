@@ -34,7 +34,22 @@ INSTANTIATE_TEST_SUITE_P(
                     Arithmetic{"3−1", 2}, Arithmetic{"phi^2-phi", 1}, Arithmetic{"deg(180)", pi},
                     Arithmetic{"sin(pi/6)", std::sin(pi / 6)}, Arithmetic{"cos(0)", 1},
                     Arithmetic{"tan(0.5)", std::tan(0.5)}, Arithmetic{"asin(1)", pi / 2}, Arithmetic{"acos(1)", 0},
-                    Arithmetic{"atan(1)*4", pi}));
+                    Arithmetic{"atan(1)*4", pi}, Arithmetic{"30°", pi / 6}, Arithmetic{"30 deg", pi / 6},
+                    Arithmetic{"-90°/2", -pi / 4}, Arithmetic{"(10+20)°", pi / 6}, Arithmetic{"2rad", 2},
+                    Arithmetic{"45deg+pi/4", pi / 2}));
+
+TEST(Expressions, AskAboutAnglesThatAreProbablyDegrees) {
+    for (const char* text : {"30", "-30", " 45.5 ", "6.3"}) {
+        const auto angle = evaluateAngle(text);
+        ASSERT_FALSE(angle) << text;
+        EXPECT_EQ(angle.error().code, ErrorCode::out_of_range);
+        EXPECT_NE(angle.error().message.find("°?"), std::string::npos) << angle.error().message;
+    }
+    EXPECT_NE(evaluateAngle(" -30 ").error().message.find("did you mean -30°?"), std::string::npos);
+    for (const char* text : {"30°", "30deg", "30rad", "6.28", "4*pi", "2e1"}) EXPECT_TRUE(evaluateAngle(text)) << text;
+    EXPECT_DOUBLE_EQ(*evaluateAngle("30rad"), 30);
+    EXPECT_EQ(evaluateAngle("x").error().code, ErrorCode::bad_expression);
+}
 
 struct Mistake {
     std::string text, says;

@@ -49,7 +49,7 @@ inline void wander(session::Session& session, std::mt19937& random, int steps) {
     for (int i = 0; i < steps; ++i) {
         session::Command command = session::Key{std::string(1, keys[random() % keys.size()]), random() % 4 == 0, false};
         session::Set set;
-        switch (random() % 8) {
+        switch (random() % 10) {
             case 0:
                 command = session::Rotate{{static_cast<geometry::Plane>(random() % 6), angle(random), {}}};
                 break;
@@ -67,11 +67,18 @@ inline void wander(session::Session& session, std::mt19937& random, int steps) {
             case 3:
                 command = session::Redo{};
                 break;
+            case 4:
+                command = session::Toward{slicing::ElementKind::edge, {}};
+                break;
+            case 5:
+                set.offset = 0.1 * angle(random);
+                command = set;
+                break;
             default:
                 break;
         }
         (void)session::apply(session, command);  // some commands fail, for example with nothing to undo
-        if (session.current.turning) session::advance(session, 0.01);
+        if (session.current.moves()) session::advance(session, 0.01);
     }
 }
 

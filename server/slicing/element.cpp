@@ -1,0 +1,146 @@
+#include "slicing/element.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "geometry/point_cloud.hpp"
+#include "polytopes/polytope.hpp"
+#include "slicing/slice_set.hpp"
+#include "slicing/visitor.hpp"
+
+namespace oval4d::slicing {
+
+namespace {
+
+using polytopes::Polytope;
+
+// Calls `visit` with the position of each vertex of the element. A vertex of a cell is visited once for each of its
+// 2-faces in this cell.
+template <typename Visit>
+void visitVertices(const Polytope& p, const Element& element, Visit visit) {
+    const std::size_t i = element.index;
+    switch (element.kind) {
+        case ElementKind::vertex:
+            visit(p.vertices[i]);
+            break;
+        case ElementKind::edge:
+            for (const auto v : p.edges[i]) visit(p.vertices[v]);
+            break;
+        case ElementKind::face:
+            for (const auto v : p.faces[i]) visit(p.vertices[v]);
+            break;
+        case ElementKind::cell:
+            for (const auto face : p.cells[i]) {
+                for (const auto v : p.faces[face]) visit(p.vertices[v]);
+            }
+            break;
+    }
+}
+
+template <typename Visit>
+void visitVertices(const geometry::PointCloud& cloud, const Element& element, Visit visit) {
+    visit(cloud.points[element.index]);
+}
+
+// An orthonormal basis of the directions within an element, to which the Gram–Schmidt process adds vectors.
+class Span {
+  public:
+    /// Returns the component of v that is perpendicular to the span.
+    glm::dvec4 perpendicular(glm::dvec4 v) const {
+        for (std::size_t i = 0; i < size_; ++i) v -= glm::dot(v, basis_.at(i)) * basis_.at(i);
+        return v;
+    }
+    /// Adds v to the span, unless its distance from the span is at most `tolerance`.
+    void add(const glm::dvec4& v, double tolerance) {
+        const glm::dvec4 part = perpendicular(v);
+        if (size_ < basis_.size() && glm::length(part) > tolerance) basis_.at(size_++) = glm::normalize(part);
+    }
+
+  private:
+    std::array<glm::dvec4, 3> basis_{};
+    std::size_t size_ = 0;
+};
+
+template <typename Solid>
+glm::dvec4 directionIn(const Solid& object, const Element& element, const glm::dvec4& preferred) {
+    const double tolerance = 1e-6 * object.circumradius;
+    std::optional<glm::dvec4> origin;
+    Span span;
+    glm::dvec4 sum(0);
+    double count = 0;
+    visitVertices(object, element, [&](const glm::dvec4& v) {
+        if (!origin) origin = v;
+        span.add(v - *origin, tolerance);
+        sum += v;
+        ++count;
+    });
+    const glm::dvec4 foot = span.perpendicular(sum / count);
+    if (glm::length(foot) > tolerance) return foot;
+    const glm::dvec4 near = span.perpendicular(glm::normalize(preferred));
+    if (glm::length(near) > 1e-6) return near;
+    glm::dvec4 best(0);
+    for (int axis = 0; axis < 4; ++axis) {
+        glm::dvec4 unit(0);
+        unit[axis] = 1;
+        const glm::dvec4 part = span.perpendicular(unit);
+        if (glm::length(part) > glm::length(best)) best = part;
+    }
+    return best;
+}
+
+// Returns the direction of +w in the object's own coordinates.
+glm::dvec4 ownDirectionOfW(const geometry::Rotation& orientation) { return orientation.inverse()({0, 0, 0, 1}); }
+
+}  // namespace
+
+std::size_t elementCount(const Object& object, ElementKind kind) {
+    return elementCounts(object).at(static_cast<std::size_t>(kind));
+}
+
+glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred) {
+    return std::visit([&](const auto& shared) { return directionIn(*shared, element, preferred); }, object);
+}
+
+std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation) {
+    const std::size_t count = elementCount(object, kind);
+    if (count == 0) return std::nullopt;
+    const glm::dvec4 w = ownDirectionOfW(orientation);
+    double best = -2;
+    Element nearest{kind, 0};
+    for (std::size_t i = 0; i < count; ++i) {
+        const double cosine = glm::dot(w, glm::normalize(directionOf(object, {kind, i}, w)));
+        // Elements at the same angle are equally near: rounding must not choose among them.
+        constexpr double kSame = 1e-9;
+        if (cosine > best + kSame) {
+            best = cosine;
+            nearest.index = i;
+        }
+    }
+    constexpr double kThere = 1e-12;  // 1 − cos of an angle of 1.4e-6
+    if (best > 1 - kThere) nearest.index = (nearest.index + 1) % count;
+    return nearest;
+}
+
+std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
+                                       bool upward) {
+    const double slack = kOnPlane * infoOf(object).circumradius;
+    const glm::dvec4 direction = ownDirectionOfW(orientation);
+    std::optional<double> next;
+    const auto consider = [&](const std::vector<glm::dvec4>& vertices) {
+        for (const glm::dvec4& v : vertices) {
+            const double height = glm::dot(direction, v);
+            const bool beyond = upward ? height > w + slack : height < w - slack;
+            if (beyond && (!next || (upward ? height < *next : height > *next))) next = height;
+        }
+    };
+    std::visit(Visitor{[&](const PolytopePtr& p) { consider(p->vertices); },
+                       [&](const CloudPtr& cloud) { consider(cloud->points); }},
+               object);
+    return next;
+}
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,52 @@
+#pragma once
+// The elements of an object: its vertices, edges, 2-faces and cells.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <glm/vec4.hpp>
+
+#include "geometry/rotation.hpp"
+#include "slicing/object.hpp"
+#include "text/choice.hpp"
+
+namespace oval4d::slicing {
+
+/// The kinds of elements, by dimension: 0 to 3. The points of a point cloud are vertices.
+enum class ElementKind : std::uint8_t { vertex, edge, face, cell };
+inline constexpr auto kElementKinds = std::to_array<text::Choice<ElementKind>>({{"vertex", ElementKind::vertex},
+                                                                                {"edge", ElementKind::edge},
+                                                                                {"face", ElementKind::face},
+                                                                                {"cell", ElementKind::cell}});
+
+/// One element of an object: its kind, and its index from 0 among the object's elements of this kind.
+struct Element {
+    ElementKind kind = ElementKind::vertex;
+    std::size_t index = 0;
+    bool operator==(const Element&) const = default;
+};
+
+/// Returns the number of elements of this kind.
+std::size_t elementCount(const Object& object, ElementKind kind);
+
+/// Returns the direction, in the object's own coordinates, that points from the origin to the element: to the point of
+/// its affine span that is closest to the origin. If this direction turns to +w, the whole element lies in one
+/// hyperplane w = const. If the span contains the origin, returns the direction perpendicular to the element that is
+/// closest to `preferred`. The result is never 0; its length is arbitrary. Requires element.index <
+/// elementCount(object, element.kind).
+glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred);
+
+/// Returns the element of this kind whose direction is closest to +w after rotation by `orientation`. If that element
+/// already points to +w, returns the one with the next index, so that repeated calls visit all elements. Returns an
+/// empty optional if there are no elements of this kind. Takes time linear in the size of the object.
+std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation);
+
+/// Returns the smallest w > `w` (the largest w < `w` if `upward` is false) at which a vertex lies after rotation by
+/// `orientation`: the section w = const changes its combinatorial type only there (Coxeter, Regular Polytopes, §13.1).
+/// Heights that differ by at most kOnPlane circumradii count as equal. Returns an empty optional if there is none.
+std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
+                                       bool upward);
+
+}  // namespace oval4d::slicing
