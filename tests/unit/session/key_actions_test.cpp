@@ -24,8 +24,10 @@ const std::vector<nlohmann::json>& rows() {
 }
 
 std::vector<Key> strokesOf(const nlohmann::json& row) {
+    const std::string keys = row.at("key");
+    if (keys.size() != 2) return {{keys, false, row.value("ctrl", false)}};
     std::vector<Key> strokes;
-    for (const char c : row.at("key").get<std::string>())
+    for (const char c : keys)
         strokes.push_back({std::string(1, c), false, row.value("ctrl", false)});
     return strokes;
 }
@@ -84,7 +86,7 @@ TEST(Keys, TheTableHasEveryKeyOfTheMethod) {
     for (const auto& row : rows()) all += row.at("name").get<std::string>() + "\n";
     EXPECT_EQ(all,
               "2\n3\n4\n5\n6\n7\nr\nt\ny\nk\nj\nK\nJ\nh\nl\n0\ngg\nG\n[\n]\n{\n}\nSpace\n.\nu\nCtrl-"
-              "r\ns\ni\nn\nN\no\np\na\nf\nb\ne\nw\nc\nW\nC\nx\n:\n?\n");
+              "r\ns\ni\nn\nN\no\np\na\nf\nb\ne\nw\nc\nW\nC\n←\n→\n↓\n↑\n-\n+\nHome\nx\n:\n?\n");
 }
 
 TEST(Keys, AKeyAndItsInverseRestoreTheState) {
