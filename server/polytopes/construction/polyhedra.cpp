@@ -83,6 +83,18 @@ PolyhedronSignature shapeOf(const Diagram& prism) {
     return shape;
 }
 
+// Returns the diagram of the prism over a polyhedron that is not a snub.
+Diagram prismOf(const NamedPolyhedron& base) {
+    return std::get<Diagram>(parseDiagram(std::string(base.linearNotation) + " x"));
+}
+
+bool isSnub(const NamedPolyhedron& polyhedron) { return polyhedron.linearNotation.starts_with('s'); }
+
+// Builds a polyhedron that is a snub.
+SnubPolyhedron buildSnub(const NamedPolyhedron& polyhedron) {
+    return snubOf({polyhedron.linearNotation[1] - '0', 1}, {polyhedron.linearNotation[3] - '0', 1});
+}
+
 PolyhedronSignature shapeOf(const SnubPolyhedron& snub) {
     PolyhedronSignature shape;
     shape.vertices = static_cast<std::uint32_t>(snub.vertices.size());
@@ -94,14 +106,8 @@ PolyhedronSignature shapeOf(const SnubPolyhedron& snub) {
 const std::vector<PolyhedronSignature>& namedShapes() {
     static const std::vector<PolyhedronSignature> kShapes = [] {
         std::vector<PolyhedronSignature> shapes;
-        for (const NamedPolyhedron& named : kNamed) {
-            if (named.linearNotation.starts_with('s')) {
-                shapes.push_back(
-                    shapeOf(snubOf({named.linearNotation[1] - '0', 1}, {named.linearNotation[3] - '0', 1})));
-            } else {
-                shapes.push_back(shapeOf(std::get<Diagram>(parseDiagram(std::string(named.linearNotation) + " x"))));
-            }
-        }
+        for (const NamedPolyhedron& named : kNamed)
+            shapes.push_back(isSnub(named) ? shapeOf(buildSnub(named)) : shapeOf(prismOf(named)));
         return shapes;
     }();
     return kShapes;
@@ -113,11 +119,32 @@ bool alike(double a, double b, double tolerance) { return std::abs(a - b) <= tol
 
 std::span<const NamedPolyhedron> namedPolyhedra() { return kNamed; }
 
+bool isConvex(const NamedPolyhedron& polyhedron) {
+    return polyhedron.linearNotation.find('/') == std::string_view::npos;
+}
+
+std::vector<glm::dvec3> verticesOf(const NamedPolyhedron& polyhedron) {
+    if (isSnub(polyhedron)) return buildSnub(polyhedron).vertices;
+    const Diagram prism = prismOf(polyhedron);
+    std::vector<glm::dvec3> vertices;
+    for (const glm::dvec4& vertex : wythoff({}, prism, mirrorsOf(prism)).vertices) {
+        if (vertex.w > 0) vertices.emplace_back(vertex);
+    }
+    return vertices;
+}
+
 std::string adjectiveOf(Branch polygon) {
     for (const NamedPolygon& named : kPolygons) {
         if (named.polygon == polygon) return std::string(named.adjective);
     }
     return textOf(polygon) + "-gonal";
+}
+
+std::string nounOf(Branch polygon) {
+    for (const NamedPolygon& named : kPolygons) {
+        if (named.polygon == polygon) return std::string(named.noun);
+    }
+    return textOf(polygon) + "-gon";
 }
 
 std::optional<Branch> polygonNamed(std::string_view word) {

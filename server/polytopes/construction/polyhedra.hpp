@@ -27,8 +27,17 @@ struct NamedPolyhedron {
 /// Returns all named polyhedra: the Platonic and Archimedean solids, then the Kepler–Poinsot solids.
 std::span<const NamedPolyhedron> namedPolyhedra();
 
+/// Returns whether the polyhedron is convex: all but the Kepler–Poinsot solids are.
+bool isConvex(const NamedPolyhedron& polyhedron);
+
+/// Returns the vertices of a polyhedron that has edge length 2 and its center at the origin.
+std::vector<glm::dvec3> verticesOf(const NamedPolyhedron& polyhedron);
+
 /// Returns the adjective of a polygon: "pentagonal", "pentagrammic", "17-gonal", "7/2-gonal".
 std::string adjectiveOf(Branch polygon);
+
+/// Returns the noun of a polygon: "pentagon", "pentagram", "17-gon", "7/2-gon".
+std::string nounOf(Branch polygon);
 
 /// Returns the polygon that a word names, such as "5", "5-gonal", "pentagonal", "pentagon", "5/2" or "pentagrammic";
 /// std::nullopt if it names none.
