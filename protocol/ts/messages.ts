@@ -65,7 +65,7 @@ export interface Settings {
 export interface FileOptions {
     /** A name that export_formats.json lists. */
     format: string;
-    of?: "focus" | "oval";
+    of?: "focus" | "oval" | "projection";
     /** Filled, or balls and bars merged into one body; "frame" is the former name of "skeleton". */
     body?: "solid" | "skeleton" | "frame";
     /** The diameter of the polytope's circumscribed sphere, in millimeters. */

@@ -33,12 +33,19 @@ class Exporter {
           request_(request),
           budget_(budget),
           scale_(request.size / 2 / scene.circumradius),
-          grid_(request.size, request.extent == SliceSelection::oval
+          grid_(request.size, request.extent == Extent::oval
                                   ? coordinateBound(slices_.planes.count, request.size)
-                                  : 2 * request.size) {}
+                                  : 2 * request.size) {
+        if (request.extent == Extent::projection) request_.body = Body::skeleton;
+    }
 
     std::string run() {
         const Format& format = *request_.format;
+        if (format.writeScene != nullptr && request_.extent == Extent::projection) {
+            throw ExportRefused{{ExportError::Cause::no_body,
+                                 "a projection is exported as balls and bars, which " + format.name +
+                                     " files do not contain; choose another format, such as stl"}};
+        }
         if (format.writeScene != nullptr) return format.writeScene({scene_, object_});
         const std::vector<NamedMesh> solids = bodies();
         return format.writeBodies({solids, scene_.cellColors, scene_.title, budget_});
@@ -63,7 +70,7 @@ class Exporter {
         if (request_.label != Label::none) label(groups);
         if (request_.format->arrangement == Format::Arrangement::plate) {
             arrangeOnPlate(groups, request_.size, grid_);
-        } else if (request_.extent == SliceSelection::oval) {
+        } else if (request_.extent == Extent::oval) {
             arrangeInOval(groups, scene_, request_.size, grid_);
         }
         std::vector<NamedMesh> solids;
@@ -106,7 +113,10 @@ class Exporter {
     }
 
     std::string nameOf(int i) const { return scene_.title + ", " + wOf(i); }
-    std::string wOf(int i) const { return labelOfW(slices_.planes.w(i), slices_.planes.spacing); }
+    std::string wOf(int i) const {
+        return request_.extent == Extent::projection ? "projection"
+                                                     : labelOfW(slices_.planes.w(i), slices_.planes.spacing);
+    }
 
     [[noreturn]] void refuseEmpty() const {
         double least = 1e300;
@@ -132,7 +142,7 @@ class Exporter {
     const scene::Scene& scene_;
     const slicing::SliceSet& slices_;
     const slicing::Object& object_;
-    const ExportRequest& request_;
+    ExportRequest request_;
     const Budget& budget_;
     const double scale_;  // millimeters per unit of the object
     const Grid grid_;

@@ -9,16 +9,17 @@
 
 namespace oval4d::exports {
 
-/// The slices to export: only the focus slice, or all slices.
-enum class SliceSelection : std::uint8_t { focus, oval };
-/// The shape of a slice's body: the filled slice, or its balls and bars merged into one body.
+/// What to export: only the focus slice, all slices, or the projection of the whole object.
+enum class Extent : std::uint8_t { focus, oval, projection };
+/// The shape of a slice's body: the filled slice, or its balls and bars merged into one body. A projection is always
+/// exported as balls and bars.
 enum class Body : std::uint8_t { solid, skeleton };
 /// How a body is labeled with the object's name and the slice's w: `none`: without a label; `engraved`: in a face of
 /// the body; `separate`: on a plate next to the body.
 enum class Label : std::uint8_t { none, engraved, separate };
 
-inline constexpr auto kSliceSelections =
-    std::to_array<text::Choice<SliceSelection>>({{"focus", SliceSelection::focus}, {"oval", SliceSelection::oval}});
+inline constexpr auto kExtents = std::to_array<text::Choice<Extent>>(
+    {{"focus", Extent::focus}, {"oval", Extent::oval}, {"projection", Extent::projection}});
 inline constexpr auto kBodies = std::to_array<text::Choice<Body>>(
     {{"solid", Body::solid}, {"skeleton", Body::skeleton}, {"frame", Body::skeleton}});  // "frame": the former name
 inline constexpr auto kLabels = std::to_array<text::Choice<Label>>(
@@ -29,7 +30,7 @@ inline constexpr double kMinSize = 1, kMaxSize = 10'000;  ///< bounds of ExportR
 /// The options of an export. `body`, `size` and `label` apply only to formats with bodies.
 struct ExportRequest {
     const Format* format = formatNamed("stl");  ///< a row of formats(); not null
-    SliceSelection extent = SliceSelection::focus;
+    Extent extent = Extent::focus;
     Body body = Body::solid;
     double size = 60;  ///< the diameter of the object's circumscribed sphere in millimeters
     Label label = Label::none;

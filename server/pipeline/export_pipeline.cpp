@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "scene/composer.hpp"
+#include "slicing/projector.hpp"
 #include "slicing/slicer.hpp"
 #include "text/choice.hpp"
 #include "text/message_text.hpp"
@@ -35,14 +36,32 @@ Result<std::monostate> takeSize(const std::string& text, double& size) {
     return std::monostate{};
 }
 
+// Returns the projection of the whole object as a slice, which takes the place of the focus slice. Without a projection
+// in the picture, the perspective one.
+slicing::SliceSet projectionOf(const session::State& state, const slicing::SliceSet& slices) {
+    const scene::ProjectionSettings& settings = state.look.projection;
+    const bool parallel = settings.kind == scene::ProjectionKind::orthogonal;
+    const double radius = slicing::infoOf(state.object).circumradius;
+    slicing::SliceSet projected;
+    std::vector<std::uint32_t> faceCells;
+    slicing::Projector().project(state.object, state.orientation, slices,
+                                 {.projection = {parallel ? 0 : 1 / (settings.eye * radius)},
+                                  .culled = !state.look.parts.back},
+                                 projected, faceCells);
+    projected.planes = slices.planes;
+    projected.rotatedVertices = slices.rotatedVertices;
+    return projected;
+}
+
 }  // namespace
 
 Result<std::string> exportState(const session::State& state, const exports::ExportRequest& request,
                                 const exports::Limits& limits, std::stop_token stop) {
     auto planes = state.hyperplanes();
-    if (request.extent == exports::SliceSelection::focus) planes = {state.slices.focus, 1, planes.spacing, planes.offset};
+    if (request.extent != exports::Extent::oval) planes = {state.slices.focus, 1, planes.spacing, planes.offset};
     slicing::SliceSet slices;
     slicing::Slicer().slice(state.object, state.orientation, planes, slices);
+    if (request.extent == exports::Extent::projection) slices = projectionOf(state, slices);
     scene::Look look;
     look.parts.faces = look.parts.coordinates = false;  // formats fill faces and draw coordinates themselves
     look.coloring = state.look.coloring;
@@ -67,7 +86,7 @@ Result<exports::ExportRequest> takeExportRequest(session::Query& query, const ex
     for (auto& [name, value] : query) {
         Result<std::monostate> done = std::monostate{};
         if (name == "of") {
-            done = choose(name, value, exports::kSliceSelections, request.extent);
+            done = choose(name, value, exports::kExtents, request.extent);
         } else if (name == "body") {
             done = choose(name, value, exports::kBodies, request.body);
         } else if (name == "label") {

@@ -29,7 +29,6 @@ inline constexpr auto kColorings = std::to_array<text::Choice<Coloring>>({{"cell
                                                                           {"light", Coloring::light}});
 
 /// The projection of the whole object that is shown in the middle of the oval.
-/// The projection of the whole object that is shown in the middle of the oval.
 enum class ProjectionKind : std::uint8_t {
     off,
     perspective,  ///< from an eye on the positive w axis

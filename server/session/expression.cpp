@@ -191,8 +191,7 @@ Result<double> evaluateAngle(std::string_view text) {
     if (value && isBareNumber && std::abs(*value) > 2 * std::numbers::pi) {
         const std::size_t first = text.find_first_not_of(" \t");
         const std::string number(text.substr(first, text.find_last_not_of(" \t") + 1 - first));
-        return Error{ErrorCode::out_of_range, number + " radians are more than a full turn; did you mean " + number +
-                                                  "°? Write " + number + "° or " + number + "rad"};
+        return Error{ErrorCode::out_of_range, number + " radians are more than a full turn; did you mean " + number + "°?"};
     }
     return value;
 }

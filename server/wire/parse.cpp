@@ -124,7 +124,7 @@ exports::ExportRequest exportRequestOf(const json& message) {
         throw InvalidRequest{"get: /format must be " + text::commaSeparated(exports::formatNames()) + ", not " +
                              text::inQuotes(format)};
     }
-    choose(message, "of", exports::kSliceSelections, request.extent);
+    choose(message, "of", exports::kExtents, request.extent);
     choose(message, "body", exports::kBodies, request.body);
     choose(message, "label", exports::kLabels, request.label);
     request.size = message.value("size", request.size);

@@ -146,7 +146,8 @@ export class ExportDialog {
         const state = this.state!;
         const parts = [state.polytope.name];
         if (choices.includes("of")) {
-            parts.push(this.chosenValue("of") === "oval" ? "oval" : `w ${focusW(state).replace("\u2212", "-")}`);
+            const of = this.chosenValue("of");
+            parts.push(of === "focus" ? `w ${focusW(state).replace("\u2212", "-")}` : of);
         }
         if (choices.includes("body") && this.chosenValue("body") === "skeleton") parts.push("skeleton");
         return fileName(parts, name);

@@ -29,16 +29,17 @@ export function formatLength(value: number): string {
 }
 
 /** The w of the focus slice, rounded like its label in the picture (labelOf() in server/scene/layout.cpp). */
-export function focusW({ slices: { focus, spacing } }: State): string {
+export function focusW({ slices: { focus, spacing, offset } }: State): string {
     const decimals = Math.min(9, Math.max(2, Math.ceil(-Math.log10(spacing)) + 1));
+    const w = offset + focus * spacing;
     const text = new Intl.NumberFormat("en-US", {
         minimumFractionDigits: decimals,
         maximumFractionDigits: decimals,
         roundingMode: "halfEven",
         useGrouping: false,
-    }).format(Math.abs(focus * spacing));
+    }).format(Math.abs(w));
     if (Number(text) === 0) return "0";
-    return focus < 0 ? kMinus + text : text;
+    return w < 0 ? kMinus + text : text;
 }
 
 /** A rotation such as "xw 22.5°, yz 81.42°". */

@@ -70,10 +70,14 @@ export function commandLines(query: string): string[] {
         .filter((part) => part !== "");
     // A "+" is part of an expression, not an encoded blank.
     const settings = parts.map((part) => part.split(/=(.*)/s).map(decodePercents));
+    // "toward" comes last, as in frame.png, because it depends on the polytope and the rotations.
+    const isLast = ([name]: string[]): number => Number(name === "toward");
     return settings
         .filter(([name = ""]) => !kIgnoredParameters.includes(name))
+        .sort((a, b) => isLast(a) - isLast(b))
         .map(([name = "", value = ""]) => {
             if (name === "polytope") return `polytope ${value.replaceAll("+", " ")}`;
+            if (name === "toward") return `toward ${value.replace(":", " ")}`;
             if (name !== "rotate") return `set ${name}=${value}`;
             const [planes = "", angles = ""] = value.split(":");
             return `rotate ${planes} ${angles.replace(/\s/g, "").replaceAll(",", " ")}`;

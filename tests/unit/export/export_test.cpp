@@ -15,7 +15,7 @@ using namespace oval4d::slicing;
 TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     const Polytope& p = named("120-cell");
     const Rotation none;
-    const ExportRequest skeleton{.format = formatNamed("stl"), .extent = SliceSelection::oval, .body = Body::skeleton};
+    const ExportRequest skeleton{.format = formatNamed("stl"), .extent = Extent::oval, .body = Body::skeleton};
     const Hyperplanes oval{-10, 21, 0.5};
     Limits limits;
     limits.triangles = 1000;
@@ -58,7 +58,7 @@ TEST(File, ofTheOvalHasBodiesThatDoNotMeet) {
         for (const Body body : {Body::solid, Body::skeleton}) {
             const auto bodies =
                 bodiesIn(fileOf(p, {}, {-(count - 1) / 2, count, spacing},
-                                {.format = formatNamed("obj"), .extent = SliceSelection::oval, .body = body}));
+                                {.format = formatNamed("obj"), .extent = Extent::oval, .body = body}));
             EXPECT_GE(static_cast<int>(bodies.size()), std::max(1, count - 2));
             // The bounding spheres of the bodies must not overlap.
             std::vector<std::pair<glm::dvec3, double>> balls;

@@ -129,13 +129,13 @@ TEST(Rotation, betweenTwoDirectionsIsTheShortestOne) {
         EXPECT_LT(glm::distance(rotation(glm::normalize(from)), glm::normalize(to)), 1e-7);
         const double angle = std::acos(std::clamp(glm::dot(glm::normalize(from), glm::normalize(to)), -1.0, 1.0));
         EXPECT_NEAR(rotation.angle(), angle, 1e-7);
-        if (i % 10 == 0) continue;
+        if (i % 10 <= 1) continue;  // the plane is not unique, or lost to rounding
         // What is perpendicular to both directions stays.
         const glm::dvec4 a = glm::normalize(from);
         const glm::dvec4 b = glm::normalize(glm::normalize(to) - glm::dot(a, glm::normalize(to)) * a);
         const glm::dvec4 v = vector();
         const glm::dvec4 rest = v - glm::dot(v, a) * a - glm::dot(v, b) * b;
-        if (i % 10 != 1) EXPECT_LT(glm::distance(rotation(rest), rest), 1e-7);
+        EXPECT_LT(glm::distance(rotation(rest), rest), 1e-7);
     }
 }
 

@@ -93,7 +93,8 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("set slices=1e12", ErrorCode::out_of_range, "whole number");
     refused("set spacing=0", ErrorCode::out_of_range, "the spacing must be from");
     refused("set spacing=-1", ErrorCode::out_of_range, "the spacing must be from");
-    refused("set alpha=7", ErrorCode::out_of_range, "alpha must be from");
+    refused("set alpha=7", ErrorCode::out_of_range, "did you mean 7°?");
+    refused("set alpha=2.1*pi", ErrorCode::out_of_range, "alpha must be from");
     refused("set alpha=", ErrorCode::bad_expression, "a number is expected");
     refused("set alpha=pi/", ErrorCode::bad_expression, "alpha: 'pi/', position 4");
     refused("set step=0", ErrorCode::out_of_range, "the step must be from");
@@ -101,7 +102,7 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("set faces=maybe", ErrorCode::bad_expression, "faces must be on or off, not 'maybe'");
     refused("set view=oblong", ErrorCode::bad_expression, "view must be oval or single");
     refused("view", ErrorCode::bad_expression, "oval or single");
-    refused("set alpha=0.1 beta=99", ErrorCode::out_of_range, "beta must be from");
+    refused("set alpha=0.1 beta=99", ErrorCode::out_of_range, "did you mean 99°?");
     refused("focus 1e8", ErrorCode::out_of_range, "the focus must be from");
     refused("rotate", ErrorCode::bad_expression, "needs planes and angles");
     refused("rotate xw 1 2", ErrorCode::bad_expression, "one plane needs one angle");

@@ -85,7 +85,7 @@ TEST(Keys, TheTableHasEveryKeyOfTheMethod) {
     std::string all;
     for (const auto& row : rows()) all += row.at("name").get<std::string>() + "\n";
     EXPECT_EQ(all,
-              "2\n3\n4\n5\n6\n7\nr\nt\ny\nk\nj\nK\nJ\nh\nl\n0\ngg\nG\n[\n]\n{\n}\nSpace\n.\nu\nCtrl-"
+              "2\n3\n4\n5\n6\n7\nr\nt\ny\nzc\nzf\nze\nzv\nk\nj\nK\nJ\nh\nl\n0\ngg\nG\n)\n(\n[\n]\n{\n}\nSpace\n.\nu\nCtrl-"
               "r\ns\ni\nn\nN\no\np\na\nf\nb\ne\nw\nc\nW\nC\n←\n→\n↓\n↑\n-\n+\nHome\nx\n:\n?\n");
 }
 

@@ -66,7 +66,7 @@ TEST(Toward, IsOneUndoStep) {
 }
 
 TEST(Toward, EndsWhenTheObjectIsTurnedOtherwise) {
-    for (const std::string& command : {"rotate xy 10deg", "polytope 5-cell", "reset", "undo"}) {
+    for (const char* command : {"rotate xy 10deg", "polytope 5-cell", "reset", "undo"}) {
         Session session;
         line(session, "polytope tesseract");
         press(session, "r");
@@ -89,7 +89,7 @@ TEST(Toward, RefusesElementsThatDoNotExist) {
     Session session;
     line(session, "polytope tesseract");
     expectRefused(session, CommandLine{"toward cell 8"}, ErrorCode::out_of_range,
-                  "the number of the cell must be from 0 to 7 for the tesseract, not 8");
+                  "the number of the cell must be from 0 to 7 for the 8-cell, not 8");
     expectRefused(session, CommandLine{"toward corner"}, ErrorCode::bad_expression,
                   "an element is vertex, edge, face or cell, not 'corner'");
     expectRefused(session, CommandLine{"toward"}, ErrorCode::bad_expression, "such as toward cell 3");

@@ -163,7 +163,7 @@ TEST(Tables, TheChoicesAreThoseOfTheSchemas) {
     EXPECT_EQ(allowedIn("hello", "stream"), namesIn(kStreams));
     EXPECT_EQ(allowedIn("hello", "encoding"), namesIn(kEncodings));
     EXPECT_EQ(allowedIn("get", "what"), namesIn(kGetTargets));
-    EXPECT_EQ(allowedIn("get", "of"), namesIn(exports::kSliceSelections));
+    EXPECT_EQ(allowedIn("get", "of"), namesIn(exports::kExtents));
     EXPECT_EQ(allowedIn("get", "body"), namesIn(exports::kBodies));
     EXPECT_EQ(allowedIn("get", "label"), namesIn(exports::kLabels));
 }

@@ -42,9 +42,9 @@ TEST(Formats, areThoseOfTheTable) {
 
 TEST(Formats, areAllWritten) {
     for (const Format& format : formats()) {
-        for (const SliceSelection extent : {SliceSelection::focus, SliceSelection::oval}) {
+        for (const Extent extent : {Extent::focus, Extent::oval}) {
             const Hyperplanes planes =
-                extent == SliceSelection::focus ? Hyperplanes{0, 1, 0.5} : Hyperplanes{-2, 5, 0.5};
+                extent == Extent::focus ? Hyperplanes{0, 1, 0.5} : Hyperplanes{-2, 5, 0.5};
             const std::string bytes = fileOf(named("24-cell"), {}, planes, {.format = &format, .extent = extent});
             EXPECT_GT(bytes.size(), 100U) << format.name;
             EXPECT_FALSE(bytes.starts_with("refused")) << bytes;
@@ -61,7 +61,7 @@ std::vector<double> numbersIn(const std::string& row) {
 
 TEST(Csv, hasARowForEachSliceAndEachLevel) {
     const Polytope& p = named("8-cell");
-    std::istringstream in(fileOf(p, {}, {-2, 5, 1}, {.format = formatNamed("csv"), .extent = SliceSelection::oval}));
+    std::istringstream in(fileOf(p, {}, {-2, 5, 1}, {.format = formatNamed("csv"), .extent = Extent::oval}));
     std::string line;
     std::getline(in, line);
     EXPECT_EQ(line, "n,w,vertices,edges,faces,volume,area,centroid_x,centroid_y,centroid_z");
