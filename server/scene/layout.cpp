@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <limits>
 #include <numbers>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "scene/style.hpp"
 
@@ -29,7 +31,12 @@ constexpr int kReferenceCount = 21;  // the number of slices for which the oval 
 // Fractions of the viewport's height.
 constexpr double kMargin = 0.02;     // around the picture
 constexpr double kLabelGap = 0.014;  // between a slice and its label
-constexpr double kLabelRoom = 0.04;  // for labels, around the slices
+
+// The size of labels, as fractions of their font size. The characters' widths are those of DejaVu Sans, rounded up; the
+// margins are those of the plates behind the labels.
+constexpr double kDigitWidth = 0.64, kSignWidth = 0.84, kPointWidth = 0.32, kFocusPrefixWidth = 2.31;
+constexpr double kDigitHeight = 0.73;
+constexpr double kPlateMarginX = 0.34, kPlateMarginY = 0.26, kFocusPlateMarginX = 0.66, kFocusPlateMarginY = 0.44;
 
 constexpr double kSingleDistance = 7;  // from the eye to the slice in the single view, in circumradii
 
@@ -226,33 +233,176 @@ void aim(const CameraOrbit& orbit, const Oval& oval, Camera& camera) {
     camera.far = oval.distance + 2 * (oval.depth + oval.halfWidth) + 10;
 }
 
-// Places each label on the outer side of the oval, where there is no neighboring slice: below the focus slice, and
-// beside and somewhat below the slices on the arms of the oval.
-void placeLabels(const Oval& oval, double radius, const Camera& camera, std::vector<SlicePlacement>& placements) {
-    const ViewSpace space(oval);
-    const glm::dmat4 view = camera.view();
-    const glm::dvec3 right(view[0][0], view[1][0], view[2][0]);
-    const glm::dvec3 up(view[0][1], view[1][1], view[2][1]);
-    const double pixels = 0.5 / std::tan(camera.fieldOfView / 2);  // viewport heights per world unit at depth 1
-    const auto onScreen = [&](double u) {
-        const glm::dvec3 p{oval.halfWidth * u, 0, -oval.depth * u * u};
-        return glm::dvec2(p.x, space.up(p)) / space.depth(p);
-    };
-    for (std::size_t i = 0; i < placements.size(); ++i) {
-        SlicePlacement& placement = placements[i];
-        const double u = parameterOf(i, placements.size());
-        const glm::dvec2 along = onScreen(u + 1e-3) - onScreen(u - 1e-3);
+// A box on the screen. The unit is the viewport's height.
+struct Box {
+    glm::dvec2 center, half;
+};
+
+bool overlap(const Box& a, const Box& b) {
+    return glm::all(glm::lessThan(glm::abs(a.center - b.center), a.half + b.half));
+}
+
+// Decides where the labels are and which of them are shown.
+class Labels {
+  public:
+    // `radius` is that of the slices with their balls.
+    Labels(const Oval& oval, double radius, double spacing, std::vector<SlicePlacement>& placements)
+        : oval_(oval), space_(oval), radius_(radius), placements_(placements) {
+        // All labels have room for the longest one, with a sign. So the layout stays the same when the focus moves.
+        const double w = std::max(std::abs(placements.front().w), std::abs(placements.back().w));
+        const int decimals = decimalsFor(spacing);
+        const double digits = std::max(std::floor(std::log10(w + 0.5 * std::pow(10, -decimals))), 0.0) + 1 + decimals;
+        width_ = kSignWidth + digits * kDigitWidth + kPointWidth;
+    }
+
+    // Returns how far the labels extend beyond `bounds`, the bounds of the slices, on each side, if one unit on the
+    // plane at distance 1 from the eye appears as `scale` viewport heights.
+    Rect overhang(const Rect& bounds, double scale) const {
+        Rect out{0, 0, 0, 0};
+        for (std::size_t i = 0; i < placements_.size(); ++i) {
+            if (!placements_[i].drawn) continue;
+            const Box box = boxAt(i, scale);
+            out.left = std::max(out.left, bounds.left * scale - (box.center.x - box.half.x));
+            out.right = std::max(out.right, box.center.x + box.half.x - bounds.right * scale);
+            out.bottom = std::max(out.bottom, bounds.bottom * scale - (box.center.y - box.half.y));
+            out.top = std::max(out.top, box.center.y + box.half.y - bounds.top * scale);
+        }
+        return out;
+    }
+
+    // Places each label on the outer side of the oval, where there is no neighboring slice: below the focus slice, and
+    // beside and somewhat below the slices on the arms of the oval.
+    void place(const Camera& camera) {
+        const glm::dmat4 view = camera.view();
+        const glm::dvec3 right(view[0][0], view[1][0], view[2][0]);
+        const glm::dvec3 up(view[0][1], view[1][1], view[2][1]);
+        const double pixels = pixelsOf(camera);
+        for (std::size_t i = 0; i < placements_.size(); ++i) {
+            SlicePlacement& placement = placements_[i];
+            const double depth = -(view * glm::dvec4(placement.position, 1)).z;
+            const glm::dvec2 top = offsetOf(i, pixels / depth) + glm::dvec2(0, kDigitHeight / 2 * fontSize(placement));
+            placement.labelAt = placement.position + (right * top.x + up * top.y) * (depth / pixels);
+        }
+    }
+
+    // Removes labels so that none overlaps another: keeps the focus slice's label and, of the others, every k-th. If
+    // the viewer has moved the camera, also removes those that overlap labels nearer to the focus slice's, or leave the
+    // picture.
+    void thin(const Camera& camera, double aspect) {
+        const auto count = static_cast<std::ptrdiff_t>(placements_.size());
+        const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus) - placements_.begin();
+        const std::ptrdiff_t step = smallestStep(focus, pixelsOf(camera));
+        const glm::dmat4 toView = camera.view();
+        const auto boxOf = [&](std::ptrdiff_t i) { return boxSeenBy(camera, toView, aspect, placements_[i]); };
+        const auto keeps = [&](std::ptrdiff_t i, std::ptrdiff_t distance) {
+            const SlicePlacement& placement = placements_[i];
+            if (placement.focus || !placement.drawn) return true;
+            if (distance % step != 0 || (toView * glm::dvec4(placement.labelAt, 1)).z > -camera.near) return false;
+            const Box box = boxOf(i);
+            if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) return false;
+            if (box.center.y < box.half.y || box.center.y > 1 - box.half.y) return false;
+            // The labels between the focus slice and this one, and as many on the other side, have been decided on.
+            for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(focus - distance, 0);
+                 j <= std::min(focus + distance, count - 1); ++j) {
+                const bool decided = std::abs(j - focus) < distance || j < i;
+                if (decided && placements_[j].drawn && !placements_[j].label.empty() && overlap(boxOf(j), box))
+                    return false;
+            }
+            return true;
+        };
+        for (std::ptrdiff_t distance = 1; distance < count; ++distance) {
+            for (const std::ptrdiff_t i : {focus - distance, focus + distance})
+                if (i >= 0 && i < count && !keeps(i, distance)) placements_[i].label.clear();
+        }
+    }
+
+  private:
+    static double fontSize(const SlicePlacement& placement) { return style().textHeight * placement.labelSize; }
+
+    // Viewport heights per world unit at distance 1.
+    static double pixelsOf(const Camera& camera) { return 0.5 / std::tan(camera.fieldOfView / 2); }
+
+    glm::dvec2 halfText(const SlicePlacement& placement) const {
+        return fontSize(placement) * glm::dvec2(width_ + (placement.focus ? kFocusPrefixWidth : 0), kDigitHeight) / 2.0;
+    }
+
+    // Half the size of the plate behind a label.
+    glm::dvec2 halfPlate(const SlicePlacement& placement) const {
+        const glm::dvec2 margin = placement.focus ? glm::dvec2(kFocusPlateMarginX, kFocusPlateMarginY)
+                                                  : glm::dvec2(kPlateMarginX, kPlateMarginY);
+        return halfText(placement) + fontSize(placement) * margin;
+    }
+
+    // The center of the slice with the parameter u, on the plane at distance 1 from the eye.
+    glm::dvec2 onPlane(double u) const {
+        const glm::dvec3 p{oval_.halfWidth * u, 0, -oval_.depth * u * u};
+        return glm::dvec2(p.x, space_.up(p)) / space_.depth(p);
+    }
+
+    // Returns the vector on the screen from slice i to the center of its label; at the slice's depth, a world unit
+    // appears as `scale` viewport heights.
+    glm::dvec2 offsetOf(std::size_t i, double scale) const {
+        const double u = parameterOf(i, placements_.size());
+        const glm::dvec2 along = onPlane(u + 1e-3) - onPlane(u - 1e-3);
         glm::dvec2 outward{0, -1};
         if (glm::length(along) > 0)
             outward = glm::normalize(glm::normalize(glm::dvec2(along.y, -along.x)) + glm::dvec2(0, -0.7));
-        const double depth = -(view * glm::dvec4(placement.position, 1)).z;
-        const double height = style().textHeight * placement.labelSize;
-        const glm::dvec2 half{0.27 * height * static_cast<double>(placement.label.size()), 0.5 * height};
-        const double reach = radius * std::sqrt(1 - u * u) * pixels / depth + kLabelGap + std::abs(outward.x) * half.x +
-                             std::abs(outward.y) * half.y;
-        const glm::dvec2 top = outward * reach + glm::dvec2(0, half.y);
-        placement.labelAt = placement.position + (right * top.x + up * top.y) * (depth / pixels);
+        const double radius = radius_ * std::sqrt(1 - u * u) * scale;
+        return outward * (radius + kLabelGap + glm::dot(glm::abs(outward), halfText(placements_[i])));
     }
+
+    // Returns the box of label i before the viewer moves the camera, measured from the center of the focus slice, if
+    // one unit on the plane at distance 1 from the eye appears as `scale` viewport heights.
+    Box boxAt(std::size_t i, double scale) const {
+        const double u = parameterOf(i, placements_.size());
+        return {scale * onPlane(u) + offsetOf(i, scale / space_.depth(placements_[i].position)),
+                halfPlate(placements_[i])};
+    }
+
+    Box boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
+                  const SlicePlacement& placement) const {
+        const glm::dvec3 p(toView * glm::dvec4(placement.labelAt, 1));
+        const glm::dvec2 top =
+            glm::dvec2(p) * (pixelsOf(camera) / -p.z) + glm::dvec2((0.5 + camera.shiftX) * aspect, 0.5 + camera.shiftY);
+        return {top - glm::dvec2(0, kDigitHeight / 2 * fontSize(placement)), halfPlate(placement)};
+    }
+
+    // Returns the smallest k such that every k-th label, counted from the focus slice, overlaps no other before the
+    // viewer moves the camera.
+    std::ptrdiff_t smallestStep(std::ptrdiff_t focus, double scale) const {
+        const auto count = static_cast<std::ptrdiff_t>(placements_.size());
+        const auto fits = [&](std::ptrdiff_t step) {
+            for (std::ptrdiff_t i = focus % step; i < count; i += step) {
+                if (!placements_[i].drawn) continue;
+                const Box box = boxAt(i, scale);
+                for (std::ptrdiff_t j = i + step; j < count; j += step)
+                    if (placements_[j].drawn && overlap(box, boxAt(j, scale))) return false;
+            }
+            return true;
+        };
+        std::ptrdiff_t step = 1;
+        while (step < count && !fits(step)) ++step;
+        return step;
+    }
+
+    const Oval& oval_;
+    ViewSpace space_;
+    double radius_, width_ = 0;
+    std::vector<SlicePlacement>& placements_;
+};
+
+// Returns the room for the slices inside `room`: what is left when their labels also have room, but at least half of
+// the width and height.
+Rect roomInside(const Rect& room, const Rect& bounds, const Labels& labels) {
+    const double maxX = (room.right - room.left) / 4, maxY = (room.top - room.bottom) / 4;
+    Rect inside = room;
+    // The smaller the slices are, the farther their labels extend beyond them. A few steps suffice.
+    for (int step = 0; step < 4; ++step) {
+        const Rect overhang = labels.overhang(bounds, scaleFor(bounds, inside));
+        inside = {room.left + std::min(overhang.left, maxX), room.right - std::min(overhang.right, maxX),
+                  room.bottom + std::min(overhang.bottom, maxY), room.top - std::min(overhang.top, maxY)};
+    }
+    return inside;
 }
 
 }  // namespace
@@ -262,7 +412,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices
     const double aspect = static_cast<double>(viewport.width) / viewport.height;
     layOutCoordinates(vertices, aspect, out.coordinates);
     out.axes = {0.06, 0.075, 0.045};
-    Rect room{kMargin + kLabelRoom, aspect - kMargin - kLabelRoom, kMargin + kLabelRoom, 1 - kMargin};
+    Rect room{kMargin, aspect - kMargin, kMargin, 1 - kMargin};
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;
     const bool single = look.view == View::single;
     const Oval oval = single ? Oval{0, 0, 0, kSingleDistance} : ovalFor(aspect);
@@ -273,19 +423,23 @@ void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices
     placeSlices(planes, focus, oval, look, out.placements);
     aim(look.orbit, oval, out.camera);
     Rect bounds = boundsOf(out.placements, ViewSpace(oval), reach);
+    const bool projected = look.projection.kind != ProjectionKind::off;
+    const bool alone = single || planes.count == 1;
     out.projectionPlacement = {};
-    if (look.projection.kind != ProjectionKind::off) {
-        if (single || planes.count == 1) {
-            out.projectionPlacement = besideFocusSlice(aspect, reach);
-            include(out.projectionPlacement, ViewSpace(oval), bounds);
-        } else {
-            const double scale = scaleFor(bounds, room);
-            const double top = (bounds.bottom + bounds.top) / 2 + (room.top - room.bottom) / 2 / scale;
-            out.projectionPlacement = insideOval(out.placements, oval, reach, top);
-        }
+    if (projected && alone) {
+        out.projectionPlacement = besideFocusSlice(aspect, reach);
+        include(out.projectionPlacement, ViewSpace(oval), bounds);
     }
-    fit(bounds, room, aspect, look.orbit.zoom, out.camera);
-    placeLabels(oval, reach, out.camera, out.placements);
+    Labels labels(oval, reach, planes.spacing, out.placements);
+    const Rect inside = roomInside(room, bounds, labels);
+    if (projected && !alone) {
+        const double scale = scaleFor(bounds, inside);
+        const double top = (bounds.bottom + bounds.top) / 2 + (room.top - (inside.bottom + inside.top) / 2) / scale;
+        out.projectionPlacement = insideOval(out.placements, oval, reach, top);
+    }
+    fit(bounds, inside, aspect, look.orbit.zoom, out.camera);
+    labels.place(out.camera);
+    if (look.parts.labels) labels.thin(out.camera, aspect);
 }
 
 }  // namespace oval4d::scene

@@ -18,7 +18,7 @@ struct SlicePlacement {
     int index = 0;           ///< the index n of the hyperplane
     double w = 0;            ///< the w of the hyperplane, in the object's units
     glm::dvec3 position{0};  ///< the position of the slice's origin
-    std::string label;       ///< "w = −0.25" for the focus slice, "−0.25" for others; empty if labels are not shown
+    std::string label;       ///< "w = −0.25" for the focus slice, "−0.25" for others; empty if it is not shown
     glm::dvec3 labelAt{0};   ///< the center of the label's top edge
     double labelSize = 1;    ///< the height of the label, as a fraction of Style::textHeight
     bool focus = false;      ///< whether this is the focus slice

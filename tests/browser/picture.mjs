@@ -106,6 +106,7 @@ const views = [
         settings: { polytope: "24-cell", camera: { azimuth: 0.5, elevation: 0.3, zoom: 1.6 } },
     },
     { name: "the single view", settings: { polytope: "16-cell", view: "single" } },
+    { name: "101 slices", settings: { polytope: "8-cell", slices: { count: 101, spacing: 0.02 } } },
     { name: "bars alone", settings: { polytope: "120-cell", shown: { faces: false, balls: false } } },
     { name: "colored by kind", settings: { polytope: "truncated tesseract", color: "kind" } },
     { name: "with a kind hidden", settings: { polytope: "truncated tesseract", hidden: [1] } },
@@ -134,6 +135,57 @@ for (const { name, settings, mean: most = 1, far: allowed = 0.005 } of views) {
         assert.ok(far < allowed, `${(100 * far).toFixed(2)} % of the pixels differ much`);
         await drawBy(page, "geometry");
         assert.ok(compare(await picture(page), geometry).mean < 0.1, "switching back restores the first picture");
+        assert.deepEqual(errors, []);
+        await close();
+    });
+}
+
+/** Records the texts that the page draws on its canvases, and where, in pixels of the canvas. */
+function recordTexts() {
+    const { fillText, clearRect } = CanvasRenderingContext2D.prototype;
+    CanvasRenderingContext2D.prototype.clearRect = function (...area) {
+        this.canvas.texts = [];
+        return clearRect.apply(this, area);
+    };
+    CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+        const box = this.measureText(text);
+        this.canvas.texts?.push({
+            text,
+            left: x - box.actualBoundingBoxLeft,
+            right: x + box.actualBoundingBoxRight,
+            top: y - box.actualBoundingBoxAscent,
+            bottom: y + box.actualBoundingBoxDescent,
+        });
+        return fillText.call(this, text, x, y);
+    };
+}
+
+for (const [width, height] of [[1920, 1080], [1280, 720], [375, 667]]) {
+    test(`picture: labels are whole and apart in a window of ${width} × ${height}`, async () => {
+        const viewport = { width, height };
+        const { page, script, errors, close } = await openWithScript({ viewport, before: recordTexts });
+        for (const [count, spacing] of [[21, 0.1], [101, 0.02], [201, 0.01]]) {
+            const slices = { count, spacing, focus: 5 };
+            const { revision } = await script.request({ type: "set", polytope: "8-cell", slices });
+            await presented(page, revision);
+            const { labels, ...size } = await page.evaluate(() => {
+                const [canvas] = [...document.querySelectorAll("#drawing canvas")].filter(({ texts }) => texts?.length);
+                const isLabel = ({ text }) => /^(w = )?\u2212?[\d.]+$/.test(text);
+                return { labels: canvas.texts.filter(isLabel), width: canvas.width, height: canvas.height };
+            });
+            const [focus] = labels.filter(({ text }) => text.startsWith("w = "));
+            assert.equal(Number(focus?.text.slice(4)), 5 * spacing);
+            assert.ok(labels.length > 10, `${labels.length} labels`);
+            if (count === 21 && height > 700) assert.equal(labels.length, 21);
+            for (const [i, a] of labels.entries()) {
+                const whole = a.left >= 0 && a.right <= size.width && a.top >= 0 && a.bottom <= size.height;
+                assert.ok(whole, `${a.text} is cut: ${JSON.stringify(a)}`);
+                for (const b of labels.slice(i + 1)) {
+                    const apart = a.right < b.left || b.right < a.left || a.bottom < b.top || b.bottom < a.top;
+                    assert.ok(apart, `${a.text} overlaps ${b.text}`);
+                }
+            }
+        }
         assert.deepEqual(errors, []);
         await close();
     });

@@ -14,13 +14,13 @@ using namespace oval4d;
 using scene::Scene;
 using support::named;
 
-/// Returns a scene without its slices.
+/// Returns a scene without its slices. By default, the outermost of them touch the polytope.
 Scene composed(std::string_view name, int count = 21, scene::Viewport viewport = {}, scene::Look look = {},
-               int focus = 0) {
+               int focus = 0, double spacing = 0) {
     const auto& p = named(name);
     slicing::SliceSet slices;
-    slicing::PolytopeSlicer().slice(
-        p, {}, {focus - (count - 1) / 2, count, 2 * p.circumradius / (count == 1 ? 2 : count - 1)}, slices);
+    if (spacing == 0) spacing = 2 * p.circumradius / (count == 1 ? 2 : count - 1);
+    slicing::PolytopeSlicer().slice(p, {}, {focus - (count - 1) / 2, count, spacing}, slices);
     Scene s;
     scene::Composer().compose(support::objectOf(p), {}, slices, focus, look, viewport, s);
     s.slices = &slicing::kNoSlices;
@@ -225,12 +225,130 @@ TEST(Coordinates, stayWithinWindowsThatAreHardlyWiderThanTheirMargins) {
     }
 }
 
+/// A label with its plate on the screen, in pixels from the upper left corner. The text is in DejaVu Sans.
+struct LabelBox {
+    double left, right, top, bottom;
+
+    LabelBox(const Scene& s, const scene::SlicePlacement& placement) {
+        double width = 0;  // in font sizes
+        for (const char c : placement.label) {
+            const bool continuation = (c & 0xC0) == 0x80;  // of the sign U+2212, whose width is 0.838
+            if (!continuation) width += c == '.' || c == ' ' ? 0.318 : '0' <= c && c <= '9' ? 0.636 : 0.838;
+        }
+        const double size = scene::style().textHeight * placement.labelSize * s.viewport.height, digits = 0.729 * size;
+        const glm::dvec2 at = project(s, placement.labelAt);
+        const double marginX = (placement.focus ? 0.9 : 0.45) * digits,
+                     marginY = (placement.focus ? 0.6 : 0.35) * digits;
+        left = at.x - width * size / 2 - marginX, right = at.x + width * size / 2 + marginX;
+        top = at.y - marginY, bottom = at.y + digits + marginY;
+    }
+    bool overlaps(const LabelBox& b) const {
+        return left < b.right && b.left < right && top < b.bottom && b.top < bottom;
+    }
+    bool isInside(const scene::Viewport& viewport) const {
+        return left >= 0 && right <= viewport.width && top >= 0 && bottom <= viewport.height;
+    }
+};
+
+/// Expects the focus slice to have a label, and no label to overlap another. Returns the labels that are drawn, with
+/// that of the focus slice first.
+std::vector<LabelBox> expectLabelsApart(const Scene& s) {
+    std::vector<LabelBox> boxes;
+    for (const bool focus : {true, false}) {
+        for (const auto& placement : s.placements) {
+            if (!placement.drawn || placement.focus != focus || placement.label.empty()) continue;
+            const LabelBox box(s, placement);
+            for (const LabelBox& other : boxes) EXPECT_FALSE(box.overlaps(other)) << placement.label;
+            boxes.push_back(box);
+        }
+        EXPECT_FALSE(boxes.empty());
+    }
+    return boxes;
+}
+
+const std::vector<scene::Viewport> kWindows{{1280, 720}, {1920, 1080}, {2560, 1440}, {3000, 800},
+                                            {640, 640},  {375, 667},   {320, 568},   {667, 375}};
+
+TEST(Labels, areInThePictureAndApart) {
+    for (const scene::Viewport viewport : kWindows) {
+        for (const int count : {1, 3, 5, 11, 21, 41, 61, 101, 151, 201}) {
+            for (const double spacing : {0.0, 1.0 / 4096, 1e-8, 1e3}) {
+                for (const auto view : {scene::View::oval, scene::View::single}) {
+                    for (const bool whole : {false, true}) {
+                        scene::Look look;
+                        look.view = view;
+                        look.parts.coordinates = !whole;
+                        if (whole) look.projection.kind = scene::ProjectionKind::perspective;
+                        const Scene s = composed("24-cell", count, viewport, look, whole ? 5 : 0, spacing);
+                        SCOPED_TRACE(testing::Message() << viewport.width << " x " << viewport.height << ", " << count
+                                                        << " slices, " << spacing << ", " << whole);
+                        const double strip = whole ? 0 : s.coordinates.zero + s.coordinates.amplitude;
+                        for (const LabelBox& box : expectLabelsApart(s)) {
+                            EXPECT_TRUE(box.isInside(viewport));
+                            EXPECT_LE(box.bottom, (1 - strip) * viewport.height);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(Labels, areApartFromEverySide) {
+    for (const scene::CameraOrbit& orbit : std::vector<scene::CameraOrbit>{
+             {0, 0, 3}, {0, 0, 0.3}, {0.8, 0.2, 1}, {1.57, -0.46, 1}, {3.1, 0.5, 2}, {-0.4, 1, 0.5}, {0, -0.46, 1}}) {
+        for (const int count : {5, 21, 201}) {
+            scene::Look look;
+            look.orbit = orbit;
+            const std::vector<LabelBox> boxes = expectLabelsApart(composed("24-cell", count, {1280, 720}, look));
+            for (std::size_t i = 1; i < boxes.size(); ++i) EXPECT_TRUE(boxes[i].isInside({1280, 720}));
+        }
+    }
+}
+
+TEST(Labels, areAtTheFocusAndEveryKthSlice) {
+    const auto labeledSlices = [](int count, double zoom) {
+        scene::Look look;
+        look.orbit.zoom = zoom;
+        std::vector<int> offsets;
+        for (const auto& placement : composed("24-cell", count, {1920, 1080}, look, 3).placements)
+            if (!placement.label.empty()) offsets.push_back(placement.index - 3);
+        return offsets;
+    };
+    EXPECT_EQ(labeledSlices(21, 1).size(), 21U);
+    for (const int count : {61, 101, 201}) {
+        const std::vector<int> offsets = labeledSlices(count, 1);
+        ASSERT_GT(offsets.size(), 14U);
+        const int step = offsets[1] - offsets[0];
+        EXPECT_GT(step, 1);
+        for (std::size_t i = 1; i < offsets.size(); ++i) EXPECT_EQ(offsets[i] - offsets[i - 1], step);
+        EXPECT_NE(std::ranges::find(offsets, 0), offsets.end());
+        // There is room for more of them where the slices are magnified.
+        const std::vector<int> magnified = labeledSlices(count, 2);
+        ASSERT_GT(magnified.size(), 1U);
+        EXPECT_LT(magnified[1] - magnified[0], step);
+    }
+}
+
+TEST(Labels, doNotMoveTheSlicesWhenTheFocusMovesOrTheyAreSwitchedOff) {
+    scene::Look look;
+    const scene::Camera camera = composed("24-cell", 21, {}, look).camera;
+    for (const int focus : {-9, -4, 1, 12}) EXPECT_EQ(composed("24-cell", 21, {}, look, focus).camera, camera);
+    look.parts.labels = false;
+    EXPECT_EQ(composed("24-cell", 21, {}, look).camera, camera);
+}
+
 TEST(Labels, tellNeighborsApart) {
     for (const int count : {3, 21, 201}) {
         const Scene s = composed("600-cell", count);
         std::set<std::string> labels;
-        for (const auto& placement : s.placements) labels.insert(placement.label);
-        EXPECT_EQ(labels.size(), s.placements.size());
+        std::size_t labeled = 0;
+        for (const auto& placement : s.placements) {
+            if (placement.label.empty()) continue;
+            labels.insert(placement.label);
+            ++labeled;
+        }
+        EXPECT_EQ(labels.size(), labeled);
     }
 }
 

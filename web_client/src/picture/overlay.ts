@@ -26,7 +26,10 @@ interface Label {
     half: number; // half the width of the text
 }
 
-/** Draws the labels of the slices. A label that is too small to read is enlarged, or omitted if it overlaps another. */
+/**
+ * Draws the labels of the slices. A label that is too small to read is enlarged. A label is omitted if it overlaps one
+ * nearer to the focus slice, or if the picture's edge would cut it: it may be enlarged, or moved by the viewer's orbit.
+ */
 function drawLabels(
     pen: CanvasRenderingContext2D,
     slices: Slice[],
@@ -45,13 +48,15 @@ function drawLabels(
         const size = Math.max(wanted, minSize);
         const digits = setFont(pen, size);
         const label = { slice, ...at, size, digits, half: pen.measureText(slice.label).width / 2 };
-        if (wanted < minSize) {
-            const apart = (other: Label): boolean =>
-                Math.abs(other.x - label.x) > other.half + label.half + digits / 2 ||
-                Math.abs(other.y - label.y) > 1.5 * digits;
-            if (!placed.every(apart)) continue;
-        }
-        placed.push(label);
+        const whole =
+            label.x >= label.half &&
+            label.x <= viewport.width - label.half &&
+            label.y >= 0 &&
+            label.y <= viewport.height - digits;
+        const apart = (other: Label): boolean =>
+            Math.abs(other.x - label.x) > other.half + label.half + digits / 2 ||
+            Math.abs(other.y - label.y) > 1.5 * digits;
+        if (slice.focus || (whole && placed.every(apart))) placed.push(label);
     }
     for (const label of placed.reverse()) drawLabel(pen, scene, label); // the focus slice's label last, on top
 }
