@@ -33,6 +33,12 @@ export interface SliceSettings {
 /** The kinds of elements of a polytope, by dimension. */
 export type ElementKind = "vertex" | "edge" | "face" | "cell";
 
+/** An element of a polytope, numbered from 0 among those of its kind. */
+export interface PolytopeElement {
+    element: ElementKind;
+    number: number;
+}
+
 export interface Viewport {
     width: number;
     height: number;
@@ -59,6 +65,7 @@ export interface Settings {
     /** Kinds of cells, as indices into the polytope's kinds. */
     hidden?: number[];
     faded?: number[];
+    highlight?: PolytopeElement | null;
 }
 
 /** The options of an exported file. `body`, `size` and `label` apply only to formats with bodies. */
@@ -131,6 +138,10 @@ export interface State {
     /** Kinds of cells, as indices into the polytope's kinds. */
     hidden: number[];
     faded: number[];
+    /** The element that is drawn in another color. */
+    highlight: PolytopeElement | null;
+    /** The focus slice: the polyhedron that it is, and the hull of the polytope's vertices in it; "" without a name. */
+    section: { w: number; name: string; vertices: string };
     last: { planes: Plane[]; angles: number[] } | null;
 }
 
@@ -237,6 +248,7 @@ export interface SceneDescription {
         ball: number;
         bar: number;
         zero: number;
+        highlight: number;
         axes: [number, number, number, number];
         cells: Uint32Array;
     };
@@ -308,6 +320,16 @@ export interface Slice extends Elements {
     drawn: boolean;
 }
 
+/**
+ * What shows the highlighted element: values of `of.vertices` and `of.edges`, in slices and in the projection; and its
+ * vertices, as indices into `coordinates`.
+ */
+export interface Highlight {
+    vertices: ArrayLike<number> & Iterable<number>;
+    edges: ArrayLike<number> & Iterable<number>;
+    own_vertices: ArrayLike<number> & Iterable<number>;
+}
+
 /** How a part of the projection is drawn. */
 export interface ProjectionLook {
     /** The radii of balls and bars in world units; those with the radius 0 are not drawn. */
@@ -340,6 +362,10 @@ export interface Slices {
     coordinates: Float32Array;
     /** The density of the lines (0 … 255), row by row from the top; empty unless a density strip is drawn. */
     density: Uint8Array;
+    /** The names of the focus slice; see State. */
+    section: { name: string; vertices: string };
+    /** What shows the highlighted element; absent if there is none. */
+    highlight?: Highlight;
     slices: Slice[];
     /** Absent if it is not shown. */
     projection?: ObjectProjection;

@@ -9,6 +9,11 @@ using raster::measureSeconds;
 Pipeline::Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin, std::size_t fillSteps)
     : rasterizer_(std::move(rasterizer)), forkJoin_(forkJoin), fillSteps_(fillSteps), memory_(forkJoin) {}
 
+slicing::SectionNames Pipeline::nameFocusSection(const session::State& state) {
+    const parallel::OneAtATime::Use use(inUse_);
+    return memory_.sectionNamer.names(state);
+}
+
 void Pipeline::slice(const session::State& state, slicing::SliceSet& out) {
     const parallel::OneAtATime::Use use(inUse_);
     times_ = {};

@@ -11,6 +11,7 @@
 #include "image/png.hpp"
 #include "parallel/fork_join.hpp"
 #include "parallel/ownership.hpp"
+#include "pipeline/focus_section.hpp"
 #include "raster/rasterizer.hpp"
 #include "scene/composer.hpp"
 #include "session/session.hpp"
@@ -39,6 +40,9 @@ class Pipeline {
     /// slicing::Filler::fill).
     Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin,
              std::size_t fillSteps = kFillSteps);
+
+    /// Returns the names of the focus slice, for the `state` message.
+    slicing::SectionNames nameFocusSection(const session::State& state);
 
     /// Slices the state's object. Overwrites `out` and reuses its memory.
     void slice(const session::State& state, slicing::SliceSet& out);
@@ -70,6 +74,7 @@ class Pipeline {
     struct Memory {
         explicit Memory(parallel::ForkJoin* forkJoin) : slicer(forkJoin), encoder(forkJoin) {}
         slicing::Slicer slicer;
+        FocusSectionNamer sectionNamer;
         scene::Composer composer;
         scene::Scene scene;
         wire::SlicesMessageWriter slicesWriter;

@@ -41,7 +41,9 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.faceOpacity = info.convex ? style().faceOpacity : 1;
     out.visibilities = visibilities_;
     colors_.paint(object, look.coloring, orientation, out.cellColors);
-    layOut(slices.planes, focus, slices.rotatedVertices.size(), ballRadius_, look, viewport, out);
+    highlight(object, objectChanged, out);
+    nameSection(object, focus, out);
+    layOut(slices.planes, focus, slices.rotatedVertices.size(), ballRadius_, look, viewport, focusName_, out);
     out.scale = out.sliceRadius / info.circumradius;
     out.ballRadius = ballRadius_ * out.sliceRadius;
     out.barRadius = 0.4 * out.ballRadius;
@@ -55,6 +57,37 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     for (const slicing::Fill::Patch& patch : out.fill.patches)
         out.patchCells.push_back(slicing::coloringCell(object, out.visibilities, patch.source));
     if (out.showsDensity()) measureDensity(orientation, out);
+}
+
+// Finds what shows the highlighted element, and gives a highlighted cell its color.
+void Composer::highlight(const Object& object, bool objectChanged, Scene& out) {
+    const std::optional<slicing::Element>& element = out.look.highlight;
+    if (objectChanged || highlight_ != element) {
+        highlight_ = element;
+        highlightSources_.clear();
+        if (element && element->index < slicing::elementCount(object, element->kind))
+            slicing::findSources(object, *element, highlightSources_);
+    }
+    out.highlight = highlightSources_;
+    if (!out.highlight.empty() && element->kind == slicing::ElementKind::cell)
+        out.cellColors[element->index] = style().highlight;
+}
+
+// Names the section of the focus hyperplane. In its label, the vertices' hull stands in for a slice without a name.
+void Composer::nameSection(const Object& object, int focus, Scene& out) {
+    const SliceSet& slices = *out.slices;
+    const int slice = focus - slices.planes.first;
+    out.sectionNames = {};
+    focusName_.clear();
+    if (slice < 0 || slice >= slices.planes.count) return;
+    out.sectionNames = {sectionNamer_.nameOfSlice(slices, slice),
+                        sectionNamer_.nameOfVertices(slices, slice, slicing::elementCounts(object)[1])};
+    const auto& [name, vertices] = out.sectionNames;
+    if (!name.empty()) {
+        focusName_ = name;
+    } else if (!vertices.empty() && vertices != "point" && vertices != "segment") {
+        focusName_.append("vertices: ").append(vertices);
+    }
 }
 
 void Composer::projectObject(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {

@@ -3,12 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "geometry/rotation.hpp"
 #include "scene/density_plot.hpp"
 #include "scene/scene.hpp"
 #include "slicing/object.hpp"
 #include "slicing/projector.hpp"
+#include "slicing/section_name.hpp"
 
 namespace oval4d::scene {
 
@@ -29,6 +32,8 @@ class Composer {
   private:
     void setFilter(const slicing::Object& object, const CellTypeFilter& filter);
     void projectObject(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
+    void nameSection(const slicing::Object& object, int focus, Scene& out);
+    void highlight(const slicing::Object& object, bool objectChanged, Scene& out);
     void measureDensity(const geometry::Rotation& orientation, Scene& out);
 
     std::size_t fillSteps_ = slicing::Filler::kNoLimit;
@@ -39,6 +44,10 @@ class Composer {
     slicing::Visibilities visibilities_;
     slicing::Projector projector_;
     CellTypeFilter filter_;
+    slicing::SectionNamer sectionNamer_;
+    std::string focusName_;  // the section's name in the focus slice's label
+    std::optional<slicing::Element> highlight_;
+    slicing::ElementSources highlightSources_;  // of highlight_
 
     DensityPlot density_;
     std::uint64_t densityObject_ = 0;  // the serial number of the object of which the density was measured

@@ -202,7 +202,7 @@ void fit(const Rect& bounds, const Rect& room, double aspect, double zoom, Camer
 
 // Places the slices along the oval, and sets the text and size of their labels.
 void placeSlices(const geometry::Hyperplanes& planes, int focus, const Oval& oval, const Look& look,
-                 std::vector<SlicePlacement>& placements) {
+                 std::string_view focusName, std::vector<SlicePlacement>& placements) {
     placements.resize(planes.count);
     const double half = std::max((planes.count - 1) / 2.0, 1.0);
     const ViewSpace space(oval);
@@ -215,6 +215,8 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, const Oval& ova
         placement.drawn = look.view == View::oval || placement.focus;
         placement.position = {oval.halfWidth * u, 0, -oval.depth * u * u};
         placement.label = !look.parts.labels ? "" : labelOf(placement.w, decimalsFor(planes.spacing), placement.focus);
+        if (placement.focus && !placement.label.empty() && !focusName.empty())
+            placement.label.append(", ").append(focusName);
         const double away = space.depth(placement.position) / space.distance;
         placement.labelSize = placement.focus ? 1.15 : std::clamp(std::pow(away, -0.25), 0.62, 1.0);
     }
@@ -408,7 +410,7 @@ Rect roomInside(const Rect& room, const Rect& bounds, const Labels& labels) {
 }  // namespace
 
 void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices, double ballRadius, const Look& look,
-            Viewport viewport, Layout& out) {
+            Viewport viewport, std::string_view focusName, Layout& out) {
     const double aspect = static_cast<double>(viewport.width) / viewport.height;
     layOutCoordinates(vertices, aspect, out.coordinates);
     out.axes = {0.06, 0.075, 0.045};
@@ -420,7 +422,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices
     out.sliceRadius =
         single ? 1 : std::clamp(std::pow(static_cast<double>(kReferenceCount) / planes.count, 0.8), 0.1, 1.25);
     const double reach = out.sliceRadius * (1 + ballRadius);
-    placeSlices(planes, focus, oval, look, out.placements);
+    placeSlices(planes, focus, oval, look, focusName, out.placements);
     aim(look.orbit, oval, out.camera);
     Rect bounds = boundsOf(out.placements, ViewSpace(oval), reach);
     const bool projected = look.projection.kind != ProjectionKind::off;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -18,7 +19,9 @@ struct SlicePlacement {
     int index = 0;           ///< the index n of the hyperplane
     double w = 0;            ///< the w of the hyperplane, in the object's units
     glm::dvec3 position{0};  ///< the position of the slice's origin
-    std::string label;       ///< "w = −0.25" for the focus slice, "−0.25" for others; empty if it is not shown
+    /// "w = −0.25" for the focus slice, followed by the name of the section if there is one; "−0.25" for others; empty
+    /// if it is not shown.
+    std::string label;
     glm::dvec3 labelAt{0};   ///< the center of the label's top edge
     double labelSize = 1;    ///< the height of the label, as a fraction of Style::textHeight
     bool focus = false;      ///< whether this is the focus slice
@@ -75,8 +78,9 @@ struct Layout {
 };
 
 /// Lays out the slices of an object with `vertices` vertices. `focus` is the index n of the focus slice; `ballRadius`
-/// is the radius of balls as a fraction of the slice radius. Overwrites `out` and reuses its memory.
+/// is the radius of balls as a fraction of the slice radius; `focusName` is what the focus slice's label says after w.
+/// Overwrites `out` and reuses its memory.
 void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices, double ballRadius, const Look& look,
-            Viewport viewport, Layout& out);
+            Viewport viewport, std::string_view focusName, Layout& out);
 
 }  // namespace oval4d::scene

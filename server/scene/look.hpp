@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "scene/parts.hpp"
+#include "slicing/element.hpp"
 #include "text/choice.hpp"
 
 namespace oval4d::scene {
@@ -68,6 +70,7 @@ struct Look {
     Coloring coloring = Coloring::cell;
     CellTypeFilter cellTypes = {};
     ProjectionSettings projection = {};
+    std::optional<slicing::Element> highlight = {};  ///< the element that is drawn in another color
     bool operator==(const Look&) const = default;
 };
 

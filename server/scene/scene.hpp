@@ -12,6 +12,7 @@
 #include "scene/look.hpp"
 #include "scene/style.hpp"
 #include "slicing/fill.hpp"
+#include "slicing/section_name.hpp"
 #include "slicing/slice_set.hpp"
 #include "slicing/visibility.hpp"
 
@@ -47,6 +48,8 @@ struct Scene : Layout {
     /// content.
     std::vector<std::uint32_t> faceCells;
     slicing::Visibilities visibilities;
+    slicing::ElementSources highlight;  ///< what shows the highlighted element; empty if there is none
+    slicing::SectionNames sectionNames;  ///< of the focus slice
     ObjectProjection projection;               ///< valid if projectionPlacement.shown
     double faceOpacity = style().faceOpacity;  ///< 0 … 1
     /// Whether faces may cross each other. If so, they are opaque, and `fill` is drawn instead of their loops.

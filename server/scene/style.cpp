@@ -16,6 +16,7 @@ const Style& style() {
         .axisY = 0x5fd37a,
         .axisZ = 0x5c9dff,
         .axisW = 0xffd84d,
+        .highlight = 0xff4fb8,
         .faceOpacity = 0.46,
         .light = glm::normalize(glm::dvec3(-0.35, 0.6, 0.72)),
         .ambient = 0.45,

@@ -52,6 +52,8 @@ struct Set {
     std::optional<scene::ProjectionKind> projection;
     std::optional<double> eye;                                ///< ProjectionSettings::eye
     std::optional<std::vector<std::uint32_t>> hidden, faded;  ///< indices of cell types, in any order
+    /// The element that is drawn in another color. The outer optional is empty if it stays the same.
+    std::optional<std::optional<slicing::Element>> highlight;
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
 };
 /// Loads an object from the text of a file and shows it.

@@ -23,7 +23,8 @@ using Words = std::vector<std::string_view>;
 using Member = std::variant<std::optional<double> Set::*, std::optional<int> Set::*, std::optional<bool> Set::*,
                             std::optional<std::string> Set::*, std::optional<scene::View> Set::*,
                             std::optional<scene::Coloring> Set::*, std::optional<scene::ProjectionKind> Set::*,
-                            std::optional<CellTypeList> Set::*>;
+                            std::optional<CellTypeList> Set::*,
+                            std::optional<std::optional<slicing::Element>> Set::*>;
 /// One setting: its name, and the member of Set that stores it.
 struct Setting {
     std::string_view name;
@@ -46,7 +47,8 @@ const auto kSettings = std::to_array<Setting>({{"polytope", &Set::object},
                                                {"projection", &Set::projection},
                                                {"eye", &Set::eye},
                                                {"hidden", &Set::hidden},
-                                               {"faded", &Set::faded}});
+                                               {"faded", &Set::faded},
+                                               {"highlight", &Set::highlight}});
 
 std::vector<std::string_view> names() {
     std::vector<std::string_view> all;
@@ -111,6 +113,23 @@ struct ValueReader {
         return bad(ErrorCode::bad_expression, std::string(name) + " must be " +
                                                   oval4d::text::alternatives(oval4d::text::namesOf(choices)) +
                                                   ", not " + oval4d::text::inQuotes(text));
+    }
+    Result<std::monostate> operator()(std::optional<std::optional<slicing::Element>> Set::* member) const {
+        if (text == "none") {
+            (set.*member).emplace();
+            return std::monostate{};
+        }
+        const std::size_t colon = text.find(':');
+        if (colon == std::string_view::npos) {
+            return bad(ErrorCode::bad_expression, std::string(name) + " must be none or an element such as cell:17, not " +
+                                                      oval4d::text::inQuotes(text));
+        }
+        const auto kind = parseElementKind(text.substr(0, colon));
+        if (!kind) return kind.error();
+        const auto index = parseElementIndex(text.substr(colon + 1));
+        if (!index) return index.error();
+        (set.*member).emplace(slicing::Element{*kind, *index});
+        return std::monostate{};
     }
     Result<std::monostate> operator()(std::optional<CellTypeList> Set::* member) const {
         auto types = readCellTypes(text);
@@ -182,14 +201,18 @@ Result<Command> rotateLine(std::string_view /*rest*/, const Words& words, const 
 }
 
 Result<Command> towardLine(std::string_view rest, const Words& words, const State& /*state*/) {
-    const auto toward = words.size() == 1 || words.size() == 2
-                            ? parseToward(words[0], words.size() == 2 ? words[1] : std::string_view())
-                            : Result<Toward>(bad(ErrorCode::bad_expression,
-                                                 "toward needs " + text::alternatives(text::namesOf(slicing::kElementKinds)) +
-                                                     " and optionally a number, such as toward cell 3" +
-                                                     (rest.empty() ? "" : ", not " + text::inQuotes(rest))));
-    if (!toward) return toward.error();
-    return Command{*toward};
+    if (words.empty() || words.size() > 2) {
+        return bad(ErrorCode::bad_expression,
+                   "toward needs " + text::alternatives(text::namesOf(slicing::kElementKinds)) +
+                       " and optionally a number, such as toward cell 3" +
+                       (rest.empty() ? "" : ", not " + text::inQuotes(rest)));
+    }
+    const auto kind = parseElementKind(words[0]);
+    if (!kind) return kind.error();
+    if (words.size() == 1) return Command{Toward{*kind, {}}};
+    const auto index = parseElementIndex(words[1]);
+    if (!index) return index.error();
+    return Command{Toward{*kind, *index}};
 }
 
 Result<Command> keyLine(std::string_view rest, const Words& words, const State& /*state*/) {
@@ -202,6 +225,12 @@ Result<Command> keyLine(std::string_view rest, const Words& words, const State& 
         key.ctrl = true;
     }
     return Command{key};
+}
+
+// "highlight cell 17" is short for "set highlight=cell:17".
+Result<Command> highlightLine(std::string_view rest, const Words& words, const State& /*state*/) {
+    if (words.size() != 2) return oneSetting("highlight", rest);
+    return oneSetting("highlight", std::string(words[0]) + ':' + std::string(words[1]));
 }
 
 // Parses the arguments of hide, fade and show: cell type numbers, or the name of a cell type.
@@ -241,6 +270,7 @@ constexpr auto kVerbs = std::to_array<Verb>(
      {"focus", [](std::string_view rest, const Words&, const State&) { return oneSetting("focus", rest); }},
      {"color", [](std::string_view rest, const Words&, const State&) { return oneSetting("color", rest); }},
      {"project", [](std::string_view rest, const Words&, const State&) { return oneSetting("projection", rest); }},
+     {"highlight", highlightLine},
      {"hide", cellTypesLine<hide>},
      {"fade", cellTypesLine<fade>},
      {"show", cellTypesLine<reveal>},
@@ -253,24 +283,19 @@ constexpr auto kVerbs = std::to_array<Verb>(
 
 std::string settingNames() { return text::commaSeparated(names()); }
 
-Result<Toward> parseToward(std::string_view kind, std::string_view number) {
-    Toward toward;
-    const auto named = text::valueNamed(slicing::kElementKinds, kind);
-    if (!named) {
-        return bad(ErrorCode::bad_expression, "an element is " +
-                                                  text::alternatives(text::namesOf(slicing::kElementKinds)) + ", not " +
-                                                  text::inQuotes(kind));
-    }
-    toward.kind = *named;
-    if (number.empty()) return toward;
+Result<slicing::ElementKind> parseElementKind(std::string_view text) {
+    const auto kind = text::valueNamed(slicing::kElementKinds, text);
+    if (kind) return *kind;
+    return bad(ErrorCode::bad_expression, "an element is " + text::alternatives(text::namesOf(slicing::kElementKinds)) +
+                                              ", not " + text::inQuotes(text));
+}
+
+Result<std::size_t> parseElementIndex(std::string_view text) {
     std::uint32_t index = 0;
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
-    if (error != std::errc{} || end != number.data() + number.size()) {
-        return bad(ErrorCode::bad_expression, "the number of a " + std::string(kind) +
-                                                  " must be a whole number from 0, not " + text::inQuotes(number));
-    }
-    toward.index = index;
-    return toward;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+    if (error == std::errc{} && end == text.data() + text.size()) return std::size_t{index};
+    return bad(ErrorCode::bad_expression,
+               "the number of an element must be a whole number from 0, not " + text::inQuotes(text));
 }
 
 Result<std::monostate> putSetting(std::string_view name, std::string_view value, Set& set) {

@@ -13,9 +13,11 @@ namespace oval4d::session {
 /// for an invalid value.
 Result<std::monostate> putSetting(std::string_view name, std::string_view value, Set& set);
 
-/// Parses the arguments of the command "toward": the kind of an element, and its number, or "" for the closest one.
-/// Error: `bad_expression`.
-Result<Toward> parseToward(std::string_view kind, std::string_view number);
+/// Parses the kind of an element, such as "cell". Error: `bad_expression`.
+Result<slicing::ElementKind> parseElementKind(std::string_view text);
+
+/// Parses the index of an element. Error: `bad_expression`.
+Result<std::size_t> parseElementIndex(std::string_view text);
 
 /// Returns all names that putSetting accepts, separated by commas.
 std::string settingNames();

@@ -28,10 +28,14 @@ Result<State> stateFromQuery(const Query& query, const Limits& limits, ObjectLoa
         } else if (name == "toward") {
             const std::string_view element = value;
             const std::size_t colon = std::min(element.find(':'), element.size());
-            auto parsed = parseToward(element.substr(0, colon), element.substr(std::min(colon + 1, element.size())));
-            if (!parsed) return parsed.error();
-            toward = *parsed;
-            toward->immediately = true;
+            const auto kind = parseElementKind(element.substr(0, colon));
+            if (!kind) return kind.error();
+            toward = Toward{*kind, {}, true};
+            if (colon < element.size()) {
+                const auto index = parseElementIndex(element.substr(colon + 1));
+                if (!index) return index.error();
+                toward->index = *index;
+            }
         } else if (auto done = putSetting(name, value, set); !done) {
             Error error = done.error();
             if (error.code == ErrorCode::unknown_command) error.message += ", rotate, toward";

@@ -20,7 +20,7 @@ using Query = std::vector<std::pair<std::string, std::string>>;
 /// and "toward" after everything else. Settings that the query does not
 /// contain are those of initialState(), but with `object`, if given, in place of the 5-cell. `loader` provides the
 /// polytopes. Errors: `unknown_command` for an unknown name, with the allowed names; those of putSetting, parseTurn,
-/// checkTurn, parseToward, turnToward and applySet.
+/// checkTurn, parseElementKind, parseElementIndex, turnToward and applySet.
 Result<State> stateFromQuery(const Query& query, const Limits& limits, ObjectLoader& loader,
                              std::optional<slicing::Object> object = {});
 

@@ -62,6 +62,18 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
     return put("the offset", set.offset, {-kMaxOffset * radius, kMaxOffset * radius, ""}, state.slices.offset);
 }
 
+// Error: `out_of_range` if the object has no such element.
+Result<std::monostate> checkElement(const slicing::Object& object, const slicing::Element& element) {
+    const std::size_t count = slicing::elementCount(object, element.kind);
+    if (element.index < count) return std::monostate{};
+    const std::string kind(text::nameOf(slicing::kElementKinds, element.kind));
+    const std::string& name = slicing::infoOf(object).name;
+    if (count == 0) return Error{ErrorCode::out_of_range, "the " + name + " has no " + kind};
+    return Error{ErrorCode::out_of_range, "the number of the " + kind + " must be from 0 to " +
+                                              std::to_string(count - 1) + " for the " + name + ", not " +
+                                              std::to_string(element.index)};
+}
+
 }  // namespace
 
 void replaceObject(State& state, slicing::Object object) {
@@ -74,6 +86,7 @@ void replaceObject(State& state, slicing::Object object) {
     state.slices.offset = 0;
     state.approach.reset();
     state.look.cellTypes = {};
+    state.look.highlight.reset();
     state.object = std::move(object);
 }
 
@@ -124,6 +137,12 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
     state.look.projection.kind = set.projection.value_or(state.look.projection.kind);
     state.look.coloring = set.coloring.value_or(state.look.coloring);
     if (auto done = setCellTypes(state, set); !done) return done;
+    if (set.highlight) {
+        if (*set.highlight) {
+            if (auto valid = checkElement(state.object, **set.highlight); !valid) return valid;
+        }
+        state.look.highlight = *set.highlight;
+    }
     put(set.turning, state.turning);
     if (set.turning) state.approach.reset();
     if (state.turning && !state.lastTurn) {
@@ -150,21 +169,12 @@ void rotate(State& state, const geometry::Turn& turn) {
 }
 
 Result<std::monostate> turnToward(State& state, const Toward& command) {
-    const std::size_t count = slicing::elementCount(state.object, command.kind);
-    const auto element = command.index && *command.index < count
-                             ? std::optional(slicing::Element{command.kind, *command.index})
-                         : command.index ? std::nullopt
-                                         : slicing::elementToTurnTo(state.object, command.kind, state.orientation);
-    if (!element) {
-        const std::string kind(text::nameOf(slicing::kElementKinds, command.kind));
-        const std::string& name = slicing::infoOf(state.object).name;
-        if (count == 0) return Error{ErrorCode::out_of_range, "the " + name + " has no " + kind + " to turn toward"};
-        return Error{ErrorCode::out_of_range, "the number of the " + kind + " must be from 0 to " +
-                                                  std::to_string(count - 1) + " for the " + name + ", not " +
-                                                  std::to_string(*command.index)};
-    }
+    if (auto valid = checkElement(state.object, {command.kind, command.index.value_or(0)}); !valid) return valid;
+    const slicing::Element element = command.index
+                                         ? slicing::Element{command.kind, *command.index}
+                                         : *slicing::elementToTurnTo(state.object, command.kind, state.orientation);
     const glm::dvec4 w(0, 0, 0, 1);
-    const glm::dvec4 own = slicing::directionOf(state.object, *element, state.orientation.inverse()(w));
+    const glm::dvec4 own = slicing::directionOf(state.object, element, state.orientation.inverse()(w));
     const geometry::Rotation way = geometry::Rotation::between(state.orientation(own), w);
     const geometry::Rotation goal = way * state.orientation;
     state.turning = false;

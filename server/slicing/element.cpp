@@ -92,6 +92,44 @@ glm::dvec4 directionIn(const Solid& object, const Element& element, const glm::d
     return best;
 }
 
+void findSourcesIn(const Polytope& p, const Element& element, ElementSources& out) {
+    const auto index = static_cast<std::uint32_t>(element.index);
+    const auto edgeCount = static_cast<std::uint32_t>(p.edges.size());
+    const auto faceCount = static_cast<std::uint32_t>(p.faces.size());
+    const auto addEdge = [&](std::uint32_t e) {
+        out.edges.push_back(faceCount + e);
+        out.ownVertices.insert(out.ownVertices.end(), p.edges[e].begin(), p.edges[e].end());
+    };
+    const auto addFace = [&](std::uint32_t f) {
+        out.edges.push_back(f);
+        for (const auto e : p.faceEdges[f]) addEdge(e);
+    };
+    switch (element.kind) {
+        case ElementKind::vertex:
+            out.ownVertices.push_back(index);
+            out.vertices.push_back(edgeCount + index);
+            for (std::uint32_t e = 0; e < edgeCount; ++e) {
+                if (p.edges[e][0] == index || p.edges[e][1] == index) out.vertices.push_back(e);
+            }
+            break;
+        case ElementKind::edge:
+            out.vertices.push_back(index);
+            addEdge(index);
+            break;
+        case ElementKind::face:
+            addFace(index);
+            break;
+        case ElementKind::cell:
+            for (const auto f : p.cells[index]) addFace(f);
+            break;
+    }
+}
+
+void findSourcesIn(const geometry::PointCloud& /*cloud*/, const Element& element, ElementSources& out) {
+    out.vertices.push_back(static_cast<std::uint32_t>(element.index));
+    out.ownVertices = out.vertices;
+}
+
 // Returns the direction of +w in the object's own coordinates.
 glm::dvec4 ownDirectionOfW(const geometry::Rotation& orientation) { return orientation.inverse()({0, 0, 0, 1}); }
 
@@ -123,6 +161,19 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
     constexpr double kThere = 1e-12;  // 1 − cos of an angle of 1.4e-6
     if (best > 1 - kThere) nearest.index = (nearest.index + 1) % count;
     return nearest;
+}
+
+void ElementSources::clear() {
+    for (auto* list : {&vertices, &edges, &ownVertices}) list->clear();
+}
+
+void findSources(const Object& object, const Element& element, ElementSources& out) {
+    out.clear();
+    std::visit([&](const auto& shared) { findSourcesIn(*shared, element, out); }, object);
+    for (auto* list : {&out.vertices, &out.edges, &out.ownVertices}) {
+        std::ranges::sort(*list);
+        list->erase(std::unique(list->begin(), list->end()), list->end());
+    }
 }
 
 std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,

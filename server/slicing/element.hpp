@@ -1,10 +1,12 @@
 #pragma once
 // The elements of an object: its vertices, edges, 2-faces and cells.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <glm/vec4.hpp>
 
@@ -42,6 +44,24 @@ glm::dvec4 directionOf(const Object& object, const Element& element, const glm::
 /// already points to +w, returns the one with the next index, so that repeated calls visit all elements. Returns an
 /// empty optional if there are no elements of this kind. Takes time linear in the size of the object.
 std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation);
+
+/// What shows an element in slices and in the projection of the whole object: the source numbers (see SliceSet) of
+/// slice vertices and edges, and vertices of the object. The lists are sorted.
+struct ElementSources {
+    std::vector<std::uint32_t> vertices, edges;
+    std::vector<std::uint32_t> ownVertices;  ///< the element's vertices, as indices into the object's
+
+    bool hasVertex(std::uint32_t source) const { return std::ranges::binary_search(vertices, source); }
+    bool hasEdge(std::uint32_t source) const { return std::ranges::binary_search(edges, source); }
+    bool empty() const { return ownVertices.empty(); }
+    void clear();
+    bool operator==(const ElementSources&) const = default;
+};
+
+/// Finds what shows an element: of a vertex, the vertex and where its edges are cut; of an edge, the edge and where it is
+/// cut; of a 2-face or a cell, the bars that are cut from it and its edges. Overwrites `out`. Takes time linear in the
+/// number of edges. Requires element.index < elementCount(object, element.kind).
+void findSources(const Object& object, const Element& element, ElementSources& out);
 
 /// Returns the smallest w > `w` (the largest w < `w` if `upward` is false) at which a vertex lies after rotation by
 /// `orientation`: the section w = const changes its combinatorial type only there (Coxeter, Regular Polytopes, §13.1).

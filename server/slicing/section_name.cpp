@@ -10,6 +10,8 @@
 
 #include "polytopes/construction/polyhedra.hpp"
 #include "polytopes/construction/snub.hpp"
+#include "polytopes/polytope.hpp"
+#include "slicing/visitor.hpp"
 
 // A convex polyhedron is determined by its vertices. The vertices are recognized by their distances from each other,
 // which do not depend on the orientation. Of a slice, the numbers of edges and faces and the lengths of the edges are
@@ -124,6 +126,30 @@ const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
         return shapes;
     }();
     return kShapes;
+}
+
+bool SectionNamer::mayName(const Object& object, const geometry::Rotation& orientation, double w) {
+    const double slack = kOnPlane * infoOf(object).circumradius;
+    const glm::dvec4 direction = orientation.inverse()({0, 0, 0, 1});
+    const auto sideOf = [&](const glm::dvec4& vertex) {
+        const double height = glm::dot(direction, vertex) - w;
+        return height > slack ? 1 : height < -slack ? -1 : 0;
+    };
+    const auto countInPlane = [&](const std::vector<glm::dvec4>& vertices) {
+        return static_cast<std::size_t>(std::ranges::count_if(vertices, [&](const auto& v) { return sideOf(v) == 0; }));
+    };
+    return std::visit(Visitor{[&](const PolytopePtr& p) {
+                                  const std::size_t inPlane = countInPlane(p->vertices);
+                                  if (inPlane > 0 && inPlane <= kMaxVertices) return true;
+                                  std::size_t size = inPlane;
+                                  for (const auto& [a, b] : p->edges) {
+                                      size += sideOf(p->vertices[a]) * sideOf(p->vertices[b]) < 0 ? 1 : 0;
+                                      if (size > kMaxVertices) return false;
+                                  }
+                                  return size > 0;
+                              },
+                              [](const CloudPtr& /*cloud*/) { return true; }},
+                      object);
 }
 
 std::string_view SectionNamer::nameOfSlice(const SliceSet& slices, int slice) {

@@ -10,9 +10,18 @@
 
 #include <glm/vec3.hpp>
 
+#include "geometry/rotation.hpp"
+#include "slicing/object.hpp"
 #include "slicing/slice_set.hpp"
 
 namespace oval4d::slicing {
+
+/// The names of a section.
+struct SectionNames {
+    std::string_view slice;     ///< as SectionNamer::nameOfSlice returns it
+    std::string_view vertices;  ///< as SectionNamer::nameOfVertices returns it
+    bool operator==(const SectionNames&) const = default;
+};
 
 /// Names slices, and the vertices of a polytope that lie in a hyperplane. Names only what is similar to one of the
 /// following shapes, with errors of at most 1e-6 of the circumradius: the point, the segment, the regular polygons, the
@@ -26,6 +35,11 @@ namespace oval4d::slicing {
 /// Repeated calls allocate no memory. A namer may be used by one thread at a time.
 class SectionNamer {
   public:
+    /// Returns whether the section of `object`, rotated by `orientation`, at this w may have a name: false if so many
+    /// edges cross the hyperplane, and so many or no vertices lie in it, that no named shape fits. Takes time linear in
+    /// the number of edges, much less than cutting the slice.
+    static bool mayName(const Object& object, const geometry::Rotation& orientation, double w);
+
     /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if it has none.
     /// The name is valid until the process ends.
     std::string_view nameOfSlice(const SliceSet& slices, int slice);

@@ -148,7 +148,7 @@ std::optional<session::Approach> approachIn(const json& value) {
 }
 
 json encoded(const scene::Look& look) {
-    const auto& [view, parts, orbit, coloring, cellTypes, projection] = look;
+    const auto& [view, parts, orbit, coloring, cellTypes, projection, highlight] = look;
     const auto& [azimuth, elevation, zoom] = orbit;
     const auto& [hidden, faded] = cellTypes;
     json flags = json::array();
@@ -161,7 +161,8 @@ json encoded(const scene::Look& look) {
             hidden,
             faded,
             static_cast<unsigned>(kind),
-            eye};
+            eye,
+            highlight ? json({static_cast<unsigned>(highlight->kind), highlight->index}) : json()};
 }
 
 /// A record written by an earlier version of the program has fewer flags; the other parts keep their defaults.
@@ -180,7 +181,16 @@ std::vector<std::uint32_t> cellTypesIn(const json& value, std::size_t count) {
     return kinds;
 }
 
-scene::Look lookIn(const json& value, std::size_t kinds) {
+std::optional<slicing::Element> elementIn(const json& value, const slicing::Object& object) {
+    if (value.is_null()) return std::nullopt;
+    const slicing::Element element{enumerator(value.at(0), slicing::ElementKind::cell),
+                                   readInteger<std::size_t>(value.at(1))};
+    if (element.index >= slicing::elementCount(object, element.kind)) throwUnreadable("an element is missing");
+    return element;
+}
+
+scene::Look lookIn(const json& value, const slicing::Object& object) {
+    const std::size_t kinds = slicing::infoOf(object).cellTypes.size();
     const json& orbit = value.at(2);
     scene::Look look{
         enumerator(value.at(0), scene::View::single),
@@ -189,8 +199,9 @@ scene::Look lookIn(const json& value, std::size_t kinds) {
          readNumber(orbit.at(2), session::kMinZoom, session::kMaxZoom)},
         enumerator(value.at(3), scene::Coloring::light),
         {cellTypesIn(value.at(4), kinds), cellTypesIn(value.at(5), kinds)},
-        {}};
-    if (value.size() > 6)  // a record written by an earlier version of the program has no projection
+        {},
+        value.size() > 8 ? elementIn(value.at(8), object) : std::nullopt};
+    if (value.size() > 6)  // a record written by an earlier version of the program has no projection and no highlight
         look.projection = {enumerator(value.at(6), scene::ProjectionKind::orthogonal),
                            readNumber(value.at(7), session::kMinEye, session::kMaxEye)};
     const auto& [hidden, faded] = look.cellTypes;
@@ -235,7 +246,7 @@ State stateIn(const json& value, const ObjectList& objects) {
                             session::kMaxSpacing * radius * (1 + kSlack)),
                  readInteger<int>(slices.at(2)),
                  slices.size() > 3 ? readNumber(slices.at(3), session::kMaxOffset * radius * (1 + kSlack)) : 0},
-                lookIn(value.at(5), info.cellTypes.size()),
+                lookIn(value.at(5), object),
                 value.at(6).get<bool>(),
                 turnIn(value.at(7)),
                 value.size() > 8 ? approachIn(value.at(8)) : std::nullopt};

@@ -88,7 +88,8 @@ void writeLast(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
 
 }  // namespace
 
-void stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id, std::string& out) {
+void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
+                  std::optional<double> id, std::string& out) {
     JsonWriter w(out);
     begin(w, "state", id);
     w.member("revision", revision);
@@ -103,6 +104,12 @@ void stateMessage(const session::State& state, std::uint64_t revision, std::opti
     w.member("spacing", state.slices.spacing);
     w.member("focus", state.slices.focus);
     w.member("offset", state.slices.offset);
+    w.endObject();
+    w.key("section");
+    w.beginObject();
+    w.member("w", state.focusW());
+    w.member("name", section.slice);
+    w.member("vertices", section.vertices);
     w.endObject();
     w.member("view", text::nameOf(scene::kViews, state.look.view));
     w.member("turning", state.turning);
@@ -123,15 +130,25 @@ void stateMessage(const session::State& state, std::uint64_t revision, std::opti
     w.numbers(state.look.cellTypes.hidden);
     w.key("faded");
     w.numbers(state.look.cellTypes.faded);
+    w.key("highlight");
+    if (const auto& element = state.look.highlight) {
+        w.beginObject();
+        w.member("element", text::nameOf(slicing::kElementKinds, element->kind));
+        w.member("number", std::uint64_t{element->index});
+        w.endObject();
+    } else {
+        w.null();
+    }
     writeLast(w, state.lastTurn);
     w.endObject();
 }
 
-std::string stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id) {
+std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
+                         std::optional<double> id) {
     constexpr std::size_t kTypicalBytes = 1024;
     std::string out;
     out.reserve(kTypicalBytes);
-    stateMessage(state, revision, id, out);
+    stateMessage(state, section, revision, id, out);
     return out;
 }
 

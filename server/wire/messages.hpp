@@ -11,13 +11,16 @@
 
 #include "errors/error.hpp"
 #include "session/session.hpp"
+#include "slicing/section_name.hpp"
 
 namespace oval4d::wire {
 
-/// Returns the `state` message of a state. The PNG files of frames contain the same text.
-std::string stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id = {});
+/// Returns the `state` message of a state, whose focus slice has the names `section`. The PNG files of frames contain
+/// the same text.
+std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision, std::optional<double> id = {});
 /// Writes the `state` message to `out`. Overwrites `out` and reuses its memory.
-void stateMessage(const session::State& state, std::uint64_t revision, std::optional<double> id, std::string& out);
+void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
+                  std::optional<double> id, std::string& out);
 
 /// Returns the `error` message.
 std::string errorMessage(const Error& error, std::optional<double> id);

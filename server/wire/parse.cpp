@@ -102,6 +102,11 @@ session::Set setOf(const json& message) {
     take(message, "eye", set.eye);
     take(message, "hidden", set.hidden);
     take(message, "faded", set.faded);
+    if (const auto element = message.find("highlight"); element != message.end()) {
+        set.highlight.emplace();
+        if (!element->is_null())
+            *set.highlight = slicing::Element{choiceOf(element->at("element"), slicing::kElementKinds), element->at("number")};
+    }
     if (const auto last = message.find("last"); last != message.end() && !last->is_null())
         set.lastTurn = turnOf(*last, "set: /last");
     return set;

@@ -43,6 +43,7 @@ void writeColors(W& w, const scene::Style& style, const std::vector<scene::Color
     w.member("ball", style.ball);
     w.member("bar", style.bar);
     w.member("zero", style.zeroLine);
+    w.member("highlight", style.highlight);
     w.key("axes");
     w.beginArray();
     for (const scene::Color color : {style.axisX, style.axisY, style.axisZ, style.axisW}) w.value(color);
@@ -135,6 +136,22 @@ void SlicesMessageWriter::writeMessage(W&& w, CachedText<StaticScene>& cache, co
             w.key("density");
             w.image(scene.density, scene::DensityPlot::kColumns);
         }
+    }
+    w.key("section");
+    w.beginObject();
+    w.member("name", scene.sectionNames.slice);
+    w.member("vertices", scene.sectionNames.vertices);
+    w.endObject();
+    if (!scene.highlight.empty()) {
+        w.key("highlight");
+        w.beginObject();
+        w.key("vertices");
+        w.numbers(scene.highlight.vertices);
+        w.key("edges");
+        w.numbers(scene.highlight.edges);
+        w.key("own_vertices");
+        w.numbers(scene.highlight.ownVertices);
+        w.endObject();
     }
     w.key("slices");
     list_.write(w, scene);

@@ -153,7 +153,7 @@ class Bench {
         repeat("frame", job_.frames, [&](int i, Samples& whole) {
             whole.add(secondsOf([&] {
                 turn(i);
-                wire::stateMessage(state_, 1, {}, text_);
+                wire::stateMessage(state_, {}, 1, {}, text_);
                 pipeline_.drawPng(state_, text_, job_.viewport, png_);
             }));
             compose.add(pipeline_.times().compose);

@@ -38,7 +38,7 @@ void requireUsable(const session::Session& session) {
     wide.maxUndo = wide.maxLoaded = 1'000'000;
     fuzz::requireSound(session, wide);
     fuzz::requireSlices(session.current);
-    fuzz::requireJson(wire::stateMessage(session.current, session.revision));
+    fuzz::requireJson(wire::stateMessage(session.current, {}, session.revision));
     for (const auto& [name, object] : session.loaded)
         fuzz::requireJson(wire::catalogueMessage({}, std::vector{object}));
     for (const char* key : {"y", "l", "G", "}", "u"}) {

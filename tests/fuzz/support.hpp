@@ -158,7 +158,7 @@ inline void execute(session::Session& session, const session::Command& command) 
 
 /// Requires that a state survives encoding as a message and setting another session to it.
 inline void requireRoundTrip(const session::State& state, const session::LoadedObjects& loaded) {
-    const std::string text = wire::stateMessage(state, 7, 3);
+    const std::string text = wire::stateMessage(state, {}, 7, 3);
     requireJson(text);
     const auto set = wire::setFromState(text);
     require(static_cast<bool>(set), "a state message is read back:", set ? "" : set.error().message + " " + text);

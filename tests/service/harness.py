@@ -67,6 +67,8 @@ class Server:
         self.log_file = tempfile.NamedTemporaryFile(prefix="oval4d-", suffix=".log")
         environment = {name: value for name, value in os.environ.items() if not name.startswith("OVAL4D")}
         defaults = [("--port", 0), ("--workers", 2), ("--io-threads", 2)]
+        if SLOW > 1:  # the limit of an export is a time that the program needs for itself
+            defaults.append(("--max-file-time", DEADLINE))
         arguments = [word for pair in defaults if pair[0] not in options for word in pair]
         command = [str(PROGRAM), *map(str, arguments), *map(str, options)]
         self.process = self.start(command, environment | variables)

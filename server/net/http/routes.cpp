@@ -106,7 +106,7 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
         auto held = client->byteAccount().reserve(image::byteCount(viewport));  // a PNG file is rarely larger
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
-        pipeline.drawPng(state, wire::stateMessage(state, 0), viewport, png);
+        pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport, png);
         metrics.observe(pipeline.times());
         held->resize(png.capacity());
         return SharedBytes(std::move(png)).keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(*held)));

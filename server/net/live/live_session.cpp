@@ -248,7 +248,7 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
     if (get.viewport) key.viewport = *get.viewport;
     switch (get.what) {
         case wire::GetTarget::state:
-            peer->send(textMessage(wire::stateMessage(session_.current, revision(), id)));
+            peer->send(textMessage(stateText(id)));
             break;
         case wire::GetTarget::catalogue: {
             std::vector<slicing::Object> loaded;
@@ -532,13 +532,18 @@ void LiveSession::sendPicture(Subscriber& client, const Message& picture) {
                });
 }
 
+std::string LiveSession::stateText(RequestId id) const {
+    const auto section = pipeline::FocusSectionNamer().names(session_.current);
+    return wire::stateMessage(session_.current, section, revision(), id);
+}
+
 /// Sends the newest state to a client without a stream, one message at a time: if the state changes faster than the
 /// client's socket accepts messages, states in between are skipped.
 void LiveSession::sendState(Subscriber& client) {
     const auto peer = client.peer.lock();
     if (!peer) return;
     if (stateRevision_ != revision()) {
-        stateText_ = SharedBytes(wire::stateMessage(session_.current, revision()));
+        stateText_ = SharedBytes(stateText({}));
         stateRevision_ = revision();
     }
     client.pacing.skipped(revision());

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -129,6 +130,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void scheduleRetry();
     void onJobDone(JobResult result);
     void sendPicture(Subscriber& client, const Message& picture);
+    std::string stateText(RequestId id) const;
     void sendState(Subscriber& client);
     void schedulePacing();
     void expirePictures();

@@ -17,7 +17,7 @@ SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& sta
     made->state = state;
     made->revision = revision;
     made->changed = changed;
-    made->stateText = SharedBytes(wire::stateMessage(state, revision));
+    made->stateText = SharedBytes(wire::stateMessage(state, pipeline.nameFocusSection(state), revision));
     made->sliced = key.stream != Stream::frames;
     if (made->sliced) pipeline.slice(state, made->slices);
     return made;

@@ -14,6 +14,8 @@ namespace oval4d::render {
 
 namespace {
 
+// The opacity of the bands behind the parallel coordinates of highlighted vertices.
+constexpr float kHighlightOpacity = 0.35F;
 constexpr double kFocusReach = 0.009;  // half the width of the focus mark, as a fraction of the picture's height
 
 /// Returns a fraction of the picture's height in whole pixels, at least one.
@@ -159,6 +161,14 @@ void paintCoordinates(const scene::Scene& scene, Overlay& overlay) {
                      right = left + ((columns - 1) * layout.columnStep + 3 * layout.lineStep) * height + lineWidth;
         const auto zero = static_cast<float>(zeroOf(row));
         overlay.box({snap(left), zero - 0.5f, snap(right), zero + 0.5f}, style.zeroLine);
+    }
+    for (const std::uint32_t i : scene.highlight.ownVertices) {
+        const double zero = zeroOf(static_cast<int>(i) / layout.perRow), reach = layout.amplitude * height;
+        const double column = (layout.left + (static_cast<int>(i) % layout.perRow) * layout.columnStep) * height;
+        const double gap = 0.5 * layout.lineStep * height;
+        overlay.box({snap(column - gap), static_cast<float>(zero - reach),
+                     snap(column + 3 * layout.lineStep * height + lineWidth + gap), static_cast<float>(zero + reach)},
+                    style.highlight, kHighlightOpacity);
     }
     for (int i = 0; i < count; ++i) {
         const double zero = zeroOf(i / layout.perRow);

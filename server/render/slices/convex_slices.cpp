@@ -120,14 +120,14 @@ void ConvexSlicePainter::paintSkeleton(const SliceView& slice, Side side, ShapeB
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const std::uint32_t v = order_[i];
         if (skeleton.balls && vertexSide_[v] == side)
-            out.addBall(points_[v], skeleton.ballRadius * slice.ballScale(v), skeleton.ballColor,
-                        slice.vertexOpacity(v));
+            out.addBall(points_[v], skeleton.ballRadius * slice.ballScale(v),
+                        slice.vertexColor(v, skeleton.ballColor), slice.vertexOpacity(v));
         if (!skeleton.bars) continue;
         for (std::size_t k = edgeBegin_[i]; k < edgeBegin_[i + 1]; ++k) {
             const std::uint32_t e = edgeOrder_[k];
             if (edgeSide_[e] != side) continue;
             const glm::vec3& to = points_[slice.edge(e)[slice.edge(e)[0] == v ? 1 : 0]];
-            skeleton.addBar(points_[v], to, slice.edgeOpacity(e), out);
+            skeleton.addBar(points_[v], to, slice.edgeColor(e, skeleton.barColor), slice.edgeOpacity(e), out);
         }
     }
 }

@@ -85,13 +85,14 @@ void NonconvexSlicePainter::paintItem(const SliceView& slice, const Item& item, 
     if (item.kind == Kind::patch) return paintPatch(slice, item.number, out);
     const glm::vec3* points = points_.data() + slice.firstVertex();
     if (item.kind == Kind::ball) {
-        out.addBall(points[item.number], skeleton.ballRadius * slice.ballScale(item.number), skeleton.ballColor,
-                    slice.vertexOpacity(item.number));
+        out.addBall(points[item.number], skeleton.ballRadius * slice.ballScale(item.number),
+                    slice.vertexColor(item.number, skeleton.ballColor), slice.vertexOpacity(item.number));
         return;
     }
     const auto& [a, b] = slice.edge(item.number);
     const bool forth = points[a].z < points[b].z;
-    skeleton.addBar(points[forth ? a : b], points[forth ? b : a], slice.edgeOpacity(item.number), out);
+    skeleton.addBar(points[forth ? a : b], points[forth ? b : a], slice.edgeColor(item.number, skeleton.barColor),
+                    slice.edgeOpacity(item.number), out);
 }
 
 void NonconvexSlicePainter::paintPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out) {

@@ -83,12 +83,16 @@ void ProjectionPainter::paintItem(const scene::Scene& scene, const Item& item, S
     if (item.kind == Kind::ball) {
         const float scale = elements.ballScale.empty() ? 1 : elements.ballScale[item.number];
         const float own = elements.ballOpacity.empty() ? 1 : elements.ballOpacity[item.number];
-        out.addBall(points_[item.number], static_cast<float>(part.ballRadius) * scale, part.ballColor,
+        const bool lit = scene.highlight.hasVertex(elements.vertexSource[item.number]);
+        out.addBall(points_[item.number], static_cast<float>(part.ballRadius) * scale,
+                    lit ? scene::style().highlight : part.ballColor,
                     own * opacity(scene.visibilities.vertex(elements.vertexSource[item.number])));
     } else if (item.kind == Kind::bar) {
         const auto& [a, b] = elements.edges[item.number];
         const bool forth = points[a].z < points[b].z;
-        out.addBar(points[forth ? a : b], points[forth ? b : a], static_cast<float>(part.barRadius), part.barColor,
+        const bool lit = scene.highlight.hasEdge(elements.edgeSource[item.number]);
+        out.addBar(points[forth ? a : b], points[forth ? b : a], static_cast<float>(part.barRadius),
+                   lit ? scene::style().highlight : part.barColor,
                    opacity(scene.visibilities.edge(elements.edgeSource[item.number])));
     } else {
         corners_.clear();

@@ -35,6 +35,13 @@ struct SliceView {
     }
 
     scene::Color faceColor(std::size_t f) const { return scene.cellColors[scene.cellOfFace(firstFace() + f)]; }
+    /// Returns the color of vertex v, which is `usual` unless it belongs to the highlighted element; likewise for edges.
+    scene::Color vertexColor(std::size_t v, scene::Color usual) const {
+        return scene.highlight.hasVertex(set.vertexSource[firstVertex() + v]) ? scene::style().highlight : usual;
+    }
+    scene::Color edgeColor(std::size_t e, scene::Color usual) const {
+        return scene.highlight.hasEdge(set.edgeSource[firstEdge() + e]) ? scene::style().highlight : usual;
+    }
     float opacity(slicing::Visibility visibility) const { return static_cast<float>(slicing::opacityOf(visibility)); }
     slicing::Visibility vertexVisibility(std::size_t v) const {
         return scene.visibilities.vertex(set.vertexSource[firstVertex() + v]);
@@ -82,11 +89,11 @@ struct Skeleton {
           hiddenEndLength(std::sqrt(std::max(ballRadius * ballRadius - barRadius * barRadius, 0.0f))) {}
 
     /// Adds the part of a bar that is outside the balls at its ends. `from` is the end that is farther from the eye.
-    void addBar(const glm::vec3& from, const glm::vec3& to, float opacity, ShapeBatch& out) const {
+    void addBar(const glm::vec3& from, const glm::vec3& to, scene::Color color, float opacity, ShapeBatch& out) const {
         const float length = glm::length(to - from);
         if (opacity == 0 || length <= 2 * hiddenEndLength) return;
         const glm::vec3 cut = (to - from) * (hiddenEndLength / length);
-        out.addBar(from + cut, to - cut, barRadius, barColor, opacity);
+        out.addBar(from + cut, to - cut, barRadius, color, opacity);
     }
 };
 

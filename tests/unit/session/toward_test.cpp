@@ -96,7 +96,7 @@ TEST(Toward, RefusesElementsThatDoNotExist) {
     expectRefused(session, CommandLine{"toward cell x"}, ErrorCode::bad_expression, "a whole number from 0, not 'x'");
     expectRefused(session, CommandLine{"toward cell 1 2"}, ErrorCode::bad_expression, "not 'cell 1 2'");
     must(session, Load{"points", "cloud", "1 0 0 0\n0 1 0 0\n"});
-    expectRefused(session, CommandLine{"toward edge"}, ErrorCode::out_of_range, "has no edge to turn toward");
+    expectRefused(session, CommandLine{"toward edge"}, ErrorCode::out_of_range, "has no edge");
     line(session, "toward vertex 1");
     finish(session);
     EXPECT_NEAR(topOf(session.current), 1, 1e-12);

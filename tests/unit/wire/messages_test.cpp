@@ -49,7 +49,7 @@ void expectSame(const State& a, const State& b) {
 TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
     Session session;
     ASSERT_TRUE(apply(session, session::CommandLine{"rotate xw,yz pi/8 0.2"}));
-    const json message = fitting(wire::stateMessage(session.current, 7, 3));
+    const json message = fitting(wire::stateMessage(session.current, {}, 7, 3));
     EXPECT_EQ(message.at("type"), "state");
     EXPECT_EQ(message.at("id"), 3);
     EXPECT_EQ(message.at("revision"), 7);
@@ -73,14 +73,14 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
     EXPECT_EQ(message.at("faded"), json::array());
     EXPECT_EQ(message.at("last").at("planes"), json::parse(R"(["xw","yz"])"));
     EXPECT_EQ(message.at("last").at("angles").at(0), std::numbers::pi / 8);
-    EXPECT_TRUE(fitting(wire::stateMessage(session::initialState(), 0)).at("last").is_null());
-    EXPECT_FALSE(fitting(wire::stateMessage(session::initialState(), 0)).contains("id"));
+    EXPECT_TRUE(fitting(wire::stateMessage(session::initialState(), {}, 0)).at("last").is_null());
+    EXPECT_FALSE(fitting(wire::stateMessage(session::initialState(), {}, 0)).contains("id"));
 }
 
 TEST(StateMessage, SetInANewSessionGivesTheSameState) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         const Session session = randomSession(seed);
-        const std::string text = wire::stateMessage(session.current, session.revision, 1);
+        const std::string text = wire::stateMessage(session.current, {}, session.revision, 1);
         fitting(text);
         const auto set = setFromState(text);
         ASSERT_TRUE(set) << set.error().message;
@@ -97,7 +97,7 @@ TEST(StateMessage, SetInANewSessionGivesTheSameState) {
 
 TEST(StateMessage, BecomesASetByItsType) {
     const Session session = randomSession(3);
-    json message = json::parse(wire::stateMessage(session.current, session.revision));
+    json message = json::parse(wire::stateMessage(session.current, {}, session.revision));
     message["type"] = "set";
     Session fresh;
     ASSERT_TRUE(apply(fresh, parsedCommand<session::Set>(message.dump())));
@@ -153,7 +153,7 @@ TEST(OtherMessages, GiveIdsBackAsTheyWere) {
         const std::string member = R"("id":)" + std::string(text) + ',';
         EXPECT_NE(wire::doneMessage(id, 1).find(member), std::string::npos) << wire::doneMessage(id, 1);
         EXPECT_NE(wire::errorMessage({ErrorCode::internal, "x"}, id).find(member), std::string::npos) << text;
-        EXPECT_NE(wire::stateMessage(Session{}.current, 1, id).find(member), std::string::npos) << text;
+        EXPECT_NE(wire::stateMessage(Session{}.current, {}, 1, id).find(member), std::string::npos) << text;
         EXPECT_NE(wire::catalogueMessage(id).find(member), std::string::npos) << text;
         EXPECT_NE(wire::keymapMessage(id).find(member), std::string::npos) << text;
         EXPECT_NE(wire::welcomeMessage("s", "t", "{}", id).find(member), std::string::npos) << text;
@@ -164,7 +164,7 @@ TEST(StateMessage, WritesIntegersWithoutExponent) {
     session::State state = Session{}.current;
     state.alpha = -3'000'000;
     state.slices.spacing = 100'000;
-    const std::string message = wire::stateMessage(state, 1, {});
+    const std::string message = wire::stateMessage(state, {}, 1, {});
     EXPECT_NE(message.find(R"("alpha":-3000000,)"), std::string::npos) << message;
     EXPECT_NE(message.find(R"("spacing":100000,)"), std::string::npos) << message;
 }

@@ -1,23 +1,23 @@
 // Draws the parallel coordinates at the bottom: four lines for each vertex, or the density of lines for many vertices.
 
-import type { SceneDescription, Slices, Viewport } from "@oval4d/protocol";
+import type { Slices, Viewport } from "@oval4d/protocol";
 
 import { DensityImage } from "./density_image";
 import { cssColor, kMinTextSize, setFont } from "./pen";
 
+const kHighlightOpacity = 0.35; // of the bands behind highlighted vertices
 const kFocusMark = 0.009; // half the width of the focus mark, as a fraction of the viewport's height
 
 const density = new DensityImage();
 
 export function drawCoordinates(pen: CanvasRenderingContext2D, picture: Slices, viewport: Viewport): void {
     if (picture.scene.coordinates.columns > 0) drawDensityStrip(pen, picture, viewport);
-    else drawLines(pen, picture.coordinates, picture.scene, viewport);
+    else drawLines(pen, picture, viewport);
 }
 
 function drawLines(
     pen: CanvasRenderingContext2D,
-    values: Float32Array,
-    scene: SceneDescription,
+    { coordinates: values, scene, highlight }: Slices,
     viewport: Viewport,
 ): void {
     const { height } = viewport;
@@ -34,6 +34,14 @@ function drawLines(
         const columns = Math.min(perRow, count - row * perRow);
         pen.fillRect(snap(left), zeroOf(row) - 0.5, snap((columns - 1) * columnStep + 3 * lineStep + thickness), 1);
     }
+    pen.fillStyle = cssColor(scene.colors.highlight);
+    pen.globalAlpha = kHighlightOpacity;
+    for (const i of highlight?.own_vertices ?? []) {
+        const column = left + (i % perRow) * columnStep;
+        const [from, to] = [snap(column - lineStep / 2), snap(column + 3.5 * lineStep + thickness)];
+        pen.fillRect(from, zeroOf(Math.floor(i / perRow)) - amplitude * height, to - from, 2 * amplitude * height);
+    }
+    pen.globalAlpha = 1;
     const unit = (amplitude * height) / scene.circumradius;
     for (let k = 0; k < 4; ++k) {
         pen.fillStyle = cssColor(scene.colors.axes[k]!);

@@ -5,7 +5,7 @@ import { BufferGeometry } from "three";
 
 import type { SceneDescription, Slices, Vector } from "@oval4d/protocol";
 
-import { Elements } from "./elements";
+import { Elements, litSources } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
 import type { Lens } from "./lens";
 import { PaintersOrder } from "./painters_order";
@@ -31,18 +31,23 @@ export class Mesh {
         // Without balls, round joints of the bars' radius join the bars.
         const inBall = shown.balls ? Math.sqrt(Math.max(0, scene.ball ** 2 - scene.bar ** 2)) : 0;
         const opacities = [0, scene.faded, 1];
+        const lit = litSources(picture);
         for (const { slice, vertices, edges } of elements.bodies) {
             const ofVertex = (v: number): number => opacities[slice.seen?.vertices[v - vertices[0]] ?? 2]!;
             const ofEdge = (e: number): number => opacities[slice.seen?.edges[e - edges[0]] ?? 2]!;
             for (let v = vertices[0]; v < vertices[1]; ++v) {
-                const color = shown.balls ? colors.ball : colors.bar;
+                const isLit = lit.vertices.has(slice.of.vertices[v - vertices[0]]!);
+                const color = isLit ? colors.highlight : shown.balls ? colors.ball : colors.bar;
                 const own = slice.balls?.opacity[v - vertices[0]] ?? 1;
                 for (let k = 0; k < 4; ++k) {
                     this.writeVertex(4 * v + k, v, kBall, k, color, own * ofVertex(v));
                     this.shapes.to.array[3 * (4 * v + k)] = slice.balls?.scale[v - vertices[0]] ?? 1;
                 }
             }
-            for (let e = edges[0]; e < edges[1]; ++e) this.writeBar(e, inBall, colors.bar, ofEdge(e));
+            for (let e = edges[0]; e < edges[1]; ++e) {
+                const isLit = lit.edges.has(slice.of.edges[e - edges[0]]!);
+                this.writeBar(e, inBall, isLit ? colors.highlight : colors.bar, ofEdge(e));
+            }
         }
         this.writeFaces(scene);
         this.shapes.markChanged();

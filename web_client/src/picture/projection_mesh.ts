@@ -5,7 +5,7 @@ import { BufferGeometry } from "three";
 
 import type { ObjectProjection, Slices } from "@oval4d/protocol";
 
-import { ensureCapacity } from "./elements";
+import { ensureCapacity, litSources } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
 import type { Lens } from "./lens";
 import { kBall, kBar, kFace } from "./shaders";
@@ -34,7 +34,8 @@ export class ProjectionMesh {
     private count = 0;
 
     /** Takes over the projection of a new picture; returns whether there is one. */
-    update({ projection, scene }: Slices): boolean {
+    update(picture: Slices): boolean {
+        const { projection, scene } = picture;
         if (!projection) return false;
         const { parts, position } = projection;
         this.position = position;
@@ -42,6 +43,7 @@ export class ProjectionMesh {
         this.reserve(parts);
         this.used = this.count = 0;
         let solids = 0;
+        const lit = litSources(picture);
         const opacities = [0, scene.faded, 1];
         parts.forEach((part, i) => {
             const addQuad = (opacity: number): void => {
@@ -56,21 +58,23 @@ export class ProjectionMesh {
             ];
             for (let v = 0; part.ball > 0 && v < part.vertices.length / 3; ++v) {
                 const opacity = opacities[part.seen?.vertices[v] ?? 2]! * (part.balls?.opacity[v] ?? 1);
+                const color = lit.vertices.has(part.of.vertices[v]!) ? scene.colors.highlight : part.ball_color;
                 for (let corner = 0; corner < 4; ++corner, ++this.used) {
                     this.shapes.setVector("at", this.used, ...point(v));
                     this.shapes.setVector("to", this.used, part.ball * (part.balls?.scale[v] ?? 1), 0, 0);
                     this.shapes.setShape(this.used, kBall, corner);
-                    this.shapes.setColor(this.used, part.ball_color, opacity);
+                    this.shapes.setColor(this.used, color, opacity);
                 }
                 addQuad(opacity);
             }
             for (let e = 0; part.bar > 0 && e < part.edges.length / 2; ++e) {
                 const opacity = opacities[part.seen?.edges[e] ?? 2]!;
+                const color = lit.edges.has(part.of.edges[e]!) ? scene.colors.highlight : part.bar_color;
                 for (let corner = 0; corner < 4; ++corner, ++this.used) {
                     this.shapes.setVector("at", this.used, ...point(part.edges[2 * e]!));
                     this.shapes.setVector("to", this.used, ...point(part.edges[2 * e + 1]!));
                     this.shapes.setShape(this.used, kBar, corner, part.bar / this.barRadius);
-                    this.shapes.setColor(this.used, part.bar_color, opacity);
+                    this.shapes.setColor(this.used, color, opacity);
                 }
                 addQuad(opacity);
             }

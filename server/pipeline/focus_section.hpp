@@ -1,0 +1,24 @@
+#pragma once
+
+#include "session/session.hpp"
+#include "slicing/section_name.hpp"
+#include "slicing/slice_set.hpp"
+#include "slicing/slicer.hpp"
+
+namespace oval4d::pipeline {
+
+/// Names the section of a state's focus hyperplane, which `state` messages contain. Reuses its memory. May be used by one
+/// thread at a time.
+class FocusSectionNamer {
+  public:
+    /// Slices the object at the focus and names the slice. The names are valid until the process ends. Takes about as
+    /// long as one slice of a picture.
+    slicing::SectionNames names(const session::State& state);
+
+  private:
+    slicing::Slicer slicer_;
+    slicing::SliceSet slice_;
+    slicing::SectionNamer namer_;
+};
+
+}  // namespace oval4d::pipeline

@@ -1,0 +1,131 @@
+"""The highlighted element, and the names of sections."""
+
+import png
+import pytest
+from wire import Client, Refused
+
+SIZE = {"width": 640, "height": 360}
+HIGHLIGHT = 0xff4fb8
+
+
+def highlighted_pixels(picture):
+    """Returns the number of pixels whose color is close to that of the highlight."""
+    def is_close(pixel):
+        red, green, blue = pixel[:3]
+        return red > 1.6 * green and blue > 1.3 * green and red > 60
+    return sum(map(is_close, png.pixels(picture)))
+
+
+async def test_messages_commands_queries_and_undo_agree(server):
+    async with Client(server, stream="none") as client:
+        async def highlight():
+            return (await client.request("get", what="state"))["highlight"]
+
+        await client.request("set", polytope="24-cell")
+        assert await highlight() is None
+        await client.request("set", highlight={"element": "cell", "number": 17})
+        assert await highlight() == {"element": "cell", "number": 17}
+        await client.request("command", line=":highlight vertex 3")
+        assert await highlight() == {"element": "vertex", "number": 3}
+        await client.request("undo")
+        assert await highlight() == {"element": "cell", "number": 17}
+        await client.request("command", line=":highlight none")
+        assert await highlight() is None
+        await client.request("command", line=":set highlight=edge:95")
+        state = await client.request("get", what="state")
+        await client.request("set", polytope="tesseract")
+        assert await highlight() is None
+        await client.request("set", **{name: value for name, value in state.items() if name not in ("type", "id")})
+        assert await highlight() == {"element": "edge", "number": 95}, "a state is a valid set"
+
+
+@pytest.mark.parametrize("members, says", [
+    ({"highlight": {"element": "cell", "number": 24}}, "the number of the cell must be from 0 to 23 for the 24-cell, not 24"),
+    ({"highlight": {"element": "corner", "number": 1}}, "vertex"), ({"highlight": {"element": "cell"}}, "number"),
+    ({"highlight": "cell"}, "highlight"),
+])
+async def test_elements_that_do_not_exist_are_refused(server, members, says):
+    async with Client(server, stream="none") as client:
+        await client.request("set", polytope="24-cell")
+        with pytest.raises(Refused, match=says):
+            await client.request("set", **members)
+        assert (await client.request("get", what="state"))["highlight"] is None
+
+
+@pytest.mark.parametrize("line, says", [
+    ("highlight", "none or an element such as cell:17"), ("highlight cell", "none or an element such as cell:17"),
+    ("highlight cell x", "a whole number from 0, not 'x'"), ("highlight corner 1", "vertex, edge, face or cell, not 'corner'"),
+    ("highlight cell 24", "from 0 to 23"),
+])
+async def test_wrong_lines_say_what_is_allowed(server, line, says):
+    async with Client(server, stream="none") as client:
+        await client.request("set", polytope="24-cell")
+        with pytest.raises(Refused, match=says):
+            await client.request("command", line=line)
+
+
+@pytest.mark.parametrize("encoding", ["json", "cbor"])
+async def test_the_geometry_tells_what_to_highlight(server, encoding):
+    """Cell 5 of a tesseract: its 6 faces are cut to bars, its 12 edges are in the projection."""
+    async with Client(server, stream="geometry", encoding=encoding) as client:
+        done = await client.request("set", polytope="tesseract", projection="perspective", highlight={"element": "cell", "number": 5})
+        slices = await client.wait_for_slices(done["revision"])
+        highlight = slices["highlight"]
+        assert len(highlight["own_vertices"]) == 8
+        assert len(highlight["edges"]) == 6 + 12 and len(highlight["vertices"]) == 0
+        assert slices["scene"]["colors"]["cells"][5] == slices["scene"]["colors"]["highlight"] == HIGHLIGHT
+
+
+@pytest.mark.parametrize("element", ["vertex", "edge", "face", "cell"])
+@pytest.mark.parametrize("polytope", ["tesseract", "small stellated 120-cell"])
+def test_frames_show_the_highlight(server, polytope, element):
+    view = f"/api/v1/frame.png?polytope={polytope.replace(' ', '%20')}&rotate=xw:0.3&projection=perspective&width=640&height=360"
+    assert highlighted_pixels(server.get(view).body) == 0
+    assert highlighted_pixels(server.get(f"{view}&highlight={element}:1").body) > 20
+
+
+@pytest.mark.parametrize("stream", ["none", "geometry", "frames"])
+async def test_sections_have_names(server, stream):
+    """Coxeter's sections of the 600-cell beginning with a vertex, and the tesseract's between its vertices."""
+    async with Client(server, stream=stream, **SIZE) as client:
+        async def section():
+            return (await client.request("get", what="state"))["section"]
+
+        await client.request("set", polytope="600-cell")
+        await client.request("toward", element="vertex", number=0, immediately=True)
+        found = []
+        await client.request("command", line="set focus=-1000")
+        for _ in range(9):
+            await client.request("key", key=")")
+            found.append((await section())["vertices"])
+        assert found == ["point", "icosahedron", "dodecahedron", "icosahedron", "icosidodecahedron",
+                         "icosahedron", "dodecahedron", "icosahedron", "point"]
+        await client.request("set", polytope="tesseract", slices={"focus": 0, "offset": 0})
+        assert await section() == {"w": 0, "name": "", "vertices": ""}
+        await client.request("set", orientation=[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+        assert await section() == {"w": 0, "name": "cube", "vertices": ""}
+        await client.request("toward", element="vertex", immediately=True)
+        assert (await section())["name"] == "octahedron"
+
+
+async def test_the_label_names_the_section(server):
+    async with Client(server, stream="none") as client:
+        async def label():
+            slices = await client.request("get", what="slices")
+            return slices["section"]["name"], next(cut["label"] for cut in slices["slices"] if cut["focus"])
+
+        await client.request("set", polytope="tesseract")
+        assert await label() == ("cube", "w = 0, cube")
+        await client.request("rotate", planes=["xw"], angles=[0.1])
+        assert await label() == ("", "w = 0")
+        await client.request("set", polytope="600-cell")
+        await client.request("toward", element="vertex", immediately=True)
+        for _ in range(2):
+            await client.request("key", key=")")
+        assert (await label())[1].endswith(", vertices: dodecahedron")
+
+
+def test_frames_carry_the_section(server):
+    """The middle section of a 24-cell beginning with a cell is a cuboctahedron."""
+    frame = server.get("/api/v1/frame.png?polytope=24-cell&toward=cell").body
+    assert png.state_in(frame)["section"] == {"w": 0, "name": "cuboctahedron", "vertices": "cuboctahedron"}
