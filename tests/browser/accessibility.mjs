@@ -62,7 +62,11 @@ test("accessibility: every control has a name", async () => {
 test("accessibility: the name of a control contains its visible label", async () => {
     const { page, close } = await openWithScript();
     const session = await page.context().newCDPSession(page);
-    const normalized = (text) => text.toLowerCase().match(/[\p{L}\p{N}]+/gu)?.join(" ") ?? "";
+    const normalized = (text) =>
+        text
+            .toLowerCase()
+            .match(/[\p{L}\p{N}]+/gu)
+            ?.join(" ") ?? "";
     /** The text of a button without its key, which is not part of the name. */
     const labelOf = (button) => {
         const keys = [...button.querySelectorAll("kbd[aria-hidden=true]")];
@@ -90,27 +94,86 @@ test("accessibility: the name of a control contains its visible label", async ()
     await close();
 });
 
-test("accessibility: Tab reaches every control, and the focus is always visible", async () => {
+/** Presses a key; resolves to a description of the element that has the focus then, or undefined for the page. */
+async function focusAfter(page, key) {
+    await page.keyboard.press(key);
+    return page.evaluate(() => {
+        const at = document.activeElement;
+        if (at === document.body) return undefined;
+        const seen = at.type === "radio" ? at.nextElementSibling : at; // a radio button is shown by its span
+        const { outlineStyle, outlineWidth } = getComputedStyle(seen);
+        const { borderTopWidth, content } = getComputedStyle(at, "::after");
+        const framed = content !== "none" && parseFloat(borderTopWidth) >= 1;
+        const name = at.id || at.name || at.title || at.textContent;
+        const toolbar = at.closest("[role=toolbar]")?.ariaLabel;
+        return { name, toolbar, visible: framed || (outlineStyle !== "none" && parseFloat(outlineWidth) >= 2) };
+    });
+}
+
+test("accessibility: Tab and the arrows reach every control, and the focus is always visible", async () => {
     const { page, close } = await openWithScript();
-    const count = await page.locator("button:visible, #drawing, #tools input:checked").count();
+    const toolbars = await page.locator("[role=toolbar]:visible").count();
+    const others = await page.locator("button:visible, #drawing, #tools input:checked").evaluateAll((all) => {
+        return all.filter((one) => !one.closest("[role=toolbar]")).length;
+    });
+    const buttons = await page.locator("button:visible:enabled").count();
+    assert.ok(toolbars > 8 && toolbars + others < 24, `${toolbars} toolbars and ${others} other tab stops`);
     const seen = new Set();
-    for (let i = 0; i < count + 2; ++i) {
-        await page.keyboard.press("Tab");
-        const focus = await page.evaluate(() => {
-            const at = document.activeElement;
-            if (at === document.body) return undefined;
-            const seen = at.type === "radio" ? at.nextElementSibling : at; // a radio button is shown by its span
-            const { outlineStyle, outlineWidth } = getComputedStyle(seen);
-            const { borderTopWidth, content } = getComputedStyle(at, "::after");
-            const framed = content !== "none" && parseFloat(borderTopWidth) >= 1;
-            const name = at.id || at.name || at.title || at.textContent;
-            return { name, visible: framed || (outlineStyle !== "none" && parseFloat(outlineWidth) >= 2) };
-        });
-        if (!focus) continue;
+    const record = (focus) => {
         assert.ok(focus.visible, `${focus.name} shows its focus`);
         seen.add(focus.name);
+    };
+    const visited = new Set();
+    for (let i = 0; i < toolbars + others + 2; ++i) {
+        const focus = await focusAfter(page, "Tab");
+        if (!focus) continue;
+        record(focus);
+        if (!focus.toolbar || visited.has(focus.toolbar)) continue;
+        visited.add(focus.toolbar);
+        for (let next = await focusAfter(page, "ArrowRight"); next.name !== focus.name;) {
+            assert.equal(next.toolbar, focus.toolbar, "the arrows stay in the toolbar");
+            record(next);
+            next = await focusAfter(page, "ArrowRight");
+        }
     }
-    assert.ok(seen.has("drawing") && seen.has("polytope") && seen.size >= count - 1, `${seen.size} of ${count}`);
+    assert.equal(visited.size, toolbars);
+    assert.ok(seen.has("drawing") && seen.has("polytope"));
+    assert.ok(seen.size >= buttons, `${seen.size} of ${buttons}`);
+    await close();
+});
+
+test("accessibility: in a toolbar, the arrows, Home and End move the focus, and disabled buttons are skipped", async () => {
+    const { page, script, close } = await openWithScript();
+    const { camera } = await script.state();
+    const at = (key) => `#tools [data-group=turn] [data-key="${key}"]`;
+    const focusIs = (selector) => page.waitForSelector(`${selector}:focus`);
+    await page.focus(at("2"));
+    for (const [key, to] of [
+        ["ArrowRight", at("Shift+3")],
+        ["ArrowLeft", at("2")],
+        ["ArrowDown", at("7")],
+        ["ArrowUp", at("2")],
+        ["ArrowUp", at("2")],
+        ["Home", at("Shift+2")],
+        ["ArrowLeft", at("y")],
+        ["End", at("y")],
+        ["ArrowRight", at("Shift+2")],
+    ]) {
+        await page.keyboard.press(key);
+        await focusIs(to);
+    }
+    assert.deepEqual((await script.state()).camera, camera, "the arrows do not move the camera");
+    await page.keyboard.press("ArrowRight");
+    await page.keyboard.press("Tab");
+    await page.keyboard.press("Shift+Tab");
+    await focusIs(at("2")); // the toolbar's tab stop is the button that had the focus last
+    await page.evaluate((selector) => (document.querySelector(selector).disabled = true), at("Shift+3"));
+    await page.keyboard.press("ArrowRight");
+    await focusIs(at("3"));
+    await page.focus("#drawing");
+    await page.evaluate((selector) => (document.querySelector(selector).disabled = true), at("3"));
+    await page.waitForSelector(`${at("Shift+2")}[tabindex="0"]`);
+    assert.equal(await page.locator("#tools [data-group=turn] [tabindex='0']").count(), 1);
     await close();
 });
 

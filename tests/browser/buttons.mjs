@@ -94,7 +94,7 @@ test("buttons: the reset buttons restore the orientation and the viewpoint", asy
     await page.click("[data-page-tool=reset]");
     const turned = await script.until((one) => one.orientation[0][0] === 1, "the initial orientation");
     assert.deepEqual(turned.orientation, orientation);
-    await page.click("[data-page-tool=reset-view]");
+    await page.click("[data-action=reset_view]");
     await script.until(({ camera }) => camera.azimuth === 0 && camera.zoom === 1, "the initial viewpoint");
     await close();
 });

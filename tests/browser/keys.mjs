@@ -2,28 +2,11 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { common, openWithScript, readings } from "./support/browser.mjs";
+import { common, openWithScript, presented, readings } from "./support/browser.mjs";
+import { assertMatrix, turned } from "./support/rotation.mjs";
 import { joinSession } from "./support/script.mjs";
 
-const kAxes = "xyzw";
 const close = (a, b) => Math.abs(a - b) < 1e-9;
-
-/** The product R · M for rotations R by these angles in these planes. */
-function turned(matrix, planes, angles) {
-    const out = matrix.map((row) => [...row]);
-    planes.forEach((plane, i) => {
-        const [a, b] = [...plane].map((axis) => kAxes.indexOf(axis));
-        const [cos, sin] = [Math.cos(angles[i]), Math.sin(angles[i])];
-        for (let k = 0; k < 4; ++k) {
-            [out[a][k], out[b][k]] = [out[a][k] * cos - out[b][k] * sin, out[a][k] * sin + out[b][k] * cos];
-        }
-    });
-    return out;
-}
-
-function assertMatrix(actual, expected) {
-    actual.flat().forEach((value, i) => assert.ok(close(value, expected.flat()[i]), `${actual} is not ${expected}`));
-}
 
 const toggles = (part) => (before, after) => assert.equal(after.shown[part], !before.shown[part]);
 const adds = (angle, sign) => (before, after) => assert.ok(close(after[angle], before[angle] + sign * before.step));
@@ -97,7 +80,7 @@ asking.leave();
 
 test("keys: the table is complete", () => {
     const names = table.map(({ name }) => name).sort();
-    const expected = [..."234567rtykjKJlh0Gu.[]{}sinNopafbwcWCex:?", "gg", "Ctrl-r", "Space"].sort();
+    const expected = [..."234567rtykjKJlh0Gu.[]{}sinNopafbwcWCex:?←→↓↑-+", "gg", "Ctrl-r", "Space", "Home"].sort();
     assert.deepEqual(names, expected);
 });
 
@@ -193,9 +176,8 @@ test("keys: other keys are left to the browser", async () => {
         window.prevented = [];
         window.addEventListener("keydown", (event) => window.prevented.push(event.defaultPrevented));
     });
-    const foreign = ["Control+y", "Control+2", "Alt+y", "Meta+y", "Control+Shift+R", "F3", "Home", "Tab"];
-    for (const stroke of foreign) await page.keyboard.press(stroke);
-    await page.locator("#drawing").focus();
+    const foreign = ["Control+k", "Control+2", "Alt+y", "Meta+k", "Control+Shift+R", "F3", "Shift+ArrowUp", "Tab"];
+    for (const stroke of [...foreign, "Control+Home"]) await page.keyboard.press(stroke);
     await page.evaluate(() => {
         const composing = new KeyboardEvent("keydown", { key: "y", code: "KeyY", isComposing: true, bubbles: true });
         document.getElementById("drawing").dispatchEvent(composing);
@@ -208,15 +190,125 @@ test("keys: other keys are left to the browser", async () => {
     await end();
 });
 
-test("keys: keys act only while the drawing has the focus, which it has at the start", async () => {
+/** Sends keys that change nothing, then one that acts: when it takes effect, everything before has been processed. */
+async function assertNoEffect(page, script, ...keys) {
+    const { revision } = await script.state();
+    for (const key of keys) await page.keyboard.press(key);
+    await page.evaluate(() => document.querySelector("dialog[open]")?.close());
+    await page.focus("#drawing");
+    await page.keyboard.press("K");
+    const after = await script.until((one) => one.revision > revision, "a change by K");
+    assert.equal(after.revision, revision + 1, `${keys} changed the state`);
+}
+
+test("keys: keys act wherever the focus is, which is on the drawing at the start", async () => {
     const { page, script, press, close: end } = await openWithScript();
     assert.equal(await page.evaluate(() => document.activeElement.id), "drawing");
-    const { revision } = await press("k");
+    for (const at of ["#drawing", "#help-button", "#polytope", "[data-action=faces]", "[name=color][value=cell]"]) {
+        await page.focus(at);
+        const { alpha } = await script.state();
+        assert.ok((await press("k")).alpha > alpha, `k at ${at}`);
+    }
+    await page.evaluate(() => document.activeElement.blur());
+    const { alpha } = await script.state();
+    assert.ok((await press("k")).alpha > alpha, "k without a focus");
+    await end();
+});
+
+test("keys: a control keeps its own keys; in text fields and dialogs, no key acts", async () => {
+    const { page, script, press, close: end } = await openWithScript();
+    await press("4");
+    await page.focus("[data-action=alpha_up]");
+    const { alpha } = await press("Space");
+    assert.ok(alpha > Math.PI / 36 && !(await script.state()).turning, "the space bar presses the button");
+    await page.focus("[name=color]:checked");
+    const { camera, color } = await press("ArrowRight");
+    assert.notEqual(color, "cell");
+    assert.equal(camera.azimuth, 0, "the arrow is the radio button's");
+    await page.keyboard.press(":");
+    await assertNoEffect(page, script, "k", "Control+z", "ArrowLeft", "Space");
+    await page.evaluate(() => {
+        for (const html of ["input type=range", "input type=number", "select", "textarea", "p contenteditable"]) {
+            document.querySelector(".stage").insertAdjacentHTML("beforeend", `<${html} class="added">`);
+        }
+    });
+    const [slider, ...fields] = await page.locator(".added").all();
+    await slider.focus();
+    assert.ok((await press("k")).alpha > alpha, "a slider leaves other keys to the drawing");
+    await slider.focus();
+    await assertNoEffect(page, script, "ArrowLeft", "ArrowUp", "Home", "Space");
+    for (const field of fields) {
+        await field.focus();
+        await assertNoEffect(page, script, "k", "4", "Control+z", "ArrowLeft", "Space", "Home");
+    }
+    await page.keyboard.press("?");
+    await page.waitForSelector("#help[open]");
+    await assertNoEffect(page, script, "k", "4", "Control+z", "ArrowLeft");
+    await end();
+});
+
+test("keys: Escape returns the focus to the drawing", async () => {
+    const { page, close: end } = await openWithScript();
+    const focused = () => page.evaluate(() => document.activeElement.id);
+    for (const at of ["#help-button", "[data-action=faces]", "[name=color]:checked"]) {
+        await page.focus(at);
+        assert.notEqual(await focused(), "drawing");
+        await page.keyboard.press("Escape");
+        assert.equal(await focused(), "drawing", at);
+    }
     await page.focus("#help-button");
-    await page.keyboard.press("k");
-    await page.focus("#drawing");
-    assert.equal((await press("j")).revision, revision + 1);
-    assert.equal((await script.state()).alpha, Math.PI / 36);
+    await page.keyboard.press("Enter");
+    await page.waitForSelector("#help[open]");
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("#help:not([open])", { state: "attached" });
+    assert.equal(await focused(), "help-button", "Escape in a dialog only closes the dialog");
+    await end();
+});
+
+test("keys: Ctrl-Z undoes, Ctrl-Shift-Z and Ctrl-Y redo, Cmd does so on a Mac", async () => {
+    const { script, press, close: end } = await openWithScript();
+    const { orientation: start } = await script.state();
+    const { orientation: there } = await press("4");
+    for (const [undo, redo] of [
+        ["Control+z", "Control+Shift+z"],
+        ["Control+z", "Control+y"],
+        ["Meta+z", "Meta+Shift+z"],
+    ]) {
+        assertMatrix((await press(undo)).orientation, start);
+        assertMatrix((await press(redo)).orientation, there);
+    }
+    await end();
+});
+
+test("keys: arrows orbit, + and - zoom, Home moves the camera back, and so do the buttons", async () => {
+    const { page, script, press, close: end } = await openWithScript();
+    const increases = (name) => (before, after) => assert.ok(after[name] > before[name], name);
+    const decreases = (name) => (before, after) => assert.ok(after[name] < before[name], name);
+    const cameraEffects = {
+        orbit_right: increases("azimuth"),
+        orbit_left: decreases("azimuth"),
+        orbit_up: increases("elevation"),
+        orbit_down: decreases("elevation"),
+        zoom_in: increases("zoom"),
+        zoom_out: decreases("zoom"),
+        reset_view: (_, after) => assert.deepEqual(after, { azimuth: 0, elevation: 0, zoom: 1 }),
+    };
+    const bindings = table.filter(({ group }) => group === "camera");
+    assert.deepEqual(bindings.map(({ action }) => action).sort(), Object.keys(cameraEffects).sort());
+    const camera = { azimuth: 0.1, elevation: 0.1, zoom: 1.05 };
+    const restore = async () => {
+        const { revision } = await script.request({ type: "set", camera });
+        await presented(page, revision);
+        return revision;
+    };
+    for (const { key, action } of bindings) {
+        await restore();
+        cameraEffects[action](camera, (await press(key)).camera);
+        const revision = await restore();
+        await page.click(`[data-action=${action}]`);
+        const after = await script.until((one) => one.revision > revision, `a change by the button ${action}`);
+        cameraEffects[action](camera, after.camera);
+    }
     await end();
 });
 
@@ -237,7 +329,7 @@ test("keys: a held key repeats no faster than pictures arrive, and stops when re
     });
     await page.keyboard.down("y");
     let pressed = 1;
-    for (const deadline = Date.now() + 30_000; Date.now() < deadline; ) {
+    for (const deadline = Date.now() + 30_000; Date.now() < deadline;) {
         for (let i = 0; i < 50; ++i, ++pressed) await page.keyboard.down("y"); // as the keyboard repeats it
         if ((await page.evaluate(() => window.sent)) >= 3) break;
     }

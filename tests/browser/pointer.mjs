@@ -1,11 +1,37 @@
-// Mouse and touch gestures on the drawing.
+// Gestures on the drawing with the mouse, fingers and a gamepad.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { openWithScript, presented } from "./support/browser.mjs";
 import { compare, decode } from "./support/pixels.mjs";
+import { project, worldPoints } from "./support/scene.mjs";
+import { assertMatrix, isNear, turned } from "./support/rotation.mjs";
 
 const shot = async (page) => decode(await page.locator("#drawing").screenshot());
+
+/** Sends touch events with a finger at each of the points. */
+async function touchOf(page) {
+    const session = await page.context().newCDPSession(page);
+    return (type, ...points) =>
+        session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+}
+
+/** Drags with the mouse while `keys` are held. */
+async function dragWith(page, keys, from, to) {
+    for (const key of keys) await page.keyboard.down(key);
+    await page.mouse.move(...from);
+    await page.mouse.down();
+    await page.mouse.move(...to, { steps: 8 });
+    await page.mouse.up();
+    for (const key of keys) await page.keyboard.up(key);
+}
+
+/** Waits until the polytope has this orientation. */
+const orientationOf = (script, expected, tolerance, what) =>
+    script.until(({ orientation }) => isNear(orientation, expected, tolerance), what);
+
+/** Radians by which a drag of one pixel turns. */
+const perPixel = (page) => page.evaluate(() => Math.PI / document.getElementById("drawing").clientHeight);
 
 test("pointer: dragging orbits the view, at once and in the session", async () => {
     const { page, script, errors, close } = await openWithScript();
@@ -57,17 +83,285 @@ test("pointer: the wheel zooms, a double click resets the viewpoint, undo does n
 
 test("pointer: one finger orbits, two fingers zoom", async () => {
     const { page, script, close } = await openWithScript({ hasTouch: true });
-    const touch = await page.context().newCDPSession(page);
-    const send = (type, ...points) =>
-        touch.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+    const send = await touchOf(page);
     await send("touchStart", [500, 300]);
     for (const x of [480, 450, 420]) await send("touchMove", [x, 300]);
     await send("touchEnd");
-    const turned = await script.until((one) => one.camera.azimuth > 0.1, "the orbit by a finger");
-    assert.equal(turned.camera.zoom, 1);
+    const orbited = await script.until((one) => one.camera.azimuth > 0.1, "the orbit by a finger");
+    assert.equal(orbited.camera.zoom, 1);
+    await script.request({ type: "set", view: "single" });
     await send("touchStart", [480, 300], [520, 300]);
     for (const d of [30, 45, 60]) await send("touchMove", [500 - d, 300], [500 + d, 300]);
     await send("touchEnd");
-    await script.until(({ camera }) => Math.abs(camera.zoom - 3) < 0.01, "a zoom of 3");
+    const { last } = await script.until(({ camera }) => Math.abs(camera.zoom - 3) < 0.01, "a zoom of 3");
+    assert.equal(last, null, "a pinch does not turn the polytope");
+    await close();
+});
+
+test("pointer: orbiting and zooming keep half of the slices in the picture, and the way back is free", async () => {
+    const { page, script, close } = await openWithScript();
+    const share = async () => {
+        const size = await sizeOf(page);
+        const { scene, slices } = await script.request({ type: "get", what: "slices", ...size });
+        const { eye, target } = scene.camera;
+        const inFront = ({ position }) => eye.reduce((sum, e, k) => sum + (e - target[k]) * (e - position[k]), 0) > 0;
+        const visible = slices.filter((slice) => {
+            const [x, y] = project(scene, slice.position, size);
+            return inFront(slice) && x >= 0 && x <= size.width && y >= 0 && y <= size.height;
+        });
+        return visible.length / slices.length;
+    };
+    const far = {
+        left: () => dragWith(page, [], [900, 300], [100, 300]),
+        right: () => dragWith(page, [], [100, 300], [900, 300]),
+        up: () => dragWith(page, [], [500, 600], [500, 60]),
+        down: () => dragWith(page, [], [500, 60], [500, 600]),
+        in: () => page.mouse.wheel(0, -4000),
+        out: () => page.mouse.wheel(0, 9000),
+    };
+    await page.mouse.move(500, 300);
+    for (const [direction, move] of Object.entries(far)) {
+        const { revision } = await script.state();
+        await move();
+        await script.until((one) => one.revision > revision, `moving the camera ${direction}`);
+        const { camera } = await settled(script);
+        assert.ok((await share()) >= 0.5, `${await share()} of the slices after moving ${direction}`);
+        assert.ok(camera.zoom >= 0.25 && camera.zoom < 3);
+        await script.request({ type: "set", camera: { azimuth: 0, elevation: 0, zoom: 1 } });
+    }
+    // From a position beyond the limit, which a command can choose, the camera can move back.
+    await script.request({ type: "set", camera: { azimuth: 0, elevation: 0, zoom: 8 } });
+    const { revision } = await settled(script);
+    await presented(page, revision);
+    await page.mouse.wheel(0, 300);
+    const { camera } = await script.until((one) => one.camera.zoom < 8, "zooming out");
+    assert.ok(camera.zoom > 4);
+    await close();
+});
+
+const sizeOf = (page) =>
+    page.evaluate(() => {
+        const { clientWidth: width, clientHeight: height } = document.getElementById("drawing");
+        return { width, height };
+    });
+
+/** The state after no change has arrived for a while. */
+async function settled(script) {
+    for (let state = await script.state(); ;) {
+        await new Promise((resolve) => setTimeout(resolve, 200));
+        const next = await script.state();
+        if (next.revision === state.revision) return next;
+        state = next;
+    }
+}
+
+test("pointer: Alt-drag rolls the 4-D ball, Alt-Shift-drag the ball of every slice", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    const part = await perPixel(page);
+    const { orientation: start, slices, camera } = await script.state();
+    // The object's side that faces the 4-D eye, +w, follows the pointer: +w turns toward +x by a drag to the right.
+    await dragWith(page, ["Alt"], [500, 300], [600, 300]);
+    let expected = turned(start, ["xw"], [-100 * part]);
+    const right = await orientationOf(script, expected, 1e-6, "a drag to the right");
+    assert.ok(right.orientation[0][3] > 0, "+w moves toward +x");
+    await dragWith(page, ["Alt"], [500, 300], [500, 240]);
+    expected = turned(expected, ["yw"], [-60 * part]);
+    assert.ok((await orientationOf(script, expected, 1e-6, "a drag up")).orientation[1][3] > 0, "+w moves toward +y");
+    await dragWith(page, ["Alt", "Shift"], [500, 300], [460, 300]);
+    expected = turned(expected, ["xz"], [40 * part]);
+    await orientationOf(script, expected, 1e-6, "a drag to the left with Shift");
+    await dragWith(page, ["Alt", "Shift"], [500, 300], [500, 350]);
+    expected = turned(expected, ["yz"], [50 * part]);
+    const after = await orientationOf(script, expected, 1e-6, "a drag down with Shift");
+    assert.deepEqual([after.slices, after.camera], [slices, camera], "no click, no orbit");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("pointer: Alt-wheel turns in zw, Alt-Shift-wheel in xy, neither zooms", async () => {
+    const { page, script, close } = await openWithScript();
+    const { orientation: start } = await script.state();
+    await page.mouse.move(500, 300);
+    await page.keyboard.down("Alt");
+    await page.mouse.wheel(0, -100);
+    let expected = turned(start, ["zw"], [0.15]);
+    await orientationOf(script, expected, 1e-6, "Alt-wheel");
+    await page.keyboard.down("Shift");
+    await page.mouse.wheel(0, -100);
+    expected = turned(expected, ["xy"], [0.15]);
+    const { camera } = await orientationOf(script, expected, 1e-6, "Alt-Shift-wheel");
+    assert.equal(camera.zoom, 1);
+    await close();
+});
+
+test("pointer: a gesture is one undo step", async () => {
+    const { page, script, press, close } = await openWithScript();
+    const { orientation: start } = await script.state();
+    await dragWith(page, ["Alt"], [500, 300], [600, 250]);
+    const { orientation: between } = await settled(script);
+    await dragWith(page, ["Alt"], [500, 300], [420, 330]);
+    const { orientation: end } = await settled(script);
+    assert.ok(!isNear(start, between) && !isNear(between, end));
+    assertMatrix((await press("u")).orientation, between);
+    assertMatrix((await press("u")).orientation, start);
+    assertMatrix((await press("Control+y")).orientation, between);
+    await close();
+});
+
+test("pointer: turns wait for the answer to the previous ones, and are then sent together", async () => {
+    const { page, script, close } = await openWithScript();
+    await page.evaluate(() => {
+        window.sent = [];
+        window.held = [];
+        const { send } = WebSocket.prototype;
+        WebSocket.prototype.send = function (text) {
+            const message = JSON.parse(text);
+            if (message.type !== "rotate") return send.call(this, text);
+            window.sent.push(message);
+            return void window.held.push(() => send.call(this, text)); // the server receives it later
+        };
+        window.release = () => window.held.splice(0).forEach((sendNow) => sendNow());
+    });
+    const { orientation: start } = await script.state();
+    const part = await perPixel(page);
+    await page.keyboard.down("Alt");
+    await page.mouse.move(500, 300);
+    await page.mouse.down();
+    for (let i = 1; i <= 20; ++i) {
+        await page.mouse.move(500 + 5 * i, 300);
+        await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(resolve)));
+    }
+    assert.equal(await page.evaluate(() => window.sent.length), 1);
+    await page.evaluate(() => window.release());
+    await page.waitForFunction(() => window.sent.length === 2);
+    await page.evaluate(() => window.release());
+    await page.mouse.up();
+    await orientationOf(script, turned(start, ["xw"], [-100 * part]), 1e-6, "the whole drag");
+    const sent = await page.evaluate(() => window.sent);
+    assert.deepEqual(
+        sent.map(({ planes, continues }) => ({ planes, continues })),
+        [
+            { planes: ["xw"], continues: undefined },
+            { planes: ["xw"], continues: true },
+        ],
+    );
+    await close();
+});
+
+test("pointer: dragging two fingers rolls the 4-D ball, twisting them turns in zw", async () => {
+    const { page, script, press, close } = await openWithScript({ hasTouch: true });
+    const send = await touchOf(page);
+    const { orientation: start } = await script.state();
+    await send("touchStart", [460, 300], [540, 300]);
+    for (let x = 10; x <= 100; x += 10) await send("touchMove", [460 + x, 300], [540 + x, 300]);
+    await send("touchEnd");
+    const dragged = await settled(script);
+    assert.ok(dragged.orientation[0][3] > 0.2, "+w moves toward +x");
+    assert.ok(Math.abs(dragged.orientation[2][3]) < 1e-9 && Math.abs(dragged.orientation[0][1]) < 1e-9);
+    assert.ok(Math.abs(dragged.camera.zoom - 1) < 1e-6, "fingers that keep their distance do not zoom");
+    assert.equal(dragged.camera.azimuth, 0);
+    assertMatrix((await press("u")).orientation, start);
+    const around = (angle) => [
+        [500 - 60 * Math.cos(angle), 300 - 60 * Math.sin(angle)],
+        [500 + 60 * Math.cos(angle), 300 + 60 * Math.sin(angle)],
+    ];
+    await send("touchStart", ...around(0));
+    for (let angle = 0.05; angle <= 0.8; angle += 0.05) await send("touchMove", ...around(angle));
+    await send("touchEnd");
+    const { orientation } = await settled(script);
+    const angle = Math.atan2(orientation[3][2], orientation[2][2]);
+    assert.ok(angle > 0.4 && angle < 0.8, `a turn by ${angle}`);
+    assert.ok(isNear(orientation, turned(start, ["zw"], [angle]), 1e-6));
+    await close();
+});
+
+test("pointer: a gamepad's sticks and triggers turn the polytope", async () => {
+    const { page, script, errors, press, close } = await openWithScript({
+        before: () => {
+            const buttons = Array.from({ length: 17 }, () => ({ pressed: false, touched: false, value: 0 }));
+            window.gamepad = { connected: true, mapping: "standard", axes: [0, 0, 0, 0], buttons };
+            window.polls = 0;
+            navigator.getGamepads = () => (++window.polls, [null, window.gamepad]);
+        },
+    });
+    const { orientation: start, revision } = await script.state();
+    assert.equal(await page.evaluate(() => window.polls), 0, "no gamepad is polled before one is connected");
+    await page.evaluate(() => window.dispatchEvent(new Event("gamepadconnected")));
+    await page.evaluate(() => (window.gamepad.axes[1] = 0.1)); // within the dead zone
+    await page.waitForFunction(() => window.polls > 10);
+    assert.equal((await script.state()).revision, revision);
+    const controls = {
+        xw: (pad, value) => (pad.axes[0] = value),
+        yw: (pad, value) => (pad.axes[1] = value),
+        xz: (pad, value) => (pad.axes[2] = value),
+        yz: (pad, value) => (pad.axes[3] = value),
+        zw: (pad, value) => (pad.buttons[7].value = value),
+        xy: (pad, value) => (pad.buttons[5].value = value),
+    };
+    for (const [plane, control] of Object.entries(controls)) {
+        const before = await script.state();
+        await page.evaluate(`(${control})(window.gamepad, 1)`);
+        await script.until((one) => one.revision > before.revision + 1, `a turn in ${plane}`);
+        await page.evaluate(`(${control})(window.gamepad, 0)`);
+        const { orientation, last } = await settled(script);
+        assert.deepEqual(last.planes, [plane]);
+        const [a, b] = [..."xyzw"].flatMap((axis, i) => (plane.includes(axis) ? [i] : []));
+        const angle = Math.atan2(orientation[b][a], orientation[a][a]);
+        assert.ok(isNear(orientation, turned(before.orientation, [plane], [angle]), 1e-6), `only in ${plane}`);
+        assertMatrix((await press("u")).orientation, start);
+    }
+    await page.evaluate(() => (window.gamepad.connected = false));
+    const polls = () => page.evaluate(() => window.polls);
+    await page.waitForTimeout(200);
+    const before = await polls();
+    await page.waitForTimeout(200);
+    assert.equal(await polls(), before, "a disconnected gamepad is not polled");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+/** The point in the page at which a slice's center is drawn. */
+async function pointOf(page, script, index) {
+    const size = await sizeOf(page);
+    const { scene, slices } = await script.request({ type: "get", what: "slices", ...size });
+    const slice = slices.find((one) => one.index === index);
+    assert.ok(worldPoints(scene, slice).length > 0);
+    const [x, y] = project(scene, slice.position, size);
+    const box = await page.locator("#drawing").boundingBox();
+    return [box.x + x, box.y + y];
+}
+
+test("pointer: a click on a slice makes it the focus, whoever draws the picture", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    for (const mode of ["geometry", "frames"]) {
+        await page.click(`[data-page-tool=${mode}]`);
+        await page.waitForSelector(`#drawing[data-drawn-by=${mode}]`);
+        for (const index of [2, -1, 6]) {
+            const { revision } = await script.request({ type: "set", slices: { focus: 0 }, camera: { azimuth: 0.05 } });
+            await presented(page, revision);
+            await page.mouse.click(...(await pointOf(page, script, index)));
+            await script.until(({ slices }) => slices.focus === index, `the focus at ${index} in ${mode}`);
+        }
+    }
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("pointer: a drag, a click beside the slices and a click with a modifier leave the focus", async () => {
+    const { page, script, close } = await openWithScript();
+    const [x, y] = await pointOf(page, script, 2);
+    await dragWith(page, [], [x, y], [x + 30, y]);
+    await dragWith(page, ["Alt"], [x, y], [x + 30, y]);
+    await script.request({ type: "set", camera: { azimuth: 0 } });
+    const { revision } = await settled(script);
+    await presented(page, revision);
+    await page.mouse.click(500, 70);
+    await page.mouse.click(x, y, { button: "right" });
+    await page.keyboard.down("Shift");
+    await page.mouse.click(x, y);
+    await page.keyboard.up("Shift");
+    assert.equal((await settled(script)).slices.focus, 0);
+    await page.mouse.click(x, y);
+    await script.until(({ slices }) => slices.focus === 2, "a click without a modifier");
     await close();
 });

@@ -9,23 +9,27 @@ import { download, fileName } from "./download";
 import { byId } from "./element";
 import { ExportDialog } from "./export_dialog";
 import { FileLoading } from "./file_loading";
+import { listenForGamepads } from "./gamepad";
 import { listenForGestures } from "./gestures";
 import { Help } from "./help";
 import { KeyRepeat } from "./key_repeat";
-import { strokeFromEvent, strokesOfBinding } from "./keys";
+import { editingAction, isForControl, strokeFromEvent, strokesOfBinding } from "./keys";
 import { Latency } from "./latency";
 import { extractSharedSession, readInitialView, rememberSession, shareLink } from "./link";
 import { Notice } from "./notice";
 import { OrbitControl } from "./orbit";
 import { markMode, pageSections } from "./page_tools";
 import { Picker } from "./picker";
+import { SliceLayout } from "./picture/slice_layout";
 import { type Mode, Stage } from "./picture/stage";
 import { Readings } from "./readings";
+import { RotationControl } from "./rotation";
 import { readStored, writeStored } from "./tab_storage";
 import { Tools } from "./tools";
 
 const kModeKey = "oval4d.mode"; // storage key of the rendering mode
 const kNoGraphics = "The graphics card is unavailable; the server renders the pictures.";
+const kLeastDisc = 12; // pixels: the radius within which a click hits a slice, however small it is
 const kResizeDelay = 120; // milliseconds after the last change of the window's size
 
 type Command = Exclude<Request, { type: "hello" | "get" | "shown" }>;
@@ -64,6 +68,7 @@ export class App {
         onLost: (reason) => this.sessionLost(reason),
     });
     private readonly orbit = new OrbitControl(this.client, this.stage);
+    private readonly rotation = new RotationControl((rotation) => this.send(rotation));
     private readonly help = new Help();
     private readonly commandLine = new CommandLine(
         async (line) => this.latency.execute(line) || this.request({ type: "command", line }),
@@ -74,7 +79,7 @@ export class App {
     private readonly fileLoading = new FileLoading(this.client);
     private readonly exportDialog = new ExportDialog(this.client, () => this.stage.size);
     private readonly tools = new Tools({ press: (...binding) => this.press(...binding) });
-    private readonly colors = new Colors((change) => this.send({ type: "set", ...change }));
+    private readonly colors = new Colors((change) => void this.send({ type: "set", ...change }));
     private chosenMode = readStored<Mode>(kModeKey) ?? "geometry"; // by the user; WebGL may be unavailable
     private keymap: Keymap | undefined;
     private state: State | undefined;
@@ -83,8 +88,13 @@ export class App {
 
     start(): void {
         this.stage.mode = this.stage.canDrawGeometry ? this.chosenMode : "frames";
-        listenForGestures(this.drawing, this.orbit);
-        this.drawing.addEventListener("keydown", (event) => this.keydown(event));
+        listenForGestures(this.drawing, {
+            orbit: this.orbit,
+            rotation: this.rotation,
+            click: (x, y) => void this.focusSliceAt(x, y),
+        });
+        listenForGamepads(this.rotation);
+        document.addEventListener("keydown", (event) => this.keydown(event));
         this.polytopeButton.addEventListener("click", () => this.openPicker());
         document.querySelector("header")!.addEventListener("mousedown", (event) => {
             // The drawing keeps the focus, as when a button of Tools is clicked.
@@ -135,8 +145,7 @@ export class App {
             mode: this.stage.mode,
             canDrawGeometry: this.stage.canDrawGeometry,
             setMode: (mode) => this.chooseMode(mode),
-            reset: () => this.send({ type: "reset" }),
-            resetView: () => this.orbit.reset(),
+            reset: () => void this.send({ type: "reset" }),
             share: () => void this.shareSession(),
             save: () => void this.savePicture(),
         });
@@ -228,13 +237,20 @@ export class App {
     }
 
     private keydown(event: KeyboardEvent): void {
-        if (event.key === "Escape") this.dismissMessages();
-        const stroke = strokeFromEvent(event, this.keymap?.keys ?? []);
-        if (!stroke) return;
+        if (event.defaultPrevented || document.querySelector("dialog[open]")) return;
+        if (event.key === "Escape" && !event.isComposing) {
+            this.dismissMessages();
+            this.drawing.focus();
+        }
+        if (isForControl(event)) return;
+        const keys = this.keymap?.keys ?? [];
+        const action = editingAction(event);
+        const stroke = strokeFromEvent(event, keys);
+        const binding = keys.find((row) => (action ? row.action === action : row.client && row.key === stroke?.key));
+        if (!binding && !stroke) return;
         event.preventDefault();
-        const binding = this.keymap?.keys.find(({ client, key }) => client && key === stroke.key);
         if (binding) this.press(binding, false, event.repeat);
-        else if (!event.repeat || this.keyRepeat.mayRepeat) this.send({ type: "key", ...stroke });
+        else if (stroke && (!event.repeat || this.keyRepeat.mayRepeat)) void this.send({ type: "key", ...stroke });
     }
 
     private press(binding: KeyBinding, inverse: boolean, held: boolean): void {
@@ -243,8 +259,28 @@ export class App {
         else if (binding.action === "find") this.openPicker();
         else if (binding.action === "open") this.fileLoading.chooseFile();
         else if (binding.action === "export") this.openExport();
+        else if (this.orbit.perform(binding.action)) return;
         else if (held && !this.keyRepeat.mayRepeat) return;
-        else for (const stroke of strokesOfBinding(binding, inverse)) this.send({ type: "key", ...stroke });
+        else for (const stroke of strokesOfBinding(binding, inverse)) void this.send({ type: "key", ...stroke });
+    }
+
+    /** Makes the slice at a point of the drawing, in pixels, the focus slice. */
+    private async focusSliceAt(x: number, y: number): Promise<void> {
+        const { orbit, size } = this.stage;
+        const ratio = size.height / this.drawing.clientHeight;
+        const layout = this.stage.layout ?? (await this.requestLayout());
+        const slice = layout?.sliceAt(x * ratio, y * ratio, orbit, size, kLeastDisc * ratio);
+        if (slice && !slice.focus) void this.send({ type: "set", slices: { focus: slice.index } });
+    }
+
+    /** Where the slices are in the server's pictures; undefined if there is no answer. */
+    private async requestLayout(): Promise<SliceLayout | undefined> {
+        try {
+            const slices = await this.client.request({ type: "get", what: "slices", ...this.stage.size });
+            return new SliceLayout(slices, this.stage.orbit);
+        } catch {
+            return undefined;
+        }
     }
 
     private openPicker(): void {
@@ -279,10 +315,16 @@ export class App {
         await Promise.all([this.keyRepeat.track(answer), this.latency.track(command.type, answer)]);
     }
 
-    /** Like request(), but shows an error as a notice. */
-    private send(command: Command): void {
+    /** Like request(), but shows an error as a notice. Resolves to whether the command has been executed. */
+    private async send(command: Command): Promise<boolean> {
         this.notice.hide();
-        this.request(command).catch((error: Error) => this.notice.show(error.message));
+        try {
+            await this.request(command);
+        } catch (error) {
+            this.notice.show((error as Error).message);
+            return false;
+        }
+        return true;
     }
 
     private sessionLost(reason: string): void {

@@ -1,42 +1,102 @@
-// Mouse, pen and touch on the drawing: dragging orbits the view, the wheel or a pinch zooms.
+// Mouse, pen and touch on the drawing. Dragging orbits the view, the wheel or a pinch zooms, a click chooses a slice. With
+// Alt, or with two fingers, dragging rolls the 4-D ball; with Alt and Shift, the ball of every slice.
 
 import type { OrbitControl } from "./orbit";
+import { type Ball, turnsOfDrag, turnsOfTwist, turnsOfWheel } from "./rolling_ball";
+import type { RotationControl } from "./rotation";
+import { TwoFingers } from "./two_fingers";
 
 const kWheelZoom = 0.0015; // change of the logarithm of the zoom per pixel
 const kLineHeight = 16; // pixels
+const kWheelPause = 400; // milliseconds without a wheel event after which a gesture has ended
+const kSlop = { mouse: 4, touch: 10 }; // pixels by which the pointer may move in a click
 
-export function listenForGestures(drawing: HTMLElement, orbit: OrbitControl): void {
+export interface GestureTargets {
+    orbit: OrbitControl;
+    rotation: RotationControl;
+    /** A click at a point, in pixels from the upper left corner of the drawing. */
+    click(x: number, y: number): void;
+}
+
+export function listenForGestures(drawing: HTMLElement, { orbit, rotation, click }: GestureTargets): void {
     const fingers = new Map<number, PointerEvent>();
-    const fingerDistance = (): number => {
+    let isClick = false; // whether the pointer has not moved since it went down
+    let isRolling = false; // whether the drag began with Alt
+    let pair: TwoFingers | undefined;
+    let wheelAt = -Infinity; // time of the last wheel event that turned, in milliseconds
+
+    const fingersChanged = (): void => {
         const [a, b] = [...fingers.values()];
-        return a && b ? Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY) : 0;
+        pair = a && b && fingers.size === 2 ? new TwoFingers(a, b) : undefined;
+        if (pair) rotation.begin();
+    };
+    const drag = (before: PointerEvent, now: PointerEvent): void => {
+        const [dx, dy] = [now.clientX - before.clientX, now.clientY - before.clientY];
+        if (isRolling) rotation.turn(turnsOfDrag(ballOf(now), dx, dy, drawing.clientHeight));
+        else orbit.drag(dx, dy);
+    };
+    const movePair = (moved: TwoFingers): void => {
+        const [a, b] = [...fingers.values()];
+        const { dx, dy, spread, twist } = moved.update(a!, b!);
+        orbit.zoomBy(spread);
+        rotation.turn({ ...turnsOfDrag("4-D", dx, dy, drawing.clientHeight), ...turnsOfTwist(twist) });
     };
     drawing.addEventListener("pointerdown", (event) => {
         if (event.button !== 0) return;
         fingers.set(event.pointerId, event);
         drawing.setPointerCapture(event.pointerId);
         drawing.focus({ preventScroll: true });
+        isClick = fingers.size === 1;
+        isRolling = event.altKey && fingers.size === 1;
+        if (isRolling) rotation.begin();
+        fingersChanged();
     });
     drawing.addEventListener("pointermove", (event) => {
         const before = fingers.get(event.pointerId);
         if (!before) return;
-        const distanceBefore = fingerDistance();
+        const slop = event.pointerType === "mouse" ? kSlop.mouse : kSlop.touch;
+        const distance = Math.hypot(event.clientX - before.clientX, event.clientY - before.clientY);
+        if (isClick && distance < slop) return;
+        isClick = false;
         fingers.set(event.pointerId, event);
-        if (fingers.size === 1) orbit.drag(event.clientX - before.clientX, event.clientY - before.clientY);
-        else if (distanceBefore > 0) orbit.zoomBy(fingerDistance() / distanceBefore);
+        if (pair) movePair(pair);
+        else if (fingers.size === 1) drag(before, event);
     });
-    const removeFinger = (event: PointerEvent): void => void fingers.delete(event.pointerId);
+    const removeFinger = (event: PointerEvent): void => {
+        if (fingers.delete(event.pointerId)) fingersChanged();
+    };
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"] as const)
         drawing.addEventListener(end, removeFinger);
+    drawing.addEventListener("click", (event) => {
+        // The second click of a double click is none.
+        if (!isClick || event.detail !== 1 || isModified(event)) return;
+        const { left, top } = drawing.getBoundingClientRect();
+        click(event.clientX - left, event.clientY - top);
+    });
     drawing.addEventListener(
         "wheel",
         (event) => {
             if (event.ctrlKey) return; // the browser's own zoom
             event.preventDefault();
-            const pixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY : event.deltaY * kLineHeight;
-            orbit.zoomBy(Math.exp(-pixels * kWheelZoom));
+            const delta = event.deltaY || event.deltaX; // some systems exchange them while Shift is held
+            const pixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? delta : delta * kLineHeight;
+            if (!event.altKey) {
+                orbit.zoomBy(Math.exp(-pixels * kWheelZoom));
+                return;
+            }
+            if (event.timeStamp - wheelAt > kWheelPause) rotation.begin();
+            wheelAt = event.timeStamp;
+            rotation.turn(turnsOfWheel(ballOf(event), pixels));
         },
         { passive: false },
     );
-    drawing.addEventListener("dblclick", () => orbit.reset());
+    drawing.addEventListener("dblclick", (event) => isModified(event) || orbit.reset());
+}
+
+function ballOf({ shiftKey }: MouseEvent): Ball {
+    return shiftKey ? "3-D" : "4-D";
+}
+
+function isModified({ ctrlKey, altKey, metaKey, shiftKey }: MouseEvent): boolean {
+    return ctrlKey || altKey || metaKey || shiftKey;
 }

@@ -7,7 +7,27 @@ import { byId, element } from "./element";
 const kGestures = [
     ["Drag", "Orbit the view"],
     ["Wheel, pinch", "Zoom"],
-    ["Double click", "Reset the viewpoint"],
+    ["Click", "Make the slice the focus"],
+    ["Double click", "Reset the view"],
+    ["Alt + drag", "Turn in xw and yw: roll the 4-D ball"],
+    ["Alt + wheel", "Turn in zw"],
+    ["Alt + Shift + drag", "Turn in xz and yz, in every slice"],
+    ["Alt + Shift + wheel", "Turn in xy"],
+    ["Drag with two fingers", "Turn in xw and yw"],
+    ["Twist two fingers", "Turn in zw"],
+] as const;
+
+const kSticks = [
+    ["Left stick", "Turn in xw and yw"],
+    ["Right stick", "Turn in xz and yz"],
+    ["Triggers", "Turn in zw"],
+    ["Bumpers", "Turn in xy"],
+] as const;
+
+const kCommonKeys = [
+    ["Ctrl-z", "Undo; on a Mac, Cmd-z"],
+    ["Ctrl-y", "Redo; also Ctrl-Shift-z"],
+    ["Esc", "Return the focus to the drawing"],
 ] as const;
 
 export class Help {
@@ -40,14 +60,24 @@ export class Help {
                 ),
             );
         });
-        const gestures = element("table", {}, ...kGestures.map(([name, text]) => tableRow(name, text, "span")));
-        const pointer = element("section", {}, element("h3", {}, "Mouse and touch"), gestures);
-        this.dialog.querySelector(".sheet")!.replaceChildren(...sections, pointer);
+        this.dialog
+            .querySelector(".sheet")!
+            .replaceChildren(
+                ...sections,
+                section("Common keys", kCommonKeys, "kbd"),
+                section("Mouse and touch", kGestures, "span"),
+                section("Gamepad", kSticks, "span"),
+            );
     }
 
     open(): void {
         if (!this.dialog.open) this.dialog.showModal();
     }
+}
+
+function section(title: string, rows: readonly (readonly [string, string])[], tag: "kbd" | "span"): HTMLElement {
+    const lines = rows.map(([name, text]) => tableRow(name, text, tag));
+    return element("section", {}, element("h3", {}, title), element("table", {}, ...lines));
 }
 
 function tableRow(name: string, text: string, tag: "kbd" | "span" = "kbd"): HTMLElement {

@@ -1,12 +1,35 @@
 // Converts keyboard events to keystrokes of the key table. The server decides what a keystroke does.
+//
+// The `key` of a row is a character, a sequence of two characters, or the name of a key, which is longer.
 
 import type { KeyBinding } from "@oval4d/protocol";
+
+const kTextFields = "textarea, select, [contenteditable], input:not([type=radio], [type=checkbox], [type=range])";
+const kButtons = "button, a[href]";
+const kButtonKeys = /^( |Enter)$/;
+const kInputKeys = /^( |Enter|Home|End|(Arrow|Page).*)$/; // of radio buttons and sliders
 
 /** The members of a `key` message. */
 export interface Stroke {
     key: string;
     shift: boolean;
     ctrl: boolean;
+}
+
+/** Whether the key is for the control that has the focus: every key in a text field, Enter and the space bar on a button,
+ * also the arrows on a slider. */
+export function isForControl({ key, target }: KeyboardEvent): boolean {
+    if (!(target instanceof Element)) return false;
+    if (target.matches(kTextFields)) return true;
+    return target.matches(kButtons) ? kButtonKeys.test(key) : target.matches("input") && kInputKeys.test(key);
+}
+
+/** The action of Ctrl-Z, Ctrl-Shift-Z and Ctrl-Y; on a Mac, of Cmd-Z and so on. */
+export function editingAction(event: KeyboardEvent): "undo" | "redo" | undefined {
+    if (event.isComposing || event.altKey || event.ctrlKey === event.metaKey) return undefined;
+    const letter = typedCharacter(event).toLowerCase();
+    if (letter === "z") return event.shiftKey ? "redo" : "undo";
+    return letter === "y" && !event.shiftKey ? "redo" : undefined;
 }
 
 /** The keystroke of an event; undefined for composition, for other modifiers and for keys that are not in the table. */
@@ -24,9 +47,10 @@ export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding
         const known = binding && !ctrl && (!shift || binding.shift === "inverse");
         return known ? { key: digit, shift, ctrl } : undefined;
     }
-    const typed = /^[ -~]$/.test(key) ? key : latinLetterOfKey(event);
+    if (!shift && !ctrl && table.some((row) => isNamed(row) && row.key === key)) return { key, shift, ctrl };
+    const typed = typedCharacter(event);
     const known = table.some((row) => {
-        if ((row.ctrl ?? false) !== ctrl) return false;
+        if ((row.ctrl ?? false) !== ctrl || isNamed(row)) return false;
         if (row.key.length > 1) return row.key.startsWith(typed);
         return row.key === typed || (row.shift === "inverse" && row.key === typed.toLowerCase());
     });
@@ -44,6 +68,16 @@ export function strokesOfBinding(binding: KeyBinding, inverse: boolean): Stroke[
 function digitOfKey(event: KeyboardEvent): string | undefined {
     const [, row, digit] = /^(Digit|Numpad)([0-9])$/.exec(event.code) ?? [];
     return row === "Numpad" && event.key !== digit ? undefined : digit;
+}
+
+/** Whether the row's key is the name of one key in KeyboardEvent.key, such as "ArrowLeft". */
+function isNamed({ key }: KeyBinding): boolean {
+    return key.length > 2;
+}
+
+/** The character that the event types, or the Latin letter of its physical key; "\0" if there is neither. */
+function typedCharacter(event: KeyboardEvent): string {
+    return /^[ -~]$/.test(event.key) ? event.key : latinLetterOfKey(event);
 }
 
 /** The Latin letter of the physical key, for keyboards of another script; "\0" for keys without a letter. */

@@ -6,11 +6,26 @@ import type { Client, Orbit, State } from "@oval4d/protocol";
 import type { Stage } from "./picture/stage";
 
 const kInitial: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
-const kLimits = { elevation: 1.5, zoom: [0.1, 10] as const };
+const kLimits = { elevation: 1.5, zoom: [0.25, 10] as const };
+const kLeastVisible = 0.5; // the part of the slices that orbiting and zooming keep in the picture
+const kBisections = 10;
+
+const kAngleStep = Math.PI / 36; // of a key, in radians
+const kZoomStep = 1.1;
 
 export class OrbitControl {
     private sending = false;
     private unsent = false;
+    /** What the actions of the camera in the key table do. */
+    private readonly actions: Record<string, () => void> = {
+        orbit_left: () => this.orbitBy(-kAngleStep, 0),
+        orbit_right: () => this.orbitBy(kAngleStep, 0),
+        orbit_down: () => this.orbitBy(0, -kAngleStep),
+        orbit_up: () => this.orbitBy(0, kAngleStep),
+        zoom_out: () => this.zoomBy(1 / kZoomStep),
+        zoom_in: () => this.zoomBy(kZoomStep),
+        reset_view: () => this.reset(),
+    };
 
     constructor(
         private readonly client: Client,
@@ -20,19 +35,46 @@ export class OrbitControl {
     /** Orbits by a drag in pixels: half the height of the picture is a quarter turn. */
     drag(dx: number, dy: number): void {
         const part = Math.PI / Math.max(1, this.stage.size.height / devicePixelRatio);
-        const { azimuth, elevation, zoom } = this.stage.orbit;
-        const tilted = Math.min(kLimits.elevation, Math.max(-kLimits.elevation, elevation + dy * part));
-        const turned = (azimuth - dx * part) % (2 * Math.PI);
-        this.setOrbit({ azimuth: turned, elevation: tilted, zoom });
+        this.orbitBy(-dx * part, dy * part);
     }
 
     zoomBy(factor: number): void {
         const [min, max] = kLimits.zoom;
-        this.setOrbit({ ...this.stage.orbit, zoom: Math.min(max, Math.max(min, this.stage.orbit.zoom * factor)) });
+        const from = this.stage.orbit;
+        this.setOrbit(this.limited(from, { zoom: Math.min(max, Math.max(min, from.zoom * factor)) }));
     }
 
     reset(): void {
         this.setOrbit(kInitial);
+    }
+
+    /** Performs an action of the key table; returns false if it is not one of the camera. */
+    perform(action: string): boolean {
+        const move = this.actions[action];
+        move?.();
+        return move !== undefined;
+    }
+
+    /** Orbits by these angles. Each is limited for itself, so that the camera moves along the limit of the other. */
+    private orbitBy(azimuth: number, elevation: number): void {
+        const from = this.stage.orbit;
+        const turned = this.limited(from, { azimuth: from.azimuth + azimuth });
+        const tilted = Math.min(kLimits.elevation, Math.max(-kLimits.elevation, from.elevation + elevation));
+        this.setOrbit(this.limited(turned, { elevation: tilted }));
+    }
+
+    /** The orbit after a change, or after as much of it as leaves enough slices visible, or as many as before. */
+    private limited(from: Orbit, change: Partial<Orbit>): Orbit {
+        const { layout, size } = this.stage;
+        const to = { ...from, ...change };
+        const visible = (orbit: Orbit): number => layout?.visibleShare(orbit, size) ?? 1;
+        const least = Math.min(kLeastVisible, visible(from));
+        let part = visible(to) < least ? 0 : 1;
+        for (let step = 1, k = 0; part < 1 && k < kBisections; ++k) {
+            step /= 2;
+            if (visible(mix(from, to, part + step)) >= least) part += step;
+        }
+        return mix(from, to, part);
     }
 
     /** Adopts the camera of the state, unless this page has changes that the session has not answered. */
@@ -42,7 +84,7 @@ export class OrbitControl {
     }
 
     private setOrbit(orbit: Orbit): void {
-        this.stage.orbit = orbit;
+        this.stage.orbit = { ...orbit, azimuth: orbit.azimuth % (2 * Math.PI) };
         if (this.stage.mode === "geometry") this.stage.redraw();
         this.unsent = true;
         void this.send();
@@ -58,4 +100,14 @@ export class OrbitControl {
         }
         this.sending = false;
     }
+}
+
+/** The orbit between two others: the first at 0, the second at 1. */
+function mix(from: Orbit, to: Orbit, part: number): Orbit {
+    const between = (a: number, b: number): number => (part === 1 ? b : a + (b - a) * part);
+    return {
+        azimuth: between(from.azimuth, to.azimuth),
+        elevation: between(from.elevation, to.elevation),
+        zoom: between(from.zoom, to.zoom),
+    };
 }

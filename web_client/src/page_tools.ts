@@ -9,7 +9,6 @@ export interface PageActions {
     canDrawGeometry: boolean;
     setMode(mode: Mode): void;
     reset(): void;
-    resetView(): void;
     share(): void;
     save(): void;
 }
@@ -23,11 +22,8 @@ export function pageSections(actions: PageActions): Section[] {
     };
     return [
         {
-            title: "Reset",
-            content: [
-                button("reset", "Orientation", "Restore the initial orientation and focus", actions.reset),
-                button("reset-view", "Viewpoint", "Restore the initial viewpoint (double click)", actions.resetView),
-            ],
+            title: "Repeat and undo",
+            content: [button("reset", "Reset", "Restore the initial orientation and focus", actions.reset)],
         },
         {
             title: "Rendered by",

@@ -5,6 +5,7 @@ import type { State } from "@oval4d/protocol";
 import { spokenKinds } from "./colors";
 import { byId, element } from "./element";
 import { formatDegrees, focusW, formatLength, formatRotation } from "./format";
+import { makeToolbar } from "./toolbar";
 
 interface Reading {
     name: string;
@@ -52,6 +53,7 @@ export class Readings {
             this.root.append(button);
             this.values.set(name, value);
         }
+        makeToolbar(this.root, "Current values");
     }
 
     update(state: State): void {

@@ -4,6 +4,7 @@ import type { KeyBinding, Keymap, Parts, Plane, State } from "@oval4d/protocol";
 
 import parts from "../../protocol/schema/parts.schema.json";
 import { byId, element, planeName } from "./element";
+import { makeToolbar } from "./toolbar";
 
 export interface ToolEvents {
     /** Presses the key of a button; `held` is true for repetitions while the button is held down. */
@@ -22,12 +23,12 @@ export interface Section {
 const kTabs = [
     { title: "Turn", groups: ["turn", "history"] },
     { title: "Slices", groups: ["angle", "focus", "slices"] },
-    { title: "Show", groups: ["polytope", "look", "whole", "Colors"] },
+    { title: "Show", groups: ["polytope", "look", "whole", "camera", "Colors"] },
 ];
 const kOtherTab = "More";
 
 const kRepeatingActions =
-    /^(rotate|repeat|undo|redo|(alpha|beta|focus|spacing|slices|polytope)_(up|down|left|right|smaller|larger|fewer|more|next|previous))$/;
+    /^(rotate|repeat|undo|redo|(alpha|beta|focus|spacing|slices|polytope|orbit|zoom)_(up|down|left|right|smaller|larger|fewer|more|next|previous|in|out))$/;
 const kHoldDelay = 400; // milliseconds until a held button repeats
 const kHoldInterval = 60; // milliseconds between repetitions
 
@@ -50,6 +51,9 @@ const kStepperPairs = [
     ["beta_down", "beta_up", "β"],
     ["spacing_smaller", "spacing_larger", "δ"],
     ["slices_fewer", "slices_more", "Slices"],
+    ["orbit_left", "orbit_right", "Orbit"],
+    ["orbit_down", "orbit_up", "Height"],
+    ["zoom_out", "zoom_in", "Zoom"],
 ] as const;
 
 const kPadColumns: Plane[] = ["xy", "xz", "xw"]; // the perpendicular planes zw, yw, yz are below them
@@ -85,7 +89,9 @@ export class Tools {
             this.tabBar([...kTabs.map((tab) => tab.title), kOtherTab]),
             ...groups.map(({ name, title, content }) => {
                 const attributes = { "data-tab": tabOf(name), "data-group": name };
-                return element("section", attributes, element("h2", {}, title), element("div", {}, ...content));
+                const controls = element("div", {}, ...content);
+                if (controls.querySelector("button")) makeToolbar(controls, title);
+                return element("section", attributes, element("h2", {}, title), controls);
             }),
         );
     }
@@ -107,7 +113,9 @@ export class Tools {
             for (const button of buttons) button.setAttribute("aria-pressed", String(button.textContent === title));
         };
         choose(titles.includes(this.root.dataset["tab"] ?? "") ? this.root.dataset["tab"]! : titles[0]!);
-        return element("div", { class: "tabs", role: "group", "aria-label": "Groups of tools" }, ...buttons);
+        const bar = element("div", { class: "tabs" }, ...buttons);
+        makeToolbar(bar, "Groups of tools");
+        return bar;
     }
 
     private actionButton(binding: KeyBinding): HTMLElement {

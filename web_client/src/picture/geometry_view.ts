@@ -10,6 +10,7 @@ import { Lens } from "./lens";
 import { Mesh } from "./mesh";
 import { drawOverlay } from "./overlay";
 import { ProjectionMesh } from "./projection_mesh";
+import { SliceLayout } from "./slice_layout";
 import { fragmentShader, vertexShader } from "./shaders";
 
 ColorManagement.enabled = false; // colors are sRGB values, shown unchanged
@@ -101,6 +102,11 @@ export class GeometryView {
         const projected = this.projectionMesh.update(picture);
         for (const drawing of this.projectionDrawings) drawing.visible = projected;
         this.projectionUniforms.barRadius.value = this.projectionMesh.barRadius;
+    }
+
+    /** Where the slices are on the screen; undefined before the first picture. It is valid until the next picture. */
+    get layout(): SliceLayout | undefined {
+        return this.picture && this.pictureOrbit && new SliceLayout(this.picture, this.pictureOrbit);
     }
 
     /** Draws the slices as seen from this orbit; `size` is in device pixels. */

@@ -5,6 +5,7 @@ import { pngText, type Orbit, type Slices, type State, type Viewport } from "@ov
 
 import { FrameView } from "./frame_view";
 import { GeometryView } from "./geometry_view";
+import type { SliceLayout } from "./slice_layout";
 
 /** Where the slices are rendered: on this page, or on the server. */
 export type Mode = "geometry" | "frames";
@@ -74,6 +75,11 @@ export class Stage {
         this.currentMode = mode;
         this.root.dataset["mode"] = mode;
         this.unpresentedRevision = undefined;
+    }
+
+    /** Where the slices are on the screen, in device pixels; undefined if the server draws them. */
+    get layout(): SliceLayout | undefined {
+        return this.currentMode === "geometry" ? this.geometry?.layout : undefined;
     }
 
     showSlices(slices: Slices, orbit: Orbit): void {

@@ -1,0 +1,56 @@
+// Where the slices of a picture are on the screen.
+
+import type { Orbit, Slice, Slices, Viewport } from "@oval4d/protocol";
+
+import { Lens } from "./lens";
+
+export class SliceLayout {
+    private readonly lens = new Lens();
+
+    /** `orbit` is the orbit for which the server placed the camera of this picture. */
+    constructor(
+        private readonly picture: Slices,
+        private readonly orbit: Orbit,
+    ) {}
+
+    /** The fraction of the slices whose centers are within a picture of this size, as seen from an orbit. */
+    visibleShare(orbit: Orbit, size: Viewport): number {
+        this.lens.set(this.picture.scene.camera, size, this.orbit, orbit);
+        const drawn = this.picture.slices.filter((slice) => slice.drawn);
+        const visible = drawn.filter(({ position }) => {
+            const at = this.lens.project(position);
+            return at && at.x >= 0 && at.x <= size.width && at.y >= 0 && at.y <= size.height;
+        });
+        return drawn.length === 0 ? 1 : visible.length / drawn.length;
+    }
+
+    /**
+     * The slice at a point of the picture, in pixels: of those whose discs contain the point, the one whose center is
+     * nearest. A disc reaches from the slice's center to its farthest vertex; its radius is at least `minRadius` pixels.
+     */
+    sliceAt(x: number, y: number, orbit: Orbit, size: Viewport, minRadius: number): Slice | undefined {
+        this.lens.set(this.picture.scene.camera, size, this.orbit, orbit);
+        let [found, nearest]: [Slice | undefined, number] = [undefined, Infinity];
+        for (const slice of this.picture.slices) {
+            const center = slice.drawn ? this.lens.project(slice.position) : undefined;
+            const distance = center ? Math.hypot(center.x - x, center.y - y) : Infinity;
+            if (distance < nearest && distance <= Math.max(minRadius, this.radiusOf(slice))) {
+                [found, nearest] = [slice, distance];
+            }
+        }
+        return found;
+    }
+
+    /** The largest distance of a vertex from the slice's center on the screen, in pixels. */
+    private radiusOf({ vertices, position: [x, y, z] }: Slice): number {
+        const { scale } = this.picture.scene;
+        const center = this.lens.project([x, y, z]);
+        let radius = 0;
+        for (let i = 0; i < vertices.length; i += 3) {
+            const [a, b, c] = [vertices[i]!, vertices[i + 1]!, vertices[i + 2]!];
+            const at = this.lens.project([x + scale * a, y + scale * b, z + scale * c]);
+            if (center && at) radius = Math.max(radius, Math.hypot(at.x - center.x, at.y - center.y));
+        }
+        return radius;
+    }
+}

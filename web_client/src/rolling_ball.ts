@@ -1,0 +1,50 @@
+// What a gesture turns: A. J. Hanson's rolling ball. In three dimensions, a drag turns the ball's near side (+z) in the
+// direction of the drag; in four, it turns the side that faces the 4-D eye (+w). Both are sums of simple rotations.
+// A. J. Hanson, "Rotations for N-dimensional graphics", Graphics Gems V, 1995.
+
+import type { Plane } from "@oval4d/protocol";
+
+/** Angles in radians. R_ab turns the +a axis toward the +b axis. */
+export type Turns = Partial<Record<Plane, number>>;
+
+/** Which ball is rolled: the 4-D ball, or the 3-D ball of every slice, which stays in its hyperplane. */
+export type Ball = "4-D" | "3-D";
+
+const kWheelTurn = 0.0015; // radians per pixel
+const kStickRate = Math.PI / 2; // radians per second
+const kStickDeadZone = 0.15;
+
+/** Turns by a drag of (dx, dy) pixels, right and down, on a picture of this height: half a turn per height. */
+export function turnsOfDrag(ball: Ball, dx: number, dy: number, height: number): Turns {
+    const perPixel = Math.PI / Math.max(1, height);
+    return rolled(ball, dx * perPixel, dy * perPixel);
+}
+
+/** Turns by a wheel: the plane that the drag of the same ball leaves out. */
+export function turnsOfWheel(ball: Ball, pixels: number): Turns {
+    return ball === "4-D" ? { zw: -pixels * kWheelTurn } : { xy: -pixels * kWheelTurn };
+}
+
+/** Turns by two fingers that are twisted clockwise by this angle. */
+export function turnsOfTwist(angle: number): Turns {
+    return { zw: angle };
+}
+
+/** Turns by a gamepad of the standard layout: the left stick rolls the 4-D ball, the right stick the 3-D ball, the
+ * triggers turn in zw, and the buttons above them in xy. */
+export function turnsOfGamepad({ axes, buttons }: Pick<Gamepad, "axes" | "buttons">, seconds: number): Turns {
+    const rate = (value = 0): number => (Math.abs(value) < kStickDeadZone ? 0 : value * kStickRate * seconds);
+    const difference = (less: number, more: number): number =>
+        rate((buttons[more]?.value ?? 0) - (buttons[less]?.value ?? 0));
+    return {
+        ...rolled("4-D", rate(axes[0]), rate(axes[1])),
+        ...rolled("3-D", rate(axes[2]), rate(axes[3])),
+        zw: difference(6, 7),
+        xy: difference(4, 5),
+    };
+}
+
+/** Rolls a ball by these angles to the right and down. */
+function rolled(ball: Ball, right: number, down: number): Turns {
+    return ball === "4-D" ? { xw: -right, yw: down } : { xz: -right, yz: down };
+}

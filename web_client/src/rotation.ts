@@ -1,0 +1,65 @@
+// Turns the polytope by gestures. The turns of a gesture are added up and sent once per animation frame, when the
+// previous ones have been answered. All turns of one gesture are one undo step.
+
+import type { Plane, Request } from "@oval4d/protocol";
+
+import type { Turns } from "./rolling_ball";
+
+type Rotation = Extract<Request, { type: "rotate" }>;
+
+interface Gesture {
+    /** Whether a rotation of the gesture has been executed, to whose undo step the others belong. */
+    hasStep: boolean;
+    unsent: Map<Plane, number>;
+}
+
+export class RotationControl {
+    private gestures: Gesture[] = []; // the last one is the current one, the others have something to send
+    private sending = false;
+    private scheduled = false;
+
+    /** `rotate` sends a request, and resolves to whether it has been executed. */
+    constructor(private readonly rotate: (rotation: Rotation) => Promise<boolean>) {}
+
+    /** Begins a gesture. */
+    begin(): void {
+        this.gestures = this.gestures.filter(({ unsent }) => unsent.size > 0);
+        this.gestures.push({ hasStep: false, unsent: new Map() });
+    }
+
+    /** Continues the current gesture. */
+    turn(turns: Turns): void {
+        const { unsent } = this.gestures.at(-1)!;
+        for (const [plane, angle] of Object.entries(turns) as [Plane, number][]) {
+            const sum = (unsent.get(plane) ?? 0) + angle;
+            if (sum === 0) unsent.delete(plane);
+            else unsent.set(plane, sum);
+        }
+        this.schedule();
+    }
+
+    private schedule(): void {
+        if (this.sending || this.scheduled) return;
+        this.scheduled = true;
+        requestAnimationFrame(() => void this.send());
+    }
+
+    private async send(): Promise<void> {
+        this.scheduled = false;
+        const gesture = this.gestures[0]!;
+        const rotations = [...gesture.unsent];
+        gesture.unsent.clear();
+        if (this.gestures.length > 1) this.gestures.shift();
+        this.sending = true;
+        await Promise.all(
+            rotations.map(async ([plane, angle], i) => {
+                const continues = gesture.hasStep || i > 0;
+                const rotation: Rotation = { type: "rotate", planes: [plane], angles: [angle] };
+                const done = await this.rotate({ ...rotation, ...(continues && { continues }) });
+                gesture.hasStep ||= done;
+            }),
+        );
+        this.sending = false;
+        if (this.gestures[0]!.unsent.size > 0) this.schedule();
+    }
+}

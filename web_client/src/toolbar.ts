@@ -1,0 +1,61 @@
+// A toolbar is one tab stop: the arrow keys, Home and End move the focus among its buttons, as in the ARIA Authoring
+// Practices Guide. The button that had the focus last is the tab stop.
+
+const kRowWeight = 3; // Up and Down prefer a button in the next row to one in the same column
+
+/** Makes an element with buttons a toolbar. Buttons may be added, removed and disabled later. */
+export function makeToolbar(root: HTMLElement, label: string): void {
+    root.setAttribute("role", "toolbar");
+    root.setAttribute("aria-label", label);
+    const setTabStop = (wanted?: Element): void => {
+        const buttons = [...root.querySelectorAll("button")];
+        const enabled = buttons.filter((button) => !button.disabled);
+        const stop = enabled.find((button) => button === wanted) ?? enabled.find((button) => button.tabIndex === 0);
+        for (const button of buttons) button.tabIndex = button === (stop ?? enabled[0]) ? 0 : -1;
+    };
+    setTabStop();
+    new MutationObserver(() => setTabStop()).observe(root, {
+        ...{ childList: true, subtree: true, attributes: true },
+        attributeFilter: ["disabled"],
+    });
+    root.addEventListener("focusin", ({ target }) => target instanceof HTMLButtonElement && setTabStop(target));
+    root.addEventListener("keydown", (event) => {
+        if (!(event.target instanceof HTMLButtonElement) || isModified(event)) return;
+        const buttons = [...root.querySelectorAll("button")].filter((one) => !one.disabled && one.checkVisibility());
+        const next = nextButton(buttons, event.target, event.key);
+        if (!next) return;
+        event.preventDefault();
+        next.focus();
+    });
+}
+
+/** The button to which the key moves the focus; undefined for other keys. */
+function nextButton(buttons: HTMLButtonElement[], from: HTMLButtonElement, key: string): HTMLElement | undefined {
+    const at = buttons.indexOf(from);
+    if (key === "ArrowRight") return buttons[(at + 1) % buttons.length];
+    if (key === "ArrowLeft") return buttons.at(at - 1);
+    if (key === "Home") return buttons[0];
+    if (key === "End") return buttons.at(-1);
+    if (key === "ArrowDown") return nearestInDirection(buttons, from, 1);
+    return key === "ArrowUp" ? nearestInDirection(buttons, from, -1) : undefined;
+}
+
+/** The nearest button below (direction 1) or above (−1); the button itself if there is none. */
+function nearestInDirection(buttons: HTMLButtonElement[], from: HTMLButtonElement, direction: 1 | -1): HTMLElement {
+    const { left, width, top, bottom } = from.getBoundingClientRect();
+    const distance = (one: HTMLElement): number => {
+        const box = one.getBoundingClientRect();
+        const isBeyond = direction === 1 ? box.top >= bottom : box.bottom <= top;
+        const [across, down] = [box.left + box.width / 2 - left - width / 2, box.top - top];
+        return isBeyond ? Math.hypot(across, kRowWeight * down) : Infinity;
+    };
+    const [nearest] = buttons
+        .map((button) => ({ button, away: distance(button) }))
+        .filter(({ away }) => away < Infinity)
+        .sort((a, b) => a.away - b.away);
+    return nearest?.button ?? from;
+}
+
+function isModified({ ctrlKey, altKey, metaKey, shiftKey }: KeyboardEvent): boolean {
+    return ctrlKey || altKey || metaKey || shiftKey;
+}

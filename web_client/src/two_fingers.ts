@@ -1,0 +1,57 @@
+// Two fingers on the drawing: how far they have moved, spread and twisted. A movement and a twist begin only beyond a
+// dead zone, so that a pinch does not also turn the polytope.
+
+const kMoveDeadZone = 16; // pixels
+const kTwistDeadZone = 0.15; // radians
+
+export interface Finger {
+    clientX: number;
+    clientY: number;
+}
+
+interface Placement {
+    x: number; // of the middle
+    y: number;
+    distance: number;
+    angle: number; // clockwise
+}
+
+export class TwoFingers {
+    private last: Placement;
+    private moved = { x: 0, y: 0 };
+    private twisted = 0;
+    private moves = false;
+    private twists = false;
+
+    constructor(a: Finger, b: Finger) {
+        this.last = placementOf(a, b);
+    }
+
+    /** The changes since the last call: the movement of the middle in pixels, the factor of the distance, the angle. */
+    update(a: Finger, b: Finger): { dx: number; dy: number; spread: number; twist: number } {
+        const { last } = this;
+        const now = (this.last = placementOf(a, b));
+        const [dx, dy, twist] = [now.x - last.x, now.y - last.y, wrapped(now.angle - last.angle)];
+        const change = {
+            ...(this.moves ? { dx, dy } : { dx: 0, dy: 0 }),
+            spread: now.distance / Math.max(1, last.distance),
+            twist: this.twists ? twist : 0,
+        };
+        this.moved = { x: this.moved.x + dx, y: this.moved.y + dy };
+        this.twisted += twist;
+        this.moves ||= Math.hypot(this.moved.x, this.moved.y) > kMoveDeadZone;
+        this.twists ||= Math.abs(this.twisted) > kTwistDeadZone;
+        return change;
+    }
+}
+
+function placementOf(a: Finger, b: Finger): Placement {
+    const [dx, dy] = [b.clientX - a.clientX, b.clientY - a.clientY];
+    const [x, y] = [(a.clientX + b.clientX) / 2, (a.clientY + b.clientY) / 2];
+    return { x, y, distance: Math.hypot(dx, dy), angle: Math.atan2(dy, dx) };
+}
+
+/** The same angle between −π and π. */
+function wrapped(angle: number): number {
+    return Math.atan2(Math.sin(angle), Math.cos(angle));
+}
