@@ -62,11 +62,7 @@ test("accessibility: every control has a name", async () => {
 test("accessibility: the name of a control contains its visible label", async () => {
     const { page, close } = await openWithScript();
     const session = await page.context().newCDPSession(page);
-    const normalized = (text) =>
-        text
-            .toLowerCase()
-            .match(/[\p{L}\p{N}]+/gu)
-            ?.join(" ") ?? "";
+    const normalized = (text) => text.toLowerCase().match(/[\p{L}\p{N}]+/gu)?.join(" ") ?? "";
     /** The text of a button without its key, which is not part of the name. */
     const labelOf = (button) => {
         const keys = [...button.querySelectorAll("kbd[aria-hidden=true]")];

@@ -329,7 +329,7 @@ test("keys: a held key repeats no faster than pictures arrive, and stops when re
     });
     await page.keyboard.down("y");
     let pressed = 1;
-    for (const deadline = Date.now() + 30_000; Date.now() < deadline;) {
+    for (const deadline = Date.now() + 30_000; Date.now() < deadline; ) {
         for (let i = 0; i < 50; ++i, ++pressed) await page.keyboard.down("y"); // as the keyboard repeats it
         if ((await page.evaluate(() => window.sent)) >= 3) break;
     }

@@ -9,6 +9,7 @@ import { download, fileName } from "./download";
 import { byId } from "./element";
 import { ExportDialog } from "./export_dialog";
 import { FileLoading } from "./file_loading";
+import { FrameLayout } from "./frame_layout";
 import { listenForGamepads } from "./gamepad";
 import { listenForGestures } from "./gestures";
 import { Help } from "./help";
@@ -20,7 +21,6 @@ import { Notice } from "./notice";
 import { OrbitControl } from "./orbit";
 import { markMode, pageSections } from "./page_tools";
 import { Picker } from "./picker";
-import { SliceLayout } from "./picture/slice_layout";
 import { type Mode, Stage } from "./picture/stage";
 import { Readings } from "./readings";
 import { RotationControl } from "./rotation";
@@ -67,7 +67,12 @@ export class App {
         onError: (error) => this.notice.show(error.message),
         onLost: (reason) => this.sessionLost(reason),
     });
-    private readonly orbit = new OrbitControl(this.client, this.stage);
+    private readonly frameLayout = new FrameLayout(this.client, this.stage, () => this.orbit.layoutKnown());
+    private readonly orbit: OrbitControl = new OrbitControl(
+        this.client,
+        this.stage,
+        () => this.stage.layout ?? this.frameLayout.current,
+    );
     private readonly rotation = new RotationControl((rotation) => this.send(rotation));
     private readonly help = new Help();
     private readonly commandLine = new CommandLine(
@@ -194,6 +199,7 @@ export class App {
     private update(state: State): void {
         this.state = state;
         this.orbit.adoptCamera(state);
+        this.frameLayout.update(state);
         const { name } = state.polytope;
         this.polytopeButton.querySelector("b")!.textContent = name;
         document.title = `${name} \u2013 oval4d`;
@@ -268,19 +274,9 @@ export class App {
     private async focusSliceAt(x: number, y: number): Promise<void> {
         const { orbit, size } = this.stage;
         const ratio = size.height / this.drawing.clientHeight;
-        const layout = this.stage.layout ?? (await this.requestLayout());
+        const layout = this.stage.layout ?? (await this.frameLayout.request());
         const slice = layout?.sliceAt(x * ratio, y * ratio, orbit, size, kLeastDisc * ratio);
         if (slice && !slice.focus) void this.send({ type: "set", slices: { focus: slice.index } });
-    }
-
-    /** Where the slices are in the server's pictures; undefined if there is no answer. */
-    private async requestLayout(): Promise<SliceLayout | undefined> {
-        try {
-            const slices = await this.client.request({ type: "get", what: "slices", ...this.stage.size });
-            return new SliceLayout(slices, this.stage.orbit);
-        } catch {
-            return undefined;
-        }
     }
 
     private openPicker(): void {

@@ -3,6 +3,7 @@
 
 import type { Client, Orbit, State } from "@oval4d/protocol";
 
+import type { SliceLayout } from "./picture/slice_layout";
 import type { Stage } from "./picture/stage";
 
 const kInitial: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
@@ -16,6 +17,7 @@ const kZoomStep = 1.1;
 export class OrbitControl {
     private sending = false;
     private unsent = false;
+    private unlimited: Orbit | undefined; // the orbit before the first move that no known layout limited
     /** What the actions of the camera in the key table do. */
     private readonly actions: Record<string, () => void> = {
         orbit_left: () => this.orbitBy(-kAngleStep, 0),
@@ -27,9 +29,11 @@ export class OrbitControl {
         reset_view: () => this.reset(),
     };
 
+    /** `layout` returns where the slices are, or undefined until this is known. */
     constructor(
         private readonly client: Client,
         private readonly stage: Stage,
+        private readonly layout: () => SliceLayout | undefined,
     ) {}
 
     /** Orbits by a drag in pixels: half the height of the picture is a quarter turn. */
@@ -45,7 +49,15 @@ export class OrbitControl {
     }
 
     reset(): void {
+        this.unlimited = undefined;
         this.setOrbit(kInitial);
+    }
+
+    /** Limits the moves that were made while the layout was not known. */
+    layoutKnown(): void {
+        const from = this.unlimited;
+        this.unlimited = undefined;
+        if (from) this.setOrbit(this.limited(from, this.stage.orbit));
     }
 
     /** Performs an action of the key table; returns false if it is not one of the camera. */
@@ -65,9 +77,10 @@ export class OrbitControl {
 
     /** The orbit after a change, or after as much of it as leaves enough slices visible, or as many as before. */
     private limited(from: Orbit, change: Partial<Orbit>): Orbit {
-        const { layout, size } = this.stage;
         const to = { ...from, ...change };
-        const visible = (orbit: Orbit): number => layout?.visibleShare(orbit, size) ?? 1;
+        const layout = this.layout();
+        if (!layout) this.unlimited ??= from;
+        const visible = (orbit: Orbit): number => layout?.visibleShare(orbit, this.stage.size) ?? 1;
         const least = Math.min(kLeastVisible, visible(from));
         let part = visible(to) < least ? 0 : 1;
         for (let step = 1, k = 0; part < 1 && k < kBisections; ++k) {
