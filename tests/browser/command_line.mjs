@@ -1,8 +1,14 @@
 // The command line and the help sheet.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "./support/suite.mjs";
 
-import { openPage, openWithScript, ready } from "./support/browser.mjs";
+import { named, openPage, openWithScript, ready } from "./support/browser.mjs";
+import { bytesOf } from "./support/downloads.mjs";
+
+const protocol = (name) => JSON.parse(readFileSync(new URL(`../../protocol/${name}.json`, import.meta.url)));
+const { commands } = protocol("commands");
+const { formats } = protocol("export_formats");
 
 const error = (page) => page.locator("#command-error").textContent();
 
@@ -71,6 +77,219 @@ test("command line: the arrow keys step through the history, which survives a re
     await close();
 });
 
+test("command line: the arrow keys return to the line being typed", async () => {
+    const { page, close } = await openWithScript();
+    await type(page, "set slices=31");
+    await page.waitForSelector("#drawing:focus");
+    await page.keyboard.press(":");
+    await page.keyboard.type("rotate x");
+    await page.keyboard.press("ArrowUp");
+    assert.equal(await page.inputValue("#command"), "set slices=31");
+    await page.keyboard.press("ArrowDown");
+    assert.equal(await page.inputValue("#command"), "rotate x");
+    await close();
+});
+
+/** The names that the server lists in its answer to this line. */
+async function listedBy(script, line) {
+    const answer = await script.request({ type: "command", line }).catch(({ message }) => message);
+    const [, list] = /; the (?:commands|settings) are (.*)$/.exec(answer);
+    return list.split(", ");
+}
+
+/** Replaces the line, and presses Tab. Returns the line, and the listed completions. */
+async function completed(page, line, ...keys) {
+    await page.fill("#command", line);
+    for (const key of ["Tab", ...keys]) await page.keyboard.press(key);
+    const options = await page.locator("#command-options:visible [role=option]").allTextContents();
+    return { line: await page.inputValue("#command"), options };
+}
+
+test("command line: the page knows the server's commands and settings, and no others", async () => {
+    const { page, script, close } = await openWithScript();
+    const ofServer = commands.filter(({ client }) => !client).map(({ name }) => name);
+    assert.deepEqual(ofServer, await listedBy(script, "nonsense"));
+    await page.keyboard.press(":");
+    await page.waitForSelector("#command:focus");
+    const { options } = await completed(page, "set ");
+    const settings = options.map((option) => option.replace(/=$/, "")).filter((name) => name !== "latency");
+    assert.deepEqual(settings.sort(), (await listedBy(script, "set nonsense=1")).sort());
+    await close();
+});
+
+test("command line: every example of a command is valid", async () => {
+    const { script, close } = await openWithScript();
+    for (const { name, example, client } of commands) {
+        assert.match(example, new RegExp(`^${name}\\b`));
+        if (!client) await script.request({ type: "command", line: example });
+    }
+    await close();
+});
+
+test("command line: Tab completes what is unique, or what the possible words have in common", async () => {
+    const { page, close } = await openWithScript();
+    await page.keyboard.press(":");
+    await page.waitForSelector("#command:focus");
+    await page.keyboard.type("polytope 24");
+    await page.keyboard.press("Tab"); // may have to wait for the names of polytopes
+    await page.waitForFunction(() => document.getElementById("command").value === "polytope 24-cell");
+    const cases = {
+        po: "polytope ",
+        ":po": ":polytope ",
+        res: "reset",
+        "rotate xy,": "rotate xy,zw",
+        "view s": "view single",
+        "project p": "project perspective",
+        "set al": "set alpha=",
+        "set faces=of": "set faces=off",
+        "set slices=31 col": "set slices=31 color=",
+        "set polytope=grand a": "set polytope=grand antiprism",
+        "polytope GRAND A": "polytope grand antiprism",
+        "hide te": "hide tetrahedron",
+        "key ct": "key ctrl-r",
+        "export 3": "export 3mf",
+        "help rot": "help rotate",
+    };
+    for (const [line, expected] of Object.entries(cases)) {
+        const { line: inserted, options } = await completed(page, line);
+        assert.equal(inserted, expected);
+        assert.deepEqual(options, [], `${line} has one completion`);
+        assert.equal(await page.evaluate(() => document.activeElement.id), "command");
+    }
+    assert.equal((await completed(page, "set c")).line, "set c");
+    assert.deepEqual((await completed(page, "set c")).options.sort(), ["cells=", "color=", "coordinates="]);
+    const { line, options } = await completed(page, "set co");
+    assert.equal(line, "set co");
+    assert.deepEqual(options.sort(), ["color=", "coordinates="]);
+    assert.equal((await completed(page, "set sl")).line, "set slices=");
+    assert.equal((await completed(page, "polytope trunc")).line, "polytope truncated ");
+    assert.equal((await completed(page, "polytope hexacosichoron", "Tab")).line, "polytope 600-cell");
+    await page.fill("#command", "set l=1 end");
+    await page.evaluate(() => document.getElementById("command").setSelectionRange(5, 5));
+    await page.keyboard.press("Tab"); // labels=, latency=
+    assert.equal(await page.inputValue("#command"), "set la=1 end", "the text after the caret stays");
+    await close();
+});
+
+test("command line: repeated Tab cycles through the completions, Shift-Tab goes back", async () => {
+    const { page, errors, close } = await openWithScript();
+    await page.keyboard.press(":");
+    await page.waitForSelector("#command:focus");
+    const active = () =>
+        page.evaluate(() => {
+            const id = document.getElementById("command").getAttribute("aria-activedescendant");
+            return document.getElementById(id)?.textContent;
+        });
+    const expanded = () => page.getAttribute("#command", "aria-expanded");
+    assert.equal(await page.getAttribute("#command", "role"), "combobox");
+    assert.equal(await expanded(), "false");
+    const { options } = await completed(page, "color ");
+    assert.deepEqual(options, ["cell", "kind", "w", "plain", "light"]);
+    assert.equal(await expanded(), "true");
+    const steps = { Tab: ["cell", "kind"], "Shift+Tab": ["cell", "light"], ArrowDown: ["cell"], ArrowUp: ["light"] };
+    for (const [key, expected] of Object.entries(steps)) {
+        for (const option of expected) {
+            await page.keyboard.press(key);
+            assert.equal(await page.inputValue("#command"), `color ${option}`);
+            assert.equal(await active(), option);
+            assert.equal(await page.locator("#command-options [aria-selected=true]").textContent(), option);
+        }
+    }
+    await page.keyboard.press("Escape");
+    assert.equal(await page.locator("#command-options").isVisible(), false);
+    assert.equal(await page.locator("#command-line").isVisible(), true, "Escape closes the list first");
+    assert.equal(await active(), undefined);
+
+    await completed(page, "color ");
+    await page.click("#command-options [role=option]:text-is('plain')");
+    assert.equal(await page.inputValue("#command"), "color plain");
+    await page.waitForSelector("#command:focus");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector("#drawing:focus");
+    await page.waitForSelector("#tools [value=plain]:checked", { state: "attached" });
+
+    await page.keyboard.press(":");
+    await page.keyboard.type("dance");
+    await page.keyboard.press("Tab"); // nothing to complete
+    assert.notEqual(await page.evaluate(() => document.activeElement.id), "command", "Tab leaves the field");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("command line: completes the names of loaded polytopes", async () => {
+    const { page, script, close } = await openWithScript();
+    const data = "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n-1 -1 -1 -1\n";
+    await script.request({ type: "load", name: "zebra stripes", format: "points", data });
+    await page.keyboard.press(":");
+    await page.waitForSelector("#command:focus");
+    await completed(page, "polytope ze");
+    await page.waitForFunction(() => document.getElementById("command").value === "polytope zebra stripes");
+    await close();
+});
+
+test("command line: on a touch screen, a button completes", async () => {
+    const { page, close } = await openWithScript({ hasTouch: true, isMobile: true });
+    await page.keyboard.press(":");
+    await page.waitForSelector("#command:focus");
+    await page.keyboard.type("pro");
+    await page.tap("#command-complete");
+    assert.equal(await page.inputValue("#command"), "project ");
+    await close();
+});
+
+test("command line: it does not cover the parallel coordinates", async () => {
+    for (const [width, height] of [[1440, 900], [1024, 768], [390, 844]]) {
+        const { page, script, close } = await openWithScript({ viewport: { width, height } });
+        await page.keyboard.press(":");
+        await page.waitForSelector("#command:focus");
+        await completed(page, "set ");
+        const drawing = await page.locator("#drawing").boundingBox();
+        const panel = await page.locator("#command-line").boundingBox();
+        const { scene } = await script.request({
+            ...{ type: "get", what: "slices" },
+            ...{ width: Math.round(drawing.width), height: Math.round(drawing.height) },
+        });
+        const { zero, amplitude } = scene.coordinates;
+        const top = drawing.y + drawing.height * (1 - zero - amplitude);
+        assert.ok(panel.y + panel.height <= top, `${width} × ${height}: ${panel.y + panel.height} > ${top}`);
+        await close();
+    }
+});
+
+test("command line: :export saves a file in each format, as the export dialog does", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "8-cell" });
+    await named(page, "8-cell");
+    const save = async (line) => {
+        const saving = page.waitForEvent("download");
+        await type(page, line);
+        const download = await saving;
+        await page.waitForSelector("#drawing:focus");
+        return download;
+    };
+    for (const { name, bodies } of formats) {
+        const download = await save(`export ${name}`);
+        assert.equal(download.suggestedFilename(), bodies ? `8-cell-w-0.${name}` : `8-cell.${name}`);
+        assert.ok((await bytesOf(download)).length > 50, name);
+    }
+    assert.equal((await save("export PNG")).suggestedFilename(), "8-cell.png");
+    assert.equal(await page.locator("#export").isVisible(), false);
+
+    await type(page, "export stel");
+    await page.waitForFunction(() => /stel.*formats are 3mf, stl/.test(document.getElementById("command-error").textContent));
+    await page.keyboard.press("Escape");
+    await script.request({ type: "set", slices: { focus: 100 } }); // far outside the polytope
+    await type(page, "export stl");
+    await page.waitForFunction(() => /empty|flat/.test(document.getElementById("command-error").textContent));
+    await page.keyboard.press("Escape");
+    await type(page, "export");
+    await page.waitForSelector("#export[open]");
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("#drawing:focus");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("command line: clicking a value opens the command that changes it", async () => {
     const { page, script, close } = await openWithScript();
     await page.click("button:has([data-reading=alpha])");
@@ -99,6 +318,53 @@ test("help: the sheet lists every key of the table, and the same key opens and c
     assert.equal(await page.locator("#help").isVisible(), false);
     await page.waitForSelector("#drawing:focus");
     assert.equal((await script.state()).revision, revision, "keys under the sheet do nothing");
+    await close();
+});
+
+test("help: lists every command with an example, and the settings", async () => {
+    const { page, script, close } = await openWithScript();
+    await page.keyboard.press("?");
+    await page.waitForSelector("#help[open]");
+    const lines = await page.locator("#help dl > div").allInnerTexts();
+    assert.equal(lines.length, commands.length);
+    commands.forEach(({ example, text }, i) => assert.ok(lines[i].includes(`:${example}`) && lines[i].includes(text)));
+    const settings = await listedBy(script, "set nonsense=1");
+    const ofSet = lines.find((line) => line.startsWith(":set"));
+    for (const name of settings) assert.ok(ofSet.includes(name), name);
+    await close();
+});
+
+test("help: :help shows everything, or only what mentions a word", async () => {
+    const { page, errors, close } = await openWithScript();
+    await type(page, "help");
+    await page.waitForSelector("#help[open]");
+    const all = await page.locator("#help :is(tr, dl > div):visible").count();
+    assert.ok(all > 50);
+    assert.equal(await page.locator("#help-topic").isVisible(), false);
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("#drawing:focus");
+    assert.equal(await page.locator("#command-line").isVisible(), false);
+
+    await type(page, "help ROTATE");
+    await page.waitForSelector("#help[open]");
+    const shown = page.locator("#help :is(tr, dl > div):visible");
+    const lines = await shown.allInnerTexts();
+    for (const line of lines) assert.match(line, /rotate|\bturn by/i);
+    assert.ok(lines.some((line) => line.startsWith(":rotate")), "the command");
+    assert.ok(lines.some((line) => /Turn by α in xw and by β in yz/.test(line)), "the keys with this action");
+    assert.ok(lines.length < all / 2, `${lines.length} lines`);
+    await page.click("#help-all");
+    assert.equal(await shown.count(), all);
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("#drawing:focus");
+
+    await type(page, "help elephants");
+    await page.waitForFunction(() => /elephants/.test(document.getElementById("command-error").textContent));
+    await page.keyboard.press("Escape");
+    await page.keyboard.press("?");
+    await page.waitForSelector("#help[open]");
+    assert.equal(await shown.count(), all, "the key shows everything");
+    assert.deepEqual(errors, []);
     await close();
 });
 

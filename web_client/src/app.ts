@@ -4,6 +4,7 @@ import { Client, RequestError, type KeyBinding, type Keymap, type Request, type 
 
 import { Colors } from "./colors";
 import { CommandLine } from "./command_line";
+import { namesOfKeys } from "./completion";
 import { ConnectionView } from "./connection";
 import { download, fileName } from "./download";
 import { byId } from "./element";
@@ -20,6 +21,7 @@ import { extractSharedSession, readInitialView, rememberSession, shareLink } fro
 import { Notice } from "./notice";
 import { OrbitControl } from "./orbit";
 import { markMode, pageSections } from "./page_tools";
+import { executePageCommand } from "./page_commands";
 import { Picker } from "./picker";
 import { type Mode, Stage } from "./picture/stage";
 import { Readings } from "./readings";
@@ -75,11 +77,16 @@ export class App {
     );
     private readonly rotation = new RotationControl((rotation) => this.send(rotation));
     private readonly help = new Help();
-    private readonly commandLine = new CommandLine(
-        async (line) => this.latency.execute(line) || this.request({ type: "command", line }),
-        () => this.drawing.focus(),
-    );
-    private readonly readings = new Readings((command) => this.commandLine.open(command));
+    private readonly commandLine = new CommandLine({
+        run: (line) => this.execute(line),
+        closed: () => this.drawing.focus(),
+        names: () => ({
+            polytopes: this.picker.catalogue,
+            kinds: this.state?.polytope.kinds?.map(({ name }) => name) ?? [],
+            keys: namesOfKeys(this.keymap?.keys ?? []),
+        }),
+    });
+    private readonly readings = new Readings(() => this.openCommandLine());
     private readonly picker = new Picker((name) => this.request({ type: "set", polytope: name }));
     private readonly fileLoading = new FileLoading(this.client);
     private readonly exportDialog = new ExportDialog(this.client, () => this.stage.size);
@@ -260,7 +267,7 @@ export class App {
     }
 
     private press(binding: KeyBinding, inverse: boolean, held: boolean): void {
-        if (binding.action === "command_line") this.commandLine.open();
+        if (binding.action === "command_line") this.openCommandLine();
         else if (binding.action === "help") this.help.open();
         else if (binding.action === "find") this.openPicker();
         else if (binding.action === "open") this.fileLoading.chooseFile();
@@ -277,6 +284,29 @@ export class App {
         const layout = this.stage.layout ?? (await this.frameLayout.request());
         const slice = layout?.sliceAt(x * ratio, y * ratio, orbit, size, kLeastDisc * ratio);
         if (slice && !slice.focus) void this.send({ type: "set", slices: { focus: slice.index } });
+    }
+
+    private openCommandLine(): void {
+        this.notice.hide();
+        this.commandLine.open(this.listPolytopes());
+    }
+
+    /** Executes a line of the command line, which closes before a dialog opens, so that the focus returns here. */
+    private async execute(line: string): Promise<unknown> {
+        if (this.latency.execute(line)) return undefined;
+        const isOfPage = await executePageCommand(line, {
+            help: (topic) => {
+                this.help.filter(topic);
+                this.commandLine.close();
+                this.help.open(topic);
+            },
+            exportFile: (format) => {
+                if (format !== "") return this.state && this.exportDialog.save(format, this.state);
+                this.commandLine.close();
+                return this.openExport();
+            },
+        });
+        return isOfPage || this.request({ type: "command", line });
     }
 
     private openPicker(): void {

@@ -1,56 +1,186 @@
-// The command line, with a history.
+// The command line, with a history and completion.
 
-import { byId } from "./element";
+import { byId, element } from "./element";
+import { type Completions, commonPrefix, completionsOf, type Names } from "./completion";
 import { toSentence } from "./format";
 import { readStored, writeStored } from "./tab_storage";
 
 const kHistoryKey = "oval4d.commands";
 const kMaxHistory = 100; // lines
 
+export interface CommandLineEvents {
+    /** Executes a line; throws an Error, whose message the user sees. */
+    run(line: string): Promise<unknown>;
+    closed(): void;
+    /** Returns the names that complete a line. */
+    names(): Names;
+}
+
+/** Completions between which Tab cycles. */
+interface Cycle extends Completions {
+    /** The line as completion has left it. If the line differs, the user has edited it. */
+    line: string;
+    /** The index of the option in the line, or -1. */
+    at: number;
+}
+
 export class CommandLine {
     private readonly form = byId<HTMLFormElement>("command-line");
     private readonly input = byId<HTMLInputElement>("command");
     private readonly error = byId("command-error");
+    private readonly list = byId("command-options");
+    private readonly announcer = byId("spoken");
     private history = readStored<string[]>(kHistoryKey) ?? [];
     private historyPosition = 0; // counted from the end of the history; 0 is the line being typed
+    private draft = ""; // the line being typed, while an earlier one is shown
+    private cycle: Cycle | undefined;
+    private loading: Promise<unknown> | undefined; // of the names of polytopes
 
-    /** `run` executes a line; it throws an Error, whose message the user sees. `onClosed` is called after closing. */
-    constructor(
-        private readonly run: (line: string) => Promise<unknown>,
-        private readonly onClosed: () => void,
-    ) {
+    constructor(private readonly events: CommandLineEvents) {
         this.form.addEventListener("submit", (event) => {
             event.preventDefault();
             void this.submit();
         });
         byId("command-close").addEventListener("click", () => this.close());
-        this.form.addEventListener("keydown", (event) => event.key === "Escape" && this.close());
+        byId("command-complete").addEventListener("click", () => {
+            this.input.focus();
+            this.complete(1);
+        });
+        this.form.addEventListener("keydown", (event) => {
+            if (event.key !== "Escape") return;
+            if (this.list.hidden) this.close();
+            else this.hideList();
+        });
         this.input.addEventListener("keydown", (event) => this.keydown(event));
+        this.input.addEventListener("input", () => this.hideList());
+        this.list.addEventListener("pointerdown", (event) => event.preventDefault()); // the input keeps the focus
+        this.list.addEventListener("click", (event) => {
+            const option = event.target instanceof Element && event.target.closest("[role=option]");
+            if (option) this.choose([...this.list.children].indexOf(option));
+        });
     }
 
-    open(text = ""): void {
+    /** Opens the command line. Tab waits for the names of polytopes while they are `loading`. */
+    open(loading: Promise<unknown>): void {
+        this.loading = loading;
+        void loading.finally(() => (this.loading = undefined));
         this.form.hidden = false;
         this.historyPosition = 0;
-        this.setText(text);
+        this.setText("");
         this.showError("");
         this.input.focus();
     }
 
     close(): void {
         if (this.form.hidden) return;
+        this.hideList();
         this.form.hidden = true;
-        this.onClosed();
+        this.events.closed();
     }
 
     private keydown(event: KeyboardEvent): void {
+        if (event.isComposing || event.ctrlKey || event.altKey || event.metaKey) return;
+        if (event.key === "Tab" && this.tab(event.shiftKey)) event.preventDefault();
         const step = { ArrowUp: 1, ArrowDown: -1 }[event.key];
         if (step === undefined) return;
         event.preventDefault();
+        if (this.list.hidden) this.recall(step);
+        else this.complete(-step);
+    }
+
+    /** Completes the line; returns false if there is nothing to complete, so that Tab moves the focus. */
+    private tab(backwards: boolean): boolean {
+        if (backwards && this.list.hidden) return false;
+        const step = backwards ? -1 : 1;
+        const { value } = this.input;
+        if (!this.loading || !value.includes("polytope")) return this.complete(step);
+        void this.loading.then(() => value === this.input.value && this.complete(step));
+        return true;
+    }
+
+    private recall(step: number): void {
+        if (this.historyPosition === 0) this.draft = this.input.value;
         this.historyPosition = Math.min(this.history.length, Math.max(0, this.historyPosition + step));
-        this.setText(this.history.at(-this.historyPosition || this.history.length) ?? "");
+        this.setText(this.history.at(-this.historyPosition || this.history.length) ?? this.draft);
+    }
+
+    /** The completions of the text before the caret. */
+    private find(): Completions {
+        return completionsOf(this.input.value.slice(0, this.input.selectionEnd ?? undefined), this.events.names());
+    }
+
+    /**
+     * Inserts the only completion. If there are several, the first call inserts what they have in common and lists them;
+     * further calls insert one after the other, or with `step` -1 backwards. Returns false if there is none.
+     */
+    private complete(step: number): boolean {
+        const { cycle } = this;
+        if (cycle && cycle.line === this.input.value) {
+            const count = cycle.options.length;
+            this.activate(cycle.at < 0 && step < 0 ? count - 1 : (cycle.at + step + count) % count);
+            return true;
+        }
+        this.hideList();
+        const found = this.find();
+        const { start, options, suffix } = found;
+        if (options.length === 0) return false;
+        if (options.length === 1) {
+            this.insert(start, options[0]! + suffix);
+            this.announcer.textContent = this.input.value;
+            return true;
+        }
+        const typed = this.input.value.slice(start, this.input.selectionEnd ?? undefined);
+        const prefix = commonPrefix(options);
+        if (prefix.toLowerCase().startsWith(typed.toLowerCase())) this.insert(start, prefix);
+        this.cycle = { ...found, line: this.input.value, at: -1 };
+        this.list.replaceChildren(
+            ...options.map((option, i) =>
+                element("div", { role: "option", id: `command-option-${i}`, "aria-selected": "false" }, option),
+            ),
+        );
+        this.list.hidden = false;
+        this.list.scrollTop = 0;
+        this.input.setAttribute("aria-expanded", "true");
+        this.announcer.textContent = `${options.length} completions`;
+        return true;
+    }
+
+    /** Inserts an option of the list, and marks it. */
+    private activate(at: number): void {
+        const cycle = this.cycle!;
+        this.list.children[cycle.at]?.setAttribute("aria-selected", "false");
+        this.insert(cycle.start, cycle.options[at]!);
+        this.cycle = { ...cycle, line: this.input.value, at };
+        const option = this.list.children[at]!;
+        option.setAttribute("aria-selected", "true");
+        option.scrollIntoView({ block: "nearest" });
+        this.input.setAttribute("aria-activedescendant", option.id);
+    }
+
+    /** Inserts an option of the list, and closes the list. */
+    private choose(at: number): void {
+        const { start, options, suffix } = this.cycle!;
+        this.insert(start, options[at]! + suffix);
+        this.hideList();
+        this.input.focus();
+    }
+
+    /** Replaces the text from `start` to the caret. */
+    private insert(start: number, text: string): void {
+        const { value, selectionEnd } = this.input;
+        this.input.value = value.slice(0, start) + text + value.slice(selectionEnd ?? value.length);
+        this.input.setSelectionRange(start + text.length, start + text.length);
+    }
+
+    private hideList(): void {
+        this.cycle = undefined;
+        this.list.hidden = true;
+        this.input.setAttribute("aria-expanded", "false");
+        this.input.removeAttribute("aria-activedescendant");
     }
 
     private setText(text: string): void {
+        this.hideList();
         this.input.value = text;
         this.input.setSelectionRange(text.length, text.length);
     }
@@ -61,13 +191,14 @@ export class CommandLine {
     }
 
     private async submit(): Promise<void> {
+        this.hideList();
         const line = this.input.value.trim().replace(/^:\s*/, "");
         if (line === "") return this.close();
         this.history = [...this.history.filter((earlier) => earlier !== line), line].slice(-kMaxHistory);
         this.historyPosition = 0;
         writeStored(kHistoryKey, this.history);
         try {
-            await this.run(line);
+            await this.events.run(line);
             this.close();
         } catch (error) {
             this.showError((error as Error).message);

@@ -37,6 +37,25 @@ export class ExportDialog {
     }
 
     open(state: State): void {
+        this.prepare(state);
+        this.dialog.open(this.form.querySelector<HTMLElement>("[name=format]:checked")!);
+    }
+
+    /** Saves a file in the format of this name with the choices in the dialog, without opening it. */
+    async save(name: string, state: State): Promise<void> {
+        const format = kAllFormats.find((one) => one.name === name.toLowerCase());
+        if (!format) {
+            const names = [...kAllFormats.map((one) => one.name), "latency"].join(", ");
+            throw new Error(`no format is called “${name}”; the formats are ${names}`);
+        }
+        this.field("format").value = format.name;
+        this.prepare(state);
+        const wrong = this.form.querySelector<HTMLInputElement>("input:enabled:invalid");
+        if (wrong) throw new Error(`the ${wrong.name} in the export dialog is not valid: ${wrong.validationMessage}`);
+        download(await this.requestFile(format), this.fileNameFor(format), format.type);
+    }
+
+    private prepare(state: State): void {
         this.state = state;
         byId("export-of").textContent = state.polytope.name;
         byId("export-focus").textContent = `w = ${focusW(state)}`;
@@ -51,7 +70,6 @@ export class ExportDialog {
         }
         this.selectPreset();
         this.showOptions();
-        this.dialog.open(this.form.querySelector<HTMLElement>("[name=format]:checked")!);
     }
 
     private field(name: string): HTMLInputElement {

@@ -1,7 +1,8 @@
-// The dialog with the list of keys, generated from the key table.
+// The dialog with the list of keys, generated from the key table, and the list of commands.
 
 import type { Keymap } from "@oval4d/protocol";
 
+import { kCommands, kSettings } from "./commands";
 import { byId, element } from "./element";
 
 const kGestures = [
@@ -32,6 +33,8 @@ const kCommonKeys = [
 
 export class Help {
     private readonly dialog = byId<HTMLDialogElement>("help");
+    private readonly sheet = this.dialog.querySelector(".sheet")!;
+    private readonly topic = byId("help-topic");
 
     constructor() {
         this.dialog.addEventListener("keydown", (event) => {
@@ -42,6 +45,7 @@ export class Help {
         this.dialog.addEventListener("click", (event) => {
             if (event.target === this.dialog) this.dialog.close(); // a click outside the sheet
         });
+        byId("help-all").addEventListener("click", () => this.filter(""));
     }
 
     show({ groups, keys }: Keymap): void {
@@ -55,31 +59,66 @@ export class Help {
                 element(
                     "table",
                     {},
-                    ...lines.map((key) => tableRow(key.name, key.text)),
+                    ...lines.map((key) => tableRow(key.name, key.text, { about: key.action })),
                     ...(inverse ? [tableRow("Shift +", "Apply the inverse rotation")] : []),
                 ),
             );
         });
-        this.dialog
-            .querySelector(".sheet")!
-            .replaceChildren(
-                ...sections,
-                section("Common keys", kCommonKeys, "kbd"),
-                section("Mouse and touch", kGestures, "span"),
-                section("Gamepad", kSticks, "span"),
-            );
+        this.sheet.replaceChildren(
+            ...sections,
+            section("Common keys", kCommonKeys, "kbd"),
+            section("Mouse and touch", kGestures, "span"),
+            section("Gamepad", kSticks, "span"),
+            commandSection(),
+        );
     }
 
-    open(): void {
+    /** Opens the dialog; with a `topic`, with only the lines that mention it. */
+    open(topic = ""): void {
+        this.filter(topic);
         if (!this.dialog.open) this.dialog.showModal();
+    }
+
+    /** Shows only the lines that mention the topic; throws an Error if there are none. */
+    filter(topic: string): void {
+        const wanted = topic.toLowerCase();
+        const mentions = (line: HTMLElement): boolean =>
+            `${line.textContent} ${line.dataset["about"] ?? ""}`.toLowerCase().includes(wanted);
+        const lines = [...this.sheet.querySelectorAll<HTMLElement>("tr, dl > div")];
+        if (topic !== "" && !lines.some(mentions)) throw new Error(`the help does not mention “${topic}”; write help to see all of it`);
+        for (const line of lines) line.hidden = !mentions(line);
+        for (const section of this.sheet.querySelectorAll("section")) {
+            section.hidden = section.querySelector(":is(tr, dl > div):not([hidden])") === null;
+        }
+        this.topic.hidden = topic === "";
+        this.topic.querySelector("span")!.textContent = `Only what mentions “${topic}”`;
+        this.dialog.scrollTop = 0;
     }
 }
 
 function section(title: string, rows: readonly (readonly [string, string])[], tag: "kbd" | "span"): HTMLElement {
-    const lines = rows.map(([name, text]) => tableRow(name, text, tag));
+    const lines = rows.map(([name, text]) => tableRow(name, text, { tag }));
     return element("section", {}, element("h3", {}, title), element("table", {}, ...lines));
 }
 
-function tableRow(name: string, text: string, tag: "kbd" | "span" = "kbd"): HTMLElement {
-    return element("tr", {}, element("th", { scope: "row" }, element(tag, {}, name)), element("td", {}, text));
+/** The list of commands, with an example of each. */
+function commandSection(): HTMLElement {
+    const lines = kCommands.map(({ name, text, example }) => {
+        const about = name === "set" ? `${text}: ${[...kSettings.keys()].join(", ")}` : text;
+        const line = [element("dt", {}, element("code", {}, `:${example}`)), element("dd", {}, about)];
+        return element("div", { "data-command": name }, ...line);
+    });
+    const title = element("h3", {}, "Commands, with examples");
+    return element("section", { class: "commands" }, title, element("dl", {}, ...lines));
+}
+
+/** A line of a table. A topic finds it also by `about`. */
+function tableRow(name: string, text: string, { tag = "kbd", about = "" }: Line = {}): HTMLElement {
+    const head = element("th", { scope: "row" }, element(tag, {}, name));
+    return element("tr", { "data-about": about || undefined }, head, element("td", {}, text));
+}
+
+interface Line {
+    tag?: "kbd" | "span";
+    about?: string;
 }

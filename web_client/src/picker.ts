@@ -11,6 +11,8 @@ const kPage = 8; // number of options by which Page Up and Page Down move
 const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1, PageDown: kPage, PageUp: -kPage };
 
 export class Picker {
+    /** The polytopes, as of the last time that they were listed. */
+    catalogue = new Catalogue([]);
     private readonly dialog = new Dialog("picker");
     private readonly input = byId<HTMLInputElement>("picker-search");
     private readonly list = byId("picker-list");
@@ -18,7 +20,6 @@ export class Picker {
     private readonly resultCount = byId("picker-found");
     private readonly options = new Map<CatalogueEntry, HTMLElement>();
     private readonly typedOption = element("div", { role: "option", id: "picker-typed", class: "typed" });
-    private catalogue = new Catalogue([]);
     private current = "";
     private active: HTMLElement | undefined;
     private failure = ""; // why the catalogue cannot be listed; "" if it can be

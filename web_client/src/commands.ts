@@ -1,0 +1,44 @@
+// The commands and settings of the command line, from the data of the protocol.
+
+import table from "../../protocol/commands.json";
+import parts from "../../protocol/schema/parts.schema.json";
+import set from "../../protocol/schema/set.schema.json";
+
+/** A command; protocol/commands.json describes the members. */
+export interface CommandRow {
+    name: string;
+    arguments?: string;
+    completes?: string;
+    text: string;
+    example: string;
+    client?: boolean;
+}
+
+export const kCommands: CommandRow[] = table.commands;
+
+/** The part of a JSON schema that names a setting and its values. */
+interface Schema {
+    $ref?: string;
+    type?: unknown;
+    enum?: unknown[];
+    properties?: Record<string, Schema>;
+}
+
+const kNotOnTheLine = ["type", "id", "revision", "orientation", "last"]; // members of `set` without a setting
+
+/** The settings of the command `set`, with their values; a setting that is a number or a name has none. */
+export const kSettings = new Map<string, string[]>(settingsOf(set.properties as Record<string, Schema>));
+
+/** The planes of single and double rotations, as the command `rotate` names them: "xy", "xw,yz". */
+export const kPlanes = set.properties.last.properties.planes.enum.map((planes) => planes.join(","));
+
+/** The settings of an object in `set`. Those of nested objects have their own names, but `slices.count` is `slices`. */
+function settingsOf(properties: Record<string, Schema>, parent = ""): [string, string[]][] {
+    return Object.entries(properties).flatMap(([name, schema]): [string, string[]][] => {
+        if (kNotOnTheLine.includes(name)) return [];
+        if (schema.$ref === "parts.schema.json") return settingsOf(parts.properties);
+        if (schema.type === "object") return settingsOf(schema.properties!, name);
+        const values = schema.type === "boolean" ? ["on", "off"] : (schema.enum ?? []).map(String);
+        return [[name === "count" ? parent : name, values]];
+    });
+}

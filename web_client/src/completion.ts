@@ -1,0 +1,97 @@
+// Completes the command line: commands, settings and their values, and the names that commands take.
+
+import type { KeyBinding } from "@oval4d/protocol";
+
+import type { Catalogue } from "./catalogue";
+import { kCommands, kPlanes, kSettings } from "./commands";
+import { kFormats } from "./export_formats";
+
+/** The names that depend on the session and on the server. */
+export interface Names {
+    polytopes: Catalogue;
+    /** The kinds of cells of the polytope that is shown. */
+    kinds: string[];
+    keys: string[];
+}
+
+export interface Completions {
+    /** Where the text that the options replace begins. */
+    start: number;
+    options: string[];
+    /** What follows an option if it is the only one. */
+    suffix: string;
+}
+
+const kPageSettings = new Map([["latency", ["on", "off"]]]); // of `set`, executed by the page
+const kOfRestOfLine = ["polytope", "kind"]; // names that may contain blanks
+
+/** The completions of the text `line`, at its end. */
+export function completionsOf(line: string, names: Names): Completions {
+    const [, before = "", verb = "", blanks = "", rest = ""] = /^(\s*:?\s*)(\S*)(\s*)(.*)$/s.exec(line) ?? [];
+    const command = kCommands.find(({ name }) => name === verb);
+    if (blanks === "") {
+        const options = withPrefix(kCommands.map(({ name }) => name), verb);
+        const only = kCommands.find(({ name }) => name === options[0]);
+        return finish(line, before.length, options, only?.arguments === undefined ? "" : " ");
+    }
+    const completes = command?.completes ?? "";
+    const word = kOfRestOfLine.includes(completes) ? rest : /\S*$/.exec(rest)![0];
+    const start = line.length - word.length;
+    if (completes === "setting") return settingCompletions(line, start, rest, names);
+    if (word !== rest) return { start, options: [], suffix: "" }; // only the first argument
+    return finish(line, start, valuesOf(completes, word, names));
+}
+
+/** The completions of the last word of `set NAME=VALUE …`. */
+function settingCompletions(line: string, start: number, rest: string, names: Names): Completions {
+    // A polytope's name may contain blanks if it is the only setting.
+    const [, name = "", value = ""] = /^(polytope)=([^=]*)$/.exec(rest) ?? /(\S*?)=(\S*)$/.exec(rest) ?? [];
+    if (name !== "") return finish(line, line.length - value.length, valuesOf(name, value, names));
+    const all = [...kSettings.keys(), ...kPageSettings.keys()].map((one) => `${one}=`);
+    return finish(line, start, withPrefix(all, line.slice(start)));
+}
+
+/** The names or values of a kind, or of the setting of this name, that complete `typed`. */
+function valuesOf(kind: string, typed: string, { polytopes, kinds, keys }: Names): string[] {
+    if (kind === "polytope") return polytopeNames(polytopes, typed);
+    const lists: Record<string, string[]> = {
+        planes: kPlanes,
+        kind: [...new Set(kinds)],
+        key: keys,
+        format: [...kFormats.flatMap(({ formats }) => formats.map(({ name }) => name)), "latency"],
+        command: kCommands.map(({ name }) => name),
+    };
+    return withPrefix(lists[kind] ?? kSettings.get(kind) ?? kPageSettings.get(kind) ?? [], typed);
+}
+
+/** The names that begin with the text; if there are none, those that the search of polytopes finds. */
+function polytopeNames(catalogue: Catalogue, typed: string): string[] {
+    const found = withPrefix(catalogue.entries.map(({ name }) => name), typed);
+    if (found.length > 0) return found;
+    return catalogue.find(typed).flatMap(({ entries }) => entries.map(({ name }) => name));
+}
+
+function withPrefix(list: string[], prefix: string): string[] {
+    const wanted = prefix.toLowerCase();
+    return list.filter((one) => one.toLowerCase().startsWith(wanted));
+}
+
+function finish(line: string, start: number, options: string[], suffix = ""): Completions {
+    const isComplete = options.length === 1 && options[0] + suffix === line.slice(start);
+    return { start, options: isComplete ? [] : options, suffix };
+}
+
+/** The names of keys for the command `key`. It takes single keys, and not those that only the page handles. */
+export function namesOfKeys(table: readonly KeyBinding[]): string[] {
+    return table
+        .filter(({ key, client }) => key.length === 1 && !client)
+        .map(({ key, ctrl }) => (ctrl ? `ctrl-${key}` : key === " " ? "space" : key));
+}
+
+/** The longest text with which all options begin. */
+export function commonPrefix(options: string[]): string {
+    const [first = "", ...others] = options;
+    let length = first.length;
+    for (const other of others) while (!other.startsWith(first.slice(0, length))) --length;
+    return first.slice(0, length);
+}
