@@ -5,6 +5,7 @@ import "./keys.mjs";
 import "./buttons.mjs";
 import "./client.mjs";
 import "./command_line.mjs";
+import "./readings.mjs";
 import "./picker.mjs";
 import "./loading.mjs";
 import "./export.mjs";

@@ -290,17 +290,6 @@ test("command line: :export saves a file in each format, as the export dialog do
     await close();
 });
 
-test("command line: clicking a value opens the command that changes it", async () => {
-    const { page, script, close } = await openWithScript();
-    await page.click("button:has([data-reading=alpha])");
-    await page.waitForSelector("#command:focus");
-    assert.equal(await page.inputValue("#command"), "set alpha=");
-    await page.keyboard.type("pi/7");
-    await page.keyboard.press("Enter");
-    await script.until((one) => Math.abs(one.alpha - Math.PI / 7) < 1e-12, "the angle");
-    await close();
-});
-
 test("help: the sheet lists every key of the table, and the same key opens and closes it", async () => {
     const { page, script, close } = await openWithScript();
     const { keys } = await script.request({ type: "get", what: "keymap" });

@@ -86,7 +86,7 @@ export class App {
             keys: namesOfKeys(this.keymap?.keys ?? []),
         }),
     });
-    private readonly readings = new Readings(() => this.openCommandLine());
+    private readonly readings = new Readings((line) => this.request({ type: "command", line }));
     private readonly picker = new Picker((name) => this.request({ type: "set", polytope: name }));
     private readonly fileLoading = new FileLoading(this.client);
     private readonly exportDialog = new ExportDialog(this.client, () => this.stage.size);

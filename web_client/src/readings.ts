@@ -1,34 +1,68 @@
-// Shows the main values of the state, and announces changes of the state to screen readers.
+// Shows the main values of the state in fields that change them, and announces changes of the state to screen readers.
 
 import type { State } from "@oval4d/protocol";
 
+import { angleExpression, editableAngle, withoutBlanks } from "./angles";
 import { spokenKinds } from "./colors";
-import { byId, element } from "./element";
+import { byId } from "./element";
 import { formatDegrees, focusW, formatLength, formatRotation } from "./format";
+import { ReadingField } from "./reading_field";
 import { makeToolbar } from "./toolbar";
 
 interface Reading {
     name: string;
     symbol: string;
-    /** Describes the value; the beginning of the button's tooltip. */
+    /** Describes the value. */
     meaning: string;
-    /** The beginning of the command that changes the value. */
-    command: string;
+    /** Describes what can be typed. */
+    hint: string;
     value(state: State): string;
     spoken(state: State): string;
+    /** The value for editing; by default, as it is shown. */
+    editable?(state: State): string;
+    /** The command that applies what the user has typed; throws an Error if the text cannot be understood. */
+    command(text: string, state: State): string;
 }
 
+const kAngleHint = "In degrees, or for example pi/8";
+
 const kReadings: Reading[] = [
-    reading("alpha", "α", "Angle of the rotation keys", "set alpha=", ({ alpha }) => formatDegrees(alpha)),
-    reading("beta", "β", "Angle in the second plane", "set beta=", ({ beta }) => formatDegrees(beta)),
-    reading("w", "w", "Position of the focus slice", "set focus=", focusW),
-    reading("spacing", "δ", "Distance between slices", "set spacing=", ({ slices }) => formatLength(slices.spacing)),
-    reading("slices", "Slices", "Number of slices", "set slices=", ({ slices }) => String(slices.count)),
     {
-        ...reading("last", "Last rotation", "Planes and angles of the last rotation", "rotate ", ({ last }) =>
+        ...reading("alpha", "α", "Angle of the rotation keys", ({ alpha }) => formatDegrees(alpha)),
+        hint: kAngleHint,
+        editable: ({ alpha }) => editableAngle(alpha),
+        command: (text) => `set alpha=${angleExpression(text)}`,
+    },
+    {
+        ...reading("beta", "β", "Angle in the second plane", ({ beta }) => formatDegrees(beta)),
+        hint: kAngleHint,
+        editable: ({ beta }) => editableAngle(beta),
+        command: (text) => `set beta=${angleExpression(text)}`,
+    },
+    {
+        ...reading("w", "w", "Position of the focus slice", focusW),
+        hint: "The nearest slice becomes the focus",
+        command: (text, { slices }) => `set focus=${nearestSlice(text, slices.spacing)}`,
+    },
+    {
+        ...reading("spacing", "δ", "Distance between slices", ({ slices }) => formatLength(slices.spacing)),
+        hint: "A length, for example 0.1 or 1/8",
+        command: (text) => `set spacing=${withoutBlanks(text)}`,
+    },
+    {
+        ...reading("slices", "Slices", "Number of slices", ({ slices }) => String(slices.count)),
+        hint: "An odd number",
+        command: (text) => `set slices=${withoutBlanks(text)}`,
+    },
+    {
+        ...reading("last", "Last rotation", "Planes and angles of the last rotation", ({ last }) =>
             last ? formatRotation(last) : "none",
         ),
+        hint: "Turn by other angles: xw 10° or xw 10°, yz 5°",
         spoken: ({ last }) => (last ? `turned ${formatRotation(last)}` : ""),
+        editable: ({ last }) =>
+            last?.planes.map((plane, i) => `${plane} ${editableAngle(last.angles[i]!)}`).join(", ") ?? "",
+        command: rotateCommand,
     },
 ];
 
@@ -37,31 +71,26 @@ const kSpeechDelay = 700; // milliseconds without a change before the state is a
 export class Readings {
     private readonly root = byId("readings");
     private readonly announcer = byId("spoken");
-    private readonly values = new Map<string, HTMLElement>();
+    private readonly fields = new Map<string, ReadingField>();
     private state: State | undefined;
     private announced: string[] | undefined;
     private timer: ReturnType<typeof setTimeout> | undefined;
 
-    /** `edit` is called to open the command line with the beginning of a command. */
-    constructor(edit: (command: string) => void) {
-        for (const { name, symbol, meaning, command } of kReadings) {
-            const value = element("span", { "data-reading": name }, "\u2013");
-            const label = element("span", { class: symbol.length === 1 ? "symbol" : "word" }, symbol);
-            const title = `${meaning}. Change with :${command}…`;
-            const button = element("button", { type: "button", title }, label, " ", value);
-            button.addEventListener("click", () => edit(command));
-            this.root.append(button);
-            this.values.set(name, value);
+    /** `run` executes a command; it throws an Error whose message is shown at the field. */
+    constructor(run: (command: string) => Promise<unknown>) {
+        for (const { name, symbol, meaning, hint, value, editable = value, command } of kReadings) {
+            const field = new ReadingField(name, symbol, meaning, hint, {
+                editable: () => (this.state ? editable(this.state) : ""),
+                apply: async (text) => this.state && run(command(text, this.state)),
+            });
+            this.fields.set(name, field);
+            this.root.append(field.root);
         }
         makeToolbar(this.root, "Current values");
     }
 
     update(state: State): void {
-        for (const { name, value } of kReadings) {
-            const text = value(state);
-            const output = this.values.get(name)!;
-            if (output.textContent !== text) output.textContent = text;
-        }
+        for (const { name, value } of kReadings) this.fields.get(name)!.show(value(state));
         this.state = state;
         if (state.turning && this.timer !== undefined) return; // otherwise each step would delay the announcement
         clearTimeout(this.timer);
@@ -90,12 +119,21 @@ export class Readings {
     }
 }
 
-function reading(
-    name: string,
-    symbol: string,
-    meaning: string,
-    command: string,
-    value: (state: State) => string,
-): Reading {
-    return { name, symbol, meaning, command, value, spoken: (state) => `${symbol} ${value(state)}` };
+function reading(name: string, symbol: string, meaning: string, value: (state: State) => string) {
+    return { name, symbol, meaning, value, spoken: (state: State) => `${symbol} ${value(state)}` };
+}
+
+/** The index of the slice that is nearest to a w. */
+function nearestSlice(text: string, spacing: number): number {
+    const w = Number(text.replaceAll("\u2212", "-") || NaN);
+    if (!Number.isFinite(w)) throw new Error(`a number such as 0.25 is expected, not “${text}”`);
+    return Math.round(w / spacing);
+}
+
+/** The command for a rotation such as "xw 10°, yz 5°" or "xw,yz 10 5". */
+function rotateCommand(text: string): string {
+    const words = text.split(/[\s,;]+/).filter((word) => word !== "");
+    const isPlane = (word: string, i: number): boolean => i === 0 || /^[xyzw]{2}$/.test(word);
+    const angles = words.filter((word, i) => !isPlane(word, i)).map(angleExpression);
+    return `rotate ${words.filter(isPlane).join(",")} ${angles.join(" ")}`;
 }

@@ -1,0 +1,32 @@
+// Angles as users type and read them. A number without a unit is in degrees, because the page shows degrees.
+
+import { formatDecimal, formatDegrees } from "./format";
+
+const kMaxDenominator = 60; // of a fraction of pi
+const kTolerance = 1e-9;
+
+/** An angle for editing: in degrees or as a fraction of pi, whichever is exact, else in degrees with more digits. */
+export function editableAngle(radians: number): string {
+    const degrees = (radians * 180) / Math.PI;
+    if (Math.abs(degrees * 100 - Math.round(degrees * 100)) < kTolerance * 100) return formatDegrees(radians);
+    for (let n = 1; n <= kMaxDenominator; ++n) {
+        const k = (radians * n) / Math.PI;
+        if (Math.abs(k - Math.round(k)) > kTolerance) continue;
+        return `${formatDecimal(Math.round(k), 0)}*pi/${n}`.replace("1*pi", "pi");
+    }
+    return `${formatDecimal(degrees, 10)}°`;
+}
+
+/** Converts an angle such as "10", "10°", "10 deg", "pi/8" or "0.2 rad" to an expression of the command line. */
+export function angleExpression(text: string): string {
+    const typed = withoutBlanks(text).toLowerCase();
+    if (typed === "") throw new Error("an angle is expected, such as 10° or pi/8");
+    const withoutExponents = typed.replace(/(\d)e(?=[-+]?\d)/g, "$1");
+    if (!/[\p{L}°]/u.test(withoutExponents)) return `deg(${typed})`;
+    return typed.replace(/(\d+\.?\d*|\.\d+)\s*(?:°|deg(?!\w|\())/g, "deg($1)").replace(/\s*rad$/, "");
+}
+
+/** Removes the blanks around operators: the command line takes a value without blanks. */
+export function withoutBlanks(text: string): string {
+    return text.trim().replace(/\s*([-−+*/^()°])\s*/g, "$1");
+}
