@@ -24,13 +24,16 @@ interface Schema {
     properties?: Record<string, Schema>;
 }
 
-const kNotOnTheLine = ["type", "id", "revision", "orientation", "last"]; // members of `set` without a setting
+const kNotOnTheLine = ["type", "id", "revision", "orientation", "section", "last"]; // members of `set` without a setting
 
 /** The settings of the command `set`, with their values; a setting that is a number or a name has none. */
 export const kSettings = new Map<string, string[]>(settingsOf(set.properties as Record<string, Schema>));
 
 /** The planes of single and double rotations, as the command `rotate` names them: "xy", "xw,yz". */
 export const kPlanes = set.properties.last.properties.planes.enum.map((planes) => planes.join(","));
+
+/** The kinds of elements of a polytope. */
+export const kElementKinds = set.properties.highlight.properties.element.enum;
 
 /** The settings of an object in `set`. Those of nested objects have their own names, but `slices.count` is `slices`. */
 function settingsOf(properties: Record<string, Schema>, parent = ""): [string, string[]][] {

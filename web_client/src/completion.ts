@@ -3,7 +3,7 @@
 import type { KeyBinding } from "@oval4d/protocol";
 
 import type { Catalogue } from "./catalogue";
-import { kCommands, kPlanes, kSettings } from "./commands";
+import { kCommands, kElementKinds, kPlanes, kSettings } from "./commands";
 import { kFormats } from "./export_formats";
 
 /** The names that depend on the session and on the server. */
@@ -56,6 +56,7 @@ function valuesOf(kind: string, typed: string, { polytopes, kinds, keys }: Names
     if (kind === "polytope") return polytopeNames(polytopes, typed);
     const lists: Record<string, string[]> = {
         planes: kPlanes,
+        element: kElementKinds,
         kind: [...new Set(kinds)],
         key: keys,
         format: [...kFormats.flatMap(({ formats }) => formats.map(({ name }) => name)), "latency"],
