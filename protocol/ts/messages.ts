@@ -53,7 +53,8 @@ export interface Settings {
     alpha?: number;
     beta?: number;
     step?: number;
-    slices?: Partial<SliceSettings>;
+    /** `w` sets focus and offset. */
+    slices?: Partial<SliceSettings> & { w?: number };
     view?: View;
     turning?: boolean;
     shown?: Partial<Parts>;

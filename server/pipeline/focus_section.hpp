@@ -7,8 +7,8 @@
 
 namespace oval4d::pipeline {
 
-/// Names the section of a state's focus hyperplane, which `state` messages contain. Reuses its memory. May be used by one
-/// thread at a time.
+/// Names the section of a state's focus hyperplane, which `state` messages contain. Reuses its memory. May be used by
+/// one thread at a time.
 class FocusSectionNamer {
   public:
     /// Slices the object at the focus and names the slice. The names are valid until the process ends. Takes about as

@@ -22,10 +22,10 @@ struct SlicePlacement {
     /// "w = −0.25" for the focus slice, followed by the name of the section if there is one; "−0.25" for others; empty
     /// if it is not shown.
     std::string label;
-    glm::dvec3 labelAt{0};   ///< the center of the label's top edge
-    double labelSize = 1;    ///< the height of the label, as a fraction of Style::textHeight
-    bool focus = false;      ///< whether this is the focus slice
-    bool drawn = true;       ///< false in the single view for all slices but the focus slice
+    glm::dvec3 labelAt{0};  ///< the center of the label's top edge
+    double labelSize = 1;   ///< the height of the label, as a fraction of Style::textHeight
+    bool focus = false;     ///< whether this is the focus slice
+    bool drawn = true;      ///< false in the single view for all slices but the focus slice
     bool operator==(const SlicePlacement&) const = default;
 };
 

@@ -48,8 +48,8 @@ struct Scene : Layout {
     /// content.
     std::vector<std::uint32_t> faceCells;
     slicing::Visibilities visibilities;
-    slicing::ElementSources highlight;  ///< what shows the highlighted element; empty if there is none
-    slicing::SectionNames sectionNames;  ///< of the focus slice
+    slicing::ElementSources highlight;         ///< what shows the highlighted element; empty if there is none
+    slicing::SectionNames sectionNames;        ///< of the focus slice
     ObjectProjection projection;               ///< valid if projectionPlacement.shown
     double faceOpacity = style().faceOpacity;  ///< 0 … 1
     /// Whether faces may cross each other. If so, they are opaque, and `fill` is drawn instead of their loops.

@@ -11,7 +11,7 @@ namespace oval4d::scene {
 struct Style {
     Color background, text, focusText, ball, bar, zeroLine;
     Color axisX, axisY, axisZ, axisW;
-    Color highlight;  ///< of the highlighted element
+    Color highlight;     ///< of the highlighted element
     double faceOpacity;  ///< 0 … 1
     glm::dvec3 light;    ///< unit vector toward the light, in camera axes
     /// The Blinn–Phong shading of balls and bars, for the normal n, the direction l to the light and the half vector h:

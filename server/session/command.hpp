@@ -44,6 +44,7 @@ struct Set {
     std::optional<double> spacing;      ///< SliceSettings::spacing
     std::optional<int> focus;           ///< SliceSettings::focus
     std::optional<double> offset;       ///< SliceSettings::offset
+    std::optional<double> focusW;       ///< w of the focus slice: sets focus and offset (see moveFocusTo())
     std::optional<scene::View> view;
     std::optional<bool> turning;                                  ///< whether the object turns continuously
     std::array<std::optional<bool>, scene::kParts.size()> parts;  ///< per row of scene::kParts: whether it is shown

@@ -23,8 +23,7 @@ using Words = std::vector<std::string_view>;
 using Member = std::variant<std::optional<double> Set::*, std::optional<int> Set::*, std::optional<bool> Set::*,
                             std::optional<std::string> Set::*, std::optional<scene::View> Set::*,
                             std::optional<scene::Coloring> Set::*, std::optional<scene::ProjectionKind> Set::*,
-                            std::optional<CellTypeList> Set::*,
-                            std::optional<std::optional<slicing::Element>> Set::*>;
+                            std::optional<CellTypeList> Set::*, std::optional<std::optional<slicing::Element>> Set::*>;
 /// One setting: its name, and the member of Set that stores it.
 struct Setting {
     std::string_view name;
@@ -38,6 +37,7 @@ const auto kSettings = std::to_array<Setting>({{"polytope", &Set::object},
                                                {"spacing", &Set::spacing},
                                                {"focus", &Set::focus},
                                                {"offset", &Set::offset},
+                                               {"w", &Set::focusW},
                                                {"view", &Set::view},
                                                {"turning", &Set::turning},
                                                {"azimuth", &Set::azimuth},
@@ -121,8 +121,9 @@ struct ValueReader {
         }
         const std::size_t colon = text.find(':');
         if (colon == std::string_view::npos) {
-            return bad(ErrorCode::bad_expression, std::string(name) + " must be none or an element such as cell:17, not " +
-                                                      oval4d::text::inQuotes(text));
+            return bad(
+                ErrorCode::bad_expression,
+                std::string(name) + " must be none or an element such as cell:17, not " + oval4d::text::inQuotes(text));
         }
         const auto kind = parseElementKind(text.substr(0, colon));
         if (!kind) return kind.error();
@@ -202,10 +203,10 @@ Result<Command> rotateLine(std::string_view /*rest*/, const Words& words, const 
 
 Result<Command> towardLine(std::string_view rest, const Words& words, const State& /*state*/) {
     if (words.empty() || words.size() > 2) {
-        return bad(ErrorCode::bad_expression,
-                   "toward needs " + text::alternatives(text::namesOf(slicing::kElementKinds)) +
-                       " and optionally a number, such as toward cell 3" +
-                       (rest.empty() ? "" : ", not " + text::inQuotes(rest)));
+        return bad(ErrorCode::bad_expression, "toward needs " +
+                                                  text::alternatives(text::namesOf(slicing::kElementKinds)) +
+                                                  " and optionally a number, such as toward cell 3" +
+                                                  (rest.empty() ? "" : ", not " + text::inQuotes(rest)));
     }
     const auto kind = parseElementKind(words[0]);
     if (!kind) return kind.error();

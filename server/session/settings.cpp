@@ -59,6 +59,11 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
         }
         state.slices.focus = *set.focus;
     }
+    if (set.focusW) {
+        double w = 0;
+        if (auto done = put("w", set.focusW, {-kMaxOffset * radius, kMaxOffset * radius, ""}, w); !done) return done;
+        moveFocusTo(state, w);
+    }
     return put("the offset", set.offset, {-kMaxOffset * radius, kMaxOffset * radius, ""}, state.slices.offset);
 }
 
@@ -190,13 +195,16 @@ Result<std::monostate> turnToward(State& state, const Toward& command) {
     return std::monostate{};
 }
 
+void moveFocusTo(State& state, double w) {
+    const double spacing = state.slices.spacing;
+    const double limit = kMaxFocus;  // a spacing far below the circumradius cannot reach every w
+    state.slices.focus = static_cast<int>(std::clamp(std::round(w / spacing), -limit, limit));
+    state.slices.offset = w - state.slices.focus * spacing;
+}
+
 void moveFocusToVertex(State& state, bool upward) {
     const auto height = slicing::nextVertexHeight(state.object, state.orientation, state.focusW(), upward);
-    if (!height) return;
-    const double spacing = state.slices.spacing;
-    const double limit = kMaxFocus;  // a spacing far below the circumradius cannot reach every height
-    state.slices.focus = static_cast<int>(std::clamp(std::round(*height / spacing), -limit, limit));
-    state.slices.offset = *height - state.slices.focus * spacing;
+    if (height) moveFocusTo(state, *height);
 }
 
 }  // namespace oval4d::session

@@ -7,13 +7,13 @@
 namespace oval4d::session {
 
 /// Bounds that do not depend on the server's options.
-inline constexpr double kMaxAngle = 1e6;        ///< absolute value of an angle in radians; larger doubles are imprecise
-inline constexpr int kMaxFocus = 1'000'000;     ///< absolute value of the focus index
-inline constexpr double kMinSpacing = 1e-6;     ///< as a multiple of the object's circumradius
-inline constexpr double kMaxSpacing = 10;       ///< as a multiple of the object's circumradius
-inline constexpr double kMaxOffset = 10;        ///< absolute value of the offset, as a multiple of the circumradius
+inline constexpr double kMaxAngle = 1e6;     ///< absolute value of an angle in radians; larger doubles are imprecise
+inline constexpr int kMaxFocus = 1'000'000;  ///< absolute value of the focus index
+inline constexpr double kMinSpacing = 1e-6;  ///< as a multiple of the object's circumradius
+inline constexpr double kMaxSpacing = 10;    ///< as a multiple of the object's circumradius
+inline constexpr double kMaxOffset = 10;     ///< absolute value of the offset, as a multiple of the circumradius
 inline constexpr double kMaxApproachSeconds = 10;  ///< Approach::seconds
-inline constexpr double kMaxOrbitAngle = 1000;  ///< absolute value of azimuth and elevation in radians
+inline constexpr double kMaxOrbitAngle = 1000;     ///< absolute value of azimuth and elevation in radians
 inline constexpr double kMinZoom = 0.05, kMaxZoom = 20;
 inline constexpr double kMinEye = 1.05, kMaxEye = 1000;  ///< in circumradii
 
@@ -37,13 +37,16 @@ Result<std::monostate> checkTurn(const geometry::Turn& turn);
 /// Rotates the object, stores the rotation as State::lastTurn, and ends an approach.
 void rotate(State& state, const geometry::Turn& turn);
 
-/// Lets the object approach the orientation in which the element points to +w, or brings it there immediately. Continuous
-/// turning ends. Error: `out_of_range` if the object has no such element.
+/// Lets the object approach the orientation in which the element points to +w, or brings it there immediately.
+/// Continuous turning ends. Error: `out_of_range` if the object has no such element.
 Result<std::monostate> turnToward(State& state, const Toward& command);
 
+/// Moves the focus to this w: to the slice that is closest to it without an offset, and sets the offset to the
+/// difference. Requires |w| ≤ kMaxOffset circumradii.
+void moveFocusTo(State& state, double w);
+
 /// Moves the focus to the next vertex height above the focus's w (below it if `upward` is false), where the section
-/// changes its type: to the hyperplane closest to this height, whose offset becomes such that it goes through the
-/// vertex. Does nothing if there is no such height.
+/// changes its type. Does nothing if there is none.
 void moveFocusToVertex(State& state, bool upward);
 
 }  // namespace oval4d::session

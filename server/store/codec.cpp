@@ -232,8 +232,8 @@ State stateIn(const json& value, const ObjectList& objects) {
     const json& angles = value.at(3);
     const json& slices = value.at(4);
     constexpr double kTwoPi = 2 * std::numbers::pi;
-    // Spacing and offset are limited in proportion to the circumradius; kSlack allows for rounding errors. Records written
-    // by earlier versions of the program have no offset and no approach.
+    // Spacing and offset are limited in proportion to the circumradius; kSlack allows for rounding errors. Records
+    // written by earlier versions of the program have no offset and no approach.
     const double radius = info.circumradius;
     constexpr double kSlack = 1e-9;
     State state{object,

@@ -17,7 +17,8 @@ namespace oval4d::wire {
 
 /// Returns the `state` message of a state, whose focus slice has the names `section`. The PNG files of frames contain
 /// the same text.
-std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision, std::optional<double> id = {});
+std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
+                         std::optional<double> id = {});
 /// Writes the `state` message to `out`. Overwrites `out` and reuses its memory.
 void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
                   std::optional<double> id, std::string& out);

@@ -87,6 +87,7 @@ session::Set setOf(const json& message) {
         take(*slices, "spacing", set.spacing);
         take(*slices, "focus", set.focus);
         take(*slices, "offset", set.offset);
+        take(*slices, "w", set.focusW);
     }
     choose(message, "view", scene::kViews, set.view);
     if (const auto parts = message.find("shown"); parts != message.end()) {
@@ -105,7 +106,8 @@ session::Set setOf(const json& message) {
     if (const auto element = message.find("highlight"); element != message.end()) {
         set.highlight.emplace();
         if (!element->is_null())
-            *set.highlight = slicing::Element{choiceOf(element->at("element"), slicing::kElementKinds), element->at("number")};
+            *set.highlight =
+                slicing::Element{choiceOf(element->at("element"), slicing::kElementKinds), element->at("number")};
     }
     if (const auto last = message.find("last"); last != message.end() && !last->is_null())
         set.lastTurn = turnOf(*last, "set: /last");
@@ -151,7 +153,7 @@ decltype(Request::body) bodyOf(const std::string& type, const json& message) {
         return session::Command{
             session::Key{message.at("key"), message.value("shift", false), message.value("ctrl", false)}};
     if (type == "shown") return ShownRevision{message.at("revision")};
-    if (type == "rotate") 
+    if (type == "rotate")
         return session::Command{session::Rotate{turnOf(message, "rotate: "), message.value("continues", false)}};
     if (type == "toward") return session::Command{towardOf(message)};
     if (type == "set") return session::Command{setOf(message)};

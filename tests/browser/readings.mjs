@@ -87,13 +87,15 @@ test("readings: a field offers the exact value, and sends nothing if it is not c
     await closePage();
 });
 
-test("readings: w moves the focus to the nearest slice; δ and the number of slices are set", async () => {
+test("readings: w moves the focus and all hyperplanes; δ and the number of slices are set", async () => {
     const { page, script, close: closePage } = await openWithScript();
     await enter(page, "spacing", "1/8");
     assert.equal((await script.state()).slices.spacing, 0.125);
     for (const [text, focus] of [["0.49", 4], ["-0.25", -2], ["−0.4", -3], ["0", 0]]) {
         await enter(page, "w", text);
-        assert.equal((await script.state()).slices.focus, focus, text);
+        const { slices, section } = await script.state();
+        assert.equal(slices.focus, focus, text);
+        assert.ok(close(section.w, Number(text.replace("−", "-"))), text);
     }
     await enter(page, "slices", "31");
     assert.equal((await script.state()).slices.count, 31);

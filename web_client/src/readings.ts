@@ -41,8 +41,8 @@ const kReadings: Reading[] = [
     },
     {
         ...reading("w", "w", "Position of the focus slice", focusW),
-        hint: "The nearest slice becomes the focus",
-        command: (text, { slices }) => `set focus=${nearestSlice(text, slices.spacing)}`,
+        hint: "Any w: all hyperplanes move with the focus slice",
+        command: (text) => `set w=${withoutBlanks(text)}`,
     },
     {
         ...reading("spacing", "δ", "Distance between slices", ({ slices }) => formatLength(slices.spacing)),
@@ -106,6 +106,7 @@ export class Readings {
         const now = [
             state.polytope.name,
             ...kReadings.map((one) => one.spoken(state)),
+            state.section.name && `section: ${state.section.name}`,
             state.view === "oval" ? "oval view" : "single view",
             state.turning ? "turning" : "at rest",
             state.color === "plain" ? "plain colors" : `colored by ${state.color}`,
@@ -121,13 +122,6 @@ export class Readings {
 
 function reading(name: string, symbol: string, meaning: string, value: (state: State) => string) {
     return { name, symbol, meaning, value, spoken: (state: State) => `${symbol} ${value(state)}` };
-}
-
-/** The index of the slice that is nearest to a w. */
-function nearestSlice(text: string, spacing: number): number {
-    const w = Number(text.replaceAll("\u2212", "-") || NaN);
-    if (!Number.isFinite(w)) throw new Error(`a number such as 0.25 is expected, not “${text}”`);
-    return Math.round(w / spacing);
 }
 
 /** The command for a rotation such as "xw 10°, yz 5°" or "xw,yz 10 5". */

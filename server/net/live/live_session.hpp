@@ -164,8 +164,9 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     std::optional<std::uint64_t> stateRevision_;
     std::uint64_t jobs_ = 0;     ///< how many jobs have been posted, which is the number of the last one
     std::uint64_t drawing_ = 0;  ///< the number of the job that is queued or being drawn; 0 if there is none
-    std::vector<EncodingPicture> encoding_;      ///< the pictures that are being encoded
-    std::optional<Clock::time_point> lastMotion_;  ///< when the moving object made its last step; empty if it does not move
+    std::vector<EncodingPicture> encoding_;  ///< the pictures that are being encoded
+    std::optional<Clock::time_point>
+        lastMotion_;  ///< when the moving object made its last step; empty if it does not move
     OneShotTimer motionTimer_, paceTimer_, saveTimer_, retryTimer_;
     bool detached_ = false;  ///< whether this object must no longer write the session to the store
 

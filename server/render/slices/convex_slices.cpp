@@ -120,8 +120,8 @@ void ConvexSlicePainter::paintSkeleton(const SliceView& slice, Side side, ShapeB
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const std::uint32_t v = order_[i];
         if (skeleton.balls && vertexSide_[v] == side)
-            out.addBall(points_[v], skeleton.ballRadius * slice.ballScale(v),
-                        slice.vertexColor(v, skeleton.ballColor), slice.vertexOpacity(v));
+            out.addBall(points_[v], skeleton.ballRadius * slice.ballScale(v), slice.vertexColor(v, skeleton.ballColor),
+                        slice.vertexOpacity(v));
         if (!skeleton.bars) continue;
         for (std::size_t k = edgeBegin_[i]; k < edgeBegin_[i + 1]; ++k) {
             const std::uint32_t e = edgeOrder_[k];

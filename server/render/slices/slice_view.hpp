@@ -35,7 +35,8 @@ struct SliceView {
     }
 
     scene::Color faceColor(std::size_t f) const { return scene.cellColors[scene.cellOfFace(firstFace() + f)]; }
-    /// Returns the color of vertex v, which is `usual` unless it belongs to the highlighted element; likewise for edges.
+    /// Returns the color of vertex v, which is `usual` unless it belongs to the highlighted element; likewise for
+    /// edges.
     scene::Color vertexColor(std::size_t v, scene::Color usual) const {
         return scene.highlight.hasVertex(set.vertexSource[firstVertex() + v]) ? scene::style().highlight : usual;
     }

@@ -150,6 +150,11 @@ TEST(Offset, MovesAllHyperplanes) {
     press(session, "G");
     EXPECT_LE(session.current.focusW(), topOf(session.current) + 1e-9);
     EXPECT_GT(session.current.focusW() + 0.5, topOf(session.current));
+    line(session, "set w=-0.6");
+    EXPECT_DOUBLE_EQ(session.current.focusW(), -0.6);
+    EXPECT_EQ(session.current.slices.focus, -1);
+    EXPECT_NEAR(session.current.slices.offset, -0.1, 1e-12);
+    expectRefused(session, CommandLine{"set w=1000"}, ErrorCode::out_of_range, "w must be from");
     expectRefused(session, CommandLine{"set offset=1000"}, ErrorCode::out_of_range, "the offset must be from");
     line(session, "polytope 24-cell");
     EXPECT_EQ(session.current.slices.offset, 0);
