@@ -16,8 +16,10 @@ export interface Stroke {
     ctrl: boolean;
 }
 
-/** Whether the key is for the control that has the focus: every key in a text field, Enter and the space bar on a button,
- * also the arrows on a slider. */
+/**
+ * Whether the key is for the control that has the focus: every key in a text field; Enter and the space bar on a button;
+ * these, the arrows, Home and End on a slider or a radio button.
+ */
 export function isForControl({ key, target }: KeyboardEvent): boolean {
     if (!(target instanceof Element)) return false;
     if (target.matches(kTextFields)) return true;

@@ -63,7 +63,7 @@ export class Tools {
     private readonly toggleButtons = new Map<string, HTMLElement>();
 
     constructor(private readonly events: ToolEvents) {
-        // The drawing keeps the focus, and therefore receives the keys, when a button is clicked.
+        // The drawing keeps the focus when a button is clicked, so that the space bar does not press the button again.
         this.root.addEventListener("mousedown", (event) => event.preventDefault());
     }
 
