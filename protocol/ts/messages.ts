@@ -130,6 +130,8 @@ export interface State {
     slices: SliceSettings;
     view: View;
     turning: boolean;
+    /** Whether the polytope turns, or an element is on its way to +w. */
+    moving: boolean;
     shown: Parts;
     camera: Orbit;
     color: Coloring;

@@ -113,6 +113,7 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
     w.endObject();
     w.member("view", text::nameOf(scene::kViews, state.look.view));
     w.member("turning", state.turning);
+    w.member("moving", state.moves());
     w.key("shown");
     w.beginObject();
     for (const scene::PartRow& part : scene::kParts) w.member(part.name, state.look.parts.*part.flag);

@@ -17,6 +17,7 @@ import "./phone.mjs";
 import "./performance.mjs";
 import "./accessibility.mjs";
 import "./without_webgl.mjs";
+import "./firefox.mjs";
 import { runAll } from "./support/suite.mjs";
 
 runAll("the page in a browser");

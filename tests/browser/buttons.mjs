@@ -30,7 +30,7 @@ async function outcome(script, { action }, act) {
     if (action === "redo") await script.request({ type: "undo" });
     const { revision } = await script.state();
     await act();
-    return comparable(await script.until((one) => one.revision > revision, `a change by ${action}`));
+    return comparable(await script.until((one) => one.revision > revision && !one.moving, `a change by ${action}`));
 }
 
 test("buttons: each button does what its key does", async () => {

@@ -12,7 +12,7 @@ const toggles = (part) => (before, after) => assert.equal(after.shown[part], !be
 const adds = (angle, sign) => (before, after) => assert.ok(close(after[angle], before[angle] + sign * before.step));
 
 /** Checks of the state after each action. */
-const effects = {
+export const effects = {
     rotate: (before, after, { planes }) => {
         assertMatrix(after.orientation, turned(before.orientation, planes, [before.alpha, before.beta]));
     },
@@ -30,6 +30,12 @@ const effects = {
     repeat: (before, after) => {
         assertMatrix(after.orientation, turned(before.orientation, before.last.planes, before.last.angles));
     },
+    toward_vertex: pointsToW([1, 0, 0, 0]),
+    toward_edge: pointsToW([1, 1, 0, 0]),
+    toward_face: pointsToW([1, 1, 1, 0]),
+    toward_cell: pointsToW([1, 1, 1, 1]),
+    vertex_next: (before, after) => assert.ok(after.section.w > before.section.w && after.section.vertices !== ""),
+    vertex_previous: (before, after) => assert.ok(after.section.w < before.section.w && after.section.vertices !== ""),
     turn: (before, after) => assert.equal(after.turning, !before.turning),
     spacing_smaller: (before, after) => assert.ok(close(after.slices.spacing, before.slices.spacing / 1.1)),
     spacing_larger: (before, after) => assert.ok(close(after.slices.spacing, before.slices.spacing * 1.1)),
@@ -50,7 +56,7 @@ const effects = {
 };
 
 /** The key presses of a binding in Playwright's notation, on a US keyboard. */
-function strokes({ key, code, ctrl }, inverse = false) {
+export function strokes({ key, code, ctrl }, inverse = false) {
     if (key.length > 1) return [...key];
     const name = code ?? (/[A-Z]/.test(key) ? `Shift+${key}` : key);
     if (ctrl) return [`Control+${key}`];
@@ -63,7 +69,7 @@ const kShown = {
 };
 
 /** Sets the same state before each key: rotated, focus not at w = 0, with something to undo or redo. */
-async function prepare(script, { action }) {
+export async function prepare(script, { action }) {
     await script.request({ type: "set", polytope: "24-cell", view: "oval", projection: "off", turning: false });
     await script.request({ type: "reset" });
     await script.request({ type: "set", shown: kShown });
@@ -75,12 +81,12 @@ async function prepare(script, { action }) {
 
 const { url } = await common();
 const asking = await joinSession(url);
-const { keys: table } = await asking.request({ type: "get", what: "keymap" });
+export const { keys: table } = await asking.request({ type: "get", what: "keymap" });
 asking.leave();
 
 test("keys: the table is complete", () => {
     const names = table.map(({ name }) => name).sort();
-    const expected = [..."234567rtykjKJlh0Gu.[]{}sinNopafbwcWCex:?←→↓↑-+", "gg", "Ctrl-r", "Space", "Home"].sort();
+    const expected = [..."234567rtykjKJlh0Gu.[]{}()sinNopafbwcWCex:?←→↓↑-+", "gg", "zc", "zf", "ze", "zv", "Ctrl-r", "Space", "Home"].sort();
     assert.deepEqual(names, expected);
 });
 
@@ -91,7 +97,8 @@ for (const binding of table.filter(({ client }) => !client)) {
         shared ??= await openWithScript();
         const { page, script, press, errors } = shared;
         const before = await prepare(script, binding);
-        const after = await press(...strokes(binding));
+        await press(...strokes(binding));
+        const after = await script.until((one) => one.turning || !one.moving, "the end of the motion");
         assert.ok(effects[binding.action], `the test knows no effect of ${binding.action}`);
         effects[binding.action](before, after, binding);
         const shown = await readings(page);
@@ -99,8 +106,7 @@ for (const binding of table.filter(({ client }) => !client)) {
         assert.equal(Number(shown.slices), after.slices.count);
         assert.ok(Math.abs(parseFloat(shown.alpha) - (after.alpha * 180) / Math.PI) <= 0.005, shown.alpha);
         assert.ok(Math.abs(parseFloat(shown.beta) - (after.beta * 180) / Math.PI) <= 0.005, shown.beta);
-        const w = after.slices.focus * after.slices.spacing;
-        assert.ok(Math.abs(Number(shown.w.replace("\u2212", "-")) - w) <= 0.005, shown.w);
+        assert.ok(Math.abs(Number(shown.w.replace("\u2212", "-")) - after.section.w) <= 0.005, shown.w);
         if (binding.shift === "inverse") {
             const back = await press(...strokes(binding, true));
             assertMatrix(back.orientation, before.orientation);

@@ -1,5 +1,5 @@
 // Runs the browser tests; options are passed to node's test runner. OVAL4D names the server's binary, OVAL4D_WEB_ROOT
-// the built page, OVAL4D_CHROMIUM the browser.
+// the built page, OVAL4D_CHROMIUM and OVAL4D_FIREFOX the browsers.
 import { spawnSync } from "node:child_process";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";

@@ -1,6 +1,5 @@
 """Elements that turn toward +w, and hyperplanes at an offset."""
 
-import asyncio
 import math
 
 import pytest
@@ -10,13 +9,8 @@ RADIUS = 2 * (1 + math.sqrt(5)) / 2  # of a 600-cell with edge length 2
 
 
 async def at_rest(client):
-    """Waits until the state does not change any more; returns it."""
-    while True:
-        revision = (await client.request("get", what="state"))["revision"]
-        await asyncio.sleep(0.5)
-        state = await client.request("get", what="state")
-        if state["revision"] == revision:
-            return state
+    """Waits until the object does not move any more; returns the state."""
+    return await client.wait_until(lambda: next((state for state in client.states()[-1:] if not state["moving"]), None))
 
 
 async def vertex_positions(server):
