@@ -16,6 +16,7 @@ import "./pointer.mjs";
 import "./phone.mjs";
 import "./performance.mjs";
 import "./accessibility.mjs";
+import "./axe.mjs";
 import "./without_webgl.mjs";
 import "./firefox.mjs";
 import { runAll } from "./support/suite.mjs";

@@ -187,7 +187,7 @@ export class CommandLine {
 
     private showError(error: string): void {
         this.error.textContent = error === "" ? "" : toSentence(error);
-        this.input.toggleAttribute("aria-invalid", error !== "");
+        this.input.setAttribute("aria-invalid", String(error !== ""));
     }
 
     private async submit(): Promise<void> {

@@ -141,7 +141,7 @@ export class Picker {
 
     private showError(error: string): void {
         this.error.textContent = error === "" ? "" : toSentence(error);
-        this.input.toggleAttribute("aria-invalid", error !== "");
+        this.input.setAttribute("aria-invalid", String(error !== ""));
         this.list.removeAttribute("aria-busy");
     }
 }

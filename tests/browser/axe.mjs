@@ -1,0 +1,98 @@
+// The rules of axe-core: WCAG 2.2, levels A and AA, and best practices.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+
+import { openWithScript } from "./support/browser.mjs";
+import { test } from "./support/suite.mjs";
+
+const source = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+/**
+ * Returns the rules that the page breaks, and those of which axe cannot tell, with the elements. Axe cannot tell the
+ * contrast and the name of a button that shows only a symbol; the tests of accessibility.mjs examine these.
+ */
+async function faults(page, disabled) {
+    await page.evaluate(source);
+    return page.evaluate(async (off) => {
+        const tags = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22a", "wcag22aa", "best-practice"];
+        const rules = { "label-content-name-mismatch": { enabled: true }, "target-size": { enabled: true } };
+        for (const rule of off) rules[rule] = { enabled: false };
+        const { violations, incomplete } = await axe.run(document, { runOnly: { type: "tag", values: tags }, rules });
+        const untold = incomplete.filter(({ id }) => !["color-contrast", "label-content-name-mismatch"].includes(id));
+        return [...violations, ...untold].flatMap(({ id, nodes }) => nodes.map(({ html }) => `${id}: ${html}`));
+    }, disabled);
+}
+
+const settings = {
+    "a wide window": { options: {} },
+    "a phone": { options: { viewport: { width: 375, height: 667 }, hasTouch: true, isMobile: true } },
+    "a window zoomed to 400%": { options: { viewport: { width: 320, height: 256 } } },
+    // Axe computes the contrast from the style sheet's colors, which forced colors replace.
+    "forced colors": { options: { forcedColors: "active" }, disabled: ["color-contrast"] },
+};
+
+for (const [setting, { options, disabled = [] }] of Object.entries(settings)) {
+    test(`axe: finds no fault in ${setting}`, async () => {
+        const { page, press, close } = await openWithScript(options);
+        const examine = async (state) => assert.deepEqual(await faults(page, disabled), [], state);
+        /** Waits until an element says something. */
+        const says = (id) => page.waitForFunction((one) => document.getElementById(one).textContent !== "", id);
+
+        await examine("at the start");
+        for (const tab of await page.locator(".tabs button:visible").all()) {
+            await tab.click();
+            await examine(`the tools: ${await tab.textContent()}`);
+        }
+        await page.focus("#drawing");
+        await press("w");
+        await examine("the projection");
+        for (const [key, id] of Object.entries({ s: "picker", x: "export", "?": "help" })) {
+            await page.keyboard.press(key);
+            await page.waitForSelector(`#${id}[open]`);
+            if (id === "picker") await page.waitForSelector("#picker-list [role=option]");
+            await examine(id);
+            if (id === "picker") {
+                await page.fill("#picker-search", "25-cell");
+                await page.keyboard.press("Enter");
+                await says("picker-error");
+                await examine("the picker with an error");
+            }
+            await page.keyboard.press("Escape");
+            await page.waitForSelector("#drawing:focus");
+        }
+        await page.keyboard.press(":");
+        await page.waitForSelector("#command:focus");
+        await page.keyboard.type("polytope 25-cell");
+        await page.keyboard.press("Enter");
+        await says("command-error");
+        await examine("the command line with an error");
+        await page.keyboard.press("Escape");
+        const simplex = "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+        for (const [outcome, text] of Object.entries({ failed: "4OFF\n1 2 three\n", done: `${simplex}0 0 0 1\n` })) {
+            await page.setInputFiles("#file", { name: "mine.txt", mimeType: "", buffer: Buffer.from(text) });
+            await page.waitForSelector(`#loading[data-outcome=${outcome}]`);
+            await examine(`the report of a file: ${outcome}`);
+        }
+        await close();
+    });
+}
+
+test("axe: finds faults", async () => {
+    const { page, close } = await openWithScript();
+    await page.evaluate(() => {
+        const unnamed = document.createElement("button");
+        const misnamed = Object.assign(document.createElement("button"), { ariaLabel: "Send", textContent: "Start" });
+        const faint = Object.assign(document.createElement("p"), { textContent: "Hardly readable" });
+        Object.assign(faint.style, { color: "gray", background: "dimgray" }); // the page allows no style in HTML
+        document.getElementById("tools").prepend(unnamed, misnamed, faint);
+    });
+    const found = await faults(page, []);
+    for (const rule of ["button-name", "label-content-name-mismatch", "color-contrast"]) {
+        assert.ok(
+            found.some((fault) => fault.startsWith(rule)),
+            `${rule}: ${found}`,
+        );
+    }
+    await close();
+});
