@@ -3,13 +3,15 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { common, openWithScript, presented, readings } from "./support/browser.mjs";
-import { assertMatrix, turned } from "./support/rotation.mjs";
+import { assertMatrix, isNear, turned } from "./support/rotation.mjs";
 import { joinSession } from "./support/script.mjs";
 
 const close = (a, b) => Math.abs(a - b) < 1e-9;
 
 const toggles = (part) => (before, after) => assert.equal(after.shown[part], !before.shown[part]);
 const adds = (angle, sign) => (before, after) => assert.ok(close(after[angle], before[angle] + sign * before.step));
+
+const moves = (before, after) => assert.ok(after.moving || !isNear(after.orientation, before.orientation));
 
 /** Checks of the state after each action. */
 export const effects = {
@@ -30,10 +32,10 @@ export const effects = {
     repeat: (before, after) => {
         assertMatrix(after.orientation, turned(before.orientation, before.last.planes, before.last.angles));
     },
-    toward_vertex: pointsToW([1, 0, 0, 0]),
-    toward_edge: pointsToW([1, 1, 0, 0]),
-    toward_face: pointsToW([1, 1, 1, 0]),
-    toward_cell: pointsToW([1, 1, 1, 1]),
+    toward_vertex: moves,
+    toward_edge: moves,
+    toward_face: moves,
+    toward_cell: moves,
     vertex_next: (before, after) => assert.ok(after.section.w > before.section.w && after.section.vertices !== ""),
     vertex_previous: (before, after) => assert.ok(after.section.w < before.section.w && after.section.vertices !== ""),
     turn: (before, after) => assert.equal(after.turning, !before.turning),
