@@ -20,6 +20,47 @@ async function withDialogs(page, look) {
     }
 }
 
+/** What opens over the page without making it inert, and how it is opened. */
+const panels = {
+    async completions(page) {
+        await page.keyboard.press(":");
+        await page.waitForSelector("#command:focus");
+        await page.keyboard.type("color ");
+        for (let i = 0; i < 2; ++i) await page.keyboard.press("Tab");
+        await page.waitForSelector("#command-options [aria-selected=true]");
+    },
+    async "error on the command line"(page) {
+        await page.keyboard.press(":");
+        await page.keyboard.type("nonsense");
+        await page.keyboard.press("Enter");
+        await page.waitForFunction(() => document.getElementById("command-error").textContent !== "");
+    },
+    async "error at a value"(page) {
+        await page.click("button:has([data-reading=alpha])");
+        await page.keyboard.type("nonsense");
+        await page.keyboard.press("Enter");
+        await page.waitForFunction(() => document.getElementById("reading-error-alpha").textContent !== "");
+    },
+    async tour(page) {
+        await page.keyboard.press("?");
+        await page.click("#help-tour");
+        await page.waitForSelector("#tour-next:focus");
+        await page.keyboard.press("Enter");
+    },
+};
+
+/** Calls `look` with each panel open. */
+async function withPanels(page, look) {
+    for (const [name, open] of Object.entries(panels)) {
+        await open(page);
+        await look(name);
+        while ((await page.evaluate(() => document.activeElement.id)) !== "drawing") {
+            await page.keyboard.press("Escape");
+            await page.waitForTimeout(20);
+        }
+    }
+}
+
 test("accessibility: every control has a name", async () => {
     const { page, close } = await openWithScript();
     const session = await page.context().newCDPSession(page);
@@ -40,10 +81,14 @@ test("accessibility: every control has a name", async () => {
         for (const { role, name } of controls) assert.ok(name?.value?.trim(), `a ${role.value} has no name`);
         return controls;
     };
-    const buttons = (await controlsOf()).filter(({ role }) => role.value === "button");
-    assert.ok(buttons.length > 40);
-    const names = buttons.map(({ name }) => name.value);
-    assert.equal(new Set(names).size, names.length, "no two buttons have the same name");
+    const assertDistinct = (controls, where) => {
+        const names = controls.filter(({ role }) => role.value === "button").map(({ name }) => name.value);
+        assert.ok(names.length > 40);
+        const repeated = names.filter((name, i) => names.indexOf(name) !== i);
+        assert.deepEqual(repeated, [], `${where}: no two buttons have the same name`);
+    };
+    assertDistinct(await controlsOf(), "the page");
+    await withPanels(page, async (name) => assertDistinct(await controlsOf(), name));
     await withDialogs(page, async (id) => {
         const controls = await controlsOf();
         assert.ok(
@@ -86,6 +131,7 @@ test("accessibility: the name of a control contains its visible label", async ()
         return found;
     };
     assert.deepEqual(await mismatches(), []);
+    await withPanels(page, async (name) => assert.deepEqual(await mismatches(), [], name));
     await withDialogs(page, async (id) => assert.deepEqual(await mismatches(), [], id));
     await close();
 });
@@ -261,9 +307,11 @@ function faintTexts(page) {
 }
 
 test("accessibility: text has enough contrast", async () => {
-    const { page, press, close } = await openWithScript();
+    const { page, press, close } = await openWithScript({ firstVisit: true });
     await press("4");
+    assert.equal(await page.locator("#welcome").isVisible(), true);
     assert.deepEqual(await faintTexts(page), []);
+    await withPanels(page, async (name) => assert.deepEqual(await faintTexts(page), [], name));
     await withDialogs(page, async (id) => {
         if (id === "picker") {
             await page.fill("#picker-search", "25-cell");
@@ -296,6 +344,9 @@ test("accessibility: forced colors show which controls are pressed and which row
     await differs("#tools label:has([value=cell]) span", "#tools label:has([value=plain]) span");
     await differs(".presence label:has([value=shown])", ".presence label:has([value=hidden])");
     await differs(".presence .shown", ".presence .hidden");
+    await panels.completions(page);
+    await differs("#command-options [aria-selected=true]", "#command-options [aria-selected=false]");
+    for (let i = 0; i < 2; ++i) await page.keyboard.press("Escape");
     await withDialogs(page, async (id) => {
         if (id === "picker") await differs("[role=option][aria-selected=true]", "[role=option][aria-selected=false]");
         if (id === "export") await differs("#export :checked + span", "#export input:not(:checked) + span");

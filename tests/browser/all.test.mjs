@@ -14,6 +14,7 @@ import "./connection.mjs";
 import "./links.mjs";
 import "./pointer.mjs";
 import "./phone.mjs";
+import "./first_visit.mjs";
 import "./performance.mjs";
 import "./accessibility.mjs";
 import "./axe.mjs";

@@ -118,6 +118,41 @@ test("buttons: the picture is saved as a PNG file that contains the state", asyn
     await close();
 });
 
+test("buttons: Export and Share are in the header, or on narrow screens in the tools", async () => {
+    const inHeader = "#export-button, #share-button";
+    const inTools = "[data-action=export], [data-page-tool=share]";
+    const permissions = ["clipboard-read", "clipboard-write"];
+    const { page, errors, close } = await openWithScript({ permissions });
+    assert.equal(await page.locator(inHeader).filter({ visible: true }).count(), 2);
+    assert.equal(await page.locator(inTools).filter({ visible: true }).count(), 0);
+    await page.click("#export-button");
+    await page.waitForSelector("#export[open]");
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("#drawing:focus");
+    await page.click("#share-button");
+    await page.waitForFunction(() => /copied/.test(document.getElementById("notice").textContent));
+    assert.match(await page.evaluate(() => navigator.clipboard.readText()), /#session=.+&token=.+/);
+    await page.setViewportSize({ width: 390, height: 844 });
+    await page.click(".tabs button:text-is('More')");
+    assert.equal(await page.locator(inHeader).filter({ visible: true }).count(), 0);
+    assert.equal(await page.locator(inTools).filter({ visible: true }).count(), 2);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("buttons: what turns, cuts and shows the polytope is visible without scrolling", async () => {
+    const { page, script, close } = await openWithScript({ viewport: { width: 1440, height: 900 } });
+    const { keys } = await script.request({ type: "get", what: "keymap" });
+    const below = ["files", "client"];
+    for (const { action, group } of keys.filter((key) => !below.includes(key.group))) {
+        for (const button of await page.locator(`[data-action=${action}]`).all()) {
+            const { y, height } = await button.boundingBox();
+            assert.ok(y + height <= 900, `${group}: ${action} ends at ${y + height}`);
+        }
+    }
+    await close();
+});
+
 test("buttons: the tools can be hidden and shown, and the picture uses the space", async () => {
     const { page, close } = await openWithScript();
     const width = () => page.evaluate(() => document.getElementById("drawing").clientWidth);

@@ -276,7 +276,9 @@ test("command line: :export saves a file in each format, as the export dialog do
     assert.equal(await page.locator("#export").isVisible(), false);
 
     await type(page, "export stel");
-    await page.waitForFunction(() => /stel.*formats are 3mf, stl/.test(document.getElementById("command-error").textContent));
+    await page.waitForFunction(() =>
+        /stel.*formats are 3mf, stl/.test(document.getElementById("command-error").textContent),
+    );
     await page.keyboard.press("Escape");
     await script.request({ type: "set", slices: { focus: 100 } }); // far outside the polytope
     await type(page, "export stl");

@@ -102,7 +102,7 @@ test("connection: the page works under a strict content security policy", async 
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
     for (const press of ["[data-page-tool=save]", "#export-submit"]) {
         const saving = page.waitForEvent("download");
-        if (press === "#export-submit") await page.click("[data-action=export]");
+        if (press === "#export-submit") await page.click("#export-button");
         await page.click(press);
         await saving;
     }

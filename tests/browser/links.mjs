@@ -47,7 +47,7 @@ test("links: all errors in a query are reported, and the rest of the query appli
 test("links: a shared link joins the session, and both see every change", async () => {
     const first = await openWithScript({ permissions: ["clipboard-read", "clipboard-write"] });
     await first.press("4");
-    await first.page.click("[data-page-tool=share]");
+    await first.page.click("#share-button");
     await first.page.waitForFunction(() => /copied/.test(document.getElementById("notice").textContent));
     const link = await first.page.evaluate(() => navigator.clipboard.readText());
     const second = await openPage({ url: link });

@@ -10,6 +10,7 @@ import { download, fileName } from "./download";
 import { byId } from "./element";
 import { ExportDialog } from "./export_dialog";
 import { FileLoading } from "./file_loading";
+import { isFirstVisit, kFirstView, Welcome } from "./first_visit";
 import { FrameLayout } from "./frame_layout";
 import { listenForGamepads } from "./gamepad";
 import { listenForGestures } from "./gestures";
@@ -28,6 +29,7 @@ import { Readings } from "./readings";
 import { RotationControl } from "./rotation";
 import { readStored, writeStored } from "./tab_storage";
 import { Tools } from "./tools";
+import { Tour } from "./tour";
 
 const kModeKey = "oval4d.mode"; // storage key of the rendering mode
 const kNoGraphics = "The graphics card is unavailable; the server renders the pictures.";
@@ -91,6 +93,11 @@ export class App {
     private readonly fileLoading = new FileLoading(this.client);
     private readonly exportDialog = new ExportDialog(this.client, () => this.stage.size);
     private readonly tools = new Tools({ press: (...binding) => this.press(...binding) });
+    private readonly tour = new Tour(() => this.drawing.focus());
+    private readonly welcome = new Welcome(
+        () => this.tour.start(),
+        () => this.drawing.focus(),
+    );
     private readonly colors = new Colors((change) => void this.send({ type: "set", ...change }));
     private chosenMode = readStored<Mode>(kModeKey) ?? "geometry"; // by the user; WebGL may be unavailable
     private keymap: Keymap | undefined;
@@ -112,7 +119,12 @@ export class App {
             // The drawing keeps the focus, as when a button of Tools is clicked.
             if (event.target instanceof Element && event.target.closest("button")) event.preventDefault();
         });
+        byId("export-button").addEventListener("click", () => this.openExport());
+        byId("share-button").addEventListener("click", () => void this.shareSession());
         byId("help-button").addEventListener("click", () => this.help.open());
+        byId("help-tour").addEventListener("click", () => this.startTour());
+        // Keys act on the drawing while the tour explains them, but the space bar presses the tour's buttons.
+        byId("tour").addEventListener("keydown", (event) => event.key !== " " && this.keydown(event));
         this.listenForToolsButton();
         document.addEventListener("visibilitychange", () => this.requestStream());
         window.addEventListener("online", () => this.requestStream());
@@ -120,8 +132,23 @@ export class App {
         window.addEventListener("hashchange", () => this.joinSharedSession());
         window.addEventListener("pageshow", (event) => event.persisted && this.client.connect());
         this.drawing.focus();
+        this.welcomeFirstVisit();
         this.client.hello({ viewport: this.stage.size }).catch(() => {}); // sets the size for the first connection
         this.client.connect();
+    }
+
+    /** Shows the first view, unless the address names another view or session. */
+    private welcomeFirstVisit(): void {
+        const { credentials, lines } = this.initialView;
+        if (credentials || lines.length > 0 || !isFirstVisit()) return;
+        this.initialView.lines = [...kFirstView];
+        this.welcome.show();
+    }
+
+    private startTour(): void {
+        this.help.close();
+        this.welcome.hide();
+        this.tour.start();
     }
 
     /** Joins the session of a link that was pasted into the address bar, which does not load the page again. */
@@ -328,6 +355,8 @@ export class App {
     private dismissMessages(): void {
         this.notice.hide();
         this.fileLoading.hide();
+        this.welcome.hide();
+        this.tour.stop();
     }
 
     private openExport(): void {

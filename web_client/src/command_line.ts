@@ -110,8 +110,8 @@ export class CommandLine {
     }
 
     /**
-     * Inserts the only completion. If there are several, the first call inserts what they have in common and lists them;
-     * further calls insert one after the other, or with `step` -1 backwards. Returns false if there is none.
+     * Inserts the only completion. If there are several, the first call inserts what they have in common and lists
+     * them; further calls insert one after the other, or with `step` -1 backwards. Returns false if there is none.
      */
     private complete(step: number): boolean {
         const { cycle } = this;
@@ -175,6 +175,7 @@ export class CommandLine {
     private hideList(): void {
         this.cycle = undefined;
         this.list.hidden = true;
+        this.list.replaceChildren();
         this.input.setAttribute("aria-expanded", "false");
         this.input.removeAttribute("aria-activedescendant");
     }

@@ -79,13 +79,19 @@ export class Help {
         if (!this.dialog.open) this.dialog.showModal();
     }
 
+    close(): void {
+        this.dialog.close();
+    }
+
     /** Shows only the lines that mention the topic; throws an Error if there are none. */
     filter(topic: string): void {
         const wanted = topic.toLowerCase();
         const mentions = (line: HTMLElement): boolean =>
             `${line.textContent} ${line.dataset["about"] ?? ""}`.toLowerCase().includes(wanted);
         const lines = [...this.sheet.querySelectorAll<HTMLElement>("tr, dl > div")];
-        if (topic !== "" && !lines.some(mentions)) throw new Error(`the help does not mention “${topic}”; write help to see all of it`);
+        if (topic !== "" && !lines.some(mentions)) {
+            throw new Error(`the help does not mention “${topic}”; write help to see all of it`);
+        }
         for (const line of lines) line.hidden = !mentions(line);
         for (const section of this.sheet.querySelectorAll("section")) {
             section.hidden = section.querySelector(":is(tr, dl > div):not([hidden])") === null;

@@ -32,9 +32,10 @@ export function common() {
 
 /**
  * Opens the page and waits for its first picture. `before` runs in the page before its scripts; `seen` is called with
- * each response; `errors` collects the console's errors and uncaught exceptions.
+ * each response; `errors` collects the console's errors and uncaught exceptions. The browser has opened the page before,
+ * unless this is the `firstVisit`.
  */
-export async function openPage({ url, browser, picture = true, before, seen, ...options } = {}) {
+export async function openPage({ url, browser, picture = true, before, seen, firstVisit = false, ...options } = {}) {
     const usual = await common();
     const context = await (browser ?? usual.browser).newContext({ viewport: { width: 1280, height: 720 }, ...options });
     const page = await context.newPage();
@@ -42,6 +43,7 @@ export async function openPage({ url, browser, picture = true, before, seen, ...
     const errors = [];
     page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
     page.on("pageerror", (error) => errors.push(error.message));
+    if (!firstVisit) await page.addInitScript(() => localStorage.setItem("oval4d.visited", "1"));
     if (before) await page.addInitScript(before);
     if (seen) page.on("response", seen);
     await page.goto(url ?? usual.url);

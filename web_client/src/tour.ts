@@ -1,0 +1,107 @@
+// A tour of the page: a panel beside what it explains. The page stays usable meanwhile. The steps are in index.html:
+// each names the elements to point at, of which the first visible one is used, and possibly only a part of its height.
+
+import { byId } from "./element";
+
+const kGap = 12; // pixels between the panel, what it points at, and the edges of the window
+const kRingGap = 4; // pixels between what it points at and the ring
+
+export class Tour {
+    private readonly root = byId("tour");
+    private readonly ring = byId("tour-ring");
+    private readonly back = byId<HTMLButtonElement>("tour-back");
+    private readonly next = byId("tour-next");
+    private readonly end = byId("tour-end");
+    private readonly steps = [...this.root.querySelectorAll<HTMLElement>("[data-target]")];
+    private at = 0;
+
+    /** `ended` is called after the tour, if the focus was in its panel. */
+    constructor(private readonly ended: () => void) {
+        this.root.addEventListener("mousedown", (event) => event.preventDefault()); // the focus stays where it is
+        this.back.addEventListener("click", () => this.show(this.at - 1));
+        this.next.addEventListener("click", () => this.show(this.at + 1));
+        this.end.addEventListener("click", () => this.stop());
+        new ResizeObserver(() => this.place()).observe(byId("drawing"));
+    }
+
+    start(): void {
+        this.root.hidden = false;
+        this.next.hidden = false;
+        this.next.focus();
+        this.show(0);
+    }
+
+    stop(): void {
+        if (this.root.hidden) return;
+        const hadFocus = this.root.contains(document.activeElement);
+        this.root.hidden = this.ring.hidden = true;
+        if (hadFocus) this.ended();
+    }
+
+    private show(at: number): void {
+        this.at = at;
+        const focused = document.activeElement;
+        this.steps.forEach((step, i) => (step.hidden = i !== at));
+        byId("tour-number").textContent = `${at + 1} of ${this.steps.length}`;
+        this.back.disabled = at === 0;
+        this.next.hidden = at === this.steps.length - 1;
+        // A button that can no longer be pressed passes its focus on.
+        if (focused === this.next && this.next.hidden) this.end.focus();
+        if (focused === this.back && this.back.disabled) this.next.focus();
+        this.place();
+    }
+
+    /** Places the ring around what the step explains, and the panel beside it. */
+    private place(): void {
+        if (this.root.hidden) return;
+        const { target = "", from = "0", to = "1" } = this.steps[this.at]!.dataset;
+        const found = target
+            .split(",")
+            .map((selector) => document.querySelector(selector))
+            .find((one) => one?.checkVisibility());
+        this.ring.hidden = !found;
+        found?.scrollIntoView({ block: "nearest" });
+        const whole = (found ?? byId("drawing")).getBoundingClientRect();
+        const top = Math.max(0, whole.top + Number(from) * whole.height);
+        const bottom = Math.min(innerHeight, whole.top + Number(to) * whole.height);
+        const box = { left: whole.left, right: whole.right, top, bottom };
+        surround(this.ring, box);
+        const { offsetWidth: width, offsetHeight: height } = this.root;
+        const middle = { x: (box.left + box.right - width) / 2, y: (top + bottom - height) / 2 };
+        const right = innerWidth - kGap - width;
+        const lowest = innerHeight - kGap - height;
+        const x = clamp(middle.x, right);
+        const places = [
+            { x: box.left - kGap - width, y: middle.y },
+            { x: box.right + kGap, y: middle.y },
+            { x, y: bottom + kGap },
+            { x, y: top - kGap - height },
+        ];
+        const fits = (at: { x: number; y: number }): boolean =>
+            at.x >= kGap && at.x <= right && at.y >= kGap && at.y <= lowest;
+        const place = places.find(fits) ?? { x, y: clamp(top + 0.35 * (bottom - top) - height / 2, lowest) };
+        this.root.style.left = `${place.x}px`;
+        this.root.style.top = `${place.y}px`;
+    }
+}
+
+function clamp(value: number, max: number): number {
+    return Math.max(kGap, Math.min(value, max));
+}
+
+interface Box {
+    left: number;
+    right: number;
+    top: number;
+    bottom: number;
+}
+
+/** Places an element around a box, within the window. */
+function surround(one: HTMLElement, box: Box): void {
+    const left = Math.max(0, box.left - kRingGap);
+    const top = Math.max(0, box.top - kRingGap);
+    one.style.left = `${left}px`;
+    one.style.top = `${top}px`;
+    one.style.width = `${Math.min(innerWidth, box.right + kRingGap) - left}px`;
+    one.style.height = `${Math.min(innerHeight, box.bottom + kRingGap) - top}px`;
+}
