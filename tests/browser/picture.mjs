@@ -38,7 +38,7 @@ for (const polytope of ["5-cell", "8-cell", "24-cell", "600-cell"]) {
                 const [x, y] = project(scene, point, { width, height });
                 if (x < 1 || y < 1 || x > width - 2 || y > height - 2) continue;
                 ++seen;
-                const apart = distance(pixelAt(shown, x, y), background);
+                const apart = distance(pixelAt(shown, Math.floor(x), Math.floor(y)), background);
                 assert.ok(apart > 8, `slice ${slice.index}: only background at ${x}, ${y}`);
             }
         }
