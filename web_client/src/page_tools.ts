@@ -40,7 +40,7 @@ export function pageSections(actions: PageActions): Section[] {
             title: "Export and share",
             content: [
                 button("save", "Save picture", "Save the picture as a PNG file", actions.save),
-                button("share", "Copy link", "Copy a link with which others can join this session", actions.share),
+                button("share", "Share", "Copy a link with which others can join this session", actions.share),
             ],
         },
     ];

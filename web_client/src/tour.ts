@@ -22,6 +22,7 @@ export class Tour {
         this.next.addEventListener("click", () => this.show(this.at + 1));
         this.end.addEventListener("click", () => this.stop());
         new ResizeObserver(() => this.place()).observe(byId("drawing"));
+        document.addEventListener("scroll", () => this.place(), { capture: true, passive: true });
     }
 
     start(): void {
@@ -48,20 +49,24 @@ export class Tour {
         // A button that can no longer be pressed passes its focus on.
         if (focused === this.next && this.next.hidden) this.end.focus();
         if (focused === this.back && this.back.disabled) this.next.focus();
+        this.target?.scrollIntoView({ block: "nearest" });
         this.place();
+    }
+
+    /** What the current step points at, if it is visible. */
+    private get target(): Element | undefined {
+        const selectors = this.steps[this.at]!.dataset["target"]!.split(",");
+        const found = selectors.map((selector) => document.querySelector(selector));
+        return found.find((one) => one?.checkVisibility()) ?? undefined;
     }
 
     /** Places the ring around what the step explains, and the panel beside it. */
     private place(): void {
         if (this.root.hidden) return;
-        const { target = "", from = "0", to = "1" } = this.steps[this.at]!.dataset;
-        const found = target
-            .split(",")
-            .map((selector) => document.querySelector(selector))
-            .find((one) => one?.checkVisibility());
-        this.ring.hidden = !found;
-        found?.scrollIntoView({ block: "nearest" });
-        const whole = (found ?? byId("drawing")).getBoundingClientRect();
+        const { from = "0", to = "1" } = this.steps[this.at]!.dataset;
+        const { target } = this;
+        this.ring.hidden = !target;
+        const whole = (target ?? byId("drawing")).getBoundingClientRect();
         const top = Math.max(0, whole.top + Number(from) * whole.height);
         const bottom = Math.min(innerHeight, whole.top + Number(to) * whole.height);
         const box = { left: whole.left, right: whole.right, top, bottom };

@@ -1,0 +1,181 @@
+#include "scene/pick.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+namespace oval4d::scene {
+
+namespace {
+
+using slicing::Element;
+using slicing::ElementKind;
+using slicing::SliceSet;
+using slicing::Visibility;
+
+constexpr double kReach = 3;  // pixels: the least radius within which a ball or a bar is hit
+
+// The source of a slice element (see SliceSet): an element of this dimension, or one of the next lower dimension, whose
+// numbers begin at `count`.
+Element elementOf(std::uint32_t source, ElementKind cut, std::size_t count, ElementKind contained) {
+    if (source < count) return {cut, source};
+    return {contained, source - count};
+}
+
+// Finds the element nearest to the viewer at one pixel.
+class Picker {
+  public:
+    Picker(const Scene& scene, const slicing::Object& object, glm::dvec2 point)
+        : scene_(scene), counts_(slicing::elementCounts(object)), view_(scene.camera.view()) {
+        const double aspect = static_cast<double>(scene.viewport.width) / scene.viewport.height;
+        projection_ = scene.camera.projection(aspect);
+        size_ = {scene.viewport.width, scene.viewport.height};
+        pixel_ = {point.x, size_.y - point.y};
+        pixelsPerUnit_ = 0.5 * projection_[1][1] * size_.y;
+        // The direction of the ray through the pixel, with z = −1.
+        const glm::dvec2 ndc = 2.0 * pixel_ / size_ - 1.0;
+        ray_ = {(ndc.x + projection_[2][0]) / projection_[0][0], (ndc.y + projection_[2][1]) / projection_[1][1], -1};
+    }
+
+    void pickSlices() {
+        const Parts& parts = scene_.look.parts;
+        for (std::size_t i = 0; i < scene_.placements.size(); ++i) {
+            if (!scene_.placements[i].drawn) continue;
+            const bool points = !scene_.slices->ballScale.empty();
+            pick(*scene_.slices, i, scene_.placements[i].position, scene_.scale,
+                 {parts.balls || points ? scene_.ballRadius : 0, parts.bars ? scene_.barRadius : 0, parts.faces},
+                 {{}, PictureArea::slice, i});
+        }
+    }
+
+    void pickProjection() {
+        if (!scene_.projectionPlacement.shown) return;
+        const ObjectProjection& projection = scene_.projection;
+        for (std::size_t i = 0; i < projection.parts.size(); ++i) {
+            const ProjectionPart& part = projection.parts[i];
+            pick(projection.elements, i, scene_.projectionPlacement.position, projection.scale,
+                 {part.ballRadius, part.barRadius, part.faceOpacity > 0}, {{}, PictureArea::projection, 0});
+        }
+    }
+
+    void pickCoordinates() {
+        const CoordinatesLayout& layout = scene_.coordinates;
+        if (!scene_.look.parts.coordinates || layout.density) return;
+        const glm::dvec2 at = pixel_ / size_.y;
+        const double first = layout.left - layout.lineStep / 2;
+        const double column = std::floor((at.x - first) / layout.columnStep);
+        const double row = std::round((layout.zero - at.y) / layout.rowStep);
+        if (column < 0 || column >= layout.perRow || row < 0 || row >= layout.rows) return;
+        const bool inRow = std::abs(layout.zero - row * layout.rowStep - at.y) <= layout.amplitude;
+        const bool inColumn = at.x - first - column * layout.columnStep <= 4 * layout.lineStep + layout.lineWidth;
+        const double index = row * layout.perRow + column;
+        if (!inRow || !inColumn || index >= static_cast<double>(counts_[0])) return;
+        hit_ = {{ElementKind::vertex, static_cast<std::size_t>(index)}, PictureArea::coordinates, 0};
+    }
+
+    const std::optional<Hit>& hit() const { return hit_; }
+
+  private:
+    struct Sizes {
+        double ball, bar;  // radii in world units; 0 if they are not drawn
+        bool faces;
+    };
+
+    // Tests the elements of slice or part `i`; `where` has the values of a hit except the element.
+    void pick(const SliceSet& set, std::size_t i, const glm::dvec3& position, double scale, const Sizes& sizes,
+              const Hit& where) {
+        const std::uint32_t v0 = set.vertexBegin[i], e0 = set.edgeBegin[i];
+        points_.clear();
+        for (std::uint32_t v = v0; v < set.vertexBegin[i + 1]; ++v)
+            points_.emplace_back(view_ * glm::dvec4(position + scale * set.vertices[v], 1));
+        const auto isHidden = [](Visibility visibility) { return visibility == Visibility::hidden; };
+        const auto add = [&](double depth, const Element& element) {
+            if (depth >= nearest_ || depth < scene_.camera.near) return;
+            nearest_ = depth;
+            hit_ = where;
+            hit_->element = element;
+        };
+        for (std::uint32_t v = v0; sizes.ball > 0 && v < set.vertexBegin[i + 1]; ++v) {
+            if (isHidden(scene_.visibilities.vertex(set.vertexSource[v]))) continue;
+            const glm::dvec3& center = points_[v - v0];
+            const double own = set.ballScale.empty() ? 1 : set.ballScale[v];
+            if (isWithin(glm::distance(pixelOf(center), pixel_), sizes.ball * own, -center.z))
+                add(-center.z - sizes.ball * own,
+                    elementOf(set.vertexSource[v], ElementKind::edge, counts_[1], ElementKind::vertex));
+        }
+        for (std::uint32_t e = e0; sizes.bar > 0 && e < set.edgeBegin[i + 1]; ++e) {
+            if (isHidden(scene_.visibilities.edge(set.edgeSource[e]))) continue;
+            const glm::dvec3 &a = points_[set.edges[e][0]], &b = points_[set.edges[e][1]];
+            const glm::dvec2 from = pixelOf(a), along = pixelOf(b) - from;
+            const double length = glm::dot(along, along);
+            const double t = length > 0 ? std::clamp(glm::dot(pixel_ - from, along) / length, 0.0, 1.0) : 0;
+            const double depth = -(a.z + t * (b.z - a.z));
+            if (isWithin(glm::distance(from + t * along, pixel_), sizes.bar, depth))
+                add(depth - sizes.bar, elementOf(set.edgeSource[e], ElementKind::face, counts_[2], ElementKind::edge));
+        }
+        for (std::uint32_t f = set.faceBegin[i]; sizes.faces && f < set.faceBegin[i + 1]; ++f) {
+            if (isHidden(scene_.visibilities.face(set.faceSource[f]))) continue;
+            if (const auto depth = depthOfFace(set, f))
+                add(*depth, elementOf(set.faceSource[f], ElementKind::cell, counts_[3], ElementKind::face));
+        }
+    }
+
+    // Returns whether a distance in pixels is within a radius in world units at this depth.
+    bool isWithin(double pixels, double radius, double depth) const {
+        return depth > 0 && pixels <= std::max(radius * pixelsPerUnit_ / depth, kReach);
+    }
+
+    glm::dvec2 pixelOf(const glm::dvec3& point) const {
+        const glm::dvec4 clip = projection_ * glm::dvec4(point, 1);
+        return (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * size_;
+    }
+
+    // Returns the depth at which the ray through the pixel meets the polygon, or an empty optional if it misses it. A
+    // point is inside if the winding number is not 0.
+    std::optional<double> depthOfFace(const SliceSet& set, std::uint32_t f) const {
+        const std::uint32_t begin = set.cornerBegin[f], end = set.cornerBegin[f + 1];
+        int winding = 0;
+        glm::dvec3 area(0);
+        for (std::uint32_t c = begin; c < end; ++c) {
+            const glm::dvec3& p = points_[set.corners[c]];
+            const glm::dvec3& q = points_[set.corners[c + 1 < end ? c + 1 : begin]];
+            area += glm::cross(p, q);
+            if (p.z >= 0 || q.z >= 0) return std::nullopt;
+            const glm::dvec2 a = pixelOf(p) - pixel_, b = pixelOf(q) - pixel_;
+            const double cross = a.x * b.y - a.y * b.x;
+            if (a.y <= 0 && b.y > 0 && cross > 0) ++winding;
+            if (a.y > 0 && b.y <= 0 && cross < 0) --winding;
+        }
+        const double across = glm::dot(area, ray_);
+        if (winding == 0 || across == 0) return std::nullopt;
+        return glm::dot(area, points_[set.corners[begin]]) / across;
+    }
+
+    const Scene& scene_;
+    const std::array<std::size_t, 4> counts_;
+    const glm::dmat4 view_;
+    glm::dmat4 projection_;
+    glm::dvec2 size_, pixel_;  // pixels are measured from the lower left corner
+    double pixelsPerUnit_ = 0;
+    glm::dvec3 ray_;
+    std::vector<glm::dvec3> points_;
+    double nearest_ = std::numeric_limits<double>::max();
+    std::optional<Hit> hit_;
+};
+
+}  // namespace
+
+std::optional<Hit> elementAt(const Scene& scene, const slicing::Object& object, glm::dvec2 point) {
+    Picker picker(scene, object, point);
+    picker.pickCoordinates();
+    if (picker.hit()) return picker.hit();
+    picker.pickSlices();
+    picker.pickProjection();
+    return picker.hit();
+}
+
+}  // namespace oval4d::scene

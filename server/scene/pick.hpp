@@ -1,0 +1,34 @@
+#pragma once
+// Finds what a picture shows at a point.
+
+#include <cstdint>
+#include <optional>
+
+#include <glm/vec2.hpp>
+
+#include "scene/scene.hpp"
+#include "slicing/element.hpp"
+
+namespace oval4d::scene {
+
+/// The part of a picture in which an element is found.
+enum class PictureArea : std::uint8_t { slice, projection, coordinates };
+inline constexpr auto kPictureAreas =
+    std::to_array<text::Choice<PictureArea>>({{"slice", PictureArea::slice},
+                                              {"projection", PictureArea::projection},
+                                              {"coordinates", PictureArea::coordinates}});
+
+/// An element that a picture shows at a point.
+struct Hit {
+    slicing::Element element;
+    PictureArea area = PictureArea::slice;
+    std::size_t slice = 0;  ///< PictureArea::slice: the index of the slice in SliceSet
+};
+
+/// Returns the element of `object` that is shown at the point (x, y), in pixels from the upper left corner, and is
+/// nearest to the viewer: the vertex, edge, 2-face or cell to which a ball, bar or face belongs, or the vertex of a
+/// column of the parallel coordinates. Balls and bars are hit up to a few pixels beyond their edges. Returns an empty
+/// optional if there is none. Takes time linear in the size of the slices.
+std::optional<Hit> elementAt(const Scene& scene, const slicing::Object& object, glm::dvec2 point);
+
+}  // namespace oval4d::scene
