@@ -154,6 +154,11 @@ class Client:
         """Returns a picture as the bytes of a PNG file."""
         return self.get("frame", width, height)
 
+    def at(self, x, y, width=None, height=None):
+        """Returns what the picture shows at a point, in pixels from the upper left corner."""
+        size = {} if width is None else {"width": width, "height": height}
+        return self.request("get", what="at", x=x, y=y, **size)
+
     def file(self, format, **members):
         """Returns the bytes of an exported file. `format` is "stl", "3mf", …; the other members are of, body, size and
         label, as in `get`."""

@@ -93,6 +93,7 @@ export type Request =
     | { type: "reset" }
     | { type: "command"; line: string }
     | { type: "get"; what: "state" | "slices" | "frame" | "catalogue" | "keymap"; width?: number; height?: number }
+    | { type: "get"; what: "at"; x: number; y: number; width?: number; height?: number }
     | ({ type: "get"; what: "file" } & FileOptions)
     | { type: "shown"; revision: number };
 
@@ -374,4 +375,20 @@ export interface Slices {
     projection?: ObjectProjection;
 }
 
-export type Message = Welcome | State | Done | ErrorMessage | Catalogue | Keymap | Slices;
+/** What the picture shows at a point; only `highlight`, which is null, if that is nothing. */
+export interface At {
+    type: "at";
+    id?: number;
+    revision: number;
+    highlight: PolytopeElement | null;
+    in?: "slice" | "projection" | "coordinates";
+    slice?: number;
+    w?: number;
+    least_w?: number;
+    most_w?: number;
+    vertices?: number;
+    kind?: number;
+    name?: string;
+}
+
+export type Message = Welcome | State | At | Done | ErrorMessage | Catalogue | Keymap | Slices;

@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "scene/pick.hpp"
+#include "wire/messages.hpp"
+
 namespace oval4d::pipeline {
 
 using raster::measureSeconds;
@@ -31,6 +34,17 @@ void Pipeline::writeSlices(const session::State& state, const slicing::SliceSet&
                                  memory_.scene);
     });
     times_.write = measureSeconds([&] { memory_.slicesWriter.write(memory_.scene, revision, id, encoding, out); });
+}
+
+std::string Pipeline::describePoint(const session::State& state, const slicing::SliceSet& slices,
+                                    std::uint64_t revision, std::optional<double> id, scene::Viewport viewport,
+                                    glm::dvec2 point) {
+    const parallel::OneAtATime::Use use(inUse_);
+    memory_.composer.limitFill(0);  // the triangles that fill faces are not needed
+    memory_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
+                             memory_.scene);
+    return wire::atMessage(scene::elementAt(memory_.scene, state.object, point), memory_.scene, state.object, revision,
+                           id);
 }
 
 void Pipeline::drawPng(const session::State& state, std::string_view stateText, scene::Viewport viewport,

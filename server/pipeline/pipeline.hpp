@@ -52,6 +52,11 @@ class Pipeline {
     void writeSlices(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
                      std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding, std::string& out);
 
+    /// Returns the `at` message: what the picture of `slices`, which must have been cut from this state, shows at a
+    /// point (see scene::elementAt).
+    std::string describePoint(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
+                              std::optional<double> id, scene::Viewport viewport, glm::dvec2 point);
+
     /// Draws the picture of the state and encodes it as a PNG file, with `stateText`, the `state` message, in a text
     /// chunk. Overwrites `out`. Calls `drawn`, if given, between drawing and encoding. Throws std::runtime_error if the
     /// picture cannot be drawn, most likely because no GL context can be created.

@@ -79,13 +79,13 @@ void Composer::nameSection(const Object& object, int focus, Scene& out) {
     const int slice = focus - slices.planes.first;
     out.sectionNames = {};
     focusName_.clear();
-    if (slice < 0 || slice >= slices.planes.count) return;
-    out.sectionNames = {sectionNamer_.nameOfSlice(slices, slice),
-                        sectionNamer_.nameOfVertices(slices, slice, slicing::elementCounts(object)[1])};
+    const std::size_t edges = slicing::elementCounts(object)[1];
+    if (edges == 0 || slice < 0 || slice >= slices.planes.count) return;
+    out.sectionNames = {sectionNamer_.nameOfSlice(slices, slice), sectionNamer_.nameOfVertices(slices, slice, edges)};
     const auto& [name, vertices] = out.sectionNames;
     if (!name.empty()) {
         focusName_ = name;
-    } else if (!vertices.empty() && vertices != "point" && vertices != "segment") {
+    } else if (slicing::SectionNamer::isSolid(vertices)) {
         focusName_.append("vertices: ").append(vertices);
     }
 }

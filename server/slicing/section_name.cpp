@@ -148,7 +148,7 @@ bool SectionNamer::mayName(const Object& object, const geometry::Rotation& orien
                                   }
                                   return size > 0;
                               },
-                              [](const CloudPtr& /*cloud*/) { return true; }},
+                              [](const CloudPtr& /*cloud*/) { return false; }},
                       object);
 }
 
@@ -180,6 +180,11 @@ std::string_view SectionNamer::nameOfVertices(const SliceSet& slices, int slice,
         if (shape.counts[0] == vertices_.size() && verticesAreThoseOf(shape)) return shape.name;
     }
     return {};
+}
+
+bool SectionNamer::isSolid(std::string_view name) {
+    const auto shape = std::ranges::find(shapes(), name, &Shape::name);
+    return shape != shapes().end() && shape->counts[2] > 1;
 }
 
 bool SectionNamer::edgesHaveLength(std::span<const std::array<std::uint32_t, 2>> edges, double length) const {

@@ -1,6 +1,8 @@
 #include "wire/messages.hpp"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
 #include <nlohmann/json.hpp>
 
@@ -69,6 +71,14 @@ void writeMatrix(JsonWriter& w, const glm::dmat4& matrix) {
     w.endArray();
 }
 
+void writeElement(JsonWriter& w, const std::optional<slicing::Element>& element) {
+    if (!element) return w.null();
+    w.beginObject();
+    w.member("element", text::nameOf(slicing::kElementKinds, element->kind));
+    w.member("number", std::uint64_t{element->index});
+    w.endObject();
+}
+
 void writeLast(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
     w.key("last");
     if (!turn) return w.null();
@@ -132,14 +142,7 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
     w.key("faded");
     w.numbers(state.look.cellTypes.faded);
     w.key("highlight");
-    if (const auto& element = state.look.highlight) {
-        w.beginObject();
-        w.member("element", text::nameOf(slicing::kElementKinds, element->kind));
-        w.member("number", std::uint64_t{element->index});
-        w.endObject();
-    } else {
-        w.null();
-    }
+    writeElement(w, state.look.highlight);
     writeLast(w, state.lastTurn);
     w.endObject();
 }
@@ -150,6 +153,42 @@ std::string stateMessage(const session::State& state, const slicing::SectionName
     std::string out;
     out.reserve(kTypicalBytes);
     stateMessage(state, section, revision, id, out);
+    return out;
+}
+
+std::string atMessage(const std::optional<scene::Hit>& hit, const scene::Scene& scene, const slicing::Object& object,
+                      std::uint64_t revision, std::optional<double> id) {
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "at", id);
+        w.member("revision", revision);
+        w.key("highlight");
+        writeElement(w, hit ? std::optional(hit->element) : std::nullopt);
+        if (hit) {
+            w.member("in", text::nameOf(scene::kPictureAreas, hit->area));
+            if (hit->area == scene::PictureArea::slice) {
+                w.member("slice", scene.placements[hit->slice].index);
+                w.member("w", scene.placements[hit->slice].w);
+            }
+            slicing::ElementSources sources;
+            slicing::findSources(object, hit->element, sources);
+            double least = std::numeric_limits<double>::max(), most = -least;
+            for (const std::uint32_t v : sources.ownVertices) {
+                least = std::min(least, scene.slices->rotatedVertices[v].w);
+                most = std::max(most, scene.slices->rotatedVertices[v].w);
+            }
+            w.member("least_w", least);
+            w.member("most_w", most);
+            w.member("vertices", std::uint64_t{sources.ownVertices.size()});
+            if (hit->element.kind == slicing::ElementKind::cell) {
+                const std::uint32_t kind = slicing::typeOfCells(object)[hit->element.index];
+                w.member("kind", std::uint64_t{kind});
+                w.member("name", std::string_view(slicing::infoOf(object).cellTypes[kind].name));
+            }
+        }
+        w.endObject();
+    }
     return out;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "errors/error.hpp"
+#include "scene/pick.hpp"
 #include "session/session.hpp"
 #include "slicing/section_name.hpp"
 
@@ -22,6 +23,10 @@ std::string stateMessage(const session::State& state, const slicing::SectionName
 /// Writes the `state` message to `out`. Overwrites `out` and reuses its memory.
 void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
                   std::optional<double> id, std::string& out);
+
+/// Returns the `at` message: what the picture `scene` of `object` shows at a point. `hit` is empty if that is nothing.
+std::string atMessage(const std::optional<scene::Hit>& hit, const scene::Scene& scene, const slicing::Object& object,
+                      std::uint64_t revision, std::optional<double> id);
 
 /// Returns the `error` message.
 std::string errorMessage(const Error& error, std::optional<double> id);

@@ -144,6 +144,11 @@ Get getOf(const json& message) {
     Get get;
     choose(message, "what", kGetTargets, get.what);
     get.viewport = viewportOf(message);
+    if (get.what == GetTarget::at) {
+        if (!message.contains("x") || !message.contains("y"))
+            throw InvalidRequest{"get: the element at a point needs /x and /y, in pixels from the upper left corner"};
+        get.at = {message.at("x").get<double>(), message.at("y").get<double>()};
+    }
     if (get.what == GetTarget::file) get.file = exportRequestOf(message);
     return get;
 }

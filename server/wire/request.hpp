@@ -7,6 +7,8 @@
 #include <string>
 #include <variant>
 
+#include <glm/vec2.hpp>
+
 #include "export/export_request.hpp"
 #include "scene/scene.hpp"
 #include "session/command.hpp"
@@ -36,10 +38,11 @@ struct Hello {
     std::optional<std::string> token;  ///< the token of the session that the connection joins
 };
 /// The data that a `get` message requests.
-enum class GetTarget : std::uint8_t { state, slices, frame, file, catalogue, keymap };
+enum class GetTarget : std::uint8_t { state, slices, frame, at, file, catalogue, keymap };
 inline constexpr auto kGetTargets = std::to_array<text::Choice<GetTarget>>({{"state", GetTarget::state},
                                                                             {"slices", GetTarget::slices},
                                                                             {"frame", GetTarget::frame},
+                                                                            {"at", GetTarget::at},
                                                                             {"file", GetTarget::file},
                                                                             {"catalogue", GetTarget::catalogue},
                                                                             {"keymap", GetTarget::keymap}});
@@ -47,8 +50,10 @@ inline constexpr auto kGetTargets = std::to_array<text::Choice<GetTarget>>({{"st
 /// Requests data once.
 struct Get {
     GetTarget what = GetTarget::state;
-    std::optional<scene::Viewport> viewport;  ///< for slices and frames; if absent, the connection's viewport is used
-    exports::ExportRequest file;              ///< the options of the export, for GetTarget::file
+    std::optional<scene::Viewport>
+        viewport;                 ///< for slices, frames and at; if absent, the connection's viewport is used
+    glm::dvec2 at{0};             ///< for GetTarget::at: pixels from the upper left corner
+    exports::ExportRequest file;  ///< the options of the export, for GetTarget::file
 };
 /// Reports that the client has shown the picture with this revision.
 struct ShownRevision {

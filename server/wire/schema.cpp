@@ -26,7 +26,7 @@ using valijson::adapters::NlohmannJsonAdapter;
 constexpr auto kRequests = std::to_array<std::string_view>(
     {"hello", "key", "rotate", "toward", "set", "load", "undo", "redo", "reset", "command", "get", "shown"});
 constexpr auto kAnswers =
-    std::to_array<std::string_view>({"welcome", "state", "slices", "done", "error", "catalogue", "keymap"});
+    std::to_array<std::string_view>({"welcome", "state", "slices", "at", "done", "error", "catalogue", "keymap"});
 
 struct MessageSchema {
     json text;

@@ -69,16 +69,18 @@ async def test_the_geometry_tells_what_to_highlight(server, encoding):
     async with Client(server, stream="geometry", encoding=encoding) as client:
         done = await client.request("set", polytope="tesseract", projection="perspective", highlight={"element": "cell", "number": 5})
         slices = await client.wait_for_slices(done["revision"])
-        highlight = slices["highlight"]
+        highlight = {name: list(getattr(list_, "value", list_)) for name, list_ in slices["highlight"].items()}
         assert len(highlight["own_vertices"]) == 8
         assert len(highlight["edges"]) == 6 + 12 and len(highlight["vertices"]) == 0
-        assert slices["scene"]["colors"]["cells"][5] == slices["scene"]["colors"]["highlight"] == HIGHLIGHT
+        assert slices["scene"]["colors"]["highlight"] == HIGHLIGHT
+        if encoding == "json":
+            assert [color == HIGHLIGHT for color in slices["scene"]["colors"]["cells"]] == [False] * 5 + [True] + [False] * 2
 
 
 @pytest.mark.parametrize("element", ["vertex", "edge", "face", "cell"])
 @pytest.mark.parametrize("polytope", ["tesseract", "small stellated 120-cell"])
 def test_frames_show_the_highlight(server, polytope, element):
-    view = f"/api/v1/frame.png?polytope={polytope.replace(' ', '%20')}&rotate=xw:0.3&projection=perspective&width=640&height=360"
+    view = f"/api/v1/frame.png?polytope={polytope.replace(' ', '%20')}&rotate=xw:0.3&projection=perspective&color=plain&width=640&height=360"
     assert highlighted_pixels(server.get(view).body) == 0
     assert highlighted_pixels(server.get(f"{view}&highlight={element}:1").body) > 20
 
@@ -100,7 +102,6 @@ async def test_sections_have_names(server, stream):
         assert found == ["point", "icosahedron", "dodecahedron", "icosahedron", "icosidodecahedron",
                          "icosahedron", "dodecahedron", "icosahedron", "point"]
         await client.request("set", polytope="tesseract", slices={"focus": 0, "offset": 0})
-        assert await section() == {"w": 0, "name": "", "vertices": ""}
         await client.request("set", orientation=[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
         assert await section() == {"w": 0, "name": "cube", "vertices": ""}
         await client.request("toward", element="vertex", immediately=True)
@@ -128,3 +129,18 @@ def test_frames_carry_the_section(server):
     """The middle section of a 24-cell beginning with a cell is a cuboctahedron."""
     frame = server.get("/api/v1/frame.png?polytope=24-cell&toward=cell").body
     assert png.state_in(frame)["section"] == {"w": 0, "name": "cuboctahedron", "vertices": "cuboctahedron"}
+
+
+async def test_a_script_asks_what_is_at_a_point(server):
+    """In the single view of a tesseract's cube, the middle of the picture shows a cell; the corner shows nothing."""
+    async with Client(server, stream="none") as client:
+        await client.request("set", polytope="tesseract", view="single", shown={"coordinates": False})
+        at = await client.request("get", what="at", x=320, y=180, **SIZE)
+        assert at["highlight"]["element"] == "cell" and at["in"] == "slice" and at["slice"] == 0 and at["w"] == 0
+        assert (at["least_w"], at["most_w"], at["vertices"], at["name"], at["kind"]) == (-1, 1, 8, "cube", 0)
+        await client.request("set", highlight=at["highlight"])
+        assert (await client.request("get", what="state"))["highlight"] == at["highlight"]
+        nothing = await client.request("get", what="at", x=1, y=1, **SIZE)
+        assert nothing["highlight"] is None and "in" not in nothing
+        with pytest.raises(Refused, match="needs /x and /y"):
+            await client.request("get", what="at", x=1)

@@ -267,6 +267,10 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
             key.stream = Stream::frames;
             co_await answerWithPicture(peer, key, id);
             break;
+        case wire::GetTarget::at:
+            key.stream = Stream::geometry;
+            co_await answerWithPicture(peer, key, id, get.at);
+            break;
         case wire::GetTarget::file:
             co_await answerWithFile(peer, get.file, id);
             break;
@@ -297,11 +301,12 @@ asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, ex
     peer->send(doneMessage(id, askedRevision));
 }
 
-asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id) {
+asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
+                                                     std::optional<glm::dvec2> point) {
     const std::uint64_t askedRevision = revision();
     std::optional<Error> failed;
     try {
-        Message picture = co_await runOnPool<Message>(services_.pictureWorkers, requestedPictureJob(key, id),
+        Message picture = co_await runOnPool<Message>(services_.pictureWorkers, requestedPictureJob(key, id, point),
                                                       lanesOf(*peer).pictures, pictureCost(session_.current, key));
         peer->send(std::move(picture));
         if (key.stream == Stream::frames) peer->send(doneMessage(id, askedRevision));
@@ -315,13 +320,17 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
     if (failed) sendError(*peer, *failed, id);
 }
 
-/// Returns a job that makes a picture of the current state.
-std::function<Message(pipeline::Pipeline&)> LiveSession::requestedPictureJob(const StreamKey& key, RequestId id) const {
+/// Returns a job that makes a picture of the current state or, with a point, tells what the picture shows there.
+std::function<Message(pipeline::Pipeline&)> LiveSession::requestedPictureJob(const StreamKey& key, RequestId id,
+                                                                             std::optional<glm::dvec2> point) const {
     const SnapshotPtr known = snapshot_ && snapshot_->revision == revision() ? snapshot_ : nullptr;
-    return [known, state = session_.current, askedRevision = revision(), changed = changed_, key, id,
+    return [known, state = session_.current, askedRevision = revision(), changed = changed_, key, id, point,
             &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
         const SnapshotPtr snapshot =
             suffices(known, key) ? known : makeSnapshot(pipeline, state, askedRevision, changed, key);
+        if (point)
+            return textMessage(
+                pipeline.describePoint(state, snapshot->slices, askedRevision, id, key.viewport, *point));
         Message picture = makePicture(pipeline, *snapshot, key, id);
         metrics.observe(pipeline.times());
         return picture;

@@ -111,10 +111,12 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     boost::asio::awaitable<void> executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request);
     Lanes lanesOf(const Peer& peer) const;
     boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
-    boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id);
+    boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
+                                                   std::optional<glm::dvec2> point = {});
     boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
                                                 RequestId id);
-    std::function<Message(pipeline::Pipeline&)> requestedPictureJob(const StreamKey& key, RequestId id) const;
+    std::function<Message(pipeline::Pipeline&)> requestedPictureJob(const StreamKey& key, RequestId id,
+                                                                    std::optional<glm::dvec2> point) const;
     boost::asio::awaitable<void> applyCommand(std::shared_ptr<Peer> peer, const session::Command& command,
                                               RequestId id);
     std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::SaveScope scope);

@@ -1,0 +1,137 @@
+// What a picture shows at a point.
+
+#include <cmath>
+#include <optional>
+#include <random>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "scene/composer.hpp"
+#include "scene/pick.hpp"
+#include "slicing/slicer.hpp"
+#include "unit/slicing/support.hpp"
+
+namespace oval4d::scene {
+namespace {
+
+using slicing::ElementKind;
+
+// A picture and what it shows.
+struct Picture {
+    slicing::Object object;
+    slicing::SliceSet slices;
+    Composer composer;
+    Scene scene;
+
+    Picture(const char* name, const Look& look, const geometry::Rotation& orientation, int count = 21)
+        : object(support::shared(name)) {
+        const double radius = slicing::infoOf(object).circumradius;
+        slicing::Slicer().slice(object, orientation, {-(count - 1) / 2, count, 2 * radius / std::max(count - 1, 1)},
+                                slices);
+        composer.compose(object, orientation, slices, 0, look, {1280, 720}, scene);
+    }
+
+    // Returns pixel coordinates, measured from the upper left corner, and the depth.
+    glm::dvec3 project(const glm::dvec3& world) const {
+        const glm::dvec4 clip = scene.camera.projection(1280.0 / 720) * scene.camera.view() * glm::dvec4(world, 1);
+        return {(clip.x / clip.w + 1) / 2 * 1280, (1 - clip.y / clip.w) / 2 * 720, clip.w};
+    }
+    std::optional<Hit> at(const glm::dvec3& pixel) { return elementAt(scene, object, {pixel.x, pixel.y}); }
+};
+
+TEST(Pick, FindsTheVertexThatIsNearestToTheViewer) {
+    std::mt19937 random(5);
+    for (const char* name : {"5-cell", "24-cell", "600-cell"}) {
+        Picture picture(name, {}, support::randomRotation(random));
+        for (std::size_t i = 0; i < picture.scene.placements.size(); ++i) {
+            // The vertex of the slice that is nearest to the eye cannot be hidden by its own slice.
+            std::optional<std::uint32_t> nearest;
+            glm::dvec3 pixel(0, 0, 1e9);
+            for (std::uint32_t v = picture.slices.vertexBegin[i]; v < picture.slices.vertexBegin[i + 1]; ++v) {
+                const glm::dvec3 p = picture.project(picture.scene.placements[i].position +
+                                                     picture.scene.scale * picture.slices.vertices[v]);
+                if (p.z >= pixel.z) continue;
+                pixel = p;
+                nearest = v;
+            }
+            if (!nearest) continue;
+            const auto hit = picture.at(pixel);
+            ASSERT_TRUE(hit) << name << ", slice " << i;
+            if (hit->area != PictureArea::slice || hit->slice != i) continue;  // another slice is before it
+            EXPECT_EQ(hit->element, (slicing::Element{ElementKind::edge, picture.slices.vertexSource[*nearest]}));
+        }
+    }
+}
+
+TEST(Pick, FindsFacesBarsAndNothing) {
+    std::mt19937 random(6);
+    Look look;
+    look.view = View::single;
+    look.parts.balls = look.parts.bars = false;
+    for (int round = 0; round < 20; ++round) {
+        Picture picture("120-cell", look, support::randomRotation(random));
+        const std::size_t focus = 10;
+        const auto& s = picture.slices;
+        int found = 0;
+        for (std::uint32_t f = s.faceBegin[focus]; f < s.faceBegin[focus + 1]; ++f) {
+            glm::dvec3 center(0), area(0);
+            const std::uint32_t begin = s.cornerBegin[f], end = s.cornerBegin[f + 1];
+            const glm::dvec3 first = support::corner(s, focus, begin);
+            for (std::uint32_t c = begin; c < end; ++c) {
+                center += support::corner(s, focus, c) / static_cast<double>(end - begin);
+                if (c + 1 < end)
+                    area += glm::cross(support::corner(s, focus, c) - first, support::corner(s, focus, c + 1) - first);
+            }
+            const glm::dvec3 world = picture.scene.scale * center;
+            if (glm::dot(area, picture.scene.camera.eye - world) <= 0) continue;  // turned away from the viewer
+            const auto hit = picture.at(picture.project(world));
+            ASSERT_TRUE(hit);
+            EXPECT_EQ(hit->element, (slicing::Element{ElementKind::cell, s.faceSource[f]}));
+            EXPECT_EQ(hit->slice, focus);
+            ++found;
+        }
+        EXPECT_GT(found, 5);
+        EXPECT_FALSE(picture.at({2, 2, 0})) << "the corner of the picture is empty";
+    }
+    look.parts.faces = false;
+    look.parts.bars = true;
+    Picture picture("tesseract", look, {});
+    const auto& s = picture.slices;
+    for (std::uint32_t e = s.edgeBegin[10]; e < s.edgeBegin[11]; ++e) {
+        const auto& [a, b] = s.edges[e];
+        const glm::dvec3 middle = 0.5 * (s.vertices[s.vertexBegin[10] + a] + s.vertices[s.vertexBegin[10] + b]);
+        const auto hit = picture.at(picture.project(picture.scene.scale * middle));
+        ASSERT_TRUE(hit);
+        EXPECT_EQ(hit->element.kind, ElementKind::face) << "the bars of a slice are cut from 2-faces";
+    }
+}
+
+TEST(Pick, FindsTheProjectionsElementsAndTheCoordinatesColumns) {
+    Look look;
+    look.projection.kind = ProjectionKind::perspective;
+    Picture picture("24-cell", look, {});
+    const ObjectProjection& projection = picture.scene.projection;
+    int found = 0;
+    for (std::uint32_t v = 0; v < projection.elements.vertexBegin[1]; ++v) {
+        const auto hit = picture.at(picture.project(picture.scene.projectionPlacement.position +
+                                                    projection.scale * projection.elements.vertices[v]));
+        ASSERT_TRUE(hit);
+        EXPECT_EQ(hit->area, PictureArea::projection);
+        found += hit->element == slicing::Element{ElementKind::vertex, projection.elements.vertexSource[v] - 96} ? 1 : 0;
+    }
+    EXPECT_GE(found, 12) << "at least the nearer half of the 24 vertices";
+    const CoordinatesLayout& layout = picture.scene.coordinates;
+    for (int i = 0; i < 24; ++i) {
+        const double x = layout.left + (i % layout.perRow) * layout.columnStep + 1.5 * layout.lineStep;
+        const double y = layout.zero - (i / layout.perRow) * layout.rowStep + 0.5 * layout.amplitude;
+        const auto hit = picture.at({x * 720, (1 - y) * 720, 0});
+        ASSERT_TRUE(hit);
+        EXPECT_EQ(hit->area, PictureArea::coordinates);
+        EXPECT_EQ(hit->element, (slicing::Element{ElementKind::vertex, static_cast<std::size_t>(i)}));
+    }
+}
+
+}  // namespace
+}  // namespace oval4d::scene
