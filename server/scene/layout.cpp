@@ -35,6 +35,7 @@ constexpr double kLabelGap = 0.014;  // between a slice and its label
 // The size of labels, as fractions of their font size. The characters' widths are those of DejaVu Sans, rounded up; the
 // margins are those of the plates behind the labels.
 constexpr double kDigitWidth = 0.64, kSignWidth = 0.84, kPointWidth = 0.32, kFocusPrefixWidth = 2.31;
+constexpr double kLetterWidth = 0.62;  // the mean width of the letters of a section's name, rounded up
 constexpr double kDigitHeight = 0.73;
 constexpr double kPlateMarginX = 0.34, kPlateMarginY = 0.26, kFocusPlateMarginX = 0.66, kFocusPlateMarginY = 0.44;
 
@@ -202,7 +203,7 @@ void fit(const Rect& bounds, const Rect& room, double aspect, double zoom, Camer
 
 // Places the slices along the oval, and sets the text and size of their labels.
 void placeSlices(const geometry::Hyperplanes& planes, int focus, const Oval& oval, const Look& look,
-                 std::string_view focusName, std::vector<SlicePlacement>& placements) {
+                 std::vector<SlicePlacement>& placements) {
     placements.resize(planes.count);
     const double half = std::max((planes.count - 1) / 2.0, 1.0);
     const ViewSpace space(oval);
@@ -215,8 +216,6 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, const Oval& ova
         placement.drawn = look.view == View::oval || placement.focus;
         placement.position = {oval.halfWidth * u, 0, -oval.depth * u * u};
         placement.label = !look.parts.labels ? "" : labelOf(placement.w, decimalsFor(planes.spacing), placement.focus);
-        if (placement.focus && !placement.label.empty() && !focusName.empty())
-            placement.label.append(", ").append(focusName);
         const double away = space.depth(placement.position) / space.distance;
         placement.labelSize = placement.focus ? 1.15 : std::clamp(std::pow(away, -0.25), 0.62, 1.0);
     }
@@ -284,6 +283,19 @@ class Labels {
             const double depth = -(view * glm::dvec4(placement.position, 1)).z;
             const glm::dvec2 top = offsetOf(i, pixels / depth) + glm::dvec2(0, kDigitHeight / 2 * fontSize(placement));
             placement.labelAt = placement.position + (right * top.x + up * top.y) * (depth / pixels);
+        }
+    }
+
+    // Appends the name of the section to the focus slice's label, if there is room for it in the picture.
+    void nameFocusSlice(std::string_view name, const Camera& camera, double aspect) {
+        const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus);
+        if (name.empty() || focus == placements_.end()) return;
+        nameWidth_ = kLetterWidth * static_cast<double>(name.size() + 2);
+        const Box box = boxSeenBy(camera, camera.view(), aspect, *focus);
+        if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) {
+            nameWidth_ = 0;
+        } else {
+            focus->label.append(", ").append(name);
         }
     }
 
@@ -366,7 +378,9 @@ class Labels {
         const glm::dvec3 p(toView * glm::dvec4(placement.labelAt, 1));
         const glm::dvec2 top =
             glm::dvec2(p) * (pixelsOf(camera) / -p.z) + glm::dvec2((0.5 + camera.shiftX) * aspect, 0.5 + camera.shiftY);
-        return {top - glm::dvec2(0, kDigitHeight / 2 * fontSize(placement)), halfPlate(placement)};
+        const double name = placement.focus ? fontSize(placement) * nameWidth_ / 2 : 0;
+        return {top - glm::dvec2(0, kDigitHeight / 2 * fontSize(placement)),
+                halfPlate(placement) + glm::dvec2(name, 0)};
     }
 
     // Returns the smallest k such that every k-th label, counted from the focus slice, overlaps no other before the
@@ -390,6 +404,7 @@ class Labels {
     const Oval& oval_;
     ViewSpace space_;
     double radius_, width_ = 0;
+    double nameWidth_ = 0;  // of the section's name in the focus slice's label, as a multiple of the font size
     std::vector<SlicePlacement>& placements_;
 };
 
@@ -422,7 +437,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices
     out.sliceRadius =
         single ? 1 : std::clamp(std::pow(static_cast<double>(kReferenceCount) / planes.count, 0.8), 0.1, 1.25);
     const double reach = out.sliceRadius * (1 + ballRadius);
-    placeSlices(planes, focus, oval, look, focusName, out.placements);
+    placeSlices(planes, focus, oval, look, out.placements);
     aim(look.orbit, oval, out.camera);
     Rect bounds = boundsOf(out.placements, ViewSpace(oval), reach);
     const bool projected = look.projection.kind != ProjectionKind::off;
@@ -441,7 +456,10 @@ void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices
     }
     fit(bounds, inside, aspect, look.orbit.zoom, out.camera);
     labels.place(out.camera);
-    if (look.parts.labels) labels.thin(out.camera, aspect);
+    if (look.parts.labels) {
+        labels.nameFocusSlice(focusName, out.camera, aspect);
+        labels.thin(out.camera, aspect);
+    }
 }
 
 }  // namespace oval4d::scene

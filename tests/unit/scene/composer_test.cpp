@@ -94,7 +94,7 @@ TEST(Oval, followsTheFocus) {
     EXPECT_TRUE(s.placements[10].focus);
     EXPECT_EQ(s.placements[10].position, glm::dvec3(0));
     EXPECT_EQ(s.placements[6].label, "0");
-    EXPECT_EQ(s.placements[10].label, "w = 0.51");
+    EXPECT_EQ(s.placements[10].label, "w = 0.51, tetrahedron");
 }
 
 TEST(Labels, areEmptyWhenSwitchedOff) {
@@ -233,7 +233,9 @@ struct LabelBox {
         double width = 0;  // in font sizes
         for (const char c : placement.label) {
             const bool continuation = (c & 0xC0) == 0x80;  // of the sign U+2212, whose width is 0.838
-            if (!continuation) width += c == '.' || c == ' ' ? 0.318 : '0' <= c && c <= '9' ? 0.636 : 0.838;
+            const bool narrow = c == '.' || c == ',' || c == ' ';
+            const bool letter = 'a' <= c && c <= 'z' && c != 'w';  // at most 0.6 on the average of a name
+            if (!continuation) width += narrow ? 0.318 : letter ? 0.6 : '0' <= c && c <= '9' ? 0.636 : 0.838;
         }
         const double size = scene::style().textHeight * placement.labelSize * s.viewport.height, digits = 0.729 * size;
         const glm::dvec2 at = project(s, placement.labelAt);

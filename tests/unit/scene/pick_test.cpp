@@ -111,7 +111,8 @@ TEST(Pick, FindsFacesBarsAndNothing) {
 TEST(Pick, FindsTheProjectionsElementsAndTheCoordinatesColumns) {
     Look look;
     look.projection.kind = ProjectionKind::perspective;
-    Picture picture("24-cell", look, {});
+    std::mt19937 random(7);
+    Picture picture("24-cell", look, support::randomRotation(random));
     const ObjectProjection& projection = picture.scene.projection;
     int found = 0;
     for (std::uint32_t v = 0; v < projection.elements.vertexBegin[1]; ++v) {
@@ -119,7 +120,8 @@ TEST(Pick, FindsTheProjectionsElementsAndTheCoordinatesColumns) {
                                                     projection.scale * projection.elements.vertices[v]));
         ASSERT_TRUE(hit);
         EXPECT_EQ(hit->area, PictureArea::projection);
-        found += hit->element == slicing::Element{ElementKind::vertex, projection.elements.vertexSource[v] - 96} ? 1 : 0;
+        found +=
+            hit->element == slicing::Element{ElementKind::vertex, projection.elements.vertexSource[v] - 96} ? 1 : 0;
     }
     EXPECT_GE(found, 12) << "at least the nearer half of the 24 vertices";
     const CoordinatesLayout& layout = picture.scene.coordinates;
