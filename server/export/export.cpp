@@ -33,18 +33,17 @@ class Exporter {
           request_(request),
           budget_(budget),
           scale_(request.size / 2 / scene.circumradius),
-          grid_(request.size, request.extent == Extent::oval
-                                  ? coordinateBound(slices_.planes.count, request.size)
-                                  : 2 * request.size) {
+          grid_(request.size, request.extent == Extent::oval ? coordinateBound(slices_.planes.count, request.size)
+                                                             : 2 * request.size) {
         if (request.extent == Extent::projection) request_.body = Body::skeleton;
     }
 
     std::string run() {
         const Format& format = *request_.format;
         if (format.writeScene != nullptr && request_.extent == Extent::projection) {
-            throw ExportRefused{{ExportError::Cause::no_body,
-                                 "a projection is exported as balls and bars, which " + format.name +
-                                     " files do not contain; choose another format, such as stl"}};
+            throw ExportRefused{
+                {ExportError::Cause::no_body, "a projection is exported as balls and bars, which " + format.name +
+                                                  " files do not contain; choose another format, such as stl"}};
         }
         if (format.writeScene != nullptr) return format.writeScene({scene_, object_});
         const std::vector<NamedMesh> solids = bodies();

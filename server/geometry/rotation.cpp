@@ -107,17 +107,15 @@ Rotation Rotation::between(const glm::dvec4& from, const glm::dvec4& to) {
 
 Rotation Rotation::inverse() const { return {glm::conjugate(left_), glm::conjugate(right_)}; }
 
-// With the left angle λ and the right angle ρ, the rotation angles are λ + ρ and λ − ρ. (l, r) and (−l, −r) are the same
-// rotation; the pair with the smaller angles is the one whose real parts have a sum that is not negative.
+// With the left angle λ and the right angle ρ, the rotation angles are λ + ρ and λ − ρ. (l, r) and (−l, −r) are the
+// same rotation; the pair with the smaller angles is the one whose real parts have a sum that is not negative.
 Rotation Rotation::power(double fraction) const {
     const double sign = left_.w + right_.w < 0 ? -1 : 1;
     return {powerOf(sign * left_, fraction), powerOf(sign * right_, fraction)};
 }
 
 double Rotation::angle() const {
-    const auto halfAngle = [](const glm::dquat& q) {
-        return std::atan2(glm::length(glm::dvec3(q.x, q.y, q.z)), q.w);
-    };
+    const auto halfAngle = [](const glm::dquat& q) { return std::atan2(glm::length(glm::dvec3(q.x, q.y, q.z)), q.w); };
     const double sum = halfAngle(left_) + halfAngle(right_);
     return std::min(sum, 2 * std::numbers::pi - sum);
 }

@@ -68,8 +68,8 @@ class Rotation {
 
     /// Returns the rotation that undoes this one.
     Rotation inverse() const;
-    /// Returns the part of this rotation from the identity (fraction 0) to itself (fraction 1), with both rotation angles
-    /// multiplied by `fraction`, along the shorter way.
+    /// Returns the part of this rotation from the identity (fraction 0) to itself (fraction 1), with both rotation
+    /// angles multiplied by `fraction`, along the shorter way.
     Rotation power(double fraction) const;
     /// Returns the larger of the two rotation angles, in radians from 0 to π.
     double angle() const;

@@ -44,10 +44,10 @@ slicing::SliceSet projectionOf(const session::State& state, const slicing::Slice
     const double radius = slicing::infoOf(state.object).circumradius;
     slicing::SliceSet projected;
     std::vector<std::uint32_t> faceCells;
-    slicing::Projector().project(state.object, state.orientation, slices,
-                                 {.projection = {parallel ? 0 : 1 / (settings.eye * radius)},
-                                  .culled = !state.look.parts.back},
-                                 projected, faceCells);
+    slicing::Projector().project(
+        state.object, state.orientation, slices,
+        {.projection = {parallel ? 0 : 1 / (settings.eye * radius)}, .culled = !state.look.parts.back}, projected,
+        faceCells);
     projected.planes = slices.planes;
     projected.rotatedVertices = slices.rotatedVertices;
     return projected;

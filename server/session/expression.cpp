@@ -38,7 +38,8 @@ bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 
 // A recursive-descent parser that evaluates the expression while it parses. Throws SyntaxError, which evaluate()
 // catches.
-//   sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power   power = angle [^ signed]   angle = atom [unit]
+//   sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power   power = angle [^ signed]
+//   angle = atom [unit]
 class Parser {
   public:
     explicit Parser(std::string_view text) : text_(text) {}
@@ -191,7 +192,8 @@ Result<double> evaluateAngle(std::string_view text) {
     if (value && isBareNumber && std::abs(*value) > 2 * std::numbers::pi) {
         const std::size_t first = text.find_first_not_of(" \t");
         const std::string number(text.substr(first, text.find_last_not_of(" \t") + 1 - first));
-        return Error{ErrorCode::out_of_range, number + " radians are more than a full turn; did you mean " + number + "°?"};
+        return Error{ErrorCode::out_of_range,
+                     number + " radians are more than a full turn; did you mean " + number + "°?"};
     }
     return value;
 }

@@ -15,8 +15,8 @@ namespace oval4d::session {
 /// also if the value is not finite.
 Result<double> evaluate(std::string_view text);
 
-/// Evaluates an expression that is an angle in radians. Errors: those of evaluate(); `out_of_range` if `text` is a number
-/// without a unit and larger than a full turn, since degrees are probably meant.
+/// Evaluates an expression that is an angle in radians. Errors: those of evaluate(); `out_of_range` if `text` is a
+/// number without a unit and larger than a full turn, since degrees are probably meant.
 Result<double> evaluateAngle(std::string_view text);
 
 /// Returns a rotation. `planes` names one plane, such as "xw", or two perpendicular planes, such as "xw,yz". `angles`

@@ -138,7 +138,7 @@ std::vector<Action> allActions(std::index_sequence<parts...> /*unused*/, std::in
 
 std::span<const Action> keyActions() {
     static const std::vector<Action> actions = allActions(std::make_index_sequence<scene::kParts.size()>(),
-                                                         std::make_index_sequence<slicing::kElementKinds.size()>());
+                                                          std::make_index_sequence<slicing::kElementKinds.size()>());
     return actions;
 }
 

@@ -47,7 +47,8 @@ struct State {
     scene::Look look;
     bool turning = false;                    ///< whether the object turns continuously: advance() repeats `lastTurn`
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
-    std::optional<Approach> approach;        ///< where the object moves by itself, as advance() is called; never while `turning`
+    std::optional<Approach>
+        approach;  ///< where the object moves by itself, as advance() is called; never while `turning`
 
     /// Returns the hyperplanes that `slices` describes.
     geometry::Hyperplanes hyperplanes() const;

@@ -23,7 +23,8 @@ void CloudSlicer::slice(const geometry::PointCloud& cloud, const geometry::Rotat
     next_.assign(static_cast<std::size_t>(planes.count) + 1, 0);
     for (std::size_t p = 0; p < count; ++p) {
         out.rotatedVertices[p] = matrix * cloud.points[p];
-        const double plane = std::floor((out.rotatedVertices[p].w - planes.offset) / planes.spacing + 0.5) - planes.first;
+        const double plane =
+            std::floor((out.rotatedVertices[p].w - planes.offset) / planes.spacing + 0.5) - planes.first;
         planeOf_[p] = plane >= 0 && plane < planes.count ? static_cast<std::int32_t>(plane) : -1;
         if (planeOf_[p] >= 0) ++next_[static_cast<std::size_t>(planeOf_[p]) + 1];
     }

@@ -36,9 +36,9 @@ struct SectionNames {
 class SectionNamer {
   public:
     /// Returns whether the section of `object`, rotated by `orientation`, at this w may have a name: false if so many
-    /// edges cross the hyperplane, and so many or no vertices lie in it, that no named shape fits, and for a point cloud,
-    /// whose points lie near the hyperplane. Takes time linear in
-    /// the number of edges, much less than cutting the slice.
+    /// edges cross the hyperplane, and so many or no vertices lie in it, that no named shape fits, and for a point
+    /// cloud, whose points lie near the hyperplane. Takes time linear in the number of edges, much less than cutting
+    /// the slice.
     static bool mayName(const Object& object, const geometry::Rotation& orientation, double w);
 
     /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if it has none.
@@ -53,7 +53,8 @@ class SectionNamer {
     /// Takes time linear in the number of the slice's vertices, and the time to compare those in the hyperplane.
     std::string_view nameOfVertices(const SliceSet& slices, int slice, std::size_t edges);
 
-    /// Returns whether a name that these functions have returned is that of a polyhedron, not a point, segment or polygon.
+    /// Returns whether a name that these functions have returned is that of a polyhedron, not a point, segment or
+    /// polygon.
     static bool isSolid(std::string_view name);
 
   private:

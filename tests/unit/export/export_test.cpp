@@ -56,9 +56,8 @@ TEST(File, ofTheOvalHasBodiesThatDoNotMeet) {
         if (support::kSanitized && count > 21) continue;
         const double spacing = count == 1 ? 1 : 2 * p.circumradius / (count - 1);
         for (const Body body : {Body::solid, Body::skeleton}) {
-            const auto bodies =
-                bodiesIn(fileOf(p, {}, {-(count - 1) / 2, count, spacing},
-                                {.format = formatNamed("obj"), .extent = Extent::oval, .body = body}));
+            const auto bodies = bodiesIn(fileOf(p, {}, {-(count - 1) / 2, count, spacing},
+                                                {.format = formatNamed("obj"), .extent = Extent::oval, .body = body}));
             EXPECT_GE(static_cast<int>(bodies.size()), std::max(1, count - 2));
             // The bounding spheres of the bodies must not overlap.
             std::vector<std::pair<glm::dvec3, double>> balls;

@@ -27,8 +27,7 @@ std::vector<Key> strokesOf(const nlohmann::json& row) {
     const std::string keys = row.at("key");
     if (keys.size() != 2) return {{keys, false, row.value("ctrl", false)}};
     std::vector<Key> strokes;
-    for (const char c : keys)
-        strokes.push_back({std::string(1, c), false, row.value("ctrl", false)});
+    for (const char c : keys) strokes.push_back({std::string(1, c), false, row.value("ctrl", false)});
     return strokes;
 }
 
@@ -84,9 +83,10 @@ TEST(Keys, EveryActionOfTheTableIsCarriedOutOrTheClients) {
 TEST(Keys, TheTableHasEveryKeyOfTheMethod) {
     std::string all;
     for (const auto& row : rows()) all += row.at("name").get<std::string>() + "\n";
-    EXPECT_EQ(all,
-              "2\n3\n4\n5\n6\n7\nr\nt\ny\nzc\nzf\nze\nzv\nk\nj\nK\nJ\nh\nl\n0\ngg\nG\n)\n(\n[\n]\n{\n}\nSpace\n.\nu\nCtrl-"
-              "r\ns\ni\nn\nN\no\np\na\nf\nb\ne\nw\nc\nW\nC\n←\n→\n↓\n↑\n-\n+\nHome\nx\n:\n?\n");
+    EXPECT_EQ(
+        all,
+        "2\n3\n4\n5\n6\n7\nr\nt\ny\nzc\nzf\nze\nzv\nk\nj\nK\nJ\nh\nl\n0\ngg\nG\n)\n(\n[\n]\n{\n}\nSpace\n.\nu\nCtrl-"
+        "r\ns\ni\nn\nN\no\np\na\nf\nb\ne\nw\nc\nW\nC\n←\n→\n↓\n↑\n-\n+\nHome\nx\n:\n?\n");
 }
 
 TEST(Keys, AKeyAndItsInverseRestoreTheState) {

@@ -95,9 +95,7 @@ TEST(Elements, ClosestToWIsChosenAndThenTheNext) {
         const auto from = support::randomRotation(random);
         const auto closest = elementToTurnTo(object, kind, from);
         ASSERT_TRUE(closest);
-        const auto cosineOf = [&](std::size_t i) {
-            return glm::normalize(from(directionOf(object, {kind, i}, kW))).w;
-        };
+        const auto cosineOf = [&](std::size_t i) { return glm::normalize(from(directionOf(object, {kind, i}, kW))).w; };
         for (std::size_t i = 0; i < elementCount(object, kind); ++i)
             EXPECT_LE(cosineOf(i), cosineOf(closest->index) + 1e-9) << kindName;
         std::set<std::size_t> visited;

@@ -43,8 +43,7 @@ TEST(Formats, areThoseOfTheTable) {
 TEST(Formats, areAllWritten) {
     for (const Format& format : formats()) {
         for (const Extent extent : {Extent::focus, Extent::oval}) {
-            const Hyperplanes planes =
-                extent == Extent::focus ? Hyperplanes{0, 1, 0.5} : Hyperplanes{-2, 5, 0.5};
+            const Hyperplanes planes = extent == Extent::focus ? Hyperplanes{0, 1, 0.5} : Hyperplanes{-2, 5, 0.5};
             const std::string bytes = fileOf(named("24-cell"), {}, planes, {.format = &format, .extent = extent});
             EXPECT_GT(bytes.size(), 100U) << format.name;
             EXPECT_FALSE(bytes.starts_with("refused")) << bytes;
