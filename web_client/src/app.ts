@@ -25,6 +25,7 @@ import { markMode, pageSections } from "./page_tools";
 import { executePageCommand } from "./page_commands";
 import { Picker } from "./picker";
 import { type Mode, Stage } from "./picture/stage";
+import { Pointing } from "./pointing";
 import { Readings } from "./readings";
 import { RotationControl } from "./rotation";
 import { readStored, writeStored } from "./tab_storage";
@@ -49,6 +50,7 @@ export class App {
     private readonly stage = new Stage(this.drawing, {
         presented: (revision, by) => this.picturePresented(revision, by),
         resized: () => this.stageResized(),
+        beforeDraw: () => this.pointing.update(),
         graphicsChanged: (isAvailable) => this.graphicsChanged(isAvailable),
     });
     private readonly client = new Client({
@@ -78,6 +80,7 @@ export class App {
         () => this.stage.layout ?? this.frameLayout.current,
     );
     private readonly rotation = new RotationControl((rotation) => this.send(rotation));
+    private readonly pointing: Pointing = new Pointing(this.drawing, this.stage, () => this.state);
     private readonly help = new Help();
     private readonly commandLine = new CommandLine({
         run: (line) => this.execute(line),
@@ -110,7 +113,7 @@ export class App {
         listenForGestures(this.drawing, {
             orbit: this.orbit,
             rotation: this.rotation,
-            click: (x, y) => void this.focusSliceAt(x, y),
+            click: (x, y) => void this.click(x, y),
         });
         listenForGamepads(this.rotation);
         document.addEventListener("keydown", (event) => this.keydown(event));
@@ -279,6 +282,7 @@ export class App {
     private keydown(event: KeyboardEvent): void {
         if (event.defaultPrevented || document.querySelector("dialog[open]")) return;
         if (event.key === "Escape" && !event.isComposing) {
+            if (event.target === this.drawing && this.state?.highlight) void this.send({ type: "set", highlight: null });
             this.dismissMessages();
             this.drawing.focus();
         }
@@ -304,13 +308,27 @@ export class App {
         else for (const stroke of strokesOfBinding(binding, inverse)) void this.send({ type: "key", ...stroke });
     }
 
-    /** Makes the slice at a point of the drawing, in pixels, the focus slice. */
-    private async focusSliceAt(x: number, y: number): Promise<void> {
+    /**
+     * Highlights the element at a point of the drawing, in pixels, and makes its slice the focus slice. Beside the
+     * elements, only a slice becomes the focus; on the background, the highlight ends.
+     */
+    private async click(x: number, y: number): Promise<void> {
         const { orbit, size } = this.stage;
         const ratio = size.height / this.drawing.clientHeight;
         const layout = this.stage.layout ?? (await this.frameLayout.request());
-        const slice = layout?.sliceAt(x * ratio, y * ratio, orbit, size, kLeastDisc * ratio);
-        if (slice && !slice.focus) void this.send({ type: "set", slices: { focus: slice.index } });
+        if (!layout) return;
+        const pointed = this.pointing.elementAt(x, y, layout);
+        const slice = pointed
+            ? pointed.slice
+            : layout.sliceAt(x * ratio, y * ratio, orbit, size, kLeastDisc * ratio);
+        const { element, number } = pointed ?? {};
+        const kept = this.state?.highlight;
+        const change = {
+            ...(slice && !slice.focus && { slices: { focus: slice.index } }),
+            ...(element && (element !== kept?.element || number !== kept.number) && { highlight: { element, number: number! } }),
+            ...(!pointed && !slice && kept && { highlight: null }),
+        };
+        if (Object.keys(change).length > 0) void this.send({ type: "set", ...change });
     }
 
     private openCommandLine(): void {

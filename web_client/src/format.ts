@@ -28,6 +28,11 @@ export function formatLength(value: number): string {
     return formatDecimal(value, Math.min(8, digits));
 }
 
+/** A coordinate of a vertex, with three decimals at most. */
+export function formatCoordinate(value: number): string {
+    return formatDecimal(value, 3);
+}
+
 /** The w of the focus slice, rounded like its label in the picture (labelOf() in server/scene/layout.cpp). */
 export function focusW({ slices: { focus, spacing, offset } }: State): string {
     const decimals = Math.min(9, Math.max(2, Math.ceil(-Math.log10(spacing)) + 1));

@@ -8,7 +8,8 @@ import { byId, element } from "./element";
 const kGestures = [
     ["Drag", "Orbit the view"],
     ["Wheel, pinch", "Zoom"],
-    ["Click", "Make the slice the focus"],
+    ["Point", "Name what is under the pointer, and light it everywhere"],
+    ["Click", "Highlight what is there, and make its slice the focus; beside the slices: end the highlight"],
     ["Double click", "Reset the view"],
     ["Alt + drag", "Turn in xw and yw: roll the 4-D ball"],
     ["Alt + wheel", "Turn in zw"],
@@ -28,7 +29,7 @@ const kSticks = [
 const kCommonKeys = [
     ["Ctrl-z", "Undo; on a Mac, Cmd-z"],
     ["Ctrl-y", "Redo; also Ctrl-Shift-z"],
-    ["Esc", "Return the focus to the drawing"],
+    ["Esc", "Return the focus to the drawing; there, end the highlight"],
 ] as const;
 
 export class Help {

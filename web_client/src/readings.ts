@@ -111,6 +111,7 @@ export class Readings {
             state.turning ? "turning" : "at rest",
             state.color === "plain" ? "plain colors" : `colored by ${state.color}`,
             spokenKinds(state),
+            state.highlight ? `${state.highlight.element} ${state.highlight.number} highlighted` : "no highlight",
             ...Object.entries(shown).map(([part, isShown]) => onOff(part, isShown as boolean)),
         ];
         const before = this.announced ?? now.map((text, i) => (i === 0 ? "" : text));

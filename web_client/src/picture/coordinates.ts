@@ -3,6 +3,7 @@
 import type { Slices, Viewport } from "@oval4d/protocol";
 
 import { DensityImage } from "./density_image";
+import type { Lit } from "./lit";
 import { cssColor, kMinTextSize, setFont } from "./pen";
 
 const kHighlightOpacity = 0.35; // of the bands behind highlighted vertices
@@ -10,15 +11,28 @@ const kFocusMark = 0.009; // half the width of the focus mark, as a fraction of 
 
 const density = new DensityImage();
 
-export function drawCoordinates(pen: CanvasRenderingContext2D, picture: Slices, viewport: Viewport): void {
+export function drawCoordinates(pen: CanvasRenderingContext2D, picture: Slices, viewport: Viewport, lit: Lit): void {
     if (picture.scene.coordinates.columns > 0) drawDensityStrip(pen, picture, viewport);
-    else drawLines(pen, picture, viewport);
+    else drawLines(pen, picture, viewport, lit);
+}
+
+/** The vertex whose column contains this point, in pixels. */
+export function columnAt({ coordinates: values, scene }: Slices, viewport: Viewport, x: number, y: number): number | undefined {
+    const { columns, per_row: perRow, rows, left, zero, row_step, column_step, line_step, line_width } = scene.coordinates;
+    if (!scene.shown.coordinates || columns > 0) return undefined;
+    const { height } = viewport;
+    const gap = column_step - 3 * line_step - line_width;
+    const column = Math.floor((x / height - left + gap / 2) / column_step);
+    const row = Math.round((zero - (1 - y / height)) / row_step);
+    const vertex = row * perRow + column;
+    return column >= 0 && column < perRow && row >= 0 && row < rows && vertex < values.length / 4 ? vertex : undefined;
 }
 
 function drawLines(
     pen: CanvasRenderingContext2D,
-    { coordinates: values, scene, highlight }: Slices,
+    { coordinates: values, scene }: Slices,
     viewport: Viewport,
+    lit: Lit,
 ): void {
     const { height } = viewport;
     const { per_row: perRow, amplitude, named, ...layout } = scene.coordinates;
@@ -36,7 +50,7 @@ function drawLines(
     }
     pen.fillStyle = cssColor(scene.colors.highlight);
     pen.globalAlpha = kHighlightOpacity;
-    for (const i of highlight?.own_vertices ?? []) {
+    for (const i of lit.ownVertices) {
         const column = left + (i % perRow) * columnStep;
         const [from, to] = [snap(column - lineStep / 2), snap(column + 3.5 * lineStep + thickness)];
         pen.fillRect(from, zeroOf(Math.floor(i / perRow)) - amplitude * height, to - from, 2 * amplitude * height);

@@ -112,11 +112,6 @@ export class Elements {
     }
 }
 
-/** The sources of the vertices and edges that show the highlighted element. */
-export function litSources({ highlight }: Slices): { vertices: ReadonlySet<number>; edges: ReadonlySet<number> } {
-    return { vertices: new Set(highlight?.vertices), edges: new Set(highlight?.edges) };
-}
-
 function emptyBody(slice: Slice): Body {
     return { slice, position: slice.position, vertices: [0, 0], edges: [0, 0], faces: [0, 0], distance: 0 };
 }

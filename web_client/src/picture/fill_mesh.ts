@@ -7,6 +7,7 @@ import type { Fill, Slices, Vector } from "@oval4d/protocol";
 
 import { GrowingBuffer } from "./growing_buffer";
 import type { Lens } from "./lens";
+import { cellColor, type Lit } from "./lit";
 import { kFace } from "./shaders";
 import { ShapeBuffers } from "./shape_buffers";
 
@@ -28,7 +29,7 @@ export class FillMesh {
     private readonly index = new GrowingBuffer(Uint32Array, 1);
 
     /** Writes the triangles of a new picture; returns false if no slice has a fill. */
-    update(picture: Slices): boolean {
+    update(picture: Slices, lit: Lit): boolean {
         const { slices, scene } = picture;
         let points = 0;
         let corners = 0;
@@ -42,7 +43,21 @@ export class FillMesh {
         this.reserve(points, corners);
         for (const part of this.parts) this.writePart(part, picture);
         this.shapes.markChanged();
+        this.paint(picture, lit);
         return slices.some((slice) => slice.fill);
+    }
+
+    /** Writes the colors of the picture last passed to update(). */
+    paint({ scene: { colors, opacity, faded } }: Slices, lit: Lit): void {
+        for (const { fill, first } of this.parts) {
+            for (let t = 0; t < fill.tints.length; ++t) {
+                const alpha = opacity * (fill.seen?.[t] === kFaded ? faded : 1);
+                // A triangle takes its color from its last point, which is never that of a triangle of another tint.
+                const item = first + fill.triangles[3 * t + 2]!;
+                this.shapes.setColor(item, cellColor(fill.tints[t]!, colors, lit), alpha);
+            }
+        }
+        this.shapes.color.markChanged();
     }
 
     /** Orders the triangles for this camera. */
@@ -71,8 +86,7 @@ export class FillMesh {
     }
 
     private writePart({ fill, position, first }: Part, { scene }: Slices): void {
-        const { points, triangles, tints, seen } = fill;
-        const { colors, opacity, faded } = scene;
+        const { points, triangles, tints } = fill;
         const { shapes } = this;
         for (let i = 0; i < points.length; ++i) {
             shapes.at.array[3 * first + i] = position[i % 3]! + scene.scale * points[i]!;
@@ -83,11 +97,7 @@ export class FillMesh {
             const [vx, vy, vz] = [points[c]! - points[a]!, points[c + 1]! - points[a + 1]!, points[c + 2]! - points[a + 2]!];
             const [nx, ny, nz] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
             const length = Math.hypot(nx, ny, nz) || 1;
-            const tint = colors.cells[tints[t]!] ?? colors.bar;
-            // A triangle takes its values from its last point, which is never the last point of a triangle of another tint.
-            const item = first + c / 3;
-            shapes.setVector("to", item, nx / length, ny / length, nz / length);
-            shapes.setColor(item, tint, opacity * (seen?.[t] === kFaded ? faded : 1));
+            shapes.setVector("to", first + c / 3, nx / length, ny / length, nz / length); // of the last point, as in paint()
             for (const corner of [a, b, c]) shapes.setShape(first + corner / 3, kFace);
         }
     }

@@ -7,6 +7,7 @@ import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
 
 import { FillMesh } from "./fill_mesh";
 import { Lens } from "./lens";
+import { type Lit, litSources } from "./lit";
 import { Mesh } from "./mesh";
 import { drawOverlay } from "./overlay";
 import { ProjectionMesh } from "./projection_mesh";
@@ -42,6 +43,10 @@ export class GeometryView {
     private readonly pen: CanvasRenderingContext2D;
     private picture: Slices | undefined;
     private pictureOrbit: Orbit | undefined;
+    private pointed: Lit | undefined;
+    private lit: Lit | undefined;
+    /** Where the slices are on the screen; undefined before the first picture. It is valid until the next picture. */
+    layout: SliceLayout | undefined;
     private sortedOrbit: Orbit | undefined; // the orbit for which the mesh is ordered
     private readonly background = new Color();
 
@@ -89,8 +94,10 @@ export class GeometryView {
     update(picture: Slices, orbit: Orbit): void {
         this.picture = picture;
         this.pictureOrbit = orbit;
-        const filled = this.fillMesh.update(picture);
-        this.mesh.update(picture, !filled);
+        this.layout = new SliceLayout(picture, orbit);
+        const lit = (this.lit = litSources(picture, this.pointed));
+        const filled = this.fillMesh.update(picture, lit);
+        this.mesh.update(picture, !filled, lit);
         this.fillDrawing.visible = filled;
         this.drawing.material = filled ? this.solid : this.flat;
         this.sortedOrbit = undefined;
@@ -99,14 +106,20 @@ export class GeometryView {
         this.uniforms.shading.value.set(light.ambient, light.diffuse, light.specular, light.shininess);
         this.uniforms.ballRadius.value = picture.scene.shown.balls ? ball : bar;
         this.uniforms.barRadius.value = bar;
-        const projected = this.projectionMesh.update(picture);
+        const projected = this.projectionMesh.update(picture, lit);
         for (const drawing of this.projectionDrawings) drawing.visible = projected;
         this.projectionUniforms.barRadius.value = this.projectionMesh.barRadius;
     }
 
-    /** Where the slices are on the screen; undefined before the first picture. It is valid until the next picture. */
-    get layout(): SliceLayout | undefined {
-        return this.picture && this.pictureOrbit && new SliceLayout(this.picture, this.pictureOrbit);
+    /** Lights what shows the element under the pointer, until it is called again. */
+    light(pointed: Lit | undefined): void {
+        this.pointed = pointed;
+        if (!this.picture) return;
+        const lit = (this.lit = litSources(this.picture, pointed));
+        this.mesh.paint(this.picture, lit);
+        this.fillMesh.paint(this.picture, lit);
+        if (!this.projectionMesh.update(this.picture, lit)) return;
+        if (this.sortedOrbit) this.projectionMesh.sortForCamera(this.lens);
     }
 
     /** Draws the slices as seen from this orbit; `size` is in device pixels. */
@@ -130,7 +143,7 @@ export class GeometryView {
         this.camera.matrixWorldInverse.copy(this.lens.view);
         this.renderer.setClearColor(this.background.setHex(scene.colors.background));
         this.render();
-        drawOverlay(this.pen, this.picture, this.lens, size);
+        drawOverlay(this.pen, this.picture, this.lens, size, this.lit!);
     }
 
     /**

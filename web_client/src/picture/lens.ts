@@ -58,6 +58,26 @@ export class Lens {
         return w > 0 ? { x: ((x / w + 1) / 2) * this.width, y: ((1 - y / w) / 2) * this.height } : undefined;
     }
 
+    /** Projects camera coordinates x, y, z at `at` of an array, and writes the pixels x, y behind them. */
+    toScreen(points: Float32Array, at: number): void {
+        const f = this.projection.elements;
+        const depth = -points[at + 2]!;
+        points[at + 3] = (((f[0]! * points[at]!) / depth - f[8]! + 1) / 2) * this.width;
+        points[at + 4] = ((1 - (f[5]! * points[at + 1]!) / depth + f[9]!) / 2) * this.height;
+    }
+
+    /** The camera coordinates x and y, at the depth 1, of what is seen at a point in pixels. */
+    rayAt(x: number, y: number): [number, number] {
+        const f = this.projection.elements;
+        return [((2 * x) / this.width - 1 + f[8]!) / f[0]!, (1 - (2 * y) / this.height + f[9]!) / f[5]!];
+    }
+
+    /** The distance of a world position from the eye along the camera's axis; negative behind the eye. */
+    depthOf([x, y, z]: readonly [number, number, number]): number {
+        const view = this.view.elements;
+        return -(view[2]! * x + view[6]! * y + view[10]! * z + view[14]!);
+    }
+
     /** The world's x, y or z axis in camera coordinates. */
     axis(i: 0 | 1 | 2): Vector3 {
         return new Vector3().setFromMatrixColumn(this.view, i);

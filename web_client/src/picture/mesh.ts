@@ -3,11 +3,12 @@
 
 import { BufferGeometry } from "three";
 
-import type { SceneDescription, Slices, Vector } from "@oval4d/protocol";
+import type { Slices, Vector } from "@oval4d/protocol";
 
-import { Elements, litSources } from "./elements";
+import { Elements } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
 import type { Lens } from "./lens";
+import { cellColor, type Lit } from "./lit";
 import { PaintersOrder } from "./painters_order";
 import { kBall, kBar, kFace } from "./shaders";
 import { ShapeBuffers } from "./shape_buffers";
@@ -22,36 +23,55 @@ export class Mesh {
     private readonly index = new GrowingBuffer(Uint32Array, 1);
 
     /** Writes the elements of a new picture; `faces` is false if FillMesh draws the faces. */
-    update(picture: Slices, faces: boolean): void {
+    update(picture: Slices, faces: boolean, lit: Lit): void {
         const { elements } = this;
         elements.update(picture);
         this.reserve();
         const { scene } = picture;
-        const { shown, colors } = scene;
+        const { shown } = scene;
         // Without balls, round joints of the bars' radius join the bars.
         const inBall = shown.balls ? Math.sqrt(Math.max(0, scene.ball ** 2 - scene.bar ** 2)) : 0;
-        const opacities = [0, scene.faded, 1];
-        const lit = litSources(picture);
         for (const { slice, vertices, edges } of elements.bodies) {
-            const ofVertex = (v: number): number => opacities[slice.seen?.vertices[v - vertices[0]] ?? 2]!;
-            const ofEdge = (e: number): number => opacities[slice.seen?.edges[e - edges[0]] ?? 2]!;
             for (let v = vertices[0]; v < vertices[1]; ++v) {
-                const isLit = lit.vertices.has(slice.of.vertices[v - vertices[0]]!);
-                const color = isLit ? colors.highlight : shown.balls ? colors.ball : colors.bar;
-                const own = slice.balls?.opacity[v - vertices[0]] ?? 1;
                 for (let k = 0; k < 4; ++k) {
-                    this.writeVertex(4 * v + k, v, kBall, k, color, own * ofVertex(v));
+                    this.writeVertex(4 * v + k, v, kBall, k);
                     this.shapes.to.array[3 * (4 * v + k)] = slice.balls?.scale[v - vertices[0]] ?? 1;
                 }
             }
-            for (let e = edges[0]; e < edges[1]; ++e) {
-                const isLit = lit.edges.has(slice.of.edges[e - edges[0]]!);
-                this.writeBar(e, inBall, isLit ? colors.highlight : colors.bar, ofEdge(e));
+            for (let e = edges[0]; e < edges[1]; ++e) this.writeBar(e, inBall);
+        }
+        this.writeFaces();
+        this.shapes.markChanged();
+        this.paint(picture, lit);
+        this.order.setParts({ ...shown, faces: shown.faces && faces });
+    }
+
+    /** Writes the colors of the picture last passed to update(). */
+    paint({ scene }: Slices, lit: Lit): void {
+        const { bodies, cornerBegin, vertexCount, edgeCount } = this.elements;
+        const { shown, colors, faded, opacity } = scene;
+        const opacities = [0, faded, 1];
+        const { shapes } = this;
+        for (const { slice, vertices, edges, faces } of bodies) {
+            const { of, seen, balls, tints = of.faces } = slice;
+            for (let i = 0; i < vertices[1] - vertices[0]; ++i) {
+                const color = lit.vertices.has(of.vertices[i]!) ? colors.highlight : shown.balls ? colors.ball : colors.bar;
+                const alpha = (balls?.opacity[i] ?? 1) * opacities[seen?.vertices[i] ?? 2]!;
+                for (let k = 0; k < 4; ++k) shapes.setColor(4 * (vertices[0] + i) + k, color, alpha);
+            }
+            for (let i = 0; i < edges[1] - edges[0]; ++i) {
+                const color = lit.edges.has(of.edges[i]!) ? colors.highlight : colors.bar;
+                const alpha = opacities[seen?.edges[i] ?? 2]!;
+                for (let k = 0; k < 4; ++k) shapes.setColor(4 * (vertexCount + edges[0] + i) + k, color, alpha);
+            }
+            for (let i = 0; i < faces[1] - faces[0]; ++i) {
+                const color = cellColor(tints[i]!, colors, lit);
+                const alpha = opacity * opacities[seen?.faces[i] ?? 2]!;
+                const [begin, end] = [cornerBegin[faces[0] + i]!, cornerBegin[faces[0] + i + 1]!];
+                for (let c = begin; c < end; ++c) shapes.setColor(4 * (vertexCount + edgeCount) + c, color, alpha);
             }
         }
-        this.writeFaces(scene);
-        this.shapes.markChanged();
-        this.order.setParts({ ...shown, faces: shown.faces && faces });
+        shapes.color.markChanged();
     }
 
     /** Orders all elements for this camera. */
@@ -79,15 +99,14 @@ export class Mesh {
         this.geometry.setIndex(this.index.attribute);
     }
 
-    private writeVertex(item: number, vertex: number, kind: number, corner: number, color: number, opacity: number): void {
+    private writeVertex(item: number, vertex: number, kind: number, corner: number): void {
         const { points } = this.elements;
         this.shapes.setVector("at", item, points[3 * vertex]!, points[3 * vertex + 1]!, points[3 * vertex + 2]!);
         this.shapes.setShape(item, kind, corner);
-        this.shapes.setColor(item, color, opacity);
     }
 
     /** Writes a bar, cut at the surfaces of its balls; a bar that lies inside its balls becomes a point. */
-    private writeBar(e: number, inBall: number, color: number, opacity: number): void {
+    private writeBar(e: number, inBall: number): void {
         const { points, edges, vertexCount } = this.elements;
         const a = 3 * edges[2 * e]!;
         const b = 3 * edges[2 * e + 1]!;
@@ -99,7 +118,7 @@ export class Mesh {
         const part = length > 0 ? Math.min(inBall / length, 0.5) : 0.5;
         for (let k = 0; k < 4; ++k) {
             const item = 4 * (vertexCount + e) + k;
-            this.writeVertex(item, edges[2 * e]!, kBar, k, color, opacity);
+            this.writeVertex(item, edges[2 * e]!, kBar, k);
             for (let i = 0; i < 3; ++i) {
                 const cut = part * (points[b + i]! - points[a + i]!);
                 this.shapes.at.array[3 * item + i] = points[a + i]! + cut;
@@ -108,18 +127,13 @@ export class Mesh {
         }
     }
 
-    private writeFaces({ colors, faded, opacity }: SceneDescription): void {
-        const { bodies, corners, cornerBegin, normals, vertexCount, edgeCount } = this.elements;
-        for (const { slice, faces } of bodies) {
-            const tints = slice.tints ?? slice.of.faces;
-            for (let f = faces[0]; f < faces[1]; ++f) {
-                const seen = [0, faded * opacity, opacity][slice.seen?.faces[f - faces[0]] ?? 2]!;
-                const tint = colors.cells[tints[f - faces[0]]!] ?? colors.bar;
-                for (let c = cornerBegin[f]!; c < cornerBegin[f + 1]!; ++c) {
-                    const item = 4 * (vertexCount + edgeCount) + c;
-                    this.writeVertex(item, corners[c]!, kFace, 0, tint, seen);
-                    for (let k = 0; k < 3; ++k) this.shapes.to.array[3 * item + k] = normals[3 * f + k]!;
-                }
+    private writeFaces(): void {
+        const { faceCount, corners, cornerBegin, normals, vertexCount, edgeCount } = this.elements;
+        for (let f = 0; f < faceCount; ++f) {
+            for (let c = cornerBegin[f]!; c < cornerBegin[f + 1]!; ++c) {
+                const item = 4 * (vertexCount + edgeCount) + c;
+                this.writeVertex(item, corners[c]!, kFace, 0);
+                for (let k = 0; k < 3; ++k) this.shapes.to.array[3 * item + k] = normals[3 * f + k]!;
             }
         }
     }

@@ -5,14 +5,21 @@ import type { SceneDescription, Slice, Slices, Viewport } from "@oval4d/protocol
 
 import { drawCoordinates } from "./coordinates";
 import type { Lens } from "./lens";
+import type { Lit } from "./lit";
 import { cssColor, kMinTextSize, setFont } from "./pen";
 
-export function drawOverlay(pen: CanvasRenderingContext2D, picture: Slices, lens: Lens, viewport: Viewport): void {
+export function drawOverlay(
+    pen: CanvasRenderingContext2D,
+    picture: Slices,
+    lens: Lens,
+    viewport: Viewport,
+    lit: Lit,
+): void {
     const { scene, slices } = picture;
     pen.clearRect(0, 0, viewport.width, viewport.height);
     pen.textAlign = "center";
     pen.textBaseline = "alphabetic";
-    if (scene.shown.coordinates) drawCoordinates(pen, picture, viewport);
+    if (scene.shown.coordinates) drawCoordinates(pen, picture, viewport, lit);
     drawLabels(pen, slices, scene, lens, viewport);
     drawAxes(pen, scene, lens, viewport);
 }

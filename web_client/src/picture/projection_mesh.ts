@@ -5,9 +5,11 @@ import { BufferGeometry } from "three";
 
 import type { ObjectProjection, Slices } from "@oval4d/protocol";
 
-import { ensureCapacity, litSources } from "./elements";
+import { ensureCapacity } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
 import type { Lens } from "./lens";
+import { cellColor, type Lit } from "./lit";
+import { areaVector } from "./polygon";
 import { kBall, kBar, kFace } from "./shaders";
 import { kQuad, ShapeBuffers } from "./shape_buffers";
 import { sortByKey } from "./sort";
@@ -34,7 +36,7 @@ export class ProjectionMesh {
     private count = 0;
 
     /** Takes over the projection of a new picture; returns whether there is one. */
-    update(picture: Slices): boolean {
+    update(picture: Slices, lit: Lit): boolean {
         const { projection, scene } = picture;
         if (!projection) return false;
         const { parts, position } = projection;
@@ -43,7 +45,6 @@ export class ProjectionMesh {
         this.reserve(parts);
         this.used = this.count = 0;
         let solids = 0;
-        const lit = litSources(picture);
         const opacities = [0, scene.faded, 1];
         parts.forEach((part, i) => {
             const addQuad = (opacity: number): void => {
@@ -78,7 +79,7 @@ export class ProjectionMesh {
                 }
                 addQuad(opacity);
             }
-            if (part.opacity > 0) this.addFaces(part, point, scene.colors.cells, opacities);
+            if (part.opacity > 0) this.addFaces(part, point, (cell) => cellColor(cell, scene.colors, lit), opacities);
         });
         this.solidIndex.used = solids;
         this.solidIndex.markChanged();
@@ -128,7 +129,7 @@ export class ProjectionMesh {
     private addFaces(
         part: ObjectProjection["parts"][number],
         point: (v: number) => [number, number, number],
-        colors: Uint32Array,
+        colorOf: (cell: number) => number,
         opacities: readonly number[],
     ): void {
         const { begin, corners } = part.faces;
@@ -136,12 +137,13 @@ export class ProjectionMesh {
         for (let f = 0; f + 1 < begin.length; ++f) {
             const opacity = part.opacity * opacities[part.seen?.faces[f] ?? 2]!;
             if (opacity === 0) continue;
-            const normal = normalOf(corners.subarray(begin[f]!, begin[f + 1]!), part.vertices);
+            const [x, y, z] = areaVector(part.vertices, corners, [begin[f]!, begin[f + 1]!]);
+            const length = Math.hypot(x, y, z) || 1;
             for (let c = begin[f]!; c < begin[f + 1]!; ++c, ++this.used) {
                 this.shapes.setVector("at", this.used, ...point(corners[c]!));
-                this.shapes.setVector("to", this.used, ...normal);
+                this.shapes.setVector("to", this.used, x / length, y / length, z / length);
                 this.shapes.setShape(this.used, kFace);
-                this.shapes.setColor(this.used, colors[tints[f]!] ?? part.bar_color, opacity);
+                this.shapes.setColor(this.used, colorOf(tints[f]!), opacity);
             }
             this.addTranslucent(begin[f + 1]! - begin[f]!, false);
         }
@@ -175,18 +177,4 @@ export class ProjectionMesh {
         this.solid.setIndex(this.solidIndex.attribute);
         this.translucent.setIndex(this.translucentIndex.attribute);
     }
-}
-
-/** The unit normal of a polygon, by Newell's method. */
-function normalOf(loop: Uint32Array, vertices: Float32Array): [number, number, number] {
-    let [x, y, z] = [0, 0, 0];
-    loop.forEach((corner, i) => {
-        const p = 3 * corner;
-        const q = 3 * loop[(i + 1) % loop.length]!;
-        x += (vertices[p + 1]! - vertices[q + 1]!) * (vertices[p + 2]! + vertices[q + 2]!);
-        y += (vertices[p + 2]! - vertices[q + 2]!) * (vertices[p]! + vertices[q]!);
-        z += (vertices[p]! - vertices[q]!) * (vertices[p + 1]! + vertices[q + 1]!);
-    });
-    const length = Math.hypot(x, y, z) || 1;
-    return [x / length, y / length, z / length];
 }

@@ -2,6 +2,8 @@
 
 import type { Orbit, Slice, Slices, Viewport } from "@oval4d/protocol";
 
+import { columnAt } from "./coordinates";
+import { type Hit, hitAt } from "./hit_test";
 import { Lens } from "./lens";
 
 export class SliceLayout {
@@ -9,7 +11,7 @@ export class SliceLayout {
 
     /** `orbit` is the orbit for which the server placed the camera of this picture. */
     constructor(
-        private readonly picture: Slices,
+        readonly picture: Slices,
         private readonly orbit: Orbit,
     ) {}
 
@@ -39,6 +41,17 @@ export class SliceLayout {
             }
         }
         return found;
+    }
+
+    /** What is drawn at a point of the picture, in pixels, of which a pixel of the page has `ratio`. */
+    hitAt(x: number, y: number, orbit: Orbit, size: Viewport, ratio: number): Hit | undefined {
+        this.lens.set(this.picture.scene.camera, size, this.orbit, orbit);
+        return hitAt(this.picture, this.lens, x, y, ratio);
+    }
+
+    /** The vertex whose parallel coordinates are at a point of the picture, in pixels. */
+    columnAt(x: number, y: number, size: Viewport): number | undefined {
+        return columnAt(this.picture, size, x, y);
     }
 
     /** The largest distance of a vertex from the slice's center on the screen, in pixels. */

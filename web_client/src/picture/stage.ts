@@ -5,6 +5,7 @@ import { pngText, type Orbit, type Slices, type State, type Viewport } from "@ov
 
 import { FrameView } from "./frame_view";
 import { GeometryView } from "./geometry_view";
+import type { Lit } from "./lit";
 import type { SliceLayout } from "./slice_layout";
 
 /** Where the slices are rendered: on this page, or on the server. */
@@ -13,6 +14,8 @@ export type Mode = "geometry" | "frames";
 export interface StageEvents {
     presented(revision: number, by: Mode): void;
     resized(size: Viewport): void;
+    /** The newest slices are drawn next. */
+    beforeDraw(): void;
     /** The WebGL context was lost, or restored after a loss. */
     graphicsChanged(isAvailable: boolean): void;
 }
@@ -82,6 +85,11 @@ export class Stage {
         return this.currentMode === "geometry" ? this.geometry?.layout : undefined;
     }
 
+    /** Lights what shows the element under the pointer; the caller then draws. */
+    light(pointed: Lit | undefined): void {
+        this.geometry?.light(pointed);
+    }
+
     showSlices(slices: Slices, orbit: Orbit): void {
         if (this.currentMode !== "geometry" || !this.geometry) return;
         this.geometry.update(slices, orbit);
@@ -111,9 +119,15 @@ export class Stage {
         requestAnimationFrame(() => this.draw());
     }
 
+    /** Draws within the current animation frame. */
+    drawNow(): void {
+        if (this.currentMode === "geometry") this.geometry?.draw(this.orbit, this.size);
+    }
+
     private draw(): void {
         this.scheduled = false;
-        if (this.currentMode === "geometry") this.geometry?.draw(this.orbit, this.size);
+        this.events.beforeDraw();
+        if (this.currentMode === "geometry") this.drawNow();
         else this.frames.draw();
         if (this.unpresentedRevision === undefined) return;
         this.drawn = { revision: this.unpresentedRevision, by: this.currentMode };

@@ -1,0 +1,218 @@
+// What shows an element of the polytope, as far as a picture tells: its pieces in the slices and in the projection, and
+// its vertices. Source numbers are explained at `of` in protocol/README.md.
+//
+// The vertices of an element of a convex polytope follow from the hyperplanes of its cells: a slice of a cell lies in a
+// plane, and the hyperplane of the cell contains this plane and has the whole polytope on one side.
+
+import type { Elements, PolytopeElement, Slice, Slices, State } from "@oval4d/protocol";
+
+import type { Hit } from "./hit_test";
+import type { Lit } from "./lit";
+import { areaVector } from "./polygon";
+
+/** The polytope's numbers of elements. */
+export type Counts = Pick<State["polytope"], "edges" | "faces" | "cells">;
+
+const kFlat = 1e-5; // circumradii: the distance within which a vertex lies in a hyperplane
+const kLevel = 1e-4; // circumradii: a vertex nearer to the slice says nothing about the slope of a hyperplane
+
+/** The hyperplane a · x + b · y + c · z + m · w = offset, with a unit vector (a, b, c). */
+type Hyperplane = readonly [a: number, b: number, c: number, m: number, offset: number];
+
+export function elementOfHit({ kind, source }: Hit, counts: Counts): PolytopeElement {
+    const [cut, inside, count] = (
+        {
+            vertices: ["edge", "vertex", counts.edges],
+            edges: ["face", "edge", counts.faces],
+            faces: ["cell", "face", counts.cells],
+        } as const
+    )[kind];
+    return source < count ? { element: cut, number: source } : { element: inside, number: source - count };
+}
+
+export class ElementSources {
+    private readonly cells = new Map<number, Hyperplane | undefined>();
+    private readonly bodies: Elements[];
+    private readonly slices: Slice[];
+
+    constructor(
+        private readonly picture: Slices,
+        private readonly counts: Counts,
+    ) {
+        this.slices = picture.slices.filter((slice) => slice.drawn && slice.vertices.length > 0);
+        this.bodies = [...this.slices, ...(picture.projection?.parts ?? [])];
+    }
+
+    /** What shows the element. */
+    litBy(element: PolytopeElement): Lit {
+        const ownVertices = this.verticesOf(element);
+        const { number } = element;
+        const { edges: edgeCount, faces: faceCount } = this.counts;
+        const vertices = new Set<number>();
+        const edges = new Set<number>();
+        if (element.element === "vertex") {
+            vertices.add(edgeCount + number);
+            this.addEdgesAt(number, vertices);
+        } else if (element.element === "edge") {
+            vertices.add(number);
+            edges.add(faceCount + number);
+        } else {
+            if (element.element === "face") this.addFace(number, edges);
+            else this.addFacesOf(number, edges);
+            this.addEdgesBetween(ownVertices, edges);
+        }
+        return { vertices, edges, ownVertices, ...(element.element === "cell" && { cell: number }) };
+    }
+
+    /** The vertices of an element, as indices into `coordinates`; empty if the picture does not tell. */
+    private verticesOf({ element, number }: PolytopeElement): ReadonlySet<number> {
+        const { edges: edgeCount, faces: faceCount, cells: cellCount } = this.counts;
+        if (element === "vertex") return new Set([number]);
+        const found = new Set<number>();
+        for (const { edges, faces, of } of this.bodies) {
+            const addVertex = (v: number): unknown => of.vertices[v]! >= edgeCount && found.add(of.vertices[v]! - edgeCount);
+            if (element === "edge") {
+                const e = of.edges.indexOf(faceCount + number);
+                if (e >= 0) edges.subarray(2 * e, 2 * e + 2).forEach(addVertex);
+            } else if (element === "face") {
+                const f = of.faces.indexOf(cellCount + number);
+                if (f >= 0) faces.corners.subarray(faces.begin[f], faces.begin[f + 1]).forEach(addVertex);
+            }
+            if (found.size > 0) return found;
+        }
+        const cells = element === "cell" ? [number] : this.cellsAround(element, number);
+        const count = this.picture.coordinates.length / 4;
+        for (let v = 0; cells.length > 0 && v < count; ++v) {
+            if (cells.every((cell) => this.isVertexOf(v, cell))) found.add(v);
+        }
+        return found;
+    }
+
+    /** The cells whose slices meet at the slice of an edge or of a 2-face. */
+    private cellsAround(element: "edge" | "face", number: number): number[] {
+        for (const { vertices, edges, faces, of } of this.slices) {
+            const at = (element === "edge" ? of.vertices : of.edges).indexOf(number);
+            if (at < 0) continue;
+            const ends = element === "edge" ? [at] : [edges[2 * at]!, edges[2 * at + 1]!];
+            const cells: number[] = [];
+            const isEnd = new Uint8Array(vertices.length / 3);
+            for (const end of ends) isEnd[end] = 1;
+            for (let f = 0; f + 1 < faces.begin.length; ++f) {
+                let met = 0;
+                for (let c = faces.begin[f]!; c < faces.begin[f + 1]!; ++c) met += isEnd[faces.corners[c]!]!;
+                if (met === ends.length) cells.push(of.faces[f]!);
+            }
+            return cells.every((cell) => cell < this.counts.cells) ? cells : [];
+        }
+        return [];
+    }
+
+    /** Adds the edges at a vertex that slices cut. All cells around such an edge have the vertex. */
+    private addEdgesAt(vertex: number, sources: Set<number>): void {
+        for (const { vertices, faces, of } of this.slices) {
+            const candidates = new Uint8Array(vertices.length / 3);
+            for (const wanted of [true, false]) {
+                for (let f = 0; f + 1 < faces.begin.length; ++f) {
+                    if (this.isVertexOf(vertex, of.faces[f]!) !== wanted) continue;
+                    const corners = faces.corners.subarray(faces.begin[f], faces.begin[f + 1]);
+                    for (const corner of corners) candidates[corner] = wanted ? 1 : 0;
+                }
+            }
+            candidates.forEach((isAtVertex, v) => isAtVertex && of.vertices[v]! < this.counts.edges && sources.add(of.vertices[v]!));
+        }
+    }
+
+    /** Adds a 2-face, and those of its edges that slices cut. */
+    private addFace(face: number, sources: Set<number>): void {
+        sources.add(face);
+        for (const { edges, of } of this.slices) {
+            const e = of.edges.indexOf(face);
+            if (e >= 0) edges.subarray(2 * e, 2 * e + 2).forEach((v) => this.addCutEdge(of.vertices[v]!, sources));
+        }
+    }
+
+    /** Adds the edge that a slice has cut at a vertex with this source. */
+    private addCutEdge(source: number, sources: Set<number>): void {
+        if (source < this.counts.edges) sources.add(this.counts.faces + source);
+    }
+
+    /** Adds the 2-faces and edges of a cell that slices cut or contain. */
+    private addFacesOf(cell: number, sources: Set<number>): void {
+        for (const { vertices, edges, faces, of } of this.slices) {
+            if (!of.faces.includes(cell)) continue;
+            const isCorner = new Uint8Array(vertices.length / 3);
+            for (let f = 0; f < of.faces.length; ++f) {
+                if (of.faces[f] !== cell) continue; // a star has several loops
+                for (const corner of faces.corners.subarray(faces.begin[f], faces.begin[f + 1])) isCorner[corner] = 1;
+            }
+            isCorner.forEach((isIn, v) => isIn && this.addCutEdge(of.vertices[v]!, sources));
+            for (let e = 0; e < of.edges.length; ++e) {
+                if (isCorner[edges[2 * e]!] && isCorner[edges[2 * e + 1]!]) sources.add(of.edges[e]!);
+            }
+        }
+    }
+
+    /** Adds the edges whose two vertices are of this set. */
+    private addEdgesBetween(own: ReadonlySet<number>, sources: Set<number>): void {
+        const { edges: edgeCount, faces: faceCount } = this.counts;
+        for (const { edges, of } of this.bodies) {
+            const isOwn = (v: number): boolean => own.has(of.vertices[v]! - edgeCount);
+            of.edges.forEach((source, e) => {
+                if (source >= faceCount && isOwn(edges[2 * e]!) && isOwn(edges[2 * e + 1]!)) sources.add(source);
+            });
+        }
+    }
+
+    private isVertexOf(vertex: number, cell: number): boolean {
+        const plane = this.hyperplaneOf(cell);
+        return plane !== undefined && Math.abs(heightAbove(plane, this.picture.coordinates, vertex)) <= kFlat * this.radius;
+    }
+
+    private get radius(): number {
+        return this.picture.scene.circumradius;
+    }
+
+    /** The hyperplane of a cell that a slice cuts; undefined if the picture does not tell. */
+    private hyperplaneOf(cell: number): Hyperplane | undefined {
+        if (!this.cells.has(cell)) this.cells.set(cell, this.findHyperplane(cell));
+        return this.cells.get(cell);
+    }
+
+    private findHyperplane(cell: number): Hyperplane | undefined {
+        const { coordinates, scene } = this.picture;
+        const isConvex = scene.opacity < 1; // see `opacity` in protocol/README.md
+        if (!isConvex || cell >= this.counts.cells) return undefined;
+        let [largest, extent]: [readonly [Slice, number] | undefined, number] = [undefined, 0];
+        for (const slice of this.slices) {
+            const f = slice.of.faces.indexOf(cell);
+            const area = f < 0 ? 0 : Math.hypot(...areaOf(slice, f));
+            if (area > extent) [largest, extent] = [[slice, f], area];
+        }
+        if (!largest) return undefined;
+        const [slice, f] = largest;
+        const [a, b, c] = areaOf(slice, f).map((value) => value / extent) as [number, number, number];
+        const p = 3 * slice.faces.corners[slice.faces.begin[f]!]!;
+        const [x, y, z] = slice.vertices.subarray(p, p + 3);
+        const offset = a * x! + b * y! + c * z!;
+        // No vertex is outside, so a · x + b · y + c · z + m · (w − slice.w) ≤ offset. A vertex above the slice bounds m
+        // from above, one below it from below.
+        let m = Infinity;
+        for (let v = 0; v < coordinates.length; v += 4) {
+            const level = coordinates[v + 3]! - slice.w;
+            if (level <= kLevel * this.radius) continue;
+            const height = a * coordinates[v]! + b * coordinates[v + 1]! + c * coordinates[v + 2]! - offset;
+            m = Math.min(m, -height / level);
+        }
+        return m < Infinity ? [a, b, c, m, offset + m * slice.w] : undefined;
+    }
+}
+
+function heightAbove([a, b, c, m, offset]: Hyperplane, points: Float32Array, v: number): number {
+    const [x, y, z, w] = [points[4 * v]!, points[4 * v + 1]!, points[4 * v + 2]!, points[4 * v + 3]!];
+    return a * x + b * y + c * z + m * w - offset;
+}
+
+/** The outward normal of a face of a slice; its length is twice the area. */
+function areaOf({ vertices, faces: { begin, corners } }: Slice, f: number): [number, number, number] {
+    return areaVector(vertices, corners, [begin[f]!, begin[f + 1]!]);
+}

@@ -1,0 +1,200 @@
+// Finds what is drawn at a point of the picture, as graphics libraries do: by projecting all elements to the screen.
+
+import type { Elements, Slice, Slices, Vector } from "@oval4d/protocol";
+
+import { ensureCapacity } from "./elements";
+import type { Lens } from "./lens";
+import { areaVector } from "./polygon";
+
+/** An element of a slice, or of a part of the projection. */
+export interface Hit {
+    kind: "vertices" | "edges" | "faces";
+    /** The value of `of`: the element of the polytope. */
+    source: number;
+    /** Absent in the projection. */
+    slice?: Slice;
+}
+
+/** The slices, or the parts of the projection, with their transformation to world space. */
+interface Body {
+    elements: Elements;
+    slice?: Slice;
+    position: Vector;
+    scale: number;
+    ball: number;
+    bar: number;
+    hasFaces: boolean;
+    distance: number; // from the eye
+}
+
+const kReach = 4; // pixels on the page: the least radius of balls and bars for the pointer
+// A ball rises above the faces around it, and also covers the bars that end in it: multiples of its radius.
+const kBallRise = 3;
+const kBarRise = 2;
+
+/** Camera coordinates x, y, z and screen coordinates x, y of the vertices of a body. */
+let seen = new Float32Array(0);
+const kStride = 5;
+
+/**
+ * The element at a point, in pixels of the lens: of the nearest body that has one there, the nearest element. `ratio` is
+ * the number of these pixels per pixel of the page.
+ */
+export function hitAt(picture: Slices, lens: Lens, x: number, y: number, ratio: number): Hit | undefined {
+    const bodies = bodiesOf(picture, lens).sort((a, b) => a.distance - b.distance);
+    for (const body of bodies) {
+        const hit = mayContain(body, picture, lens, x, y) ? new BodyTest(body, lens, x, y, kReach * ratio).nearest() : undefined;
+        if (hit) return hit;
+    }
+    return undefined;
+}
+
+function bodiesOf({ slices, scene, projection }: Slices, { eye }: Lens): Body[] {
+    const { shown, scale } = scene;
+    const distance = ([x, y, z]: Vector): number => Math.hypot(x - eye.x, y - eye.y, z - eye.z);
+    const [ball, bar] = [shown.balls ? scene.ball : 0, shown.bars ? scene.bar : 0];
+    const bodies: Body[] = [];
+    for (const slice of slices) {
+        const { position, vertices, drawn } = slice;
+        if (!drawn || vertices.length === 0) continue;
+        bodies.push({ elements: slice, slice, position, scale, ball, bar, hasFaces: shown.faces, distance: distance(position) });
+    }
+    for (const part of projection?.parts ?? []) {
+        const { position, scale: partScale } = projection!;
+        const look = { ball: part.ball, bar: part.bar, hasFaces: part.opacity > 0 };
+        bodies.push({ elements: part, position, scale: partScale, ...look, distance: distance(position) });
+    }
+    return bodies;
+}
+
+/** Whether the point can be within the body: a quick test with the circumscribed sphere. */
+function mayContain({ position, scale, ball }: Body, { scene }: Slices, lens: Lens, x: number, y: number): boolean {
+    const center = lens.project(position);
+    const depth = lens.depthOf(position);
+    const kMagnified = 2; // a vertex of a perspective projection may be farther from the center
+    const radius = kMagnified * scale * scene.circumradius + kBallRise * ball;
+    if (!center || depth <= radius) return true;
+    return Math.hypot(center.x - x, center.y - y) <= (lens.pixels * radius) / (depth - radius);
+}
+
+/** The test of one body against one point. */
+class BodyTest {
+    private depth = Infinity;
+    private hit: Hit | undefined;
+
+    constructor(
+        private readonly body: Body,
+        private readonly lens: Lens,
+        private readonly x: number,
+        private readonly y: number,
+        private readonly reach: number,
+    ) {
+        this.projectVertices();
+    }
+
+    nearest(): Hit | undefined {
+        const { ball, bar, hasFaces } = this.body;
+        if (ball > 0) this.testBalls();
+        if (bar > 0) this.testBars();
+        if (hasFaces) this.testFaces();
+        return this.hit;
+    }
+
+    private projectVertices(): void {
+        const { elements, position, scale } = this.body;
+        const { vertices } = elements;
+        seen = ensureCapacity(seen, (kStride * vertices.length) / 3);
+        this.project(vertices, position, scale);
+    }
+
+    /** Writes the points' coordinates into `seen`. */
+    private project(points: Float32Array, position: Vector, scale: number): void {
+        const view = this.lens.view.elements;
+        for (let i = 0, at = 0; i < points.length; i += 3, at += kStride) {
+            const x = position[0] + scale * points[i]!;
+            const y = position[1] + scale * points[i + 1]!;
+            const z = position[2] + scale * points[i + 2]!;
+            seen[at] = view[0]! * x + view[4]! * y + view[8]! * z + view[12]!;
+            seen[at + 1] = view[1]! * x + view[5]! * y + view[9]! * z + view[13]!;
+            seen[at + 2] = view[2]! * x + view[6]! * y + view[10]! * z + view[14]!;
+            this.lens.toScreen(seen, at);
+        }
+    }
+
+    /** Takes an element if it is the nearest so far; `depth` is its distance along the camera's axis. */
+    private take(kind: Hit["kind"], source: number, depth: number): void {
+        if (depth >= this.depth) return;
+        const { slice } = this.body;
+        this.depth = depth;
+        this.hit = { kind, source, ...(slice && { slice }) };
+    }
+
+    private testBalls(): void {
+        const { elements, ball } = this.body;
+        const { of, balls, seen: visibility, vertices } = elements;
+        for (let v = 0, at = 0; v < vertices.length / 3; ++v, at += kStride) {
+            const depth = -seen[at + 2]!;
+            if (depth <= 0 || visibility?.vertices[v] === 0) continue;
+            const perPixel = depth / this.lens.pixels;
+            const radius = Math.max(ball * (balls?.scale[v] ?? 1), this.reach * perPixel);
+            const distance = Math.hypot(seen[at + 3]! - this.x, seen[at + 4]! - this.y) * perPixel;
+            if (distance <= radius) this.take("vertices", of.vertices[v]!, depth - kBallRise * radius);
+        }
+    }
+
+    private testBars(): void {
+        const { elements, bar } = this.body;
+        const { edges, of, seen: visibility } = elements;
+        for (let e = 0; e < edges.length / 2; ++e) {
+            const [a, b] = [kStride * edges[2 * e]!, kStride * edges[2 * e + 1]!];
+            if (seen[a + 2]! >= 0 || seen[b + 2]! >= 0 || visibility?.edges[e] === 0) continue;
+            const [ax, ay] = [seen[a + 3]!, seen[a + 4]!];
+            const [dx, dy] = [seen[b + 3]! - ax, seen[b + 4]! - ay];
+            const along = ((this.x - ax) * dx + (this.y - ay) * dy) / (dx * dx + dy * dy || 1);
+            const part = Math.min(1, Math.max(0, along));
+            const depth = -seen[a + 2]! - part * (seen[b + 2]! - seen[a + 2]!);
+            const perPixel = depth / this.lens.pixels;
+            const radius = Math.max(bar, this.reach * perPixel);
+            const distance = Math.hypot(ax + part * dx - this.x, ay + part * dy - this.y) * perPixel;
+            if (distance <= radius) this.take("edges", of.edges[e]!, depth - kBarRise * radius);
+        }
+    }
+
+    private testFaces(): void {
+        const { slice, elements, position, scale } = this.body;
+        const { faces, of, seen: visibility } = elements;
+        if (!slice?.fill) {
+            for (let f = 0; f + 1 < faces.begin.length; ++f) {
+                if (visibility?.faces[f] === 0) continue;
+                this.take("faces", of.faces[f]!, this.depthOfPolygon(faces.corners, faces.begin[f]!, faces.begin[f + 1]!));
+            }
+            return;
+        }
+        const { points, triangles, tints } = slice.fill;
+        seen = ensureCapacity(seen, (kStride * points.length) / 3);
+        this.project(points, position, scale);
+        for (let t = 0; t < tints.length; ++t) {
+            this.take("faces", tints[t]!, this.depthOfPolygon(triangles, 3 * t, 3 * t + 3));
+        }
+    }
+
+    /** The depth of a polygon at the point; Infinity if it does not contain the point. */
+    private depthOfPolygon(corners: Uint32Array, begin: number, end: number): number {
+        let isInside = false;
+        let p = kStride * corners[end - 1]!;
+        for (let c = begin; c < end; ++c) {
+            const q = kStride * corners[c]!;
+            if (seen[q + 2]! >= 0) return Infinity;
+            const [py, qy] = [seen[p + 4]!, seen[q + 4]!];
+            if (py > this.y !== qy > this.y) {
+                const crossing = seen[p + 3]! + ((this.y - py) / (qy - py)) * (seen[q + 3]! - seen[p + 3]!);
+                if (this.x < crossing) isInside = !isInside;
+            }
+            p = q;
+        }
+        if (!isInside) return Infinity;
+        const [nx, ny, nz] = areaVector(seen, corners, [begin, end], kStride);
+        const [rayX, rayY] = this.lens.rayAt(this.x, this.y);
+        return (nx * seen[p]! + ny * seen[p + 1]! + nz * seen[p + 2]!) / (nx * rayX + ny * rayY - nz);
+    }
+}

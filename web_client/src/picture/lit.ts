@@ -1,0 +1,30 @@
+// What is drawn in the color of the highlight: the kept element, which the server determines, and the element under the
+// pointer.
+
+import type { SceneDescription, Slices } from "@oval4d/protocol";
+
+/** What shows one element or more. */
+export interface Lit {
+    /** Values of `of.vertices` and `of.edges`, in slices and in the projection. */
+    vertices: ReadonlySet<number>;
+    edges: ReadonlySet<number>;
+    /** Vertices of the polytope, as indices into `coordinates`. */
+    ownVertices: ReadonlySet<number>;
+    /** The cell whose faces are lit. The server colors the faces of a kept cell. */
+    cell?: number;
+}
+
+/** What shows the kept element and the element under the pointer. */
+export function litSources({ highlight }: Slices, pointed: Lit | undefined): Lit {
+    return {
+        vertices: new Set([...(highlight?.vertices ?? []), ...(pointed?.vertices ?? [])]),
+        edges: new Set([...(highlight?.edges ?? []), ...(pointed?.edges ?? [])]),
+        ownVertices: new Set([...(highlight?.own_vertices ?? []), ...(pointed?.ownVertices ?? [])]),
+        ...(pointed?.cell !== undefined && { cell: pointed.cell }),
+    };
+}
+
+/** The color of a face that this cell colors. */
+export function cellColor(cell: number, colors: SceneDescription["colors"], lit: Lit): number {
+    return cell === lit.cell ? colors.highlight : (colors.cells[cell] ?? colors.bar);
+}
