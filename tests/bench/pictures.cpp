@@ -1,5 +1,5 @@
 // Measures every step from a state to its picture, as in the server; prints the medians as one line of JSON.
-//   bench_pictures POLYTOPE [SLICES] [WIDTH] [HEIGHT] [FRAMES]
+//   bench_pictures POLYTOPE [SLICES] [WIDTH] [HEIGHT] [FRAMES] [SETTING=VALUE …]
 // The scene is the same as in the programs of comparison: hyperplanes from w = −1 to 1 for a circumradius of 4/√10, and
 // double rotations. If FRAMES is 0, nothing is drawn.
 
@@ -35,6 +35,7 @@ struct Job {
     int slices = 21;
     scene::Viewport viewport;
     int frames = 60;
+    session::Query settings;  ///< further settings, such as projection=perspective
 };
 
 template <typename Work>
@@ -63,8 +64,9 @@ class Bench {
     explicit Bench(const Job& job) : job_(job) {
         polytopes::PolytopeCache cache;
         session::ObjectLoader loader(session::Limits{}, cache);
-        const auto state = session::stateFromQuery({{"polytope", job.polytope}, {"slices", std::to_string(job.slices)}},
-                                                   session::Limits{}, loader);
+        session::Query query{{"polytope", job.polytope}, {"slices", std::to_string(job.slices)}};
+        query.insert(query.end(), job.settings.begin(), job.settings.end());
+        const auto state = session::stateFromQuery(query, session::Limits{}, loader);
         if (!state) throw std::runtime_error(state.error().message);
         state_ = *state;
         state_.slices.spacing =
@@ -153,7 +155,7 @@ class Bench {
         repeat("frame", job_.frames, [&](int i, Samples& whole) {
             whole.add(secondsOf([&] {
                 turn(i);
-                wire::stateMessage(state_, {}, 1, {}, text_);
+                wire::stateMessage(state_, pipeline_.nameFocusSection(state_), 1, {}, text_);
                 pipeline_.drawPng(state_, text_, job_.viewport, png_);
             }));
             compose.add(pipeline_.times().compose);
@@ -193,8 +195,13 @@ class Bench {
 int main(int argc, char** argv) {
     const auto number = [&](int i, int otherwise) { return argc > i ? std::atoi(argv[i]) : otherwise; };
     try {
-        const oval4d::bench::Job job{
-            argc > 1 ? argv[1] : "5-cell", number(2, 21), {number(3, 1280), number(4, 720)}, number(5, 60)};
+        oval4d::bench::Job job{
+            argc > 1 ? argv[1] : "5-cell", number(2, 21), {number(3, 1280), number(4, 720)}, number(5, 60), {}};
+        for (int i = 6; i < argc; ++i) {
+            const std::string setting = argv[i];
+            const std::size_t equals = std::min(setting.find('='), setting.size());
+            job.settings.emplace_back(setting.substr(0, equals), setting.substr(std::min(equals + 1, setting.size())));
+        }
         std::puts(oval4d::bench::Bench(job).run().dump().c_str());
     } catch (const std::exception& fault) {
         std::fprintf(stderr, "pictures: %s\n", fault.what());

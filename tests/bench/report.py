@@ -21,11 +21,12 @@ from pathlib import Path
 import drawing
 import peers
 
-PARTS = ("targets", "parts", "growth", "polytopes", "drawing", "load")
+PARTS = ("targets", "parts", "growth", "polytopes", "whole", "drawing", "load")
 BIN = Path(sys.argv[1])
 REGULAR = ("5-cell", "8-cell", "120-cell", "600-cell")
 GROWING = ("5-cell", "8-cell", "24-cell", "omnitruncated 5-cell", "120-cell", "600-cell", "omnitruncated 24-cell",
            "truncated 120-cell", "cantitruncated 120-cell", "omnitruncated 120-cell")
+WHOLE = ("8-cell", "24-cell", "120-cell", "600-cell")
 TURNS = 5         # for frames
 QUICK_TURNS = 11  # for operations of less than a millisecond
 
@@ -45,9 +46,9 @@ def table(head, rows):
     sys.stdout.flush()
 
 
-def pictures(polytope, slices=21, width=1280, height=720, frames=40):
+def pictures(polytope, slices=21, width=1280, height=720, frames=40, **settings):
     """Runs bench_pictures; returns its measurements."""
-    words = [polytope, slices, width, height, frames]
+    words = [polytope, slices, width, height, frames, *(f"{name}={value}" for name, value in settings.items())]
     done = subprocess.run([BIN / "bench_pictures", *map(str, words)], capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
 
@@ -244,6 +245,23 @@ def polytopes():
     print(f"\nbuild ∝ elements^{exponent(built):.2f}")
 
 
+def whole():
+    """Prints how much the projection of the whole object and a highlighted element add to a frame."""
+    print("\n## The whole object: milliseconds from a state to its frame, 21 slices, 1280 × 720\n\n"
+          "Medians of five turns; in each turn, all variants are measured one after the other.")
+    variants = {"slices alone": {}, "with the projection": {"projection": "perspective"},
+                "with a highlighted cell": {"highlight": "cell:1"},
+                "with both": {"projection": "perspective", "highlight": "cell:1"}}
+    rows = []
+    for polytope in WHOLE:
+        turns = [{what: pictures(polytope, frames=20, **settings)["ms"]["frame"] for what, settings in variants.items()}
+                 for _ in range(5)]
+        plain = statistics.median(turn["slices alone"] for turn in turns)
+        rows.append([polytope, plain, *(statistics.median(turn[what] / turn["slices alone"] for turn in turns)
+                                        for what in list(variants)[1:])])
+    table(["", "slices alone, ms", *(f"{what}, relative" for what in list(variants)[1:])], rows)
+
+
 def two_cores():
     """Prints the pictures per second for each way to use several cores."""
     print("\n## Drawing: state to PNG, as fast as possible\n\nThreads are llvmpipe's own.")
@@ -280,7 +298,7 @@ def main():
     loaded = load() if {"targets", "load"} & set(wanted) else None
     for name in wanted:
         {"targets": lambda: targets(turns, loaded), "parts": lambda: parts(turns), "growth": growth,
-         "polytopes": polytopes, "drawing": two_cores, "load": lambda: under_load(loaded)}[name]()
+         "polytopes": polytopes, "whole": whole, "drawing": two_cores, "load": lambda: under_load(loaded)}[name]()
 
 
 if __name__ == "__main__":
