@@ -13,6 +13,7 @@ import "./colors.mjs";
 import "./connection.mjs";
 import "./links.mjs";
 import "./pointer.mjs";
+import "./pointing.mjs";
 import "./phone.mjs";
 import "./first_visit.mjs";
 import "./performance.mjs";

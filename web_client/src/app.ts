@@ -282,7 +282,8 @@ export class App {
     private keydown(event: KeyboardEvent): void {
         if (event.defaultPrevented || document.querySelector("dialog[open]")) return;
         if (event.key === "Escape" && !event.isComposing) {
-            if (event.target === this.drawing && this.state?.highlight) void this.send({ type: "set", highlight: null });
+            const isInDrawing = event.target === this.drawing;
+            if (isInDrawing && this.state?.highlight) void this.send({ type: "set", highlight: null });
             this.dismissMessages();
             this.drawing.focus();
         }
@@ -321,12 +322,12 @@ export class App {
         const slice = pointed
             ? pointed.slice
             : layout.sliceAt(x * ratio, y * ratio, orbit, size, kLeastDisc * ratio);
-        const { element, number } = pointed ?? {};
-        const kept = this.state?.highlight;
+        const kept = this.state?.highlight ?? null;
+        const highlight = pointed ? { element: pointed.element, number: pointed.number } : slice ? kept : null;
+        const isKept = highlight?.element === kept?.element && highlight?.number === kept?.number;
         const change = {
             ...(slice && !slice.focus && { slices: { focus: slice.index } }),
-            ...(element && (element !== kept?.element || number !== kept.number) && { highlight: { element, number: number! } }),
-            ...(!pointed && !slice && kept && { highlight: null }),
+            ...(!isKept && { highlight }),
         };
         if (Object.keys(change).length > 0) void this.send({ type: "set", ...change });
     }

@@ -1,5 +1,6 @@
-// Mouse, pen and touch on the drawing. Dragging orbits the view, the wheel or a pinch zooms, a click makes a slice the
-// focus. With Alt, or with two fingers, dragging rolls the 4-D ball; with Alt and Shift, the ball of every slice.
+// Mouse, pen and touch on the drawing. Dragging orbits the view, the wheel or a pinch zooms, a click keeps what is under
+// it lit (see pointing.ts). With Alt, or with two fingers, dragging rolls the 4-D ball; with Alt and Shift, the ball of
+// every slice.
 
 import type { OrbitControl } from "./orbit";
 import { type Ball, turnsOfDrag, turnsOfTwist, turnsOfWheel } from "./rolling_ball";

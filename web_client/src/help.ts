@@ -9,7 +9,7 @@ const kGestures = [
     ["Drag", "Orbit the view"],
     ["Wheel, pinch", "Zoom"],
     ["Point", "Name what is under the pointer, and light it everywhere"],
-    ["Click", "Highlight what is there, and make its slice the focus; beside the slices: end the highlight"],
+    ["Click", "Keep it lit, and make its slice the focus; on the background: end the light"],
     ["Double click", "Reset the view"],
     ["Alt + drag", "Turn in xw and yw: roll the 4-D ball"],
     ["Alt + wheel", "Turn in zw"],
@@ -29,7 +29,7 @@ const kSticks = [
 const kCommonKeys = [
     ["Ctrl-z", "Undo; on a Mac, Cmd-z"],
     ["Ctrl-y", "Redo; also Ctrl-Shift-z"],
-    ["Esc", "Return the focus to the drawing; there, end the highlight"],
+    ["Esc", "Return the focus to the drawing; there, end the light"],
 ] as const;
 
 export class Help {

@@ -17,15 +17,16 @@ export function drawCoordinates(pen: CanvasRenderingContext2D, picture: Slices, 
 }
 
 /** The vertex whose column contains this point, in pixels. */
-export function columnAt({ coordinates: values, scene }: Slices, viewport: Viewport, x: number, y: number): number | undefined {
-    const { columns, per_row: perRow, rows, left, zero, row_step, column_step, line_step, line_width } = scene.coordinates;
+export function columnAt(picture: Slices, { height }: Viewport, x: number, y: number): number | undefined {
+    const { coordinates: values, scene } = picture;
+    const { columns, per_row: perRow, rows, ...layout } = scene.coordinates;
     if (!scene.shown.coordinates || columns > 0) return undefined;
-    const { height } = viewport;
-    const gap = column_step - 3 * line_step - line_width;
-    const column = Math.floor((x / height - left + gap / 2) / column_step);
-    const row = Math.round((zero - (1 - y / height)) / row_step);
+    const gap = layout.column_step - 3 * layout.line_step - layout.line_width;
+    const column = Math.floor((x / height - layout.left + gap / 2) / layout.column_step);
+    const row = Math.round((layout.zero - (1 - y / height)) / layout.row_step);
     const vertex = row * perRow + column;
-    return column >= 0 && column < perRow && row >= 0 && row < rows && vertex < values.length / 4 ? vertex : undefined;
+    const isInside = column >= 0 && column < perRow && row >= 0 && row < rows;
+    return isInside && vertex < values.length / 4 ? vertex : undefined;
 }
 
 function drawLines(

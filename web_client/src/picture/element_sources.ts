@@ -70,7 +70,9 @@ export class ElementSources {
         if (element === "vertex") return new Set([number]);
         const found = new Set<number>();
         for (const { edges, faces, of } of this.bodies) {
-            const addVertex = (v: number): unknown => of.vertices[v]! >= edgeCount && found.add(of.vertices[v]! - edgeCount);
+            const addVertex = (v: number): void => {
+                if (of.vertices[v]! >= edgeCount) found.add(of.vertices[v]! - edgeCount);
+            };
             if (element === "edge") {
                 const e = of.edges.indexOf(faceCount + number);
                 if (e >= 0) edges.subarray(2 * e, 2 * e + 2).forEach(addVertex);
@@ -118,7 +120,9 @@ export class ElementSources {
                     for (const corner of corners) candidates[corner] = wanted ? 1 : 0;
                 }
             }
-            candidates.forEach((isAtVertex, v) => isAtVertex && of.vertices[v]! < this.counts.edges && sources.add(of.vertices[v]!));
+            candidates.forEach((isAtVertex, v) => {
+                if (isAtVertex && of.vertices[v]! < this.counts.edges) sources.add(of.vertices[v]!);
+            });
         }
     }
 
@@ -165,7 +169,8 @@ export class ElementSources {
 
     private isVertexOf(vertex: number, cell: number): boolean {
         const plane = this.hyperplaneOf(cell);
-        return plane !== undefined && Math.abs(heightAbove(plane, this.picture.coordinates, vertex)) <= kFlat * this.radius;
+        if (!plane) return false;
+        return Math.abs(heightAbove(plane, this.picture.coordinates, vertex)) <= kFlat * this.radius;
     }
 
     private get radius(): number {

@@ -43,7 +43,8 @@ const kStride = 5;
 export function hitAt(picture: Slices, lens: Lens, x: number, y: number, ratio: number): Hit | undefined {
     const bodies = bodiesOf(picture, lens).sort((a, b) => a.distance - b.distance);
     for (const body of bodies) {
-        const hit = mayContain(body, picture, lens, x, y) ? new BodyTest(body, lens, x, y, kReach * ratio).nearest() : undefined;
+        if (!mayContain(body, picture, lens, x, y)) continue;
+        const hit = new BodyTest(body, lens, x, y, kReach * ratio).nearest();
         if (hit) return hit;
     }
     return undefined;
@@ -57,7 +58,8 @@ function bodiesOf({ slices, scene, projection }: Slices, { eye }: Lens): Body[] 
     for (const slice of slices) {
         const { position, vertices, drawn } = slice;
         if (!drawn || vertices.length === 0) continue;
-        bodies.push({ elements: slice, slice, position, scale, ball, bar, hasFaces: shown.faces, distance: distance(position) });
+        const look = { ball, bar, hasFaces: shown.faces };
+        bodies.push({ elements: slice, slice, position, scale, ...look, distance: distance(position) });
     }
     for (const part of projection?.parts ?? []) {
         const { position, scale: partScale } = projection!;
@@ -166,7 +168,8 @@ class BodyTest {
         if (!slice?.fill) {
             for (let f = 0; f + 1 < faces.begin.length; ++f) {
                 if (visibility?.faces[f] === 0) continue;
-                this.take("faces", of.faces[f]!, this.depthOfPolygon(faces.corners, faces.begin[f]!, faces.begin[f + 1]!));
+                const depth = this.depthOfPolygon(faces.corners, faces.begin[f]!, faces.begin[f + 1]!);
+                this.take("faces", of.faces[f]!, depth);
             }
             return;
         }

@@ -52,10 +52,11 @@ export class Mesh {
         const { shown, colors, faded, opacity } = scene;
         const opacities = [0, faded, 1];
         const { shapes } = this;
+        const ballColor = shown.balls ? colors.ball : colors.bar;
         for (const { slice, vertices, edges, faces } of bodies) {
             const { of, seen, balls, tints = of.faces } = slice;
             for (let i = 0; i < vertices[1] - vertices[0]; ++i) {
-                const color = lit.vertices.has(of.vertices[i]!) ? colors.highlight : shown.balls ? colors.ball : colors.bar;
+                const color = lit.vertices.has(of.vertices[i]!) ? colors.highlight : ballColor;
                 const alpha = (balls?.opacity[i] ?? 1) * opacities[seen?.vertices[i] ?? 2]!;
                 for (let k = 0; k < 4; ++k) shapes.setColor(4 * (vertices[0] + i) + k, color, alpha);
             }

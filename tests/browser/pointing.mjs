@@ -1,0 +1,341 @@
+// The element under the pointer: its name, its light in the picture, and the click that keeps it.
+import assert from "node:assert/strict";
+import { test } from "./support/suite.mjs";
+
+import { openWithScript, presented } from "./support/browser.mjs";
+import { decode, distance, pixelAt } from "./support/pixels.mjs";
+import { project, rgb, worldPoints } from "./support/scene.mjs";
+
+/** Opens the page with a turned 24-cell and its projection, whose elements lie in no hyperplane. */
+async function openTurned(settings = {}) {
+    const opened = await openWithScript();
+    const { page, script } = opened;
+    await script.request({ type: "set", polytope: "24-cell", projection: "perspective", ...settings });
+    const planes = ["xw", "yz"];
+    const { revision } = await script.request({ type: "rotate", planes, angles: [0.41, 1.13] });
+    await presented(page, revision);
+    const box = await page.locator("#drawing").boundingBox();
+    const size = { width: box.width, height: box.height };
+    const picture = () => script.request({ type: "get", what: "slices", ...size });
+    return {
+        ...opened,
+        size,
+        picture,
+        /** Moves the mouse to a point of the drawing, or clicks there. */
+        moveTo: (x, y) => page.mouse.move(box.x + x, box.y + y),
+        click: (x, y) => page.mouse.click(box.x + x, box.y + y),
+    };
+}
+
+const label = (page) =>
+    page.evaluate(() => {
+        const { hidden, textContent } = document.getElementById("pointed");
+        return hidden ? "" : textContent;
+    });
+
+async function labeled(page, pattern) {
+    await page.waitForFunction(
+        ([source, flags]) => {
+            const { hidden, textContent } = document.getElementById("pointed");
+            return new RegExp(source, flags).test(hidden ? "" : textContent);
+        },
+        [pattern.source, pattern.flags],
+    );
+    return label(page);
+}
+
+/** Two animation frames later, everything is drawn. */
+const frames = (page) =>
+    page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+async function shot(page) {
+    await frames(page);
+    return decode(await page.locator("#drawing").screenshot());
+}
+
+/** Whether a pixel has the hue of the highlight, 0xff4fb8, in some light or faintly. */
+const isLit = ([r, g, b]) => r > 90 && r - g > 45 && b - g > 25 && r > b;
+
+/** Whether the pixels around this point have become lit. */
+function litAt(before, after, [x, y]) {
+    for (let dx = -3; dx <= 3; ++dx) {
+        for (let dy = -3; dy <= 3; ++dy) {
+            const [was, is] = [before, after].map((one) => pixelAt(one, x + dx, y + dy));
+            if (isLit(is) && distance(was, is) > 24) return true;
+        }
+    }
+    return false;
+}
+
+const middle = (points) => points[0].map((_, k) => points.reduce((sum, point) => sum + point[k], 0) / points.length);
+
+const loopOf = ({ faces }, f) => [...faces.corners.slice(faces.begin[f], faces.begin[f + 1])];
+
+/** The center of the front face with the most room in the slice with this index, and the cell it was cut from. */
+function faceIn({ scene, slices }, size, index) {
+    const slice = slices.find((one) => one.index === index);
+    const points = worldPoints(scene, slice);
+    const areas = [...slice.of.faces].map((source, f) => {
+        const loop = loopOf(slice, f).map((v) => project(scene, points[v], size));
+        const twice = loop.reduce((sum, [x, y], i) => {
+            const [a, b] = loop[(i + 1) % loop.length];
+            return sum + y * a - x * b;
+        }, 0); // positive if counterclockwise on the screen, where y points down
+        return { source, area: twice, at: middle(loop) };
+    });
+    return areas.reduce((best, one) => (one.area > best.area ? one : best));
+}
+
+/** The middles on the screen of the slices' edges around a cell, by slice. */
+function edgesAround({ scene, slices }, size, cell) {
+    return slices.flatMap((slice) => {
+        const f = [...slice.of.faces].indexOf(cell);
+        if (f < 0) return [];
+        const points = worldPoints(scene, slice);
+        const loop = loopOf(slice, f);
+        const ends = loop.map((v, i) => [points[v], points[loop[(i + 1) % loop.length]]]);
+        return [{ index: slice.index, at: ends.map((pair) => project(scene, middle(pair), size)) }];
+    });
+}
+
+const rounded = (value) => String(Math.round(value * 1000) / 1000).replace("-", "−");
+
+/** The range of w in which these vertices lie. */
+function rangeOf(points) {
+    const w = points.map((point) => point[3]);
+    return `w ${rounded(Math.min(...w))} … ${rounded(Math.max(...w))}`;
+}
+
+const verticesFrom = ({ coordinates }, own) => [...own].map((v) => coordinates.slice(4 * v, 4 * v + 4));
+
+test("pointing: a cell under the mouse is named, and lit in its slices, the projection and the coordinates", async () => {
+    const { page, script, errors, size, picture, moveTo, close } = await openTurned();
+    await moveTo(4, 4);
+    const before = await shot(page);
+    const seen = await picture();
+    const { source: cell, at } = faceIn(seen, size, 1);
+    const { revision } = await script.state();
+    await moveTo(...at);
+    const text = await labeled(page, /./);
+    const lit = await shot(page);
+    assert.equal((await script.state()).revision, revision, "the server is not asked");
+
+    // The server lights the same.
+    const kept = await script.request({ type: "set", highlight: { element: "cell", number: cell } });
+    const { highlight, projection, scene } = await picture();
+    assert.equal(highlight.own_vertices.length, 6, "an octahedron");
+    const range = rangeOf(verticesFrom(seen, highlight.own_vertices));
+    assert.equal(text, `Cell ${cell} · octahedron · ${range} · slice w 0.2`);
+
+    const places = edgesAround(seen, size, cell);
+    assert.ok(places.length >= 4, "the cell is in several slices");
+    for (const { index, at: points } of places) {
+        if (Math.abs(index) > 4) continue; // others are small, and partly hidden
+        assert.ok(points.some((point) => litAt(before, lit, point)), `slice ${index}`);
+    }
+    const [whole] = projection.parts;
+    const points = worldPoints({ scale: projection.scale }, { position: projection.position, vertices: whole.vertices });
+    const edges = [...whole.of.edges].flatMap((edge, e) =>
+        [...highlight.edges].includes(edge) ? [[points[whole.edges[2 * e]], points[whole.edges[2 * e + 1]]]] : [],
+    );
+    assert.equal(edges.length, 12);
+    const litEdges = edges.filter((pair) => litAt(before, lit, project(scene, middle(pair), size)));
+    assert.ok(litEdges.length >= 6, `${litEdges.length} edges of the projection are lit`);
+    const columns = columnsOf(scene, size);
+    for (let v = 0; v < 24; ++v) {
+        const expected = [...highlight.own_vertices].includes(v);
+        assert.equal(litAt(before, lit, columns(v)), expected, `column ${v}`);
+    }
+
+    await presented(page, kept.revision);
+    await moveTo(4, 4);
+    await labeled(page, /^$/);
+    assertSame(lit, await shot(page), at);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+/** Asserts that two pictures agree everywhere but at the label of this point. */
+function assertSame(one, other, [left, top]) {
+    let differing = 0;
+    for (let y = 0; y < one.height; ++y) {
+        for (let x = 0; x < one.width; ++x) {
+            const isLabel = Math.abs(x - left) < 400 && Math.abs(y - top) < 60;
+            if (!isLabel && distance(pixelAt(one, x, y), pixelAt(other, x, y)) > 24) ++differing;
+        }
+    }
+    assert.ok(differing < 20, `${differing} pixels differ`);
+}
+
+/** A function that returns a point of vertex v's column between its lines. */
+function columnsOf({ coordinates: layout }, { height }) {
+    const x = (v) => layout.left + (v % layout.per_row) * layout.column_step + 1.5 * layout.line_step + layout.line_width;
+    const zero = (v) => layout.zero - Math.floor(v / layout.per_row) * layout.row_step;
+    return (v) => [x(v) * height, (1 - zero(v) + 0.9 * layout.amplitude) * height];
+}
+
+test("pointing: the light ends when the mouse leaves the element or the drawing, and while it drags", async () => {
+    const { page, size, picture, moveTo, close } = await openTurned();
+    await moveTo(4, 4);
+    const before = await shot(page);
+    const { at } = faceIn(await picture(), size, 1);
+    const assertEnded = async () => {
+        await labeled(page, /^$/);
+        assertSame(before, await shot(page), [-1000, 0]);
+    };
+    await moveTo(...at);
+    await labeled(page, /^Cell/);
+    await moveTo(4, 4);
+    await assertEnded(); // on the background
+    await moveTo(...at);
+    await labeled(page, /^Cell/);
+    await page.hover("#help-button");
+    await assertEnded(); // outside the drawing
+    await moveTo(...at);
+    await labeled(page, /^Cell/);
+    await page.mouse.down();
+    await labeled(page, /^$/);
+    await moveTo(at[0] + 30, at[1]);
+    await frames(page);
+    assert.equal(await label(page), "");
+    await page.mouse.up();
+    await close();
+});
+
+test("pointing: the name follows what the picture shows under a mouse at rest", async () => {
+    const { page, size, script, picture, moveTo, close } = await openTurned();
+    const { at, source } = faceIn(await picture(), size, 0);
+    await moveTo(...at);
+    await labeled(page, new RegExp(`^Cell ${source} `));
+    const { revision } = await script.request({ type: "set", polytope: "5-cell", projection: "off" });
+    await presented(page, revision);
+    assert.match(await labeled(page, /tetrahedron|^Edge|^$|^Face/), /tetrahedron|length|^$/);
+    await close();
+});
+
+test("pointing: edges and vertices have their lengths and coordinates", async () => {
+    const { page, script, size, picture, moveTo, close } = await openTurned();
+    const seen = await picture();
+    const { scene, projection, coordinates } = seen;
+    const [whole] = projection.parts;
+    const points = worldPoints({ scale: projection.scale }, { position: projection.position, vertices: whole.vertices });
+    const { eye } = scene.camera;
+    const near = points.map((point, v) => [Math.hypot(...point.map((x, k) => x - eye[k])), v]);
+    const [, v] = near.reduce((best, one) => (one[0] < best[0] ? one : best));
+    const vertex = whole.of.vertices[v] - 96;
+    const own = [...coordinates.slice(4 * vertex, 4 * vertex + 4)];
+    const numbers = own.map(rounded);
+    await moveTo(...project(scene, points[v], size));
+    await labeled(page, new RegExp(`^Vertex ${vertex} `));
+    assert.equal(await label(page), `Vertex ${vertex} (${numbers.join(", ")})`);
+
+    const e = [...whole.of.edges].findIndex((_, i) => whole.edges[2 * i] === v || whole.edges[2 * i + 1] === v);
+    const ends = [points[whole.edges[2 * e]], points[whole.edges[2 * e + 1]]];
+    // A bar near the nearest vertex is in front of everything else.
+    const [from, to] = whole.edges[2 * e] === v ? ends : [ends[1], ends[0]];
+    await moveTo(...project(scene, from.map((x, k) => x + 0.25 * (to[k] - x)), size));
+    assert.match(await labeled(page, /^Edge/), /^Edge \d+ · length 2 · w /);
+
+    // The parallel coordinates of that vertex light the same balls.
+    await moveTo(4, 4);
+    const before = await shot(page);
+    await moveTo(...columnsOf(scene, size)(vertex));
+    await labeled(page, new RegExp(`^Vertex ${vertex} `));
+    const lit = await shot(page);
+    assert.ok(litAt(before, lit, project(scene, points[v], size)), "in the projection");
+    const incident = new Set();
+    whole.edges.forEach((end, i) => end === v && incident.add(whole.of.edges[Math.floor(i / 2)] - 96));
+    assert.equal(incident.size, 8);
+    const litSlices = seen.slices.filter((slice) => {
+        const places = worldPoints(scene, slice).map((point) => project(scene, point, size));
+        return places.some((place, i) => incident.has(slice.of.vertices[i]) && litAt(before, lit, place));
+    });
+    assert.ok(litSlices.length >= 5, `lit in ${litSlices.length} slices`);
+    const { revision } = await script.request({ type: "set", highlight: { element: "vertex", number: vertex } });
+    await presented(page, revision);
+    await moveTo(4, 4);
+    await labeled(page, /^$/);
+    assertSame(lit, await shot(page), columnsOf(scene, size)(vertex));
+    await close();
+});
+
+test("pointing: a click keeps the element and moves the focus in one step; the background and Escape end it", async () => {
+    const { page, script, press, errors, size, picture, click, close } = await openTurned();
+    const spoken = (text) =>
+        page.waitForFunction((wanted) => document.getElementById("spoken").textContent.includes(wanted), text);
+    await spoken("24-cell"); // from now on, changes are announced
+    const { at, source } = faceIn(await picture(), size, 2);
+    await click(...at);
+    const kept = await script.until(({ highlight }) => highlight !== null, "the highlight");
+    assert.deepEqual(kept.highlight, { element: "cell", number: source });
+    assert.equal(kept.slices.focus, 2);
+    await presented(page, kept.revision);
+    const undone = await press("u");
+    assert.deepEqual([undone.highlight, undone.slices.focus], [null, 0]);
+    assert.deepEqual((await press("Control+r")).highlight, kept.highlight);
+    await spoken(`cell ${source} highlighted`);
+
+    await click(8, size.height / 2 + 60);
+    const ended = await script.until(({ highlight }) => highlight === null, "no highlight");
+    assert.equal(ended.slices.focus, 2, "the focus stays");
+    assert.deepEqual((await press("u")).highlight, kept.highlight);
+    await page.focus("#drawing");
+    assert.equal((await press("Escape")).highlight, null);
+
+    // A column of the parallel coordinates
+    await click(...columnsOf((await picture()).scene, size)(7));
+    const { highlight } = await script.until((state) => state.highlight !== null, "a vertex");
+    assert.deepEqual(highlight, { element: "vertex", number: 7 });
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("pointing: the server's pictures are clicked in the same way", async () => {
+    const { page, script, errors, size, picture, moveTo, click, close } = await openTurned();
+    await page.click("[data-page-tool=frames]");
+    await page.waitForSelector("#drawing[data-drawn-by=frames]");
+    const seen = await picture();
+    const { at, source } = faceIn(seen, size, -1);
+    await moveTo(...at);
+    await frames(page);
+    assert.equal(await label(page), "", "there is no name without the page's own picture");
+    await click(...at);
+    const { highlight, slices } = await script.until((state) => state.highlight !== null, "the highlight");
+    assert.deepEqual(highlight, { element: "cell", number: source });
+    assert.equal(slices.focus, -1);
+    assert.deepEqual(rgb(seen.scene.colors.highlight), [255, 79, 184], "the color that the other tests look for");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("pointing: the label stays within a narrow drawing, and stars and point clouds are named", async () => {
+    const { page, script, errors, close } = await openWithScript({ viewport: { width: 320, height: 568 } });
+    const box = await page.locator("#drawing").boundingBox();
+    const name = async (settings, { anywhere }) => {
+        const { revision } = await script.request({ type: "set", view: "single", ...settings });
+        await presented(page, revision);
+        for (let i = 0; i < 12; ++i) {
+            await page.mouse.move(box.x + box.width * (0.3 + 0.05 * i), box.y + box.height * 0.4);
+            await frames(page);
+            const text = await label(page);
+            const { x, width } = text === "" ? { x: 0, width: 0 } : await page.locator("#pointed").boundingBox();
+            assert.ok(x >= 0 && x + width <= 320, `${x} + ${width}`);
+            if (anywhere.test(text)) return text;
+        }
+        return assert.fail(`${anywhere} is nowhere`);
+    };
+    await name({ polytope: "24-cell" }, { anywhere: /^Cell \d+ · octahedron · w/ });
+    await name({ polytope: "small stellated 120-cell" }, { anywhere: /^Cell \d+ · / });
+    const cloud = "CLOUD\n0 0 0 0\n1 0 0 0.001\n-1 0 0 0\n0 1 0 0\n0 -1 0 0\n";
+    await script.request({ type: "load", name: "five points", format: "cloud", data: cloud });
+    const { revision } = await script.request({ type: "set", polytope: "five points", view: "single" });
+    await presented(page, revision);
+    const size = { width: Math.round(box.width), height: Math.round(box.height) };
+    const { scene, slices } = await script.request({ type: "get", what: "slices", ...size });
+    const focus = slices.find((slice) => slice.focus);
+    const [x, y] = project(scene, worldPoints(scene, focus)[0], size);
+    await page.mouse.move(box.x + x, box.y + y);
+    await labeled(page, new RegExp(`^Vertex ${focus.of.vertices[0]}`));
+    assert.deepEqual(errors, []);
+    await close();
+});
