@@ -70,6 +70,7 @@ test("accessibility: every control has a name", async () => {
         "textbox",
         "spinbutton",
         "radio",
+        "slider",
         "listbox",
         "option",
         "application",
@@ -155,7 +156,7 @@ async function focusAfter(page, key) {
 test("accessibility: Tab and the arrows reach every control, and the focus is always visible", async () => {
     const { page, close } = await openWithScript();
     const toolbars = await page.locator("[role=toolbar]:visible").count();
-    const others = await page.locator("button:visible, #drawing, #tools input:checked").evaluateAll((all) => {
+    const others = await page.locator("button:visible, #drawing, #tools input:checked, #focus-bar :is(input, select)").evaluateAll((all) => {
         return all.filter((one) => !one.closest("[role=toolbar]")).length;
     });
     const buttons = await page.locator("button:visible:enabled").count();

@@ -6,6 +6,7 @@ import "./buttons.mjs";
 import "./client.mjs";
 import "./command_line.mjs";
 import "./readings.mjs";
+import "./slider.mjs";
 import "./picker.mjs";
 import "./loading.mjs";
 import "./export.mjs";

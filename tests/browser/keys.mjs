@@ -60,7 +60,7 @@ export const effects = {
 /** The key presses of a binding in Playwright's notation, on a US keyboard. */
 export function strokes({ key, code, ctrl }, inverse = false) {
     if (key.length > 1) return [...key];
-    const name = code ?? (/[A-Z]/.test(key) ? `Shift+${key}` : key);
+    const name = code ?? (/[A-Z()]/.test(key) ? `Shift+${key}` : key);
     if (ctrl) return [`Control+${key}`];
     return [inverse ? (code ? `Shift+${code}` : `Shift+${key.toUpperCase()}`) : name];
 }
@@ -157,6 +157,20 @@ test("keys: a digit is recognized by the physical key, so Shift with it is the i
         assertMatrix(back.orientation, start.orientation);
         await end();
     }
+});
+
+test("keys: parentheses typed with Shift and a digit move the focus to the next vertex", async () => {
+    const { page, script, close: end } = await openWithScript();
+    const layouts = { American: ["Digit0", "Digit9"], German: ["Digit9", "Digit8"] };
+    for (const [layout, [closing, opening]] of Object.entries(layouts)) {
+        const { section } = await script.state();
+        await dispatch(page, { key: ")", text: ")", code: closing, modifiers: 8 });
+        const above = await script.until((one) => one.section.w > section.w, `a higher w, ${layout}`);
+        assert.notEqual(above.section.vertices, "", "a vertex lies there");
+        await dispatch(page, { key: "(", text: "(", code: opening, modifiers: 8 });
+        await script.until((one) => one.section.w < above.section.w, `a lower w, ${layout}`);
+    }
+    await end();
 });
 
 test("keys: brackets typed with AltGr, and letters typed on keyboards of another script, are recognized", async () => {

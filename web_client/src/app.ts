@@ -11,12 +11,13 @@ import { byId } from "./element";
 import { ExportDialog } from "./export_dialog";
 import { FileLoading } from "./file_loading";
 import { isFirstVisit, kFirstView, Welcome } from "./first_visit";
+import { FocusSlider } from "./focus_slider";
 import { FrameLayout } from "./frame_layout";
 import { listenForGamepads } from "./gamepad";
 import { listenForGestures } from "./gestures";
 import { Help } from "./help";
 import { KeyRepeat } from "./key_repeat";
-import { editingAction, isForControl, strokeFromEvent, strokesOfBinding } from "./keys";
+import { editingAction, isForControl, strokeFromEvent, strokesOfBinding, type Stroke } from "./keys";
 import { Latency } from "./latency";
 import { extractSharedSession, readInitialView, rememberSession, shareLink } from "./link";
 import { Notice } from "./notice";
@@ -68,7 +69,10 @@ export class App {
         },
         onRequest: (answer) => this.connection.follow(answer),
         onState: (state) => this.update(state),
-        onSlices: (slices) => this.stage.showSlices(slices, this.state?.camera ?? this.stage.orbit),
+        onSlices: (slices) => {
+            this.slider.updatePicture(slices);
+            this.stage.showSlices(slices, this.state?.camera ?? this.stage.orbit);
+        },
         onFrame: (png) => this.stage.showFrame(png).catch((error: Error) => this.notice.show(error.message)),
         onError: (error) => this.notice.show(error.message),
         onLost: (reason) => this.sessionLost(reason),
@@ -79,6 +83,10 @@ export class App {
         this.stage,
         () => this.stage.layout ?? this.frameLayout.current,
     );
+    private readonly slider: FocusSlider = new FocusSlider(this.client, {
+        pressKey: (key, held) => this.sendStroke({ key, shift: false, ctrl: false }, held),
+        failed: (error) => this.notice.show(error.message),
+    });
     private readonly rotation = new RotationControl((rotation) => this.send(rotation));
     private readonly pointing: Pointing = new Pointing(this.drawing, this.stage, () => this.state);
     private readonly help = new Help();
@@ -168,6 +176,7 @@ export class App {
     private async connectionOpened(): Promise<void> {
         this.keyRepeat.restart();
         this.latency.restart();
+        this.slider.restart();
         try {
             await this.restoreView();
             this.requestStream();
@@ -237,6 +246,7 @@ export class App {
         this.state = state;
         this.orbit.adoptCamera(state);
         this.frameLayout.update(state);
+        this.slider.update(state);
         const { name } = state.polytope;
         this.polytopeButton.querySelector("b")!.textContent = name;
         document.title = `${name} \u2013 oval4d`;
@@ -295,7 +305,14 @@ export class App {
         if (!binding && !stroke) return;
         event.preventDefault();
         if (binding) this.press(binding, false, event.repeat);
-        else if (stroke && (!event.repeat || this.keyRepeat.mayRepeat)) void this.send({ type: "key", ...stroke });
+        else if (stroke) this.sendStroke(stroke, event.repeat);
+    }
+
+    private sendStroke(stroke: Stroke, held: boolean): void {
+        if (held && !this.keyRepeat.mayRepeat) return;
+        const movesFocus = this.keymap?.keys.some(({ group, key }) => group === "focus" && key.startsWith(stroke.key));
+        if (movesFocus) this.slider.stop();
+        void this.send({ type: "key", ...stroke });
     }
 
     private press(binding: KeyBinding, inverse: boolean, held: boolean): void {
@@ -306,7 +323,7 @@ export class App {
         else if (binding.action === "export") this.openExport();
         else if (this.orbit.perform(binding.action)) return;
         else if (held && !this.keyRepeat.mayRepeat) return;
-        else for (const stroke of strokesOfBinding(binding, inverse)) void this.send({ type: "key", ...stroke });
+        else for (const stroke of strokesOfBinding(binding, inverse)) this.sendStroke(stroke, false);
     }
 
     /**
@@ -317,6 +334,7 @@ export class App {
         const { orbit, size } = this.stage;
         const ratio = size.height / this.drawing.clientHeight;
         const layout = this.stage.layout ?? (await this.frameLayout.request());
+        this.slider.stop();
         if (!layout) return;
         const pointed = this.pointing.elementAt(x, y, layout);
         const slice = pointed

@@ -33,10 +33,14 @@ export function formatCoordinate(value: number): string {
     return formatDecimal(value, 3);
 }
 
-/** The w of the focus slice, rounded like its label in the picture (labelOf() in server/scene/layout.cpp). */
+/** The w of the focus slice. */
 export function focusW({ slices: { focus, spacing, offset } }: State): string {
+    return formatW(offset + focus * spacing, spacing);
+}
+
+/** The w of a slice, rounded like its label in the picture (labelOf() in server/scene/layout.cpp). */
+export function formatW(w: number, spacing: number): string {
     const decimals = Math.min(9, Math.max(2, Math.ceil(-Math.log10(spacing)) + 1));
-    const w = offset + focus * spacing;
     const text = new Intl.NumberFormat("en-US", {
         minimumFractionDigits: decimals,
         maximumFractionDigits: decimals,

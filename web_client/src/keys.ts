@@ -46,8 +46,8 @@ export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding
     const digit = composed ? undefined : digitOfKey(event);
     if (digit !== undefined) {
         const binding = table.find((row) => row.code !== undefined && row.key === digit);
-        const known = binding && !ctrl && (!shift || binding.shift === "inverse");
-        return known ? { key: digit, shift, ctrl } : undefined;
+        // Otherwise Shift with the digit may type another character of the table, such as a parenthesis.
+        if (binding && !ctrl && (!shift || binding.shift === "inverse")) return { key: digit, shift, ctrl };
     }
     if (!shift && !ctrl && table.some((row) => isNamed(row) && row.key === key)) return { key, shift, ctrl };
     const typed = typedCharacter(event);

@@ -1,0 +1,78 @@
+// Moves the focus slice to any w. The newest w is sent once per animation frame, when the previous one has been answered.
+
+import type { Client, State } from "@oval4d/protocol";
+
+const kSame = 1e-6; // spacings: values of w that differ by less count as equal
+
+interface Place {
+    w: number;
+    revision: number;
+}
+
+export class FocusControl {
+    private wanted = 0;
+    private isUnsent = false;
+    private isScheduled = false;
+    private inFlight: number | undefined; // the w that has been sent and not answered
+    private answered: Place = { w: NaN, revision: 0 };
+    private seen: Place = { w: 0, revision: 0 }; // in the newest state
+
+    /** `settled` is called when nothing is left to send, with the error if the last move failed. */
+    constructor(
+        private readonly client: Client,
+        private readonly settled: (error?: Error) => void,
+    ) {}
+
+    /** The w where the focus is, or will be when the server has answered. */
+    get w(): number {
+        if (this.isUnsent || this.inFlight !== undefined) return this.wanted;
+        return this.seen.revision >= this.answered.revision ? this.seen.w : this.answered.w;
+    }
+
+    moveTo(w: number): void {
+        this.wanted = w;
+        this.isUnsent = true;
+        this.schedule();
+    }
+
+    /** Forgets a move that has not been sent. */
+    cancel(): void {
+        this.isUnsent = false;
+    }
+
+    /** Follows the focus of the session. Returns whether something else has moved it. */
+    update({ revision, section: { w }, slices }: State): boolean {
+        this.seen = { w, revision };
+        const isSame = (other = NaN): boolean => Math.abs(w - other) <= kSame * slices.spacing;
+        return revision >= this.answered.revision && !isSame(this.answered.w) && !isSame(this.inFlight);
+    }
+
+    /** Forgets the revisions, because a new connection may be to a session whose revisions start at 0. */
+    restart(): void {
+        this.answered.revision = this.seen.revision = 0;
+    }
+
+    private schedule(): void {
+        if (this.inFlight !== undefined || this.isScheduled) return;
+        this.isScheduled = true;
+        requestAnimationFrame(() => void this.send());
+    }
+
+    private async send(): Promise<void> {
+        this.isScheduled = false;
+        if (!this.isUnsent) return;
+        this.isUnsent = false;
+        const w = (this.inFlight = this.wanted);
+        let failure: Error | undefined;
+        try {
+            const { revision } = await this.client.request({ type: "set", slices: { w } });
+            this.answered = { w, revision };
+        } catch (error) {
+            failure = error as Error;
+            this.isUnsent = false;
+        }
+        this.inFlight = undefined;
+        if (this.isUnsent) this.schedule();
+        else this.settled(failure);
+    }
+}

@@ -1,0 +1,219 @@
+// The slider below the picture: moves the focus slice from the lowest w of the object to the highest, and plays this
+// motion. Its marks are the values of w at which vertices lie.
+
+import type { Client, Slices, State } from "@oval4d/protocol";
+
+import { CriticalLevels, type Level } from "./critical_levels";
+import { byId } from "./element";
+import { FocusControl } from "./focus_control";
+import { formatW } from "./format";
+
+export interface SliderEvents {
+    /** Presses a key of the key table. */
+    pressKey(key: string, held: boolean): void;
+    failed(error: Error): void;
+}
+
+const kSnapDistance = 4; // pixels from a mark
+const kKeySteps = 200; // steps of the arrow keys from one end to the other
+const kMaxMarks = 60; // from this number of levels on, their density is shown
+const kDensityBins = 80;
+const kSweepTime = 8; // seconds from one end to the other at the speed 1
+const kMaxInterval = 0.1; // seconds between two animation frames, if the page was too busy
+
+export class FocusSlider {
+    private readonly input = byId<HTMLInputElement>("focus-w");
+    private readonly marks = document.querySelector<SVGPathElement>("#focus-marks path")!;
+    private readonly section = byId("focus-section");
+    private readonly playButton = byId<HTMLButtonElement>("focus-play");
+    private readonly speed = byId<HTMLSelectElement>("focus-speed");
+    private readonly levels: CriticalLevels;
+    private readonly control: FocusControl;
+    private state: State | undefined;
+    private isDragged = false;
+    private mayNotSnap = false; // while a modifier key is held
+    private playedAt: number | undefined; // milliseconds; undefined while the motion is not played
+    private direction = 1;
+
+    constructor(
+        client: Client,
+        private readonly events: SliderEvents,
+    ) {
+        this.levels = new CriticalLevels(client, () => this.showRange());
+        this.control = new FocusControl(client, (error) => {
+            if (error) {
+                this.stop();
+                events.failed(error);
+            }
+            this.show();
+        });
+        this.listen();
+    }
+
+    update(state: State): void {
+        this.state = state;
+        if (this.control.update(state)) this.stop();
+        this.levels.update(state);
+        const { name, vertices } = state.section;
+        this.section.textContent = name || (vertices && `vertices: ${vertices}`);
+        this.show();
+    }
+
+    /** Takes the levels from the picture of the newest state. */
+    updatePicture(slices: Slices): void {
+        this.levels.adopt(slices);
+    }
+
+    /** Prepares for the states of a new connection. */
+    restart(): void {
+        this.control.restart();
+        this.stop();
+    }
+
+    /** Stops playing. */
+    stop(): void {
+        if (this.playedAt === undefined) return;
+        this.playedAt = undefined;
+        this.control.cancel();
+        this.showPlaying();
+    }
+
+    private listen(): void {
+        const { input } = this;
+        input.addEventListener("pointerdown", (event) => {
+            this.isDragged = true;
+            this.noteModifiers(event);
+            this.stop();
+        });
+        for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => (this.isDragged = false));
+        window.addEventListener("pointermove", (event) => this.noteModifiers(event));
+        input.addEventListener("input", () => this.slid());
+        input.addEventListener("keydown", (event) => this.keydown(event));
+        this.playButton.addEventListener("click", () => (this.playedAt === undefined ? this.play() : this.stop()));
+        // The drawing keeps the focus, so that the space bar does not press the button again.
+        this.playButton.addEventListener("mousedown", (event) => event.preventDefault());
+        document.addEventListener("visibilitychange", () => document.hidden && this.stop());
+    }
+
+    private noteModifiers({ altKey, shiftKey }: PointerEvent): void {
+        this.mayNotSnap = altKey || shiftKey;
+    }
+
+    /** The lowest and the highest w of the object. */
+    private get range(): [number, number] {
+        const { all } = this.levels;
+        return [all[0]?.w ?? 0, all.at(-1)?.w ?? 0];
+    }
+
+    private moveTo(w: number): void {
+        const [least, most] = this.range;
+        this.control.moveTo(Math.min(most, Math.max(least, w)));
+        this.show();
+    }
+
+    /** Handles a drag, or a step by assistive technology. */
+    private slid(): void {
+        this.stop();
+        this.moveTo(this.snapped(this.input.valueAsNumber));
+    }
+
+    /** The w of a mark within a few pixels, if there is one; otherwise the same w. */
+    private snapped(w: number): number {
+        const { all, isExact } = this.levels;
+        if (!this.isDragged || this.mayNotSnap || !isExact || all.length > kMaxMarks) return w;
+        const [least, most] = this.range;
+        const distance = (level: Level): number => Math.abs(level.w - w);
+        const nearest = all.reduce((best, level) => (distance(level) < distance(best) ? level : best));
+        const perPixel = (most - least) / Math.max(1, this.marks.getBoundingClientRect().width);
+        return distance(nearest) <= kSnapDistance * perPixel ? nearest.w : w;
+    }
+
+    private keydown(event: KeyboardEvent): void {
+        if (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey) return;
+        const [least, most] = this.range;
+        const step = (most - least) / kKeySteps;
+        const moves: Record<string, () => void> = {
+            ArrowRight: () => this.moveTo(this.control.w + step),
+            ArrowUp: () => this.moveTo(this.control.w + step),
+            ArrowLeft: () => this.moveTo(this.control.w - step),
+            ArrowDown: () => this.moveTo(this.control.w - step),
+            Home: () => this.moveTo(least),
+            End: () => this.moveTo(most),
+            PageUp: () => this.pressKey(")", event.repeat),
+            PageDown: () => this.pressKey("(", event.repeat),
+        };
+        const move = moves[event.key];
+        if (!move) return;
+        event.preventDefault();
+        this.stop();
+        move();
+    }
+
+    private pressKey(key: string, held: boolean): void {
+        this.control.cancel();
+        this.events.pressKey(key, held);
+    }
+
+    private play(): void {
+        this.playedAt = performance.now();
+        this.showPlaying();
+        requestAnimationFrame((now) => this.playOn(now));
+    }
+
+    private playOn(now: number): void {
+        if (this.playedAt === undefined) return;
+        const seconds = Math.min(kMaxInterval, Math.max(0, now - this.playedAt) / 1000);
+        this.playedAt = now;
+        const [least, most] = this.range;
+        const w = this.control.w + (this.direction * seconds * Number(this.speed.value) * (most - least)) / kSweepTime;
+        if (w >= most) this.direction = -1;
+        else if (w <= least) this.direction = 1;
+        this.moveTo(w);
+        requestAnimationFrame((next) => this.playOn(next));
+    }
+
+    private showPlaying(): void {
+        const isPlaying = this.playedAt !== undefined;
+        this.playButton.setAttribute("aria-pressed", String(isPlaying));
+        this.playButton.querySelector("span")!.textContent = isPlaying ? "Pause" : "Play";
+    }
+
+    private showRange(): void {
+        const { all, isCurrent } = this.levels;
+        const [least, most] = this.range;
+        const isEmpty = !(most > least);
+        this.input.disabled = this.playButton.disabled = isEmpty;
+        this.input.min = String(least);
+        this.input.max = String(most);
+        const at = (w: number): number => (w - least) / (most - least);
+        this.marks.toggleAttribute("data-density", all.length > kMaxMarks);
+        const outline = all.length > kMaxMarks ? densityOutline : marksOutline;
+        this.marks.setAttribute("d", isEmpty || !isCurrent ? "" : outline(all, at));
+        this.show();
+    }
+
+    private show(): void {
+        if (!this.state) return;
+        const { section, slices } = this.state;
+        const { w } = this.control;
+        this.input.value = String(w);
+        const text = formatW(w, slices.spacing);
+        const hasName = section.name !== "" && text === formatW(section.w, slices.spacing);
+        this.input.setAttribute("aria-valuetext", `w = ${text}${hasName ? `, ${section.name}` : ""}`);
+    }
+}
+
+/** A vertical line for each level, in a square of side 1. */
+function marksOutline(levels: Level[], at: (w: number) => number): string {
+    return levels.map(({ w }) => `M${at(w)} 0V1`).join("");
+}
+
+/** How many vertices lie at which w, as an area in a square of side 1. */
+function densityOutline(levels: Level[], at: (w: number) => number): string {
+    const bins = new Array<number>(kDensityBins).fill(0);
+    const binOf = (w: number): number => Math.min(kDensityBins - 1, Math.floor(at(w) * kDensityBins));
+    for (const { w, vertices } of levels) bins[binOf(w)]! += vertices;
+    const most = Math.max(...bins);
+    const steps = bins.map((count, i) => `V${1 - count / most}H${(i + 1) / kDensityBins}`);
+    return `M0 1${steps.join("")}V1Z`;
+}
