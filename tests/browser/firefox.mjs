@@ -130,6 +130,29 @@ test("firefox: dragging orbits the view, the wheel zooms, a double click resets 
     await close();
 });
 
+test("firefox: the slider snaps to a mark, and plays", async () => {
+    const { page, script, errors, close } = await openInFirefox({ viewport: { width: 1280, height: 720 } });
+    await script.request({ type: "set", polytope: "24-cell" });
+    await script.request({ type: "toward", element: "cell", immediately: true });
+    // The exact values replace the rounded ones.
+    await page.waitForFunction("Math.abs(document.getElementById('focus-w').max - Math.SQRT2) < 1e-12");
+    const box = await (await page.$("#focus-marks")).boundingBox();
+    const y = box.y + box.height / 2;
+    await page.mouse.move(box.x + 0.5 * box.width, y);
+    await page.mouse.down();
+    await page.mouse.move(box.x + 0.8 * box.width, y, { steps: 5 });
+    await script.until(({ section: { w } }) => w > 0 && w < 1.4, "a drag");
+    await page.mouse.move(box.x + box.width - 3, y, { steps: 5 });
+    await page.mouse.up();
+    await script.until(({ section }) => section.name === "octahedron", "the cell at the highest w");
+    await page.click("#focus-play");
+    await script.until(({ section }) => section.name === "", "playing");
+    await page.click("#focus-play");
+    await page.waitForSelector("#focus-play[aria-pressed=false]");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("firefox: exports a file", async () => {
     const { page, errors, downloads, close } = await openInFirefox({ url: `${(await common()).url}?polytope=8-cell` });
     await type(page, "x");

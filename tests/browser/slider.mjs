@@ -11,13 +11,17 @@ const kGolden = (1 + Math.sqrt(5)) / 2;
 const k600CellLevels = [-1, -kGolden / 2, -1 / 2, (1 - kGolden) / 2, 0, (kGolden - 1) / 2, 1 / 2, kGolden / 2, 1];
 const kRadius = 2 * kGolden; // the 600-cell's edges have length 2
 
-/** Opens the page and shows the 600-cell with a vertex toward +w, or another polytope. */
-async function openSlider({ polytope = "600-cell", ...options } = {}) {
+/** Opens the page and shows the 600-cell with a vertex toward +w. */
+async function openSlider(options) {
     const opened = await openWithScript(options);
-    await opened.script.request({ type: "set", polytope });
+    await opened.script.request({ type: "set", polytope: "600-cell" });
     const { revision } = await opened.script.request({ type: "toward", element: "vertex", immediately: true });
     await presented(opened.page, revision);
-    await marked(opened.page, polytope === "600-cell" ? 9 : undefined);
+    // The exact values replace the rounded ones.
+    await opened.page.waitForFunction(
+        (most) => Math.abs(document.getElementById("focus-w").max - most) < 1e-12,
+        kRadius,
+    );
     return opened;
 }
 
@@ -28,15 +32,12 @@ const marks = (page) =>
         return [...outline.matchAll(/M(\S+) 0V1/g)].map(([, x]) => Number(x));
     });
 
-/** Waits until there are this many marks, or any, and the object has been at rest for long enough. */
-async function marked(page, count) {
-    await page.waitForFunction((wanted) => {
+/** Waits until there are this many marks. */
+const marked = (page, count) =>
+    page.waitForFunction((wanted) => {
         const outline = document.querySelector("#focus-marks path").getAttribute("d") ?? "";
-        const found = outline.split("M").length - 1;
-        return wanted === undefined ? found > 0 : found === wanted;
+        return outline.split("M").length - 1 === wanted;
     }, count);
-    await page.waitForTimeout(400); // the exact values replace the rounded ones
-}
 
 /** The point on the slider at a part of the way from its lowest to its highest w. */
 async function pointAt(page, part) {
