@@ -85,7 +85,10 @@ export class FocusSlider {
             this.noteModifiers(event);
             this.stop();
         });
-        for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => (this.isDragged = false));
+        for (const end of ["pointerup", "pointercancel"]) {
+            // Firefox reports the last value of a drag after pointerup.
+            window.addEventListener(end, () => setTimeout(() => (this.isDragged = false)));
+        }
         window.addEventListener("pointermove", (event) => this.noteModifiers(event));
         input.addEventListener("input", () => this.slid());
         input.addEventListener("keydown", (event) => this.keydown(event));
