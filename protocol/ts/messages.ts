@@ -86,7 +86,7 @@ export type Request =
     | { type: "key"; key: string; shift?: boolean; ctrl?: boolean }
     | { type: "rotate"; planes: Plane[]; angles: number[]; continues?: boolean }
     | { type: "toward"; element: ElementKind; number?: number; immediately?: boolean }
-    | ({ type: "set" } & Settings)
+    | ({ type: "set"; continues?: boolean } & Settings)
     | { type: "load"; name: string; format: string; data: string }
     | { type: "undo" }
     | { type: "redo" }

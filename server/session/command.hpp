@@ -36,6 +36,7 @@ struct Toward {
 };
 /// Changes the settings that are present; the others keep their values.
 struct Set {
+    bool continues = false;             ///< as in Rotate
     std::optional<std::string> object;  ///< a name or alias in the catalogue, or the name of a loaded object
     std::optional<glm::dmat4> orientation;
     std::optional<double> alpha, beta;  ///< the angles of the rotation keys, in radians

@@ -48,7 +48,7 @@ class Applier {
     Done operator()(const Set& command) {
         State next = session_.current;
         if (Done done = applySet(next, command, session_.loaded, limits_, loader_); !done) return done;
-        commit(session_, std::move(next), limits_);
+        (command.continues ? amend : commit)(session_, std::move(next), limits_);
         return std::monostate{};
     }
     Done operator()(const Load& command) {

@@ -68,6 +68,7 @@ Hello helloOf(const json& message) {
 
 session::Set setOf(const json& message) {
     session::Set set;
+    set.continues = message.value("continues", false);
     if (const auto polytope = message.find("polytope"); polytope != message.end()) {
         set.object = polytope->is_object() ? polytope->at("name").get<std::string>() : polytope->get<std::string>();
     }

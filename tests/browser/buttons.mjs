@@ -143,7 +143,7 @@ test("buttons: Export and Share are in the header, or on narrow screens in the t
 test("buttons: what turns, cuts and shows the polytope is visible without scrolling", async () => {
     const { page, script, close } = await openWithScript({ viewport: { width: 1440, height: 900 } });
     const { keys } = await script.request({ type: "get", what: "keymap" });
-    const below = ["files", "client"];
+    const below = ["camera", "files", "client"];
     for (const { action, group } of keys.filter((key) => !below.includes(key.group))) {
         for (const button of await page.locator(`[data-action=${action}]`).all()) {
             const { y, height } = await button.boundingBox();

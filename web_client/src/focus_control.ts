@@ -12,6 +12,7 @@ interface Place {
 export class FocusControl {
     private wanted = 0;
     private isUnsent = false;
+    private continues = false; // whether the next move belongs to the undo step of the last one
     private isScheduled = false;
     private inFlight: number | undefined; // the w that has been sent and not answered
     private answered: Place = { w: NaN, revision: 0 };
@@ -27,6 +28,11 @@ export class FocusControl {
     get w(): number {
         if (this.isUnsent || this.inFlight !== undefined) return this.wanted;
         return this.seen.revision >= this.answered.revision ? this.seen.w : this.answered.w;
+    }
+
+    /** Begins a gesture: the moves up to the next call are one undo step. */
+    begin(): void {
+        this.continues = false;
     }
 
     moveTo(w: number): void {
@@ -63,9 +69,11 @@ export class FocusControl {
         if (!this.isUnsent) return;
         this.isUnsent = false;
         const w = (this.inFlight = this.wanted);
+        const { continues } = this;
+        this.continues = true;
         let failure: Error | undefined;
         try {
-            const { revision } = await this.client.request({ type: "set", slices: { w } });
+            const { revision } = await this.client.request({ type: "set", slices: { w }, continues });
             this.answered = { w, revision };
         } catch (error) {
             failure = error as Error;

@@ -82,6 +82,7 @@ export class FocusSlider {
         const { input } = this;
         input.addEventListener("pointerdown", (event) => {
             this.isDragged = true;
+            this.control.begin();
             this.noteModifiers(event);
             this.stop();
         });
@@ -149,6 +150,7 @@ export class FocusSlider {
         if (!move) return;
         event.preventDefault();
         this.stop();
+        this.control.begin();
         move();
     }
 
@@ -159,6 +161,7 @@ export class FocusSlider {
 
     private play(): void {
         this.playedAt = performance.now();
+        this.control.begin();
         this.showPlaying();
         requestAnimationFrame((now) => this.playOn(now));
     }

@@ -53,7 +53,7 @@ export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding
     const typed = typedCharacter(event);
     const known = table.some((row) => {
         if ((row.ctrl ?? false) !== ctrl || isNamed(row)) return false;
-        if (row.key.length > 1) return row.key.startsWith(typed);
+        if (row.key.length > 1) return row.key.includes(typed);
         return row.key === typed || (row.shift === "inverse" && row.key === typed.toLowerCase());
     });
     return known ? { key: typed, shift, ctrl } : undefined;

@@ -88,8 +88,11 @@ export class ReadingField {
 
     private keydown(event: KeyboardEvent): void {
         if (event.isComposing) return;
-        if (event.key === "Escape") this.close();
-        else if (event.key === "Enter") void this.submit();
+        if (event.key === "Escape") {
+            event.stopPropagation(); // elsewhere, Escape moves the focus to the drawing
+            this.close();
+        }
+        if (event.key === "Enter") void this.submit();
     }
 
     /** Applies a change when the focus leaves the field, unless it leaves the window. */
@@ -113,6 +116,6 @@ export class ReadingField {
 
     private showError(error: string): void {
         this.error.textContent = error === "" ? "" : toSentence(error);
-        this.input.toggleAttribute("aria-invalid", error !== "");
+        this.input.setAttribute("aria-invalid", String(error !== ""));
     }
 }

@@ -9,7 +9,7 @@ export function makeToolbar(root: HTMLElement, label: string): void {
     root.setAttribute("aria-label", label);
     const setTabStop = (wanted?: Element): void => {
         const buttons = [...root.querySelectorAll("button")];
-        const enabled = buttons.filter((button) => !button.disabled);
+        const enabled = buttons.filter(isUsable);
         const stop = enabled.find((button) => button === wanted) ?? enabled.find((button) => button.tabIndex === 0);
         for (const button of buttons) button.tabIndex = button === (stop ?? enabled[0]) ? 0 : -1;
     };
@@ -18,15 +18,20 @@ export function makeToolbar(root: HTMLElement, label: string): void {
         ...{ childList: true, subtree: true, attributes: true },
         attributeFilter: ["disabled"],
     });
+    new ResizeObserver(() => setTabStop()).observe(root); // the window's width may hide or show buttons
     root.addEventListener("focusin", ({ target }) => target instanceof HTMLButtonElement && setTabStop(target));
     root.addEventListener("keydown", (event) => {
         if (!(event.target instanceof HTMLButtonElement) || isModified(event)) return;
-        const buttons = [...root.querySelectorAll("button")].filter((one) => !one.disabled && one.checkVisibility());
+        const buttons = [...root.querySelectorAll("button")].filter(isUsable);
         const next = nextButton(buttons, event.target, event.key);
         if (!next) return;
         event.preventDefault();
         next.focus();
     });
+}
+
+function isUsable(button: HTMLButtonElement): boolean {
+    return !button.disabled && button.checkVisibility();
 }
 
 /** The button to which the key moves the focus; undefined for other keys. */

@@ -21,14 +21,14 @@ export interface Section {
 
 // The tabs in which sections are grouped on small screens. Groups that are not listed are in the last tab.
 const kTabs = [
-    { title: "Turn", groups: ["turn", "history"] },
+    { title: "Turn", groups: ["turn", "toward", "history"] },
     { title: "Slices", groups: ["angle", "focus", "slices"] },
     { title: "Show", groups: ["polytope", "look", "whole", "camera", "Colors"] },
 ];
 const kOtherTab = "More";
 
 const kRepeatingActions =
-    /^(rotate|repeat|undo|redo|(alpha|beta|focus|spacing|slices|polytope|orbit|zoom)_(up|down|left|right|smaller|larger|fewer|more|next|previous|in|out))$/;
+    /^(rotate|repeat|undo|redo|(alpha|beta|focus|vertex|spacing|slices|polytope|orbit|zoom)_(up|down|left|right|smaller|larger|fewer|more|next|previous|in|out))$/;
 const kHoldDelay = 400; // milliseconds until a held button repeats
 const kHoldInterval = 60; // milliseconds between repetitions
 
@@ -42,8 +42,15 @@ const kToggles: Record<string, (state: State) => boolean> = {
     ),
 };
 /** Labels of buttons that differ from the key table, whose label is not clear enough there. */
-const kLabels: Record<string, string> = { view: "One slice", command_line: "Command" };
-const kFocusOrder = ["focus_first", "focus_left", "focus_zero", "focus_right", "focus_last"];
+const kLabels: Record<string, string> = {
+    view: "One slice",
+    command_line: "Command",
+    focus_zero: "0",
+    vertex_previous: "(",
+    vertex_next: ")",
+};
+const kFocusOrder =
+    "focus_first vertex_previous focus_left focus_zero focus_right vertex_next focus_last".split(" ");
 
 /** Pairs of actions that are combined in one stepper: decrease, increase, and the name of the quantity. */
 const kStepperPairs = [
