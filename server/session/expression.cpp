@@ -187,7 +187,7 @@ Result<double> evaluate(std::string_view text) {
 }
 
 Result<double> evaluateAngle(std::string_view text) {
-    const auto value = evaluate(text);
+    auto value = evaluate(text);
     const bool isBareNumber = text.find_first_not_of(" \t+-.0123456789") == std::string_view::npos;
     if (value && isBareNumber && std::abs(*value) > 2 * std::numbers::pi) {
         const std::size_t first = text.find_first_not_of(" \t");

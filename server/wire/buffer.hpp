@@ -1,6 +1,7 @@
 #pragma once
 // An output buffer that writes to a string.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <string>
@@ -34,8 +35,7 @@ class Buffer {
     /// Appends a text.
     void put(std::string_view text) {
         reserve(text.size());
-        std::memcpy(at_, text.data(), text.size());
-        at_ += text.size();
+        at_ = std::copy(text.begin(), text.end(), at_);  // unlike memcpy, also for an empty text without data
     }
 
   private:

@@ -85,12 +85,20 @@ inline void requireSound(const session::State& state, const session::Limits& lim
     constexpr double kTwoPi = 6.283185307179587;
     require(within(state.alpha, kTwoPi) && within(state.beta, kTwoPi), "alpha and beta are within their bounds");
     require(state.step > 0 && within(state.step, kTwoPi), "the step is within its bounds");
-    const auto& [count, spacing, focus] = state.slices;
+    const auto& [count, spacing, focus, offset] = state.slices;
     require(count >= 1 && count <= limits.maxSlices && count % 2 == 1, "the number of slices is odd and allowed");
     require(within(focus, session::kMaxFocus), "the focus is within its bounds");
     const double ratio = spacing / info.circumradius;
     require(ratio >= session::kMinSpacing * (1 - 1e-9) && ratio <= session::kMaxSpacing * (1 + 1e-9),
             "the spacing is within its bounds");
+    require(within(offset / info.circumradius, session::kMaxOffset * (1 + 1e-9)), "the offset is within its bounds");
+    if (state.approach) {
+        require(!state.turning, "what approaches an orientation does not turn");
+        const double seconds = state.approach->seconds;
+        require(seconds > 0 && seconds <= session::kMaxApproachSeconds, "an approach ends within its bound");
+    }
+    if (const auto& element = state.look.highlight)
+        require(element->index < slicing::elementCount(state.object, element->kind), "what is highlighted exists");
     const auto& [azimuth, elevation, zoom] = state.look.orbit;
     require(within(azimuth, session::kMaxOrbitAngle) && within(elevation, session::kMaxOrbitAngle),
             "the orbit is within bounds");

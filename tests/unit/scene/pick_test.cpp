@@ -127,7 +127,8 @@ TEST(Pick, FindsTheProjectionsElementsAndTheCoordinatesColumns) {
     const CoordinatesLayout& layout = picture.scene.coordinates;
     for (int i = 0; i < 24; ++i) {
         const double x = layout.left + (i % layout.perRow) * layout.columnStep + 1.5 * layout.lineStep;
-        const double y = layout.zero - (i / layout.perRow) * layout.rowStep + 0.5 * layout.amplitude;
+        const int row = i / layout.perRow;
+        const double y = layout.zero - row * layout.rowStep + 0.5 * layout.amplitude;
         const auto hit = picture.at({x * 720, (1 - y) * 720, 0});
         ASSERT_TRUE(hit);
         EXPECT_EQ(hit->area, PictureArea::coordinates);
