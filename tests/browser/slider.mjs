@@ -1,5 +1,6 @@
 // The slider of the focus slice, its marks, and playing.
 import assert from "node:assert/strict";
+import { setTimeout as pause } from "node:timers/promises";
 import { test } from "./support/suite.mjs";
 
 import { openWithScript, presented } from "./support/browser.mjs";
@@ -273,7 +274,13 @@ test("slider: playing stops at a drag, a key that moves the focus, another clien
         "arrow key": () => page.locator(kSlider).press("ArrowLeft"),
         key: () => page.locator("#drawing").press("h"),
         "click on a slice": () => page.click("#drawing", { position: { x: 60, y: 60 } }),
-        script: () => script.request({ type: "set", slices: { w: -2 } }),
+        async script() {
+            // The page sees only the newest state, so a move of its own may hide one of another client.
+            while (await isPlaying(page)) {
+                await script.request({ type: "set", slices: { w: -2 } });
+                await pause(100);
+            }
+        },
         hidden: () =>
             page.evaluate(() => {
                 Object.defineProperty(document, "hidden", { value: true, configurable: true });
