@@ -276,7 +276,7 @@ test("slider: playing stops at a drag, a key that moves the focus, another clien
         "click on a slice": () => page.click("#drawing", { position: { x: 60, y: 60 } }),
         async script() {
             // The page sees only the newest state, so a move of its own may hide one of another client.
-            while (await isPlaying(page)) {
+            for (let i = 0; i < 100 && (await isPlaying(page)); ++i) {
                 await script.request({ type: "set", slices: { w: -2 } });
                 await pause(100);
             }
