@@ -43,7 +43,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     colors_.paint(object, look.coloring, orientation, out.cellColors);
     highlight(object, objectChanged, out);
     nameSection(object, focus, out);
-    layOut(slices.planes, focus, slices.rotatedVertices.size(), ballRadius_, look, viewport, focusName_, out);
+    layOutIfChanged(focus, out);
     out.scale = out.sliceRadius / info.circumradius;
     out.ballRadius = ballRadius_ * out.sliceRadius;
     out.barRadius = 0.4 * out.ballRadius;
@@ -78,16 +78,31 @@ void Composer::nameSection(const Object& object, int focus, Scene& out) {
     const SliceSet& slices = *out.slices;
     const int slice = focus - slices.planes.first;
     out.sectionNames = {};
-    focusName_.clear();
+    std::string& focusName = layoutInput_.focusName;
+    focusName.clear();
     const std::size_t edges = slicing::elementCounts(object)[1];
     if (edges == 0 || slice < 0 || slice >= slices.planes.count) return;
     out.sectionNames = {sectionNamer_.nameOfSlice(slices, slice), sectionNamer_.nameOfVertices(slices, slice, edges)};
     const auto& [name, vertices] = out.sectionNames;
     if (!name.empty()) {
-        focusName_ = name;
+        focusName = name;
     } else if (slicing::SectionNamer::isSolid(vertices)) {
-        focusName_.append("vertices: ").append(vertices);
+        focusName.append("vertices: ").append(vertices);
     }
+}
+
+void Composer::layOutIfChanged(int focus, Scene& out) {
+    LayoutInput& input = layoutInput_;
+    input.planes = out.slices->planes;
+    input.focus = focus;
+    input.vertices = out.slices->rotatedVertices.size();
+    input.ballRadius = ballRadius_;
+    input.look = out.look;
+    input.viewport = out.viewport;
+    if (laidOutIn_ == &out && laidOut_ == input) return;
+    layOut(input.planes, focus, input.vertices, ballRadius_, out.look, out.viewport, input.focusName, out);
+    laidOut_ = input;
+    laidOutIn_ = &out;
 }
 
 void Composer::projectObject(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {

@@ -30,9 +30,23 @@ class Composer {
                  int focus, const Look& look, Viewport viewport, Scene& out);
 
   private:
+    /// Everything on which the layout depends. It does not depend on the orientation, so it stays the same while the
+    /// object turns.
+    struct LayoutInput {
+        geometry::Hyperplanes planes;
+        int focus = 0;
+        std::size_t vertices = 0;
+        double ballRadius = 0;
+        Look look;
+        Viewport viewport;
+        std::string focusName;
+        bool operator==(const LayoutInput&) const = default;
+    };
+
     void setFilter(const slicing::Object& object, const CellTypeFilter& filter);
     void projectObject(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
     void nameSection(const slicing::Object& object, int focus, Scene& out);
+    void layOutIfChanged(int focus, Scene& out);
     void highlight(const slicing::Object& object, bool objectChanged, Scene& out);
     void measureDensity(const geometry::Rotation& orientation, Scene& out);
 
@@ -45,7 +59,9 @@ class Composer {
     slicing::Projector projector_;
     CellTypeFilter filter_;
     slicing::SectionNamer sectionNamer_;
-    std::string focusName_;  // the section's name in the focus slice's label
+    LayoutInput layoutInput_;           // of the next composition
+    LayoutInput laidOut_;               // of the layout in the scene
+    const Scene* laidOutIn_ = nullptr;  // the scene; null before the first composition
     std::optional<slicing::Element> highlight_;
     slicing::ElementSources highlightSources_;  // of highlight_
 
