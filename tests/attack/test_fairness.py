@@ -177,7 +177,7 @@ ATTACKS = {
 
 @pytest.mark.parametrize("name", ATTACKS)
 def test_a_session_stays_responsive_during_an_attack(name):
-    for _ in range(2):  # another program may have disturbed the first attempt
+    for _ in range(4):  # other programs may disturb an attempt, such as the builds that run beside these tests
         alone, attacked, count = measure_latencies(ATTACKS[name])
         print(json.dumps({"attack": name, "alone ms": [round(1e3 * x, 1) for x in alone],
                           "attacked ms": [round(1e3 * x, 1) for x in attacked], "pictures": count}))
