@@ -68,22 +68,7 @@ std::span<const std::uint8_t> RasterizerProcess::draw(const session::State& stat
     if (answer_ == MessageType::failed) throw std::runtime_error(body_);
     if (body_.size() != sizeof times) throw std::runtime_error("a rasterizer process sent a truncated message");
     std::memcpy(&times, body_.data(), sizeof times);
-    restartAfterResizes(viewport);
     return drawn;
-}
-
-/// Replaces the process by a new one after it has drawn pictures of many sizes, because OSMesa (of Mesa 22) keeps
-/// buffers for each picture size until the process ends. Does so after a picture, so that the new process can start
-/// before the next one.
-void RasterizerProcess::restartAfterResizes(scene::Viewport viewport) {
-    constexpr std::size_t kMost = std::size_t{128} << 20U;
-    if (viewport == lastViewport_) return;
-    lastViewport_ = viewport;
-    resized_ += image::byteCount(viewport);
-    if (resized_ < kMost) return;
-    resized_ = 0;
-    process_.kill();
-    process_.start();
 }
 
 }  // namespace oval4d::raster

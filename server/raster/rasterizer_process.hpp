@@ -50,12 +50,8 @@ class RasterizerProcess {
     process::TransferResult receiveAnswer(const session::State& state, const process::Channel& channel,
                                           const process::Deadline& deadline);
 
-    void restartAfterResizes(scene::Viewport viewport);
-
     const RasterizerLimits limits_;
     process::ChildProcess process_;
-    scene::Viewport lastViewport_{0, 0};
-    std::size_t resized_ = 0;  // total bytes of those pictures whose size differed from that of the previous one
     process::MessageType answer_{};
     std::string request_, body_;
 };

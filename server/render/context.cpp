@@ -9,22 +9,22 @@
 
 namespace oval4d::render {
 
-// Sufficient for a few hundred slices behind one another.
-constexpr int kDepthBits = 16;
-
 struct Context::Native {
     OSMesaContext context = nullptr;
+    std::uint8_t pixel[4]{};  // the default framebuffer, to which nothing is drawn
+    GLuint framebuffer = 0, color = 0, depth = 0;
 
+    // The framebuffer and its buffers are deleted with the context.
     ~Native() {
         if (context != nullptr) OSMesaDestroyContext(context);
     }
 };
 
+// Pictures are drawn to a framebuffer object, because OSMesa (of Mesa 22) leaks most of the memory of its default
+// framebuffer each time the size changes.
 Context::Context() : native_(std::make_unique<Native>()) {
     const int attributes[] = {OSMESA_FORMAT,
                               OSMESA_RGBA,
-                              OSMESA_DEPTH_BITS,
-                              kDepthBits,
                               OSMESA_PROFILE,
                               OSMESA_CORE_PROFILE,
                               OSMESA_CONTEXT_MAJOR_VERSION,
@@ -34,29 +34,53 @@ Context::Context() : native_(std::make_unique<Native>()) {
                               0};
     native_->context = OSMesaCreateContextAttribs(attributes, nullptr);
     if (native_->context == nullptr) throw std::runtime_error("OSMesa cannot create an OpenGL 3.3 core context");
-    std::uint8_t pixel[4];
-    begin(1, 1, pixel);
+    makeCurrent();
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &maxSize_);
-    finish();
+    glGenRenderbuffers(1, &native_->color);
+    glGenRenderbuffers(1, &native_->depth);
+    glGenFramebuffers(1, &native_->framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, native_->framebuffer);
+    resize(1, 1);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, native_->color);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, native_->depth);
 }
 
 Context::~Context() = default;
 
+void Context::makeCurrent() {
+    if (OSMesaMakeCurrent(native_->context, native_->pixel, GL_UNSIGNED_BYTE, 1, 1) == GL_FALSE)
+        throw std::runtime_error("OSMesa cannot make its context current");
+}
+
+void Context::resize(int width, int height) {
+    width_ = width;
+    height_ = height;
+    glBindRenderbuffer(GL_RENDERBUFFER, native_->color);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glBindRenderbuffer(GL_RENDERBUFFER, native_->depth);
+    // 16 bits suffice for a few hundred slices behind one another.
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT16, width, height);
+}
+
 void Context::begin(int width, int height, std::uint8_t* pixels) {
-    if (maxSize_ > 0 && (width > maxSize_ || height > maxSize_))
+    if (width > maxSize_ || height > maxSize_)
         throw std::runtime_error("a picture of " + std::to_string(width) + " × " + std::to_string(height) +
                                  " pixels is too large: the driver allows at most " + std::to_string(maxSize_) +
                                  " in each direction");
-    if (OSMesaMakeCurrent(native_->context, pixels, GL_UNSIGNED_BYTE, width, height) == GL_FALSE)
+    makeCurrent();
+    if (width != width_ || height != height_) resize(width, height);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        width_ = 0;  // try again with the next picture
         throw std::runtime_error("OSMesa cannot draw a picture of " + std::to_string(width) + " × " +
                                  std::to_string(height) + " pixels");
-    OSMesaPixelStore(OSMESA_Y_UP, 1);
+    }
+    pixels_ = pixels;
     glViewport(0, 0, width, height);
 }
 
-// Creating a fence flushes the commands. glFlush would also copy the whole picture.
+// Creating a fence flushes the commands without waiting.
 void Context::start() { glDeleteSync(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
 
-void Context::finish() { glFinish(); }
+void Context::finish() { glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_); }
 
 }  // namespace oval4d::render

@@ -24,16 +24,21 @@ class Context {
     /// Makes the driver's threads begin to rasterize what was drawn so far, and returns without waiting for them.
     void start();
 
-    /// Waits until the picture is drawn. Must be called only once per picture, because each call copies the picture.
+    /// Waits until the picture is drawn, and copies it.
     void finish();
 
     /// Returns the maximum width and height of a picture in pixels.
     int maxSize() const { return maxSize_; }
 
   private:
+    void makeCurrent();
+    void resize(int width, int height);
+
     struct Native;
     std::unique_ptr<Native> native_;
     int maxSize_ = 0;
+    int width_ = 0, height_ = 0;
+    std::uint8_t* pixels_ = nullptr;  // of the current picture
 };
 
 }  // namespace oval4d::render

@@ -177,7 +177,7 @@ ATTACKS = {
 
 @pytest.mark.parametrize("name", ATTACKS)
 def test_a_session_stays_responsive_during_an_attack(name):
-    for _ in range(4):  # other programs may disturb an attempt, such as the builds that run beside these tests
+    for _ in range(2):  # another program may have disturbed the first attempt
         alone, attacked, count = measure_latencies(ATTACKS[name])
         print(json.dumps({"attack": name, "alone ms": [round(1e3 * x, 1) for x in alone],
                           "attacked ms": [round(1e3 * x, 1) for x in attacked], "pictures": count}))
@@ -188,7 +188,7 @@ def test_a_session_stays_responsive_during_an_attack(name):
 
 
 def test_a_session_stays_responsive_beside_twenty_heavy_sessions():
-    for _ in range(2):
+    for _ in range(2):  # another program may have disturbed the first attempt
         alone, attacked, count = measure_latencies(from_victim_address(frames_of_one_session, (HEAVY, 4096), 20))
         print(json.dumps({"attack": "20 sessions with frames of 4096 × 4096 pixels",
                           "alone ms": [round(1e3 * x, 1) for x in alone],

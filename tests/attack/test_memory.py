@@ -331,3 +331,16 @@ def test_repeatedly_killed_drawing_processes_leak_nothing():
         wait_until(lambda: len(server.drawing_processes()) <= count, "as few processes as before")
         wait_until(lambda: len(server.open_files()) <= files + 2, "as few descriptors as before")
         assert settled_memory(server, 1) - before < NOISE
+
+
+def test_changing_picture_sizes_leak_nothing():
+    with Server("--workers", 1) as server:
+        def draw(rounds):
+            for _ in range(rounds):
+                for width, height in ((1280, 720), (960, 540)):
+                    server.get(f"/api/v1/frame.png?width={width}&height={height}")
+            return {pid: server.anonymous_memory(pid) for pid in server.drawing_processes()}
+
+        before, after = draw(4), draw(40)
+        assert before.keys() == after.keys(), "no process was replaced"
+        assert all(after[pid] < before[pid] + NOISE for pid in before), (before, after)

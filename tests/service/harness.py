@@ -152,9 +152,10 @@ class Server:
         pages = Path(f"/proc/{self.process.pid}/statm").read_text(encoding="ascii").split()[1]
         return int(pages) * os.sysconf("SC_PAGE_SIZE")
 
-    def anonymous_memory(self):
-        """Returns the anonymous resident memory in bytes, without code and pixels shared with drawing processes."""
-        status = Path(f"/proc/{self.process.pid}/status").read_text(encoding="ascii")
+    def anonymous_memory(self, pid=None):
+        """Returns the anonymous resident memory of the server, or of another process, in bytes. It does not include
+        code and the pixels that the server shares with drawing processes."""
+        status = Path(f"/proc/{pid or self.process.pid}/status").read_text(encoding="ascii")
         return 1024 * int(re.search(r"RssAnon:\s+(\d+) kB", status).group(1))
 
     def stop(self, number=signal.SIGTERM):
