@@ -44,7 +44,7 @@ void CloudSlicer::slice(const geometry::PointCloud& cloud, const geometry::Rotat
         out.vertices[at] = out.rotatedVertices[p];
         out.vertexSource[at] = static_cast<std::uint32_t>(p);
         const double distance = std::abs(out.rotatedVertices[p].w - planes.w(planeOf_[p])) / (planes.spacing / 2);
-        out.ballOpacity[at] = static_cast<float>(1 - 0.8 * std::min(distance, 1.0));
+        out.ballOpacity[at] = opacityAtDistance(distance);
         out.ballScale[at] = static_cast<float>(cloud.radii[p] > 0 ? cloud.radii[p] / usual : 1);
     }
 }

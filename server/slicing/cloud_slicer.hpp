@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace oval4d::slicing {
 /// Returns the default radius of a cloud's balls, as a fraction of the circumradius. The radius decreases as the number
 /// of points grows.
 double ballRadius(const geometry::PointCloud& cloud);
+
+/// Returns the opacity of a point whose distance from a hyperplane is this multiple of half the spacing, 0 … 1.
+inline float opacityAtDistance(double distance) { return static_cast<float>(1 - 0.8 * std::min(distance, 1.0)); }
 
 /// Slices point clouds. A slice shows each point within half a spacing of its hyperplane as a ball, whose opacity falls
 /// linearly with the distance, from 1 in the hyperplane to 0.2 at half a spacing. A point halfway between two

@@ -1,0 +1,79 @@
+#pragma once
+// The sections of an object by the six planes through a point that are parallel to two coordinate axes: the panels of a
+// HyperSlice matrix (J. J. van Wijk and R. van Liere, "HyperSlice: visualization of scalar functions of many variables",
+// 1993). They are computed exactly, by cutting slices once more.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "geometry/rotation.hpp"
+#include "slicing/object.hpp"
+#include "slicing/slice_set.hpp"
+#include "slicing/slicer.hpp"
+
+namespace oval4d::slicing {
+
+/// The section of an object by a plane.
+///
+/// Source numbers tell from which element an element of the section was cut, as in SliceSet. For a polytope with E
+/// edges, F 2-faces and C cells, `pointSource` is the index of the 2-face that was cut, F + e if polytope edge e was
+/// cut, or F + E + v if polytope vertex v lies in the plane; `edgeSource` is the index of the cell that was cut, or C + f
+/// if 2-face f was cut along the plane. For a point cloud, `pointSource` is the index of the point; there are no edges.
+struct PlanarSection {
+    /// The coordinate axes to which the plane is parallel, as indices into x, y, z, w. axes[0] < axes[1].
+    std::array<int, 2> axes{};
+    std::vector<glm::dvec2> points;  ///< their coordinates along the two axes
+    std::vector<std::uint32_t> pointSource;
+    std::vector<float> ballScale, ballOpacity;        ///< per point, as in SliceSet
+    std::vector<std::array<std::uint32_t, 2>> edges;  ///< per edge: its two points
+    std::vector<std::uint32_t> edgeSource;
+    /// The points in the order in which they bound the section, if the edges form one closed polygon; else empty.
+    std::vector<std::uint32_t> boundary;
+};
+
+/// The planes xy, xz, yz, xw, yw and zw, in this order.
+inline constexpr std::array<std::array<int, 2>, 6> kPlaneAxes{{{0, 1}, {0, 2}, {1, 2}, {0, 3}, {1, 3}, {2, 3}}};
+
+/// The sections by the planes of kPlaneAxes.
+using PlanarSections = std::array<PlanarSection, kPlaneAxes.size()>;
+
+/// Cuts objects by planes. Reuses its memory. May be used by one thread at a time.
+class PlanarSlicer {
+  public:
+    /// Cuts `object`, rotated by `orientation`, by the six planes through `point`. `slices` must have been cut from the
+    /// rotated object, and its slice number `slice` by the hyperplane through the point. Of a point cloud, a section
+    /// contains the points that are within half the spacing of `slices` of both hyperplanes that meet in the plane.
+    /// Overwrites `out` and reuses its memory.
+    void slice(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int slice,
+               const glm::dvec4& point, PlanarSections& out);
+
+  private:
+    struct Crossing {
+        double along = 0;         // the position along the line in which the plane meets the face
+        int winding = 0;          // the change of the winding number at the crossing
+        std::uint32_t point = 0;  // the index of the point of the section
+    };
+
+    void cut(const Object& object, const SliceSet& slices, int slice, const glm::dmat4& toObject, int axis,
+             const glm::dvec4& point, PlanarSection& out);
+    void cutEdges(const SliceSet& slices, int slice, std::uint32_t faces, int axis, double at, PlanarSection& out);
+    void cutFaces(const SliceSet& slices, int slice, PlanarSection& out);
+    void copyCloudPoints(const SliceSet& slices, int slice, int axis, double at, PlanarSection& out);
+    static void findBoundary(PlanarSection& section);
+
+    Slicer slicer_;
+    SliceSet slice_;                            // by a hyperplane other than w = const
+    std::vector<glm::dvec4> vertices_;          // of the slice that is cut
+    std::vector<double> distance_;              // per vertex: its signed distance from the hyperplane; 0 within rounding
+    std::vector<std::uint32_t> pointOfVertex_;  // per vertex and edge of the slice: the point of the section, or kNone
+    std::vector<std::uint32_t> pointOfEdge_;
+    std::vector<Crossing> crossings_;  // of one face
+    bool zeroIsAbove_ = true;          // on which side vertices count that lie in the hyperplane
+};
+
+}  // namespace oval4d::slicing
