@@ -4,7 +4,7 @@
 export type Plane = "xy" | "xz" | "xw" | "yz" | "yw" | "zw";
 export type Stream = "none" | "geometry" | "frames";
 export type Encoding = "json" | "cbor";
-export type View = "oval" | "single";
+export type View = "oval" | "single" | "matrix";
 /** What face colors show: the cell, the kind of the cell, the w of the cell's center after the rotation, or nothing. */
 export type Coloring = "cell" | "kind" | "w" | "plain" | "light";
 export type Vector = [number, number, number];
@@ -55,6 +55,8 @@ export interface Settings {
     step?: number;
     /** `w` sets focus and offset. */
     slices?: Partial<SliceSettings> & { w?: number };
+    /** The focus point x, y, z, w of the matrix view; its w moves the focus slice. */
+    point?: [number, number, number, number];
     view?: View;
     turning?: boolean;
     shown?: Partial<Parts>;
@@ -129,6 +131,8 @@ export interface State {
     beta: number;
     step: number;
     slices: SliceSettings;
+    /** The focus point x, y, z, w, through which the planes of the matrix view pass. */
+    point: [number, number, number, number];
     view: View;
     turning: boolean;
     /** Whether the polytope turns, or an element is on its way to +w. */
@@ -357,6 +361,49 @@ export interface ObjectProjection {
     parts: (Elements & ProjectionLook)[];
 }
 
+/** The section of the object by a plane that is parallel to two coordinate axes. */
+export interface PlanarSection {
+    /** 0 to 3 for x, y, z, w; the first is the smaller. */
+    axes: [number, number];
+    /** The points' coordinates along the two axes, in the polytope's units. */
+    points: [number, number][];
+    edges: [number, number][];
+    /** The points in the order in which they bound the section; empty if the edges do not form one closed polygon. */
+    boundary: number[];
+    /**
+     * What each element was cut from. A point: the 2-face; or faces + e, if edge e was cut; or faces + edges + v, if
+     * vertex v lies in the plane. An edge: the cell; or cells + f, if 2-face f was cut along the plane.
+     */
+    of: { points: number[]; edges: number[] };
+    /** The cell that determines the color of each edge. */
+    tints: number[];
+    /** The visibility of each element: 2 full, 1 faded, 0 hidden; absent if all are fully visible. */
+    seen?: { points: number[]; edges: number[] };
+    balls?: { scale: number[]; opacity: number[] };
+}
+
+/**
+ * The matrix of planar sections. The panel in row i and column j, from the upper left, shows the section by the plane of
+ * the axes i and j: axis j to the right, axis i upward. Lengths are fractions of the viewport's height, measured from its
+ * lower left corner.
+ */
+export interface SectionMatrix {
+    left: number;
+    bottom: number;
+    /** The side of a panel, and the distance from a panel to the next. */
+    panel: number;
+    step: number;
+    line_width: number;
+    /** The radius of points. */
+    ball: number;
+    /** From the center of a panel, which is the origin, to its sides, in the polytope's units. */
+    reach: number;
+    /** The focus point x, y, z, w, through which all planes pass. */
+    point: [number, number, number, number];
+    /** By the planes xy, xz, yz, xw, yw and zw. */
+    sections: PlanarSection[];
+}
+
 export interface Slices {
     type: "slices";
     id?: number;
@@ -373,6 +420,8 @@ export interface Slices {
     slices: Slice[];
     /** Absent if it is not shown. */
     projection?: ObjectProjection;
+    /** Present only in the matrix view. */
+    matrix?: SectionMatrix;
 }
 
 /** What the picture shows at a point; only `highlight`, which is null, if that is nothing. */
@@ -381,7 +430,9 @@ export interface At {
     id?: number;
     revision: number;
     highlight: PolytopeElement | null;
-    in?: "slice" | "projection" | "coordinates";
+    in?: "slice" | "projection" | "coordinates" | "matrix";
+    /** In a panel of the matrix: the point x, y, z, w that it shows there. */
+    point?: [number, number, number, number];
     slice?: number;
     w?: number;
     least_w?: number;

@@ -13,10 +13,10 @@ namespace {
 // added to Look but not here.
 template <typename Archive, typename Look>
 void visitLook(Archive& archive, Look& look) {
-    auto& [view, parts, orbit, coloring, cellTypes, projection, highlight] = look;
+    auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint] = look;
     auto& [hidden, faded] = cellTypes;
     archive(view), archive(parts), archive(orbit), archive(coloring), archive(hidden), archive(faded);
-    archive(projection), archive(highlight);
+    archive(projection), archive(highlight), archive(focusPoint);
 }
 
 }  // namespace

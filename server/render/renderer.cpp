@@ -9,6 +9,7 @@
 #include "render/context.hpp"
 #include "render/overlay/annotations.hpp"
 #include "render/overlay/density_strip.hpp"
+#include "render/overlay/matrix_panels.hpp"
 #include "render/overlay/overlay.hpp"
 #include "render/slices/convex_slices.hpp"
 #include "render/slices/nonconvex_slices.hpp"
@@ -170,6 +171,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     paintAxes(scene, shapes, overlay);
     paintCoordinates(scene, overlay);
     paintLabels(scene, overlay);
+    paintMatrix(scene, overlay);
 
     impl_->patchDepthProgram.draw(shapes);
     impl_->densityStrip.draw(scene);

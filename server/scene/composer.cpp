@@ -49,6 +49,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.barRadius = 0.4 * out.ballRadius;
 
     if (out.projectionPlacement.shown) projectObject(object, orientation, focus, out);
+    if (out.matrix.shown) cutMatrix(object, orientation, focus, out);
 
     findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
     out.fill.clear();
@@ -140,6 +141,30 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
         const bool filled = isFocus && look.parts.faces && !out.crossing;
         const bool points = !slices.ballScale.empty();
         projection.parts.push_back({points ? 1.02 * ball : thickness, thickness, color, color, filled ? 0.5 : 0});
+    }
+}
+
+void Composer::cutMatrix(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
+    SectionMatrix& matrix = out.sectionMatrix;
+    const int slice = focus - out.slices->planes.first;
+    matrix.point = glm::dvec4(out.look.focusPoint, out.slices->planes.w(slice));
+    planarSlicer_.slice(object, orientation, *out.slices, slice, matrix.point, matrix.sections);
+    const auto counts = slicing::elementCounts(object);
+    const auto faces = static_cast<std::uint32_t>(counts[2]), edges = static_cast<std::uint32_t>(counts[1]);
+    for (std::size_t i = 0; i < matrix.sections.size(); ++i) {
+        SectionMatrix::SectionStyle& styles = matrix.styles[i];
+        styles = {};
+        for (const std::uint32_t source : matrix.sections[i].edgeSource) {
+            styles.edgeCells.push_back(slicing::coloringCell(object, out.visibilities, source));
+            styles.edges.push_back(out.visibilities.face(source));
+        }
+        for (const std::uint32_t source : matrix.sections[i].pointSource) {
+            // Beyond the numbers of the 2-faces and edges are those of the vertices; a cloud has vertices only.
+            const bool isVertex = source >= faces + edges;
+            styles.points.push_back(isVertex ? out.visibilities.vertex(source - faces) : out.visibilities.edge(source));
+            styles.highlighted.push_back(isVertex ? out.highlight.hasVertex(source - faces)
+                                                  : out.highlight.hasEdge(source));
+        }
     }
 }
 

@@ -10,6 +10,7 @@
 #include "scene/density_plot.hpp"
 #include "scene/scene.hpp"
 #include "slicing/object.hpp"
+#include "slicing/planar_sections.hpp"
 #include "slicing/projector.hpp"
 #include "slicing/section_name.hpp"
 
@@ -45,6 +46,7 @@ class Composer {
 
     void setFilter(const slicing::Object& object, const CellTypeFilter& filter);
     void projectObject(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
+    void cutMatrix(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
     void nameSection(const slicing::Object& object, int focus, Scene& out);
     void layOutIfChanged(int focus, Scene& out);
     void highlight(const slicing::Object& object, bool objectChanged, Scene& out);
@@ -57,6 +59,7 @@ class Composer {
     double ballRadius_ = 0;     // as a fraction of the slice radius
     slicing::Visibilities visibilities_;
     slicing::Projector projector_;
+    slicing::PlanarSlicer planarSlicer_;
     CellTypeFilter filter_;
     slicing::SectionNamer sectionNamer_;
     LayoutInput layoutInput_;           // of the next composition

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vector_relational.hpp>
@@ -422,7 +423,44 @@ Rect roomInside(const Rect& room, const Rect& bounds, const Labels& labels) {
     return inside;
 }
 
+// Places the matrix at the right of `room`, or at its lower end if the room is tall, and removes its place from the
+// room.
+MatrixLayout placeMatrix(Rect& room, double ballRadius) {
+    constexpr double kShare = 0.64, kGap = 0.03, kPanelGap = 0.06;
+    const double width = room.right - room.left, height = room.top - room.bottom;
+    const bool wide = width > height;
+    const double side = wide ? std::min(height, kShare * width) : std::min(width, kShare * height);
+    MatrixLayout matrix;
+    matrix.shown = true;
+    matrix.step = side / (4 - kPanelGap);
+    matrix.panel = (1 - kPanelGap) * matrix.step;
+    // Sections of an object with many elements have many points.
+    matrix.pointRadius = std::min(ballRadius * matrix.panel, 0.0042);
+    matrix.lineWidth = std::clamp(1.5 * matrix.pointRadius, 0.0022, 0.0042);
+    if (wide) {
+        room.right -= side + kGap;
+        matrix.left = room.right + kGap;
+        matrix.bottom = room.bottom + (height - side) / 2;
+    } else {
+        room.bottom += side + kGap;
+        matrix.left = room.left + (width - side) / 2;
+        matrix.bottom = room.bottom - kGap - side;
+    }
+    return matrix;
+}
+
 }  // namespace
+
+std::optional<MatrixLayout::Panel> MatrixLayout::panelAt(glm::dvec2 position) const {
+    if (!shown) return std::nullopt;
+    const glm::dvec2 offset = (position - glm::dvec2(left, bottom)) / step, cell = glm::floor(offset);
+    const glm::dvec2 inside = (offset - cell) * step;
+    if (cell.x < 0 || cell.x > 3 || cell.y < 0 || cell.y > 3 || inside.x > panel || inside.y > panel)
+        return std::nullopt;
+    const Panel found{3 - static_cast<int>(cell.y), static_cast<int>(cell.x)};
+    if (found.row == found.column) return std::nullopt;
+    return found;
+}
 
 void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices, double ballRadius, const Look& look,
             Viewport viewport, std::string_view focusName, Layout& out) {
@@ -431,7 +469,8 @@ void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices
     out.axes = {0.06, 0.075, 0.045};
     Rect room{kMargin, aspect - kMargin, kMargin, 1 - kMargin};
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;
-    const bool single = look.view == View::single;
+    out.matrix = look.view == View::matrix ? placeMatrix(room, ballRadius) : MatrixLayout{};
+    const bool single = look.view != View::oval;
     const Oval oval = single ? Oval{0, 0, 0, kSingleDistance} : ovalFor(aspect);
     // With twice as many slices on the same parabola, each slice has about half the space.
     out.sliceRadius =
@@ -444,7 +483,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices
     const bool alone = single || planes.count == 1;
     out.projectionPlacement = {};
     if (projected && alone) {
-        out.projectionPlacement = besideFocusSlice(aspect, reach);
+        out.projectionPlacement = besideFocusSlice((room.right - room.left) / (room.top - room.bottom), reach);
         include(out.projectionPlacement, ViewSpace(oval), bounds);
     }
     Labels labels(oval, reach, planes.spacing, out.placements);

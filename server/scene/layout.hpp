@@ -2,10 +2,12 @@
 // The layout of a picture: the positions of slices, labels, camera, axes and parallel coordinates.
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "geometry/hyperplanes.hpp"
@@ -67,6 +69,32 @@ struct ProjectionPlacement {
     bool operator==(const ProjectionPlacement&) const = default;
 };
 
+/// The layout of the matrix of planar sections. The panel in row i and column j, from the upper left, shows the section
+/// by the plane of the axes i and j (0 … 3 for x, y, z, w): axis j to the right, axis i upward. The panels on the
+/// diagonal name the axes. All lengths are fractions of the viewport's height; positions are measured from its lower
+/// left corner.
+struct MatrixLayout {
+    bool shown = false;
+    double left = 0, bottom = 0;            ///< the lower left corner of the matrix
+    double panel = 0;                       ///< the side of a panel
+    double step = 0;                        ///< the distance from a panel to the next
+    double lineWidth = 0, pointRadius = 0;  ///< of the edges and points of sections
+    /// From the center of a panel, which is the object's origin, to the panel's sides, in circumradii.
+    static constexpr double kReach = 1.08;
+
+    /// Returns the center of a panel.
+    glm::dvec2 center(int row, int column) const {
+        return {left + column * step + panel / 2, bottom + (3 - row) * step + panel / 2};
+    }
+    /// A panel that shows a section: its row and column are the axes upward and to the right.
+    struct Panel {
+        int row, column;
+    };
+    /// Returns the panel at a position; nothing outside the panels and on the diagonal.
+    std::optional<Panel> panelAt(glm::dvec2 position) const;
+    bool operator==(const MatrixLayout&) const = default;
+};
+
 /// The layout of a whole picture.
 struct Layout {
     Camera camera;
@@ -75,6 +103,7 @@ struct Layout {
     ProjectionPlacement projectionPlacement;
     CoordinatesLayout coordinates;
     AxesLayout axes;
+    MatrixLayout matrix;
 };
 
 /// Lays out the slices of an object with `vertices` vertices. `focus` is the index n of the focus slice; `ballRadius`

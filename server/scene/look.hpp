@@ -6,15 +6,18 @@
 #include <optional>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "scene/parts.hpp"
 #include "slicing/element.hpp"
 #include "text/choice.hpp"
 
 namespace oval4d::scene {
 
-/// The slices that are shown: all of them on the oval, or only the focus slice.
-enum class View : std::uint8_t { oval, single };
-inline constexpr auto kViews = std::to_array<text::Choice<View>>({{"oval", View::oval}, {"single", View::single}});
+/// What is shown: all slices on the oval, only the focus slice, or the focus slice and the matrix of planar sections.
+enum class View : std::uint8_t { oval, single, matrix };
+inline constexpr auto kViews =
+    std::to_array<text::Choice<View>>({{"oval", View::oval}, {"single", View::single}, {"matrix", View::matrix}});
 
 /// The property of a cell that determines the color of the faces that are cut from the cell.
 enum class Coloring : std::uint8_t {
@@ -71,6 +74,9 @@ struct Look {
     CellTypeFilter cellTypes = {};
     ProjectionSettings projection = {};
     std::optional<slicing::Element> highlight = {};  ///< the element that is drawn in another color
+    /// The x, y and z of the focus point, in the object's units; its w is that of the focus slice. The planes of the
+    /// matrix view pass through it.
+    glm::dvec3 focusPoint{0};
     bool operator==(const Look&) const = default;
 };
 

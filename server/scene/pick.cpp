@@ -26,6 +26,11 @@ Element elementOf(std::uint32_t source, ElementKind cut, std::size_t count, Elem
     return {contained, source - count};
 }
 
+// Returns the number of pixels per unit of the object in the panels of the matrix.
+double pixelsPerUnitOf(const Scene& scene) {
+    return scene.matrix.panel / 2 / MatrixLayout::kReach / scene.circumradius * scene.viewport.height;
+}
+
 // Finds the element nearest to the viewer at one pixel.
 class Picker {
   public:
@@ -62,6 +67,40 @@ class Picker {
         }
     }
 
+    void pickMatrix() {
+        const auto panel = scene_.matrix.panelAt(pixel_ / size_.y);
+        if (!panel) return;
+        const SectionMatrix& matrix = scene_.sectionMatrix;
+        const auto [row, column] = *panel;
+        const auto section = std::ranges::find_if(matrix.sections, [&](const slicing::PlanarSection& s) {
+            return s.axes[0] == std::min(row, column) && s.axes[1] == std::max(row, column);
+        });
+        const auto& styles = matrix.styles[static_cast<std::size_t>(section - matrix.sections.begin())];
+        const glm::dvec2 center = scene_.matrix.center(row, column) * size_.y;
+        const double scale = pixelsPerUnitOf(scene_);
+        const auto pixelAt = [&](std::size_t i) {
+            const glm::dvec2& p = section->points[i];
+            return center + scale * (row < column ? glm::dvec2(p.y, p.x) : p);
+        };
+        double nearest = std::max(scene_.matrix.pointRadius * size_.y, kReach);
+        const bool balls = scene_.look.parts.balls || !section->ballScale.empty();
+        for (std::size_t i = 0; balls && i < section->points.size(); ++i) {
+            const double distance = glm::distance(pixelAt(i), pixel_);
+            if (distance > nearest || styles.points[i] == Visibility::hidden) continue;
+            nearest = distance;
+            hit_ = {elementOfPoint(section->pointSource[i]), PictureArea::matrix, 0};
+        }
+        if (hit_) return;
+        nearest = std::max(scene_.matrix.lineWidth / 2 * size_.y, kReach);
+        for (std::size_t e = 0; scene_.look.parts.bars && e < section->edges.size(); ++e) {
+            const double distance = distanceFromLine(pixelAt(section->edges[e][0]), pixelAt(section->edges[e][1]));
+            if (distance > nearest || styles.edges[e] == Visibility::hidden) continue;
+            nearest = distance;
+            hit_ = {elementOf(section->edgeSource[e], ElementKind::cell, counts_[3], ElementKind::face),
+                    PictureArea::matrix, 0};
+        }
+    }
+
     void pickCoordinates() {
         const CoordinatesLayout& layout = scene_.coordinates;
         if (!scene_.look.parts.coordinates || layout.density) return;
@@ -84,6 +123,21 @@ class Picker {
         double ball, bar;  // radii in world units; 0 if they are not drawn
         bool faces;
     };
+
+    // The source of a point of a planar section; see PlanarSection.
+    Element elementOfPoint(std::uint32_t source) const {
+        if (source < counts_[2]) return {ElementKind::face, source};
+        return elementOf(source - static_cast<std::uint32_t>(counts_[2]), ElementKind::edge, counts_[1],
+                         ElementKind::vertex);
+    }
+
+    // Returns the distance of the pixel from a line segment between two pixels.
+    double distanceFromLine(const glm::dvec2& from, const glm::dvec2& to) const {
+        const glm::dvec2 along = to - from;
+        const double length = glm::dot(along, along);
+        const double t = length > 0 ? std::clamp(glm::dot(pixel_ - from, along) / length, 0.0, 1.0) : 0;
+        return glm::distance(from + t * along, pixel_);
+    }
 
     // Tests the elements of slice or part `i`; `where` has the values of a hit except the element.
     void pick(const SliceSet& set, std::size_t i, const glm::dvec3& position, double scale, const Sizes& sizes,
@@ -172,10 +226,24 @@ class Picker {
 std::optional<Hit> elementAt(const Scene& scene, const slicing::Object& object, glm::dvec2 point) {
     Picker picker(scene, object, point);
     picker.pickCoordinates();
+    if (!picker.hit()) picker.pickMatrix();
     if (picker.hit()) return picker.hit();
     picker.pickSlices();
     picker.pickProjection();
     return picker.hit();
+}
+
+std::optional<glm::dvec4> matrixPointAt(const Scene& scene, glm::dvec2 point) {
+    const double height = scene.viewport.height;
+    const glm::dvec2 pixel{point.x, height - point.y};
+    const auto panel = scene.matrix.panelAt(pixel / height);
+    if (!panel) return std::nullopt;
+    const auto [row, column] = *panel;
+    const glm::dvec2 offset = (pixel - scene.matrix.center(row, column) * height) / pixelsPerUnitOf(scene);
+    glm::dvec4 found = scene.sectionMatrix.point;
+    found[column] = offset.x;
+    found[row] = offset.y;
+    return found;
 }
 
 }  // namespace oval4d::scene

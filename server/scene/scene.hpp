@@ -2,6 +2,7 @@
 // The complete description of a picture. Renderers, message writers and exporters use no other data. Therefore the
 // picture that a page draws and a frame from the server can be overlaid exactly.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "scene/look.hpp"
 #include "scene/style.hpp"
 #include "slicing/fill.hpp"
+#include "slicing/planar_sections.hpp"
 #include "slicing/section_name.hpp"
 #include "slicing/slice_set.hpp"
 #include "slicing/visibility.hpp"
@@ -34,6 +36,19 @@ struct ObjectProjection {
     double scale = 1;                      ///< world units per unit of the object
 };
 
+/// The matrix of planar sections, which the matrix view shows beside the focus slice.
+struct SectionMatrix {
+    glm::dvec4 point{0};  ///< the focus point, through which all planes pass, in the object's units
+    slicing::PlanarSections sections;
+    /// How a section is drawn: for each of its edges, and for each of its points.
+    struct SectionStyle {
+        std::vector<std::uint32_t> edgeCells;  ///< the cell that determines the edge's color
+        std::vector<slicing::Visibility> edges, points;
+        std::vector<bool> highlighted;  ///< whether the point shows the highlighted element
+    };
+    std::array<SectionStyle, slicing::kPlaneAxes.size()> styles;
+};
+
 /// A picture: its layout, its slices, and how they are drawn.
 struct Scene : Layout {
     const slicing::SliceSet* slices = &slicing::kNoSlices;  ///< never null; must outlive the scene
@@ -51,6 +66,7 @@ struct Scene : Layout {
     slicing::ElementSources highlight;         ///< what shows the highlighted element; empty if there is none
     slicing::SectionNames sectionNames;        ///< of the focus slice
     ObjectProjection projection;               ///< valid if projectionPlacement.shown
+    SectionMatrix sectionMatrix;               ///< valid if matrix.shown
     double faceOpacity = style().faceOpacity;  ///< 0 … 1
     /// Whether faces may cross each other. If so, they are opaque, and `fill` is drawn instead of their loops.
     bool crossing = false;

@@ -23,7 +23,8 @@ using Words = std::vector<std::string_view>;
 using Member = std::variant<std::optional<double> Set::*, std::optional<int> Set::*, std::optional<bool> Set::*,
                             std::optional<std::string> Set::*, std::optional<scene::View> Set::*,
                             std::optional<scene::Coloring> Set::*, std::optional<scene::ProjectionKind> Set::*,
-                            std::optional<CellTypeList> Set::*, std::optional<std::optional<slicing::Element>> Set::*>;
+                            std::optional<CellTypeList> Set::*, std::optional<std::optional<slicing::Element>> Set::*,
+                            std::optional<glm::dvec4> Set::*>;
 /// One setting: its name, and the member of Set that stores it.
 struct Setting {
     std::string_view name;
@@ -38,6 +39,7 @@ const auto kSettings = std::to_array<Setting>({{"polytope", &Set::object},
                                                {"focus", &Set::focus},
                                                {"offset", &Set::offset},
                                                {"w", &Set::focusW},
+                                               {"point", &Set::focusPoint},
                                                {"view", &Set::view},
                                                {"turning", &Set::turning},
                                                {"azimuth", &Set::azimuth},
@@ -90,6 +92,25 @@ struct ValueReader {
             return bad(ErrorCode::bad_expression,
                        std::string(name) + " must be on or off, not " + text::inQuotes(text));
         into = yes;
+        return std::monostate{};
+    }
+    Result<std::monostate> operator()(std::optional<glm::dvec4> Set::* member) const {
+        glm::dvec4 point(0);
+        std::string_view rest = text;
+        for (int axis = 0; axis < 4; ++axis) {
+            const std::size_t comma = rest.find(',');
+            if ((comma == std::string_view::npos) != (axis == 3)) {
+                return bad(ErrorCode::bad_expression, std::string(name) +
+                                                          " must be four numbers x,y,z,w without blanks, such as "
+                                                          "0.1,0,-0.2,0, not " +
+                                                          text::inQuotes(text));
+            }
+            const auto value = evaluate(rest.substr(0, comma));
+            if (!value) return bad(value.error().code, std::string(name) + ": " + value.error().message);
+            point[axis] = *value;
+            rest.remove_prefix(std::min(comma, rest.size() - 1) + 1);
+        }
+        set.*member = point;
         return std::monostate{};
     }
     Result<std::monostate> operator()(std::optional<std::string> Set::* member) const {

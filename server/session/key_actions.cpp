@@ -101,6 +101,9 @@ constexpr auto kActions = std::to_array<Action>({
     {"view", always<[](ActionContext& c) {
          c.state.look.view = c.state.look.view == scene::View::oval ? scene::View::single : scene::View::oval;
      }>},
+    {"matrix", always<[](ActionContext& c) {
+         c.state.look.view = c.state.look.view == scene::View::matrix ? scene::View::oval : scene::View::matrix;
+     }>},
     {"projection", always<[](ActionContext& c) {
          scene::ProjectionKind& kind = c.state.look.projection.kind;
          kind =

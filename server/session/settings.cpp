@@ -59,6 +59,19 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
         }
         state.slices.focus = *set.focus;
     }
+    if (set.focusPoint) {
+        glm::dvec4 point(0);
+        for (int axis = 0; axis < 4; ++axis) {
+            const std::string name = std::string("the point's ") + "xyzw"[axis];
+            if (auto done =
+                    put(name, (*set.focusPoint)[axis], {-kMaxOffset * radius, kMaxOffset * radius, ""}, point[axis]);
+                !done) {
+                return done;
+            }
+        }
+        state.look.focusPoint = glm::dvec3(point);
+        moveFocusTo(state, point.w);
+    }
     if (set.focusW) {
         double w = 0;
         if (auto done = put("w", set.focusW, {-kMaxOffset * radius, kMaxOffset * radius, ""}, w); !done) return done;
@@ -92,6 +105,7 @@ void replaceObject(State& state, slicing::Object object) {
     state.approach.reset();
     state.look.cellTypes = {};
     state.look.highlight.reset();
+    state.look.focusPoint = glm::dvec3(0);
     state.object = std::move(object);
 }
 

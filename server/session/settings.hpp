@@ -18,8 +18,8 @@ inline constexpr double kMinZoom = 0.05, kMaxZoom = 20;
 inline constexpr double kMinEye = 1.05, kMaxEye = 1000;  ///< in circumradii
 
 /// Replaces the object of the state; does nothing if the object is the same. The orientation stays the same, the
-/// spacing keeps its ratio to the circumradius, focus and offset become 0, all cell types become
-/// fully visible, no element is highlighted, and an approach ends.
+/// spacing keeps its ratio to the circumradius, focus, offset and focus point become 0, all
+/// cell types become fully visible, no element is highlighted, and an approach ends.
 void replaceObject(State& state, slicing::Object object);
 
 /// Changes the number of slices. If the old and the new count are greater than 1, also changes the spacing, within its

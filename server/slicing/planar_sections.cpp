@@ -34,8 +34,8 @@ glm::dvec4 unitVector(int axis) {
 
 }  // namespace
 
-// A plane is the intersection of two hyperplanes. The object is cut by the first, w = const if the plane lies in it, and
-// the slice by the second.
+// A plane is the intersection of two hyperplanes. The object is cut by the first, w = const if the plane lies in it,
+// and the slice by the second.
 void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int slice,
                          const glm::dvec4& point, PlanarSections& out) {
     // The other two slices, in which z or y is constant, are cut from the object after that axis has been turned to w.

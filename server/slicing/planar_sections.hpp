@@ -1,7 +1,7 @@
 #pragma once
 // The sections of an object by the six planes through a point that are parallel to two coordinate axes: the panels of a
-// HyperSlice matrix (J. J. van Wijk and R. van Liere, "HyperSlice: visualization of scalar functions of many variables",
-// 1993). They are computed exactly, by cutting slices once more.
+// HyperSlice matrix (J. J. van Wijk and R. van Liere, "HyperSlice: visualization of scalar functions of many
+// variables", 1993). They are computed exactly, by cutting slices once more.
 
 #include <array>
 #include <cstdint>
@@ -22,8 +22,9 @@ namespace oval4d::slicing {
 ///
 /// Source numbers tell from which element an element of the section was cut, as in SliceSet. For a polytope with E
 /// edges, F 2-faces and C cells, `pointSource` is the index of the 2-face that was cut, F + e if polytope edge e was
-/// cut, or F + E + v if polytope vertex v lies in the plane; `edgeSource` is the index of the cell that was cut, or C + f
-/// if 2-face f was cut along the plane. For a point cloud, `pointSource` is the index of the point; there are no edges.
+/// cut, or F + E + v if polytope vertex v lies in the plane; `edgeSource` is the index of the cell that was cut, or C +
+/// f if 2-face f was cut along the plane. For a point cloud, `pointSource` is the index of the point; there are no
+/// edges.
 struct PlanarSection {
     /// The coordinate axes to which the plane is parallel, as indices into x, y, z, w. axes[0] < axes[1].
     std::array<int, 2> axes{};
@@ -67,9 +68,9 @@ class PlanarSlicer {
     static void findBoundary(PlanarSection& section);
 
     Slicer slicer_;
-    SliceSet slice_;                            // by a hyperplane other than w = const
-    std::vector<glm::dvec4> vertices_;          // of the slice that is cut
-    std::vector<double> distance_;              // per vertex: its signed distance from the hyperplane; 0 within rounding
+    SliceSet slice_;                    // by a hyperplane other than w = const
+    std::vector<glm::dvec4> vertices_;  // of the slice that is cut
+    std::vector<double> distance_;      // per vertex: its signed distance from the hyperplane; 0 within rounding
     std::vector<std::uint32_t> pointOfVertex_;  // per vertex and edge of the slice: the point of the section, or kNone
     std::vector<std::uint32_t> pointOfEdge_;
     std::vector<Crossing> crossings_;  // of one face

@@ -116,6 +116,9 @@ const slicing::Object& objectAt(const json& number, const ObjectList& objects) {
 
 // --- Parts of a state
 
+// Lengths are limited in proportion to the circumradius; this factor allows for rounding errors.
+constexpr double kSlack = 1e-9;
+
 json encoded(const std::optional<geometry::Turn>& turn) {
     if (!turn) return nullptr;
     const auto& [plane, alpha, beta] = *turn;
@@ -148,7 +151,7 @@ std::optional<session::Approach> approachIn(const json& value) {
 }
 
 json encoded(const scene::Look& look) {
-    const auto& [view, parts, orbit, coloring, cellTypes, projection, highlight] = look;
+    const auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint] = look;
     const auto& [azimuth, elevation, zoom] = orbit;
     const auto& [hidden, faded] = cellTypes;
     json flags = json::array();
@@ -162,7 +165,8 @@ json encoded(const scene::Look& look) {
             faded,
             static_cast<unsigned>(kind),
             eye,
-            highlight ? json({static_cast<unsigned>(highlight->kind), highlight->index}) : json()};
+            highlight ? json({static_cast<unsigned>(highlight->kind), highlight->index}) : json(),
+            {focusPoint.x, focusPoint.y, focusPoint.z}};
 }
 
 /// A record written by an earlier version of the program has fewer flags; the other parts keep their defaults.
@@ -189,19 +193,26 @@ std::optional<slicing::Element> elementIn(const json& value, const slicing::Obje
     return element;
 }
 
+glm::dvec3 pointIn(const json& value, double circumradius) {
+    const double bound = session::kMaxOffset * circumradius * (1 + kSlack);
+    return {readNumber(value.at(0), bound), readNumber(value.at(1), bound), readNumber(value.at(2), bound)};
+}
+
 scene::Look lookIn(const json& value, const slicing::Object& object) {
     const std::size_t kinds = slicing::infoOf(object).cellTypes.size();
     const json& orbit = value.at(2);
     scene::Look look{
-        enumerator(value.at(0), scene::View::single),
+        enumerator(value.at(0), scene::View::matrix),
         partsIn(value.at(1)),
         {readNumber(orbit.at(0), session::kMaxOrbitAngle), readNumber(orbit.at(1), session::kMaxOrbitAngle),
          readNumber(orbit.at(2), session::kMinZoom, session::kMaxZoom)},
         enumerator(value.at(3), scene::Coloring::light),
         {cellTypesIn(value.at(4), kinds), cellTypesIn(value.at(5), kinds)},
         {},
-        value.size() > 8 ? elementIn(value.at(8), object) : std::nullopt};
-    if (value.size() > 6)  // a record written by an earlier version of the program has no projection and no highlight
+        value.size() > 8 ? elementIn(value.at(8), object) : std::nullopt,
+        value.size() > 9 ? pointIn(value.at(9), slicing::infoOf(object).circumradius) : glm::dvec3(0)};
+    if (value.size() >
+        6)  // records written by earlier versions of the program have no projection, highlight and focus point
         look.projection = {enumerator(value.at(6), scene::ProjectionKind::orthogonal),
                            readNumber(value.at(7), session::kMinEye, session::kMaxEye)};
     const auto& [hidden, faded] = look.cellTypes;
@@ -232,10 +243,8 @@ State stateIn(const json& value, const ObjectList& objects) {
     const json& angles = value.at(3);
     const json& slices = value.at(4);
     constexpr double kTwoPi = 2 * std::numbers::pi;
-    // Spacing and offset are limited in proportion to the circumradius; kSlack allows for rounding errors. Records
-    // written by earlier versions of the program have no offset and no approach.
+    // Records written by earlier versions of the program have no offset and no approach.
     const double radius = info.circumradius;
-    constexpr double kSlack = 1e-9;
     State state{object,
                 rotationIn(value.at(1), value.at(2)),
                 readNumber(angles.at(0), kTwoPi),

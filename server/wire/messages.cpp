@@ -121,6 +121,11 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
     w.member("name", section.slice);
     w.member("vertices", section.vertices);
     w.endObject();
+    w.key("point");
+    w.beginArray();
+    for (int axis = 0; axis < 3; ++axis) w.value(state.look.focusPoint[axis]);
+    w.value(state.focusW());
+    w.endArray();
     w.member("view", text::nameOf(scene::kViews, state.look.view));
     w.member("turning", state.turning);
     w.member("moving", state.moves());
@@ -156,8 +161,9 @@ std::string stateMessage(const session::State& state, const slicing::SectionName
     return out;
 }
 
-std::string atMessage(const std::optional<scene::Hit>& hit, const scene::Scene& scene, const slicing::Object& object,
-                      std::uint64_t revision, std::optional<double> id) {
+std::string atMessage(const std::optional<scene::Hit>& hit, const std::optional<glm::dvec4>& point,
+                      const scene::Scene& scene, const slicing::Object& object, std::uint64_t revision,
+                      std::optional<double> id) {
     std::string out;
     {
         JsonWriter w(out);
@@ -186,6 +192,12 @@ std::string atMessage(const std::optional<scene::Hit>& hit, const scene::Scene& 
                 w.member("kind", std::uint64_t{kind});
                 w.member("name", std::string_view(slicing::infoOf(object).cellTypes[kind].name));
             }
+        }
+        if (point) {
+            w.key("point");
+            w.beginArray();
+            for (int axis = 0; axis < 4; ++axis) w.value((*point)[axis]);
+            w.endArray();
         }
         w.endObject();
     }

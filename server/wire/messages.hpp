@@ -25,8 +25,10 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
                   std::optional<double> id, std::string& out);
 
 /// Returns the `at` message: what the picture `scene` of `object` shows at a point. `hit` is empty if that is nothing.
-std::string atMessage(const std::optional<scene::Hit>& hit, const scene::Scene& scene, const slicing::Object& object,
-                      std::uint64_t revision, std::optional<double> id);
+/// `point` is the point of the object's space that a panel of the matrix shows there, if there is a panel.
+std::string atMessage(const std::optional<scene::Hit>& hit, const std::optional<glm::dvec4>& point,
+                      const scene::Scene& scene, const slicing::Object& object, std::uint64_t revision,
+                      std::optional<double> id);
 
 /// Returns the `error` message.
 std::string errorMessage(const Error& error, std::optional<double> id);

@@ -90,6 +90,10 @@ session::Set setOf(const json& message) {
         take(*slices, "offset", set.offset);
         take(*slices, "w", set.focusW);
     }
+    if (const auto point = message.find("point"); point != message.end()) {
+        set.focusPoint.emplace();
+        for (int axis = 0; axis < 4; ++axis) (*set.focusPoint)[axis] = (*point)[axis].get<double>();
+    }
     choose(message, "view", scene::kViews, set.view);
     if (const auto parts = message.find("shown"); parts != message.end()) {
         for (std::size_t i = 0; i < scene::kParts.size(); ++i) take(*parts, scene::kParts[i].name, set.parts[i]);

@@ -1,5 +1,7 @@
 #include "wire/slices_message.hpp"
 
+#include <type_traits>
+
 #include "scene/density_plot.hpp"
 #include "text/choice.hpp"
 #include "wire/cbor_writer.hpp"
@@ -16,6 +18,34 @@ void writeNumbers(W& w, std::string_view name, std::initializer_list<double> lis
     w.key(name);
     w.beginArray();
     for (const double number : list) w.value(number);
+    w.endArray();
+}
+
+// Writes an array of pairs of numbers, in the same way in all encodings.
+template <typename W, typename Pairs>
+void writePairs(W& w, std::string_view name, const Pairs& list) {
+    w.key(name);
+    w.beginArray();
+    for (const auto& pair : list) {
+        w.beginArray();
+        for (int i = 0; i < 2; ++i) w.value(pair[i]);
+        w.endArray();
+    }
+    w.endArray();
+}
+
+// Writes an array of numbers, in the same way in all encodings.
+template <typename W, typename Numbers>
+void writeList(W& w, std::string_view name, const Numbers& list) {
+    w.key(name);
+    w.beginArray();
+    for (const auto& number : list) {
+        if constexpr (std::is_enum_v<std::decay_t<decltype(number)>>) {
+            w.value(static_cast<std::uint32_t>(number));
+        } else {
+            w.value(number);
+        }
+    }
     w.endArray();
 }
 
@@ -156,6 +186,7 @@ void SlicesMessageWriter::writeMessage(W&& w, CachedText<StaticScene>& cache, co
     w.key("slices");
     list_.write(w, scene);
     if (scene.projectionPlacement.shown) writeProjection(w, scene);
+    if (scene.matrix.shown) writeMatrix(w, scene);
     w.endObject();
 }
 
@@ -170,6 +201,56 @@ void SlicesMessageWriter::writeProjection(W& w, const Scene& scene) {
     w.member("scale", scene.projection.scale);
     w.key("parts");
     list_.writeProjection(w, scene);
+    w.endObject();
+}
+
+template <typename W>
+void SlicesMessageWriter::writeMatrix(W& w, const Scene& scene) {
+    const scene::MatrixLayout& layout = scene.matrix;
+    const scene::SectionMatrix& matrix = scene.sectionMatrix;
+    w.key("matrix");
+    w.beginObject();
+    w.member("left", layout.left);
+    w.member("bottom", layout.bottom);
+    w.member("panel", layout.panel);
+    w.member("step", layout.step);
+    w.member("line_width", layout.lineWidth);
+    w.member("ball", layout.pointRadius);
+    w.member("reach", scene::MatrixLayout::kReach * scene.circumradius);
+    writeNumbers(w, "point", {matrix.point.x, matrix.point.y, matrix.point.z, matrix.point.w});
+    w.key("sections");
+    w.beginArray();
+    for (std::size_t i = 0; i < matrix.sections.size(); ++i) {
+        const slicing::PlanarSection& section = matrix.sections[i];
+        const scene::SectionMatrix::SectionStyle& styles = matrix.styles[i];
+        w.beginObject();
+        writeList(w, "axes", section.axes);
+        writePairs(w, "points", section.points);
+        writePairs(w, "edges", section.edges);
+        writeList(w, "boundary", section.boundary);
+        w.key("of");
+        w.beginObject();
+        writeList(w, "points", section.pointSource);
+        writeList(w, "edges", section.edgeSource);
+        w.endObject();
+        writeList(w, "tints", styles.edgeCells);
+        if (!scene.visibilities.allVisible()) {
+            w.key("seen");
+            w.beginObject();
+            writeList(w, "points", styles.points);
+            writeList(w, "edges", styles.edges);
+            w.endObject();
+        }
+        if (!section.ballScale.empty()) {
+            w.key("balls");
+            w.beginObject();
+            writeList(w, "scale", section.ballScale);
+            writeList(w, "opacity", section.ballOpacity);
+            w.endObject();
+        }
+        w.endObject();
+    }
+    w.endArray();
     w.endObject();
 }
 

@@ -42,6 +42,8 @@ class SlicesMessageWriter {
                       std::optional<double> id);
     template <typename W>
     void writeProjection(W& w, const scene::Scene& scene);
+    template <typename W>
+    void writeMatrix(W& w, const scene::Scene& scene);
 
     CachedText<StaticScene> jsonStatic_, cborStatic_;
     SliceListWriter list_;

@@ -97,6 +97,9 @@ inline void requireSound(const session::State& state, const session::Limits& lim
         const double seconds = state.approach->seconds;
         require(seconds > 0 && seconds <= session::kMaxApproachSeconds, "an approach ends within its bound");
     }
+    for (int axis = 0; axis < 3; ++axis)
+        require(within(state.look.focusPoint[axis] / info.circumradius, session::kMaxOffset * (1 + 1e-9)),
+                "the focus point is within its bounds");
     if (const auto& element = state.look.highlight)
         require(element->index < slicing::elementCount(state.object, element->kind), "what is highlighted exists");
     const auto& [azimuth, elevation, zoom] = state.look.orbit;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include <glm/geometric.hpp>
 
 #include "render/color.hpp"
 
@@ -83,6 +86,31 @@ void Overlay::box(const Box& box, scene::Color color, float opacity, float corne
     const OverlayVertex vertex{.box = {half, std::min({cornerRadius, half.x, half.y})}, .color = rgba(color, opacity)};
     quad({box.left - 0.5f, box.bottom - 0.5f, box.right + 0.5f, box.top + 0.5f}, vertex, {-x, -y, x, y},
          {0.5f, 0.5f, 0.5f, 0.5f});
+}
+
+void Overlay::line(glm::vec2 from, glm::vec2 to, float width, scene::Color color, float opacity) {
+    const float length = glm::distance(from, to);
+    const glm::vec2 along = length > 0 ? (to - from) / length : glm::vec2(1, 0), across{-along.y, along.x};
+    const glm::vec2 half{0.5F * (length + width), 0.5F * width},
+        reach = half + 0.5F;  // with room for the antialiased edge
+    const OverlayVertex vertex{.box = {half, half.y}, .color = rgba(color, opacity)};
+    const auto first = static_cast<std::uint32_t>(vertices_.size());
+    for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {-1, 1}, {1, 1}}) {
+        OverlayVertex v = vertex;
+        v.fromCenter = glm::vec2(x, y) * reach;
+        v.at = (0.5F * (from + to) + v.fromCenter.x * along + v.fromCenter.y * across) * toClip_ - 1.0F;
+        vertices_.push_back(v);
+    }
+    for (const std::uint32_t i : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(first + i);
+}
+
+void Overlay::polygon(std::span<const glm::vec2> corners, scene::Color color, float opacity) {
+    const auto first = static_cast<std::uint32_t>(vertices_.size());
+    for (const glm::vec2& corner : corners) {
+        vertices_.push_back({.at = corner * toClip_ - 1.0F, .box = {kWide, kWide, 0}, .color = rgba(color, opacity)});
+    }
+    for (std::uint32_t i = 2; i < corners.size(); ++i)
+        for (const std::uint32_t corner : {0u, i - 1, i}) indices_.push_back(first + corner);
 }
 
 void Overlay::text(float x, float y, int size, std::string_view text, scene::Color color, float opacity) {

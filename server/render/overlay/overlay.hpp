@@ -2,6 +2,7 @@
 // Draws boxes and text over the picture, in pixel coordinates.
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -41,6 +42,12 @@ class Overlay {
 
     /// Adds a box; `cornerRadius` is in pixels. Its edges are antialiased unless they lie on pixel boundaries.
     void box(const Box& box, scene::Color color, float opacity = 1, float cornerRadius = 0);
+
+    /// Adds a straight line with round ends, `width` pixels wide.
+    void line(glm::vec2 from, glm::vec2 to, float width, scene::Color color, float opacity = 1);
+
+    /// Adds the interior of a convex polygon. Its edges are not antialiased; lines may cover them.
+    void polygon(std::span<const glm::vec2> corners, scene::Color color, float opacity = 1);
 
     /// Adds a line of text, centered at x and with its baseline at y. `size` is the height of the em square in pixels.
     /// The text is moved to whole pixels, where it is sharpest.

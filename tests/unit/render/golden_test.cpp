@@ -91,6 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Golden{"star", "great stellated 120-cell", 18, {}},
                     Golden{"dense-star", "icosahedral 120-cell", 19, {}},
                     Golden{"single", "5-cell", 16, {.view = scene::View::single, .parts = {}, .orbit = {}}},
+                    Golden{"matrix", "24-cell", 20, {.view = scene::View::matrix, .parts = {}, .orbit = {}}},
                     Golden{"faces-from-aside",
                            "24-cell",
                            17,

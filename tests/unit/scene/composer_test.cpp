@@ -296,6 +296,44 @@ TEST(Labels, areInThePictureAndApart) {
     }
 }
 
+TEST(Matrix, standsBesideTheFocusSlice) {
+    for (const scene::Viewport viewport : kWindows) {
+        for (const bool whole : {false, true}) {
+            for (const bool coordinates : {false, true}) {
+                scene::Look look;
+                look.view = scene::View::matrix;
+                look.parts.coordinates = coordinates;
+                if (whole) look.projection.kind = scene::ProjectionKind::orthogonal;
+                const Scene s = composed("24-cell", 21, viewport, look);
+                SCOPED_TRACE(testing::Message() << viewport.width << " x " << viewport.height << ", " << whole);
+                const scene::MatrixLayout& m = s.matrix;
+                ASSERT_TRUE(m.shown);
+                EXPECT_GT(m.panel * viewport.height, 0.09 * std::min(viewport.width, viewport.height));
+                const double height = viewport.height, left = m.left * height, right = left + 4 * m.step * height;
+                const double bottom = (1 - m.bottom) * height, top = bottom - 4 * m.step * height;
+                EXPECT_GE(left, 0);
+                EXPECT_LE(right - (m.step - m.panel) * height, viewport.width + 1e-9);
+                EXPECT_GE(top + (m.step - m.panel) * height, -1e-9);
+                EXPECT_LE(bottom, height - (coordinates ? s.coordinates.zero + s.coordinates.amplitude : 0) * height);
+                const auto isOutside = [&](const glm::dvec2& at, double radius) {
+                    return at.x + radius <= left || at.x - radius >= right || at.y + radius <= top ||
+                           at.y - radius >= bottom;
+                };
+                const double radius = s.scale * s.circumradius;
+                EXPECT_TRUE(isOutside(project(s, {0, 0, 0}), radiusOnScreen(s, {0, 0, 0}, radius)));
+                if (whole) {
+                    const auto& [shown, position, sphere] = s.projectionPlacement;
+                    EXPECT_TRUE(shown && isOutside(project(s, position), radiusOnScreen(s, position, sphere)));
+                }
+                for (const LabelBox& box : expectLabelsApart(s)) {
+                    EXPECT_TRUE(box.isInside(viewport));
+                    EXPECT_TRUE(box.right <= left || box.left >= right || box.bottom <= top || box.top >= bottom);
+                }
+            }
+        }
+    }
+}
+
 TEST(Labels, areApartFromEverySide) {
     for (const scene::CameraOrbit& orbit : std::vector<scene::CameraOrbit>{
              {0, 0, 3}, {0, 0, 0.3}, {0.8, 0.2, 1}, {1.57, -0.46, 1}, {3.1, 0.5, 2}, {-0.4, 1, 0.5}, {0, -0.46, 1}}) {

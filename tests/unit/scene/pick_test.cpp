@@ -65,6 +65,53 @@ TEST(Pick, FindsTheVertexThatIsNearestToTheViewer) {
     }
 }
 
+// Each panel of the matrix finds the elements of its section, and its points lie in its plane.
+TEST(Pick, FindsTheElementsOfPlanarSections) {
+    std::mt19937 random(8);
+    Look look;
+    look.view = View::matrix;
+    look.focusPoint = {0.05, -0.1, 0.15};
+    for (const char* name : {"5-cell", "24-cell", "grand antiprism"}) {
+        Picture picture(name, look, support::randomRotation(random));
+        const MatrixLayout& layout = picture.scene.matrix;
+        const SectionMatrix& matrix = picture.scene.sectionMatrix;
+        const auto counts = slicing::elementCounts(picture.object);
+        const double scale = layout.panel / 2 / MatrixLayout::kReach / picture.scene.circumradius;
+        for (const slicing::PlanarSection& section : matrix.sections) {
+            for (const bool transposed : {false, true}) {
+                const int row = section.axes[transposed ? 0 : 1], column = section.axes[transposed ? 1 : 0];
+                const auto pixelOf = [&](const glm::dvec2& p) {
+                    const glm::dvec2 at = layout.center(row, column) + scale * (transposed ? glm::dvec2(p.y, p.x) : p);
+                    return glm::dvec3(720 * at.x, 720 * (1 - at.y), 0);
+                };
+                for (std::size_t e = 0; e < section.edges.size(); ++e) {
+                    const glm::dvec2 a = section.points[section.edges[e][0]], b = section.points[section.edges[e][1]];
+                    if (glm::distance(a, b) * scale * 720 < 20) continue;  // a short edge is hidden by its points
+                    const auto hit = picture.at(pixelOf(0.5 * (a + b)));
+                    ASSERT_TRUE(hit) << name;
+                    EXPECT_EQ(hit->area, PictureArea::matrix);
+                    EXPECT_EQ(hit->element, (slicing::Element{ElementKind::cell, section.edgeSource[e]}));
+                    const auto end = picture.at(pixelOf(a));
+                    ASSERT_TRUE(end);
+                    EXPECT_EQ(end->element.kind, ElementKind::face) << "points are cut from 2-faces";
+                    EXPECT_LT(end->element.index, counts[2]);
+                }
+                const glm::dvec3 pixel = pixelOf(section.points[0]);
+                const auto point = matrixPointAt(picture.scene, {pixel.x, pixel.y});
+                ASSERT_TRUE(point);
+                glm::dvec4 expected = matrix.point;
+                expected[section.axes[0]] = section.points[0].x;
+                expected[section.axes[1]] = section.points[0].y;
+                EXPECT_LT(glm::distance(*point, expected), 1e-9);
+            }
+        }
+        // The diagonal has names only, and left of the matrix is the slice.
+        const glm::dvec2 diagonal = layout.center(1, 1);
+        EXPECT_FALSE(matrixPointAt(picture.scene, {720 * diagonal.x, 720 * (1 - diagonal.y)}));
+        EXPECT_FALSE(matrixPointAt(picture.scene, {720 * layout.left - 1, 360}));
+    }
+}
+
 TEST(Pick, FindsFacesBarsAndNothing) {
     std::mt19937 random(6);
     Look look;

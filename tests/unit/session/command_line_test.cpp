@@ -55,17 +55,25 @@ TEST(CommandLine, EverySettingCanBeSet) {
     line(session,
          "set polytope=16-cell alpha=0.1 beta=-0.2 step=0.01 slices=11 spacing=0.2 focus=-2 view=single turning=on "
          "faces=off "
-         "bars=off balls=off coordinates=off azimuth=0.3 elevation=-0.1 zoom=2 color=w hidden=0 faded=none");
+         "bars=off balls=off coordinates=off azimuth=0.3 elevation=-0.1 zoom=2 color=w hidden=0 faded=none "
+         "highlight=vertex:3 point=0.1,1/4,-pi/10,0.5");
     const State& now = session.current;
     EXPECT_EQ(infoOf(now).name, "16-cell");
     EXPECT_EQ(now.alpha, 0.1);
     EXPECT_EQ(now.beta, -0.2);
     EXPECT_EQ(now.step, 0.01);
-    EXPECT_EQ(now.slices, (SliceSettings{11, 0.2, -2}));
+    EXPECT_EQ(now.slices.count, 11);
+    EXPECT_EQ(now.slices.spacing, 0.2);
+    EXPECT_DOUBLE_EQ(now.focusW(), 0.5);
     EXPECT_TRUE(now.turning);
-    EXPECT_EQ(now.look,
-              (scene::Look{
-                  scene::View::single, {false, false, false, false}, {0.3, -0.1, 2}, scene::Coloring::w, {{0}, {}}}));
+    EXPECT_EQ(now.look, (scene::Look{scene::View::single,
+                                     {false, false, false, false},
+                                     {0.3, -0.1, 2},
+                                     scene::Coloring::w,
+                                     {{0}, {}},
+                                     {},
+                                     slicing::Element{slicing::ElementKind::vertex, 3},
+                                     {0.1, 0.25, -std::numbers::pi / 10}}));
 }
 
 TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
@@ -100,8 +108,14 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("set step=0", ErrorCode::out_of_range, "the step must be from");
     refused("set zoom=0", ErrorCode::out_of_range, "zoom must be from");
     refused("set faces=maybe", ErrorCode::bad_expression, "faces must be on or off, not 'maybe'");
-    refused("set view=oblong", ErrorCode::bad_expression, "view must be oval or single");
-    refused("view", ErrorCode::bad_expression, "oval or single");
+    refused("set view=oblong", ErrorCode::bad_expression, "view must be oval, single or matrix");
+    refused("view", ErrorCode::bad_expression, "oval, single or matrix");
+    refused("set point=0,0,0", ErrorCode::bad_expression, "four numbers");
+    refused("set point=0,0,0,0,0", ErrorCode::bad_expression, "four numbers");
+    refused("set point=", ErrorCode::bad_expression, "four numbers");
+    refused("set point=0,,0,0", ErrorCode::bad_expression, "a number is expected");
+    refused("set point=0,0,0,", ErrorCode::bad_expression, "a number is expected");
+    refused("set point=0,1e9,0,0", ErrorCode::out_of_range, "the point's y must be from");
     refused("set alpha=0.1 beta=99", ErrorCode::out_of_range, "did you mean 99°?");
     refused("focus 1e8", ErrorCode::out_of_range, "the focus must be from");
     refused("rotate", ErrorCode::bad_expression, "needs planes and angles");

@@ -86,7 +86,7 @@ TEST(Keys, TheTableHasEveryKeyOfTheMethod) {
     EXPECT_EQ(
         all,
         "2\n3\n4\n5\n6\n7\nr\nt\ny\nzc\nzf\nze\nzv\nk\nj\nK\nJ\nh\nl\n0\ngg\nG\n)\n(\n[\n]\n{\n}\nSpace\n.\nu\nCtrl-"
-        "r\ns\ni\nn\nN\no\np\na\nf\nb\ne\nw\nc\nW\nC\n←\n→\n↓\n↑\n-\n+\nHome\nx\n:\n?\n");
+        "r\ns\ni\nn\nN\no\nm\np\na\nf\nb\ne\nw\nc\nW\nC\n←\n→\n↓\n↑\n-\n+\nHome\nx\n:\n?\n");
 }
 
 TEST(Keys, AKeyAndItsInverseRestoreTheState) {
@@ -108,6 +108,7 @@ TEST(Keys, AKeyAndItsInverseRestoreTheState) {
                                                                                {"{", "}"},
                                                                                {"n", "N"},
                                                                                {"o", "o"},
+                                                                               {"m", "m"},
                                                                                {"p", "p"},
                                                                                {"f", "f"},
                                                                                {"b", "b"},

@@ -80,9 +80,9 @@ TEST_P(PlanarSectionsOf, AreThePolygonsThatTheCellsBound) {
         const Rotation orientation = turn == 0 ? Rotation{} : support::randomRotation(random);
         const double r = p.circumradius;
         // The planes through the center of a polytope in its own position meet many of its elements in special ways.
-        const glm::dvec4 point = turn < 2 ? glm::dvec4(0)
-                                          : r * glm::dvec4(coordinate(random), coordinate(random), coordinate(random),
-                                                           coordinate(random));
+        const glm::dvec4 point =
+            turn < 2 ? glm::dvec4(0)
+                     : r * glm::dvec4(coordinate(random), coordinate(random), coordinate(random), coordinate(random));
         const PlanarSections sections = sectionsOf(objectOf(p), orientation, point);
         const auto back = glm::transpose(orientation.matrix());
         for (std::size_t i = 0; i < sections.size(); ++i) {
@@ -101,8 +101,7 @@ TEST_P(PlanarSectionsOf, AreThePolygonsThatTheCellsBound) {
             }
             for (std::size_t e = 0; e < section.edges.size(); ++e) {
                 const std::uint32_t source = section.edgeSource[e];
-                const std::uint32_t cell =
-                    source < p.cells.size() ? source : p.faceCells[source - p.cells.size()][0];
+                const std::uint32_t cell = source < p.cells.size() ? source : p.faceCells[source - p.cells.size()][0];
                 for (const std::uint32_t end : section.edges[e]) {
                     const glm::dvec4 own = back * lift(section, section.points[end], point);
                     ASSERT_NEAR(glm::dot(normals[cell], own), offsets[cell], 1e-8 * r * glm::length(normals[cell]));
@@ -127,8 +126,8 @@ TEST(PlanarSections, AgreeOnTheLinesInWhichTheyMeet) {
         for (int turn = 0; turn < 8; ++turn) {
             SCOPED_TRACE(testing::Message() << name << ", turn " << turn);
             const Rotation orientation = support::randomRotation(random);
-            const glm::dvec4 point = r * glm::dvec4(coordinate(random), coordinate(random), coordinate(random),
-                                                    coordinate(random));
+            const glm::dvec4 point =
+                r * glm::dvec4(coordinate(random), coordinate(random), coordinate(random), coordinate(random));
             const PlanarSections sections = sectionsOf(objectOf(p), orientation, point);
             for (int axis = 0; axis < 4; ++axis) {
                 std::vector<std::vector<double>> lists;

@@ -44,7 +44,7 @@ inline session::Load ownObject(const std::string& name, std::uint32_t seed) {
 
 /// Applies random commands: keys, settings, loads, undo, redo and rotations.
 inline void wander(session::Session& session, std::mt19937& random, int steps) {
-    const std::string keys = "234567rtykjKJhl0G[]{}u.nNopfbe";
+    const std::string keys = "234567rtykjKJhl0G[]{}u.nNompfbe";
     std::uniform_real_distribution<double> angle(-7, 7);
     for (int i = 0; i < steps; ++i) {
         session::Command command = session::Key{std::string(1, keys[random() % keys.size()]), random() % 4 == 0, false};
@@ -72,6 +72,7 @@ inline void wander(session::Session& session, std::mt19937& random, int steps) {
                 break;
             case 5:
                 set.offset = 0.1 * angle(random);
+                set.focusPoint = glm::dvec4(angle(random), angle(random), angle(random), 0);
                 command = set;
                 break;
             default:

@@ -1,0 +1,136 @@
+#include "render/overlay/matrix_panels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace oval4d::render {
+
+namespace {
+
+using scene::Color;
+using slicing::PlanarSection;
+
+constexpr float kPanelOpacity = 0.22F, kFillOpacity = 0.16F, kAxisOpacity = 0.55F;
+constexpr double kNameHeight = 0.3;  // of an axis' name, as a fraction of its panel
+
+// Draws the panels of one section: with its first axis to the right, and with its second.
+class SectionPainter {
+  public:
+    SectionPainter(const scene::Scene& scene, Overlay& overlay)
+        : scene_(scene),
+          overlay_(overlay),
+          height_(scene.viewport.height),
+          pixelsPerUnit_(scene.matrix.panel / 2 / scene::MatrixLayout::kReach / scene.circumradius * height_) {}
+
+    void paint(std::size_t section, bool transposed) {
+        const PlanarSection& from = scene_.sectionMatrix.sections[section];
+        transposed_ = transposed;
+        const auto [row, column] =
+            transposed ? std::pair(from.axes[0], from.axes[1]) : std::pair(from.axes[1], from.axes[0]);
+        center_ = scene_.matrix.center(row, column) * height_;
+        overlay_.box(panel(), scene::style().zeroLine, kPanelOpacity,
+                     static_cast<float>(0.03 * scene_.matrix.panel * height_));
+        points_.clear();
+        for (const glm::dvec2& p : from.points) points_.push_back(pixelOf(p));
+        if (scene_.look.parts.faces) paintFill(from);
+        paintFocusLines(row, column);
+        if (scene_.look.parts.bars) paintEdges(section);
+        if (scene_.look.parts.balls || !from.ballScale.empty()) paintPoints(section);
+    }
+
+    void paintName(int axis) {
+        const glm::vec2 at = scene_.matrix.center(axis, axis) * height_;
+        const int size = static_cast<int>(std::lround(kNameHeight * scene_.matrix.panel * height_));
+        if (size < 1) return;
+        const auto digits = static_cast<float>(overlay_.font().digitHeight(size));
+        overlay_.text(at.x, at.y - digits / 2, size, std::string_view("xyzw").substr(static_cast<std::size_t>(axis), 1),
+                      colorOfAxis(axis));
+    }
+
+  private:
+    glm::vec2 pixelOf(const glm::dvec2& p) const {
+        return center_ + pixelsPerUnit_ * (transposed_ ? glm::dvec2(p.y, p.x) : p);
+    }
+
+    static Color colorOfAxis(int axis) {
+        const scene::Style& style = scene::style();
+        return std::array{style.axisX, style.axisY, style.axisZ, style.axisW}[static_cast<std::size_t>(axis)];
+    }
+
+    Box panel() const {
+        const double half = scene_.matrix.panel / 2 * height_;
+        return {static_cast<float>(std::round(center_.x - half)), static_cast<float>(std::round(center_.y - half)),
+                static_cast<float>(std::round(center_.x + half)), static_cast<float>(std::round(center_.y + half))};
+    }
+
+    // The lines in which the plane meets the other planes of its row and its column.
+    void paintFocusLines(int row, int column) const {
+        const glm::dvec4& point = scene_.sectionMatrix.point;
+        const glm::vec2 at = center_ + pixelsPerUnit_ * glm::dvec2(point[column], point[row]);
+        const Box box = panel();
+        const float half = std::max(0.5F, static_cast<float>(std::round(0.0011 * height_)) / 2);
+        if (at.y > box.bottom && at.y < box.top)
+            overlay_.box({box.left, at.y - half, box.right, at.y + half}, colorOfAxis(column), kAxisOpacity);
+        if (at.x > box.left && at.x < box.right)
+            overlay_.box({at.x - half, box.bottom, at.x + half, box.top}, colorOfAxis(row), kAxisOpacity);
+    }
+
+    void paintFill(const PlanarSection& from) {
+        polygon_.clear();
+        for (const std::uint32_t p : from.boundary) polygon_.push_back(points_[p]);
+        if (!scene_.crossing) overlay_.polygon(polygon_, scene::style().ball, kFillOpacity);
+    }
+
+    void paintEdges(std::size_t section) const {
+        const PlanarSection& from = scene_.sectionMatrix.sections[section];
+        const scene::SectionMatrix::SectionStyle& styles = scene_.sectionMatrix.styles[section];
+        const auto width = static_cast<float>(std::max(1.0, scene_.matrix.lineWidth * height_));
+        for (std::size_t e = 0; e < from.edges.size(); ++e) {
+            const double opacity = slicing::opacityOf(styles.edges[e]);
+            if (opacity == 0) continue;
+            overlay_.line(points_[from.edges[e][0]], points_[from.edges[e][1]], width,
+                          scene_.cellColors[styles.edgeCells[e]], static_cast<float>(opacity));
+        }
+    }
+
+    void paintPoints(std::size_t section) const {
+        const PlanarSection& from = scene_.sectionMatrix.sections[section];
+        const scene::SectionMatrix::SectionStyle& styles = scene_.sectionMatrix.styles[section];
+        const scene::Style& style = scene::style();
+        const bool differ = !from.ballScale.empty();
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const double opacity = slicing::opacityOf(styles.points[i]) * (differ ? from.ballOpacity[i] : 1);
+            if (opacity == 0) continue;
+            const double scale = differ ? from.ballScale[i] : 1;
+            const auto radius = static_cast<float>(std::max(1.0, scene_.matrix.pointRadius * height_ * scale));
+            const glm::vec2 at = points_[i];
+            overlay_.box({at.x - radius, at.y - radius, at.x + radius, at.y + radius},
+                         styles.highlighted[i] ? style.highlight : style.ball, static_cast<float>(opacity), radius);
+        }
+    }
+
+    const scene::Scene& scene_;
+    Overlay& overlay_;
+    const double height_, pixelsPerUnit_;
+    bool transposed_ = false;
+    glm::dvec2 center_{0};  // of the panel, in pixels
+    std::vector<glm::vec2> points_, polygon_;
+};
+
+}  // namespace
+
+void paintMatrix(const scene::Scene& scene, Overlay& overlay) {
+    if (!scene.matrix.shown) return;
+    SectionPainter painter(scene, overlay);
+    for (int axis = 0; axis < 4; ++axis) painter.paintName(axis);
+    for (std::size_t i = 0; i < scene.sectionMatrix.sections.size(); ++i) {
+        painter.paint(i, false);
+        painter.paint(i, true);
+    }
+}
+
+}  // namespace oval4d::render
