@@ -35,7 +35,7 @@ std::function<FileResult(std::size_t worker)> fileJob(Services services, const s
         ScopedFileMetrics fileMetrics(services.metrics);
         auto held = client->byteAccount().forceReserve(0);
         exports::Limits limits = services.options.file;
-        limits.reserve = [&held](std::size_t bytes) { return bytes <= held.size() || held.grow(bytes); };
+        limits.reserve = [&held](std::size_t bytes) { return bytes <= held.size() || held.growTo(bytes); };
         auto made = pipeline::exportState(state, request, limits, services.fileWorkers.stopToken());
         if (!made) {
             const bool overBudget = made.error().code == ErrorCode::too_many;

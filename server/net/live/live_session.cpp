@@ -109,7 +109,7 @@ void LiveSession::updateReservation(bool polytopesChanged) {
     assertOnStrand();
     if (polytopesChanged) objectBytes_ = session::objectBytes(session_);
     const std::size_t bytes = objectBytes_ + session::historyBytes(session_);
-    if (bytes > held_.size() && !held_.grow(bytes)) {
+    if (bytes > held_.size() && !held_.growTo(bytes)) {
         session::forgetOlderHalf(session_);
         objectBytes_ = session::objectBytes(session_);
     }
@@ -125,7 +125,7 @@ void LiveSession::saveNow(store::WriteBehindStore::Written written) {
 /// Schedules a save. Must be called after each change.
 void LiveSession::scheduleSave() {
     assertOnStrand();
-    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
+    if (writeBehind_.writeTiming() == store::Store::WriteTiming::at_close) return;
     saveTimer_.start(weak_from_this(), Clock::now() + kSaveDelay, [](LiveSession& session) { session.saveNow(); });
 }
 
@@ -224,7 +224,7 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
     if (reached != before) {
         changed_ = Clock::now();
         scheduleSave();
-        if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
+        if (writeBehind_.writeTiming() == store::Store::WriteTiming::at_once) {
             // The head of a record is saved without objects, so a new object requires a save of the whole session.
             const bool whole = session_.current.object != shown;
             auto write = storeWriter(whole ? store::WriteBehindStore::SaveScope::whole
