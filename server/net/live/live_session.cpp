@@ -162,8 +162,8 @@ LiveSession::Lanes LiveSession::lanesOf(const Peer& peer) const {
     for (const auto& [key, client] : clients_) {
         if (client.lanes.client == own) return client.lanes;
     }
-    return {own, std::make_shared<parallel::WorkerPool::Lane>(own->share()),
-            std::make_shared<parallel::WorkerPool::Lane>(own->fileShare())};
+    return {own, std::make_shared<parallel::WorkerPool::Lane>(own->pictureShare()),
+            std::make_shared<parallel::WorkerPool::Lane>(own->exportShare())};
 }
 
 asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request) {
@@ -202,7 +202,7 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
                 break;
             }
             if (loader->isFilePending()) {
-                co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(loader), client_->loadingLane(),
+                co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(loader), client_->loadLane(),
                                                    loader->estimatedDuration());
             } else {
                 co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader),
@@ -280,11 +280,11 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
 asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
                                                   RequestId id) {
     const std::uint64_t askedRevision = revision();
-    FileResult made;
+    ExportResult made;
     try {
-        made = co_await runOnPool<FileResult>(services_.fileWorkers,
-                                              fileJob(services_, session_.current, request, peer->client()),
-                                              lanesOf(*peer).files, pipeline::fileCost(session_.current));
+        made = co_await runOnPool<ExportResult>(services_.exportWorkers,
+                                                exportJob(services_, session_.current, request, peer->client()),
+                                                lanesOf(*peer).exports, pipeline::fileCost(session_.current));
     } catch (const parallel::QueueFull&) {
         made = kTooManyJobs;
     } catch (const std::exception& fault) {

@@ -69,7 +69,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// A client's lanes in the worker pools for its jobs in this session.
     struct Lanes {
         ClientPtr client;
-        parallel::WorkerPool::LanePtr pictures, files;
+        parallel::WorkerPool::LanePtr pictures, exports;
     };
     /// A connection to this session.
     struct Subscriber {

@@ -160,7 +160,7 @@ void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::Fet
             [self = shared_from_this(), pending, record = std::move(fetch->record)](std::size_t /*worker*/) {
                 self->decode(pending, record);
             },
-            pending.client->lane(), cost);
+            pending.client->pictureLane(), cost);
         if (accepted) return;
         writeBehind_.discardFetched(pending.credentials.id);
         finishOpening(pending, kTooManyJobs);
