@@ -61,7 +61,7 @@ struct ElementSources {
 /// Finds what shows an element: of a vertex, the vertex and where its edges are cut; of an edge, the edge and where it
 /// is cut; of a 2-face or a cell, the bars that are cut from it and its edges. Overwrites `out`. Takes time linear in
 /// the number of edges. Requires element.index < elementCount(object, element.kind).
-void findSources(const Object& object, const Element& element, ElementSources& out);
+void findSourcesShowing(const Object& object, const Element& element, ElementSources& out);
 
 /// Returns the smallest w > `w` (the largest w < `w` if `upward` is false) at which a vertex lies after rotation by
 /// `orientation`: the section w = const changes its combinatorial type only there (Coxeter, Regular Polytopes, §13.1).

@@ -172,7 +172,7 @@ std::string atMessage(const std::optional<scene::Hit>& hit, const scene::Scene& 
                 w.member("w", scene.placements[hit->slice].w);
             }
             slicing::ElementSources sources;
-            slicing::findSources(object, hit->element, sources);
+            slicing::findSourcesShowing(object, hit->element, sources);
             double least = std::numeric_limits<double>::max(), most = -least;
             for (const std::uint32_t v : sources.ownVertices) {
                 least = std::min(least, scene.slices->rotatedVertices[v].w);
