@@ -197,7 +197,7 @@ std::string errorMessage(const Error& error, std::optional<double> id) {
     {
         JsonWriter w(out);
         begin(w, "error", id);
-        w.member("code", wireName(error.code));
+        w.member("code", protocolName(error.code));
         w.member("message", std::string_view(error.message));
         w.endObject();
     }

@@ -269,7 +269,7 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
             break;
         case wire::GetTarget::at:
             key.stream = Stream::geometry;
-            co_await answerWithPicture(peer, key, id, get.at);
+            co_await answerWithPicture(peer, key, id, get.point);
             break;
         case wire::GetTarget::file:
             co_await answerWithFile(peer, get.file, id);
