@@ -87,7 +87,7 @@ DesignOrError duoprismNamed(std::vector<std::string> words) {
         const std::size_t between = std::min(pair.find(','), pair.find('x'));
         if (between != std::string::npos) words = {pair.substr(0, between), pair.substr(between + 1)};
     }
-    std::vector<Branch> polygons;
+    std::vector<RegularPolygon> polygons;
     for (const std::string& word : words) {
         std::string own = word;
         if (own.ends_with(',')) own.pop_back();
