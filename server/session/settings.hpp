@@ -12,14 +12,14 @@ inline constexpr int kMaxFocus = 1'000'000;  ///< absolute value of the focus in
 inline constexpr double kMinSpacing = 1e-6;  ///< as a multiple of the object's circumradius
 inline constexpr double kMaxSpacing = 10;    ///< as a multiple of the object's circumradius
 inline constexpr double kMaxOffset = 10;     ///< absolute value of the offset, as a multiple of the circumradius
-inline constexpr double kMaxApproachSeconds = 10;  ///< Approach::seconds
-inline constexpr double kMaxOrbitAngle = 1000;     ///< absolute value of azimuth and elevation in radians
+inline constexpr double kMaxTurnTowardSeconds = 10;  ///< OngoingTurnToward::seconds
+inline constexpr double kMaxOrbitAngle = 1000;       ///< absolute value of azimuth and elevation in radians
 inline constexpr double kMinZoom = 0.05, kMaxZoom = 20;
 inline constexpr double kMinEye = 1.05, kMaxEye = 1000;  ///< in circumradii
 
 /// Replaces the object of the state; does nothing if the object is the same. The orientation stays the same, the
 /// spacing keeps its ratio to the circumradius, focus and offset become 0, all cell types become
-/// fully visible, no element is highlighted, and an approach ends.
+/// fully visible, no element is highlighted, and a turn toward an element ends.
 void replaceObject(State& state, slicing::Object object);
 
 /// Changes the number of slices. If the old and the new count are greater than 1, also changes the spacing, within its
@@ -35,12 +35,12 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
 /// Returns the error `out_of_range` unless the angles are finite and within ±kMaxAngle.
 Result<std::monostate> checkTurn(const geometry::Turn& turn);
 
-/// Rotates the object, stores the rotation as State::lastTurn, and ends an approach.
+/// Rotates the object, stores the rotation as State::lastTurn, and ends a turn toward an element.
 void rotate(State& state, const geometry::Turn& turn);
 
 /// Lets the object approach the orientation in which the element points to +w, or brings it there immediately.
 /// Continuous turning ends. Error: `out_of_range` if the object has no such element.
-Result<std::monostate> turnToward(State& state, const Toward& command);
+Result<std::monostate> turnToward(State& state, const TurnToward& command);
 
 /// Moves the focus to this w: to the slice that is closest to it without an offset, and sets the offset to the
 /// difference. Requires |w| ≤ kMaxOffset circumradii.

@@ -115,8 +115,8 @@ session::Set setOf(const json& message) {
     return set;
 }
 
-session::Toward towardOf(const json& message) {
-    session::Toward toward;
+session::TurnToward towardOf(const json& message) {
+    session::TurnToward toward;
     choose(message, "element", slicing::kElementKinds, toward.kind);
     take(message, "number", toward.index);
     toward.immediately = message.value("immediately", false);

@@ -373,7 +373,7 @@ void LiveSession::update() {
     }
 }
 
-/// Moves an object that turns continuously or approaches an orientation, if the next step is due and a client that has
+/// Moves an object that turns continuously or turns toward an element, if the next step is due and a client that has
 /// the current revision can receive the next one.
 void LiveSession::advanceMotion() {
     assertOnStrand();
