@@ -43,8 +43,8 @@ std::string Pipeline::describePoint(const session::State& state, const slicing::
     memory_.composer.limitFill(0);  // the triangles that fill faces are not needed
     memory_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
                              memory_.scene);
-    return wire::atMessage(scene::elementAt(memory_.scene, state.object, point), memory_.scene, state.object, revision,
-                           id);
+    return wire::atMessage(scene::pickElement(memory_.scene, state.object, point), memory_.scene, state.object,
+                           revision, id);
 }
 
 void Pipeline::drawPng(const session::State& state, std::string_view stateText, scene::Viewport viewport,

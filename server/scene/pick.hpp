@@ -19,7 +19,7 @@ inline constexpr auto kPictureAreas =
                                               {"coordinates", PictureArea::coordinates}});
 
 /// An element that a picture shows at a point.
-struct Hit {
+struct PickedElement {
     slicing::Element element;
     PictureArea area = PictureArea::slice;
     std::size_t slice = 0;  ///< PictureArea::slice: the index of the slice in SliceSet
@@ -29,6 +29,6 @@ struct Hit {
 /// nearest to the viewer: the vertex, edge, 2-face or cell to which a ball, bar or face belongs, or the vertex of a
 /// column of the parallel coordinates. Balls and bars are hit up to a few pixels beyond their edges. Returns an empty
 /// optional if there is none. Takes time linear in the size of the slices.
-std::optional<Hit> elementAt(const Scene& scene, const slicing::Object& object, glm::dvec2 point);
+std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Object& object, glm::dvec2 point);
 
 }  // namespace oval4d::scene

@@ -24,9 +24,10 @@ std::string stateMessage(const session::State& state, const slicing::SectionName
 void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
                   std::optional<double> id, std::string& out);
 
-/// Returns the `at` message: what the picture `scene` of `object` shows at a point. `hit` is empty if that is nothing.
-std::string atMessage(const std::optional<scene::Hit>& hit, const scene::Scene& scene, const slicing::Object& object,
-                      std::uint64_t revision, std::optional<double> id);
+/// Returns the `at` message: what the picture `scene` of `object` shows at a point. `picked` is empty if that is
+/// nothing.
+std::string atMessage(const std::optional<scene::PickedElement>& picked, const scene::Scene& scene,
+                      const slicing::Object& object, std::uint64_t revision, std::optional<double> id);
 
 /// Returns the `error` message.
 std::string errorMessage(const Error& error, std::optional<double> id);
