@@ -33,7 +33,7 @@ class ConnectionRegistry {
 
         /// Sets the handler that ends the connection. The handler is called, on any thread, when the server stops or
         /// the connection is evicted. If one of these has already happened, this function calls the handler.
-        void onEndRequest(EndHandler handler);
+        void setEndHandler(EndHandler handler);
 
         /// Marks the connection as in use, which protects it from eviction, or as idle. A new connection is idle.
         void setInUse(bool inUse);

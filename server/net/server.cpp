@@ -270,7 +270,7 @@ asio::awaitable<void> Server::stopOnSignal() {
     const auto [fault, number] = co_await signals.async_wait(kAsTuple);
     spdlog::info("stopping signal={} connections={}", number, connections_.size());
     signals.clear();  // a second signal ends the program immediately
-    readiness_.stop();
+    readiness_.markStopping();
     for (tcp::acceptor& acceptor : acceptors_) asio::post(acceptor.get_executor(), [&acceptor] { acceptor.close(); });
     const auto limit = std::chrono::steady_clock::now() + toSteadyDuration(options_.stopTimeout);
     asio::steady_timer poll(executor);

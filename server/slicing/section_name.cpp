@@ -128,7 +128,7 @@ const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
     return kShapes;
 }
 
-bool SectionNamer::mayName(const Object& object, const geometry::Rotation& orientation, double w) {
+bool SectionNamer::mayHaveName(const Object& object, const geometry::Rotation& orientation, double w) {
     const double slack = kOnPlane * infoOf(object).circumradius;
     const glm::dvec4 direction = orientation.inverse()({0, 0, 0, 1});
     const auto sideOf = [&](const glm::dvec4& vertex) {

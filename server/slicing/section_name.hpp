@@ -39,7 +39,7 @@ class SectionNamer {
     /// edges cross the hyperplane, and so many or no vertices lie in it, that no named shape fits, and for a point
     /// cloud, whose points lie near the hyperplane. Takes time linear in the number of edges, much less than cutting
     /// the slice.
-    static bool mayName(const Object& object, const geometry::Rotation& orientation, double w);
+    static bool mayHaveName(const Object& object, const geometry::Rotation& orientation, double w);
 
     /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if it has none.
     /// The name is valid until the process ends.

@@ -223,7 +223,7 @@ asio::awaitable<Reply> Routes::file(session::Query query, const exports::Format&
         if (!requested) co_return countedError(requested.error());
         const ExportResult made = co_await runOnPool<ExportResult>(
             services_.exportWorkers, exportJob(services_, *requested, *exported, client), client->exportLane(),
-            pipeline::fileCost(*requested));
+            pipeline::exportCost(*requested));
         if (!*made) co_return countedError(made->error());
         Reply answer = reply(format.mediaType, **made);
         answer.headers.emplace_back("Content-Disposition",

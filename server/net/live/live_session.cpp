@@ -284,7 +284,7 @@ asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, ex
     try {
         made = co_await runOnPool<ExportResult>(services_.exportWorkers,
                                                 exportJob(services_, session_.current, request, peer->client()),
-                                                lanesOf(*peer).exports, pipeline::fileCost(session_.current));
+                                                lanesOf(*peer).exports, pipeline::exportCost(session_.current));
     } catch (const parallel::QueueFull&) {
         made = kTooManyJobs;
     } catch (const std::exception& fault) {
