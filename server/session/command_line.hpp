@@ -1,5 +1,5 @@
 #pragma once
-// Sets settings by name, for the ':' line and for the queries of URLs.
+// Parses settings and elements, given as text on the ':' line and in the queries of URLs.
 
 #include <string_view>
 

@@ -106,9 +106,8 @@ Result<std::monostate> apply(Session& session, const Command& command, const Lim
 
 /// The speed of continuous turning: how often the last rotation is repeated per second.
 inline constexpr double kTurnsPerSecond = 6;
-/// Moves the object as it moves in `seconds` of continuous turning, or of the turn toward an element, which ends at
-/// its goal. Does nothing if the object does not move. The motion is one undo step from its start to its end, so this
-/// function adds none.
+/// Continues the motion of the object by `seconds`: continuous turning, or a turn toward an element, which ends at its
+/// goal. Does nothing if the object does not move. Adds no undo step, because one undo step covers the whole motion.
 void advance(Session& session, double seconds);
 
 /// Parses a ':' line, with or without the ':', such as "polytope 24-cell", "set slices=31", "rotate xw,yz pi/8 pi/5" or

@@ -22,7 +22,7 @@ namespace oval4d::slicing {
 /// A slicer may be used by one thread at a time.
 class PolytopeSlicer {
   public:
-    /// With `forkJoin`, large convex polytopes are sliced on two cores; null: always on one.
+    /// Slices large convex polytopes on two cores if `forkJoin` is not null. `forkJoin` must outlive this object.
     explicit PolytopeSlicer(parallel::ForkJoin* forkJoin = nullptr) : convexSlicer_(forkJoin) {}
 
     /// Slices `polytope` rotated by `orientation`. Overwrites `out` and reuses its memory.

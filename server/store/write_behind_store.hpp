@@ -86,10 +86,10 @@ class WriteBehindStore {
     /// Records which objects of a fetched session the store already has, so that they are not written again.
     void setStoredKeys(const std::string& id, KeysBySerial keys);
 
-    /// Queues the whole session for writing, or only its current state (SaveScope::head). Then calls `written`: with
-    /// true when the session is stored; also with true, at once, while the store is unavailable, so that clients are
-    /// not kept waiting; with false if the session will not be stored, because another server has taken it over or
-    /// because it was removed.
+    /// Queues the whole session for writing, or only its current state (SaveScope::head). Calls `written(true)` when
+    /// the session is stored, or at once if the store is unavailable, so that clients need not wait. Calls
+    /// `written(false)` if the session will not be stored, because another server has taken it over or because it was
+    /// removed.
     void save(const std::string& id, session::Session value, SaveScope scope, Written written = {});
 
     /// Queues the last write of a session that no client has open anymore. The session stays in memory until it is

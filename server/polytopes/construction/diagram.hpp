@@ -57,7 +57,7 @@ std::vector<MirrorSet> componentsOf(const Diagram& diagram, MirrorSet set = 0xf)
 
 /// Returns whether every connected component of `set` contains a ringed mirror. If so, the images of the generating
 /// vertex under the reflections in these mirrors are the vertices of an element of the polytope; its dimension is the
-/// number of mirrors. Otherwise the images span a lower dimension.
+/// number of mirrors. Otherwise, they span a lower dimension.
 bool generatesElement(const Diagram& diagram, MirrorSet set);
 
 /// Returns the order of the Coxeter group that the mirrors of `set` generate, or 0 if the group is not finite. The
