@@ -13,6 +13,6 @@ constexpr std::array<std::string_view, 19> kNames{
 static_assert(kNames.size() == static_cast<std::size_t>(ErrorCode::internal) + 1);
 }  // namespace
 
-std::string_view wireName(ErrorCode code) { return kNames[static_cast<std::size_t>(code)]; }
+std::string_view protocolName(ErrorCode code) { return kNames[static_cast<std::size_t>(code)]; }
 
 }  // namespace oval4d

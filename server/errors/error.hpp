@@ -33,7 +33,7 @@ enum class ErrorCode {
 };
 
 /// Returns the name of the code in protocol messages, which is spelled like the enumerator.
-std::string_view wireName(ErrorCode code);
+std::string_view protocolName(ErrorCode code);
 
 /// An error to report to a client. `message` tells the user what was wrong, where, and what is allowed.
 struct Error {

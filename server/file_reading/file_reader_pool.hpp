@@ -30,8 +30,8 @@ struct FileReaderOptions {
 };
 
 /// A pool of processes that read files. Each process reads a single file and ends, so that a malicious file cannot
-/// affect the next one. Another process is then started in advance and waits for the next file. It ends if no file
-/// comes within FileReaderOptions::idle. Thread-safe.
+/// affect the next one. Then another process is started in advance and waits for a file. A waiting process ends if no
+/// file comes within FileReaderOptions::idle. Thread-safe.
 class FileReaderPool {
   public:
     explicit FileReaderPool(FileReaderOptions options);

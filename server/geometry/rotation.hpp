@@ -68,8 +68,8 @@ class Rotation {
 
     /// Returns the rotation that undoes this one.
     Rotation inverse() const;
-    /// Returns the part of this rotation from the identity (fraction 0) to itself (fraction 1), with both rotation
-    /// angles multiplied by `fraction`, along the shorter way.
+    /// Returns this rotation with both of its angles multiplied by `fraction`: 0 gives the identity, and 1 this
+    /// rotation. Of the two ways from the identity to this rotation, takes the shorter one.
     Rotation power(double fraction) const;
     /// Returns the larger of the two rotation angles, in radians from 0 to π.
     double angle() const;

@@ -14,7 +14,7 @@ namespace oval4d::image {
 /// Encodes images as 8-bit RGB PNG files. Not thread-safe: one thread at a time may use an encoder.
 class PngEncoder {
   public:
-    /// With `forkJoin`, large images are encoded on two cores; null: always on one.
+    /// Encodes large images on two cores if `forkJoin` is not null. `forkJoin` must outlive this object.
     explicit PngEncoder(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin) {}
 
     /// Encodes `image`, without alpha, as a PNG file. Overwrites `out` and reuses its memory. The file also contains

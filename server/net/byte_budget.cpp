@@ -19,7 +19,7 @@ void ByteBudget::Reservation::resize(std::size_t bytes) {
     if (account_) account_->change(std::exchange(size_, bytes), bytes);
 }
 
-bool ByteBudget::Reservation::grow(std::size_t bytes) {
+bool ByteBudget::Reservation::growTo(std::size_t bytes) {
     auto more = account_->reserve(bytes - size_);
     if (!more) return false;
     size_ += std::exchange(more->size_, 0);

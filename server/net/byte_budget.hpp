@@ -30,7 +30,7 @@ class ByteBudget {
         void resize(std::size_t bytes);
         /// Enlarges the reservation to `bytes`, at least size(). Returns false, and changes nothing, if that would
         /// exceed a limit.
-        [[nodiscard]] bool grow(std::size_t bytes);
+        [[nodiscard]] bool growTo(std::size_t bytes);
 
       private:
         friend Account;

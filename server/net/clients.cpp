@@ -66,7 +66,7 @@ std::chrono::duration<double> Client::countMessage(std::size_t bytes, Clock::tim
     const std::lock_guard lock(mutex_);
     requests_.take(1, now);
     messageBytes_.take(static_cast<double>(bytes), now);
-    return std::max(requests_.debt(now), messageBytes_.debt(now));
+    return std::max(requests_.timeUntilRepaid(now), messageBytes_.timeUntilRepaid(now));
 }
 
 bool Client::idle(Clock::time_point now) const {

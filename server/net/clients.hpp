@@ -55,16 +55,17 @@ class Client {
     /// Returns the account that counts the bytes held for this client.
     ByteBudget::Account& byteAccount() { return *bytes_; }
 
-    /// These functions return this client's identity in the schedulers of the worker pools: share() in the pool of
-    /// picture workers, fileShare() in the pool of file workers. Each session creates lanes for its jobs from them.
-    const parallel::WorkerPool::ClientSharePtr& share() const { return share_; }
-    const parallel::WorkerPool::ClientSharePtr& fileShare() const { return fileShare_; }
-    /// These functions return the client's lanes for jobs that belong to no session: lane() in the pool of picture
-    /// workers, fileLane() in the pool of file workers.
-    const parallel::WorkerPool::LanePtr& lane() const { return lane_; }
-    const parallel::WorkerPool::LanePtr& fileLane() const { return fileLane_; }
+    /// These functions return this client's identity in the schedulers of the worker pools: pictureShare() in the pool
+    /// of picture workers, exportShare() in the pool of export workers. Each session creates lanes for its jobs from
+    /// them.
+    const parallel::WorkerPool::ClientSharePtr& pictureShare() const { return pictureShare_; }
+    const parallel::WorkerPool::ClientSharePtr& exportShare() const { return exportShare_; }
+    /// These functions return the client's lanes for jobs that belong to no session: pictureLane() in the pool of
+    /// picture workers, exportLane() in the pool of export workers.
+    const parallel::WorkerPool::LanePtr& pictureLane() const { return pictureLane_; }
+    const parallel::WorkerPool::LanePtr& exportLane() const { return exportLane_; }
     /// Returns the client's lane in the pool of load workers, which read the files that clients upload.
-    const parallel::WorkerPool::LanePtr& loadingLane() const { return loadingLane_; }
+    const parallel::WorkerPool::LanePtr& loadLane() const { return loadLane_; }
 
     /// Returns whether all rate limits have fully recovered. A client for which this is true can be deleted and created
     /// again without effect.
@@ -73,12 +74,12 @@ class Client {
   private:
     const std::string name_;
     const std::shared_ptr<ByteBudget::Account> bytes_;
-    const parallel::WorkerPool::ClientSharePtr share_ = std::make_shared<parallel::WorkerPool::ClientShare>();
-    const parallel::WorkerPool::LanePtr lane_ = std::make_shared<parallel::WorkerPool::Lane>(share_);
-    const parallel::WorkerPool::ClientSharePtr fileShare_ =
-        std::make_shared<parallel::WorkerPool::ClientShare>();  // in the pool of file workers
-    const parallel::WorkerPool::LanePtr fileLane_ = std::make_shared<parallel::WorkerPool::Lane>(fileShare_);
-    const parallel::WorkerPool::LanePtr loadingLane_ = std::make_shared<parallel::WorkerPool::Lane>(
+    const parallel::WorkerPool::ClientSharePtr pictureShare_ = std::make_shared<parallel::WorkerPool::ClientShare>();
+    const parallel::WorkerPool::LanePtr pictureLane_ = std::make_shared<parallel::WorkerPool::Lane>(pictureShare_);
+    const parallel::WorkerPool::ClientSharePtr exportShare_ =
+        std::make_shared<parallel::WorkerPool::ClientShare>();  // in the pool of export workers
+    const parallel::WorkerPool::LanePtr exportLane_ = std::make_shared<parallel::WorkerPool::Lane>(exportShare_);
+    const parallel::WorkerPool::LanePtr loadLane_ = std::make_shared<parallel::WorkerPool::Lane>(
         std::make_shared<parallel::WorkerPool::ClientShare>());  // in the pool of load workers
     mutable std::mutex mutex_;
     TokenBucket newSessions_, wrongTokens_, requests_, messageBytes_;  // guarded by mutex_

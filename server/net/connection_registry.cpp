@@ -24,7 +24,7 @@ ConnectionRegistry::Registration::~Registration() {
     connections_.uncount(gone.client.get());
 }
 
-void ConnectionRegistry::Registration::onEndRequest(EndHandler handler) {
+void ConnectionRegistry::Registration::setEndHandler(EndHandler handler) {
     bool now = false;
     EndReason reason = EndReason::stopping;
     {

@@ -31,9 +31,9 @@ class ConnectionRegistry {
         Registration& operator=(const Registration&) = delete;
         ~Registration();
 
-        /// Sets the handler that ends the connection. The handler is called, on any thread, when the server stops or
-        /// the connection is evicted. If one of these has already happened, this function calls the handler.
-        void onEndRequest(EndHandler handler);
+        /// Sets the handler that ends the connection. It is called, on any thread, when the server stops or the
+        /// connection is evicted. If one of these has already happened, setEndHandler() itself calls the handler.
+        void setEndHandler(EndHandler handler);
 
         /// Marks the connection as in use, which protects it from eviction, or as idle. A new connection is idle.
         void setInUse(bool inUse);
@@ -50,8 +50,8 @@ class ConnectionRegistry {
     enum class Admission { admitted, server_full, client_full };
     /// Decides whether one more connection of this client is admitted. At a limit, evicts one idle connection: the
     /// oldest one of this client if the client is at its limit, else the oldest one of the client with the most
-    /// connections. `registered`: 1 if the new connection already has a registration, which is then not counted, else
-    /// 0. `isProxy`: whether the client is a trusted proxy, to which the limit per client does not apply.
+    /// connections. `registered`: the number of registrations that the new connection already has, which are not
+    /// counted: 0 or 1. `isProxy`: whether the client is a trusted proxy, to which the limit per client does not apply.
     Admission admit(const Client& client, std::size_t registered = 0, bool isProxy = false);
 
     /// Returns the number of registered connections.

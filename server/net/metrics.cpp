@@ -28,12 +28,12 @@ prometheus::Family<Histogram>& histograms(prometheus::Registry& registry, const 
     return prometheus::BuildHistogram().Name(name).Help(help).Register(registry);
 }
 
-prometheus::Counter& drawingLosses(prometheus::Registry& registry, const char* cause) {
+prometheus::Counter& rasterizerLosses(prometheus::Registry& registry, const char* cause) {
     return counters(registry, "oval4d_drawing_losses_total", "Rasterizer processes that were lost and replaced")
         .Add({{"cause", cause}});
 }
 
-prometheus::Counter& readingLosses(prometheus::Registry& registry, const char* cause) {
+prometheus::Counter& fileReaderLosses(prometheus::Registry& registry, const char* cause) {
     return counters(registry, "oval4d_reading_losses_total", "File reader processes that were lost and replaced")
         .Add({{"cause", cause}});
 }
@@ -46,10 +46,10 @@ Metrics::Metrics()
       sessions(gauge(registry_, "oval4d_sessions", "Sessions stored, with or without a client")),
       openSessions(gauge(registry_, "oval4d_open_sessions", "Sessions with a client")),
       jobsWaiting(gauge(registry_, "oval4d_jobs_waiting", "Jobs waiting for a worker")),
-      rasterizerDeaths(drawingLosses(registry_, "died")),
-      rasterizerHangs(drawingLosses(registry_, "hung")),
-      fileReaderDeaths(readingLosses(registry_, "died")),
-      fileReaderHangs(readingLosses(registry_, "hung")),
+      rasterizerDeaths(rasterizerLosses(registry_, "died")),
+      rasterizerHangs(rasterizerLosses(registry_, "hung")),
+      fileReaderDeaths(fileReaderLosses(registry_, "died")),
+      fileReaderHangs(fileReaderLosses(registry_, "hung")),
       filesUnderWay(gauge(registry_, "oval4d_files_under_way", "Files being made")),
       fileTime(histograms(registry_, "oval4d_file_seconds", "Time to make a file").Add({}, kFileBuckets)),
       memory(gauge(registry_, "process_resident_memory_bytes", "Resident memory of this process")),
@@ -85,7 +85,7 @@ Metrics::Metrics()
       draw_(steps_.Add({{"step", "draw"}}, kBuckets)),
       encode_(steps_.Add({{"step", "encode"}}, kBuckets)) {}
 
-void Metrics::countError(ErrorCode code) { errors_.Add({{"code", std::string(wireName(code))}}).Increment(); }
+void Metrics::countError(ErrorCode code) { errors_.Add({{"code", std::string(protocolName(code))}}).Increment(); }
 
 void Metrics::countRequest(unsigned httpStatus) { requests_.Add({{"status", std::to_string(httpStatus)}}).Increment(); }
 

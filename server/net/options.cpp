@@ -59,7 +59,7 @@ void addServing(CLI::App& app, Options& options) {
     add(app, "--workers", options.workers,
         "Threads that slice and draw; 0 for one per processor, within the CPU quota of the container")
         ->check(CLI::Range(0, 1024));
-    add(app, "--file-workers", options.fileWorkers, "Threads that make files, separate from those that make pictures")
+    add(app, "--file-workers", options.exportWorkers, "Threads that make files, separate from those that make pictures")
         ->check(CLI::Range(1, 1024));
     add(app, "--load-workers", options.loadWorkers,
         "Files that are read concurrently, each by its own process; further ones are queued")
@@ -170,11 +170,11 @@ void addLimits(CLI::App& app, Options& options) {
     add(app, "--max-requests", options.maxRequests,
         "Messages per second from one connection; bursts of twice as many are allowed")
         ->check(atLeastOne);
-    add(app, "--max-jobs", options.jobs.all,
+    add(app, "--max-jobs", options.jobs.total,
         "Maximum number of pictures, and of files, that wait for a worker; further requests are refused, and the "
         "streams of sessions retry")
         ->check(atLeastOne);
-    add(app, "--max-client-jobs", options.jobs.ofClient,
+    add(app, "--max-client-jobs", options.jobs.perClient,
         "Maximum number of these waiting jobs of one client (see --max-jobs)")
         ->check(atLeastOne);
     add(app, "--min-side", options.frame.minSide, "Minimum width and height of a picture, in pixels")

@@ -30,7 +30,7 @@ struct Options {
     std::uint16_t port = 8080;                           ///< 0: any free port
     std::string webRoot;                                 ///< folder of the built web client
     int workers = 0;                                     ///< threads that slice and draw; 0: one per processor
-    int fileWorkers = 1;                                 ///< threads that make exported files
+    int exportWorkers = 1;                               ///< threads that make exported files
     int loadWorkers = 2;                                 ///< processes that read uploaded files concurrently
     int ioThreads = 1;                                   ///< threads that read and write sockets
     std::string logLevel = "info";                       ///< least severe level that is logged; a name of spdlog

@@ -22,7 +22,7 @@ class Readiness {
     /// Returns whether every worker has drawn its first picture.
     bool ready() const { return missing_ == 0; }
     /// Marks the server as stopping. /readyz then tells load balancers to send no new clients.
-    void stop() { stopping_ = true; }
+    void markStopping() { stopping_ = true; }
     bool stopping() const { return stopping_; }
     /// Returns whether a worker could not draw its first picture, so that the server will never be ready.
     bool broken() const { return broken_; }

@@ -140,7 +140,7 @@ class Server {
     file_reading::FileReaderPool readers_;
     polytopes::PolytopeCache polytopes_;
     pipeline::PipelinePool pictureWorkers_;
-    parallel::WorkerPool fileWorkers_, loadWorkers_;
+    parallel::WorkerPool exportWorkers_, loadWorkers_;
     Services services_;
     std::shared_ptr<SessionManager> sessions_;
     std::string token_;
@@ -176,13 +176,13 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
                            },
                        .onThreadStart = [this](pipeline::Pipeline& pipeline) { readiness_.warmUp(pipeline); }},
                       forkJoin, heap),
-      fileWorkers_({.threads = static_cast<std::size_t>(options_.fileWorkers),
-                    .limits = options_.jobs,
-                    .whenIdle = [&heap](std::size_t /*worker*/) { heap.returnFreeMemory(); }}),
+      exportWorkers_({.threads = static_cast<std::size_t>(options_.exportWorkers),
+                      .limits = options_.jobs,
+                      .whenIdle = [&heap](std::size_t /*worker*/) { heap.returnFreeMemory(); }}),
       loadWorkers_({.threads = static_cast<std::size_t>(options_.loadWorkers),
                     .limits = options_.jobs,
                     .whenIdle = [&heap](std::size_t /*worker*/) { heap.returnFreeMemory(); }}),
-      services_{options_, io_, pictureWorkers_, fileWorkers_, metrics_, clients_, loadWorkers_, readers_, polytopes_},
+      services_{options_, io_, pictureWorkers_, exportWorkers_, metrics_, clients_, loadWorkers_, readers_, polytopes_},
       sessions_(std::make_shared<SessionManager>(services_, store::openStore(storeOptions(options_)))),
       token_(requiredToken()),
       access_(options_.allowedHosts, options_.allowedOrigins, token_, onLoopback()),
@@ -240,7 +240,7 @@ void Server::stopWorkers() {
         std::_Exit(0);
     });
     pictureWorkers_.workers().stop();
-    fileWorkers_.stop();
+    exportWorkers_.stop();
     loadWorkers_.stop();
     ended = true;
     watchdog.join();
@@ -270,7 +270,7 @@ asio::awaitable<void> Server::stopOnSignal() {
     const auto [fault, number] = co_await signals.async_wait(kAsTuple);
     spdlog::info("stopping signal={} connections={}", number, connections_.size());
     signals.clear();  // a second signal ends the program immediately
-    readiness_.stop();
+    readiness_.markStopping();
     for (tcp::acceptor& acceptor : acceptors_) asio::post(acceptor.get_executor(), [&acceptor] { acceptor.close(); });
     const auto limit = std::chrono::steady_clock::now() + toSteadyDuration(options_.stopTimeout);
     asio::steady_timer poll(executor);

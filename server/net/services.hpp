@@ -34,7 +34,7 @@ struct Services {
     const Options& options;
     boost::asio::io_context& io;
     pipeline::PipelinePool& pictureWorkers;  ///< threads that slice and draw pictures
-    parallel::WorkerPool& fileWorkers;       ///< threads that make exported files, which takes longer than pictures
+    parallel::WorkerPool& exportWorkers;     ///< threads that make exported files, which takes longer than pictures
     Metrics& metrics;
     Clients& clients;
     parallel::WorkerPool& loadWorkers;      ///< threads that wait for file reader processes to read clients' files

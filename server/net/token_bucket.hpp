@@ -31,8 +31,8 @@ class TokenBucket {
 
     bool full(Clock::time_point now) const { return level(now) >= burst_; }
 
-    /// Returns the time until the level reaches 0 again; zero if the bucket is not overdrawn.
-    Seconds debt(Clock::time_point now) const { return Seconds(std::max(0.0, -level(now) / perSecond_)); }
+    /// Returns the time until an overdrawn bucket reaches the level 0 again; zero if the bucket is not overdrawn.
+    Seconds timeUntilRepaid(Clock::time_point now) const { return Seconds(std::max(0.0, -level(now) / perSecond_)); }
 
   private:
     double perSecond_, burst_, level_;

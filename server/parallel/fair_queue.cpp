@@ -45,7 +45,7 @@ Seconds FairQueue::classCost(JobLength length, Seconds cost) const {
 
 bool FairQueue::push(Job job, const LanePtr& lane, Seconds estimate, Clock::time_point now) {
     ClientShare& client = *lane->client_;
-    if (waiting_ >= limits_.all || client.waiting_ >= limits_.ofClient) return false;
+    if (waiting_ >= limits_.total || client.waiting_ >= limits_.perClient) return false;
     ++waiting_;
     ++client.waiting_;
     estimate = std::max(kMinCost, estimate);
@@ -64,7 +64,7 @@ std::optional<FairQueue::StartedJob> FairQueue::pop(Clock::time_point now) {
     if (schedulers.clients.empty()) return std::nullopt;
     const ClientSharePtr client = schedulers.clients.next();
     const LanePtr lane = client->lanes_[length].next();
-    Waiting first = std::move(lane->jobs_.front());
+    QueuedJob first = std::move(lane->jobs_.front());
     lane->jobs_.pop_front();
     --waiting_;
     --client->waiting_;
@@ -102,7 +102,7 @@ Seconds FairQueue::nextCost(const ClientShare& client, JobLength length) {
 
 /// Updates the queue entries of a lane, its client and their class after a change of the lane's first job.
 void FairQueue::scheduleLane(const LanePtr& lane) {
-    const Waiting& first = lane->jobs_.front();
+    const QueuedJob& first = lane->jobs_.front();
     lane->client_->lanes_[first.length].enqueue(lane->states_[first.length], lane, first.cost);
     scheduleClient(lane->client_, first.length);
 }
@@ -164,7 +164,7 @@ std::deque<FairQueue::Job> FairQueue::clear() {
         const LanePtr lane = client->lanes_[length].next();
         client->waiting_ -= lane->jobs_.size();
         waiting_ -= lane->jobs_.size();
-        for (Waiting& each : lane->jobs_) dropped.push_back(std::move(each.job));
+        for (QueuedJob& each : lane->jobs_) dropped.push_back(std::move(each.job));
         lane->jobs_.clear();
         client->lanes_[length].remove(lane->states_[length]);
         scheduleClient(client, length);

@@ -119,7 +119,7 @@ class FairQueue {
 
     /// The maximum numbers of waiting jobs, of all clients together and of one client.
     struct Limits {
-        std::size_t all = 10'000, ofClient = 1000;
+        std::size_t total = 10'000, perClient = 1000;
     };
 
     /// A job that costs more than this is long; any other job is short. If jobs in general take longer than estimated,
@@ -178,7 +178,7 @@ class FairQueue {
         Seconds estimated_{0}, measured_{0};
     };
 
-    struct Waiting {
+    struct QueuedJob {
         Job job;
         Seconds estimate, cost;
         JobLength length;
@@ -229,7 +229,7 @@ class FairQueue::Lane {
     friend FairQueue;
     const ClientSharePtr client_;
     PerClass<FairScheduler<LanePtr>::FlowState> states_;
-    std::deque<Waiting> jobs_;
+    std::deque<QueuedJob> jobs_;
     Correction correction_;
     std::optional<RecentLanes::iterator> activity_;  // position in FairQueue::active_; empty if the lane is not active
     std::optional<Clock::time_point> lastLong_;      // when the last long job was queued; empty if there was none

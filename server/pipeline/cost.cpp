@@ -31,7 +31,7 @@ EstimatedSeconds geometryCost(const session::State& state) {
     return EstimatedSeconds(1e-4 + 1e-7 * n + 1e-7 * state.slices.count * met(n));
 }
 
-EstimatedSeconds fileCost(const session::State& state) {
+EstimatedSeconds exportCost(const session::State& state) {
     return EstimatedSeconds(0.02 + 5e-6 * state.slices.count * met(elements(state.object)));
 }
 

@@ -19,6 +19,6 @@ EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport
 EstimatedSeconds geometryCost(const session::State& state);
 
 /// Returns the estimated time of exportState.
-EstimatedSeconds fileCost(const session::State& state);
+EstimatedSeconds exportCost(const session::State& state);
 
 }  // namespace oval4d::pipeline

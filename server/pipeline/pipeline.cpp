@@ -43,7 +43,7 @@ std::string Pipeline::describePoint(const session::State& state, const slicing::
     memory_.composer.limitFill(0);  // the triangles that fill faces are not needed
     memory_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
                              memory_.scene);
-    return wire::atMessage(scene::elementAt(memory_.scene, state.object, point),
+    return wire::atMessage(scene::pickElement(memory_.scene, state.object, point),
                            scene::matrixPointAt(memory_.scene, point), memory_.scene, state.object, revision, id);
 }
 

@@ -53,7 +53,7 @@ class Pipeline {
                      std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding, std::string& out);
 
     /// Returns the `at` message: what the picture of `slices`, which must have been cut from this state, shows at a
-    /// point (see scene::elementAt).
+    /// point (see scene::pickElement).
     std::string describePoint(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
                               std::optional<double> id, scene::Viewport viewport, glm::dvec2 point);
 

@@ -78,7 +78,7 @@ class CellMeasurer {
 };
 
 // Returns the regular polygon {n/d} that a vertex loop forms; d is the turning number of the loop.
-Branch polygonOf(const Polytope& p, std::span<const std::uint32_t> loop) {
+RegularPolygon polygonOf(const Polytope& p, std::span<const std::uint32_t> loop) {
     const auto n = loop.size();
     if (p.convexFaces || n < 5) return {static_cast<int>(n), 1};
     double turning = 0;

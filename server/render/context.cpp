@@ -79,7 +79,7 @@ void Context::begin(int width, int height, std::uint8_t* pixels) {
 }
 
 // Creating a fence flushes the commands without waiting.
-void Context::start() { glDeleteSync(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
+void Context::flush() { glDeleteSync(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
 
 void Context::finish() { glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_); }
 

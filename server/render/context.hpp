@@ -22,7 +22,7 @@ class Context {
     void begin(int width, int height, std::uint8_t* pixels);
 
     /// Makes the driver's threads begin to rasterize what was drawn so far, and returns without waiting for them.
-    void start();
+    void flush();
 
     /// Waits until the picture is drawn, and copies it.
     void finish();

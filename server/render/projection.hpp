@@ -36,8 +36,9 @@ struct Projection {
         return {(c.x / c.z * 0.5f + 0.5f) * width, (c.y / c.z * 0.5f + 0.5f) * height};
     }
 
-    /// Returns the length in pixels of one unit perpendicular to the view axis, at distance 1.
-    float pixelsPerUnit() const { return 0.5f * scaleY * height; }
+    /// Returns the focal length in pixels: a length perpendicular to the view axis, at distance d, is drawn with
+    /// focalLength() / d pixels per unit.
+    float focalLength() const { return 0.5f * scaleY * height; }
 };
 
 }  // namespace oval4d::render

@@ -64,7 +64,7 @@ struct Renderer::Impl {
 
 void Renderer::Impl::flushShapes() {
     patchDepthProgram.draw(shapes);
-    context.start();
+    context.flush();
     shapes.clear();
 }
 
@@ -80,7 +80,7 @@ void Renderer::Impl::drawLayers(const scene::Scene& scene) {
     glClear(GL_DEPTH_BUFFER_BIT);
     glDisable(GL_BLEND);
     patchDepthProgram.drawWithDepth(depths, layers.faces);
-    context.start();
+    context.flush();
     glEnable(GL_BLEND);
     surfaceDepthProgram.drawWithDepth(depths, layers.skeleton);
     if (scene.projectionPlacement.shown) drawProjection(depths);
@@ -93,7 +93,7 @@ void Renderer::Impl::drawLayers(const scene::Scene& scene) {
 // Draws the prepared projection of the whole object. The depth test must be enabled.
 void Renderer::Impl::drawProjection(DepthRange depths) {
     surfaceDepthProgram.drawWithDepth(depths, projectionLayers.solid);
-    context.start();
+    context.flush();
     glDepthMask(GL_FALSE);
     surfaceDepthProgram.drawWithDepth(depths, projectionLayers.translucent);
     glDepthMask(GL_TRUE);

@@ -67,7 +67,7 @@ void Composer::highlight(const Object& object, bool objectChanged, Scene& out) {
         highlight_ = element;
         highlightSources_.clear();
         if (element && element->index < slicing::elementCount(object, element->kind))
-            slicing::findSources(object, *element, highlightSources_);
+            slicing::findSourcesShowing(object, *element, highlightSources_);
     }
     out.highlight = highlightSources_;
     if (!out.highlight.empty() && element->kind == slicing::ElementKind::cell)

@@ -40,7 +40,7 @@ class Picker {
         projection_ = scene.camera.projection(aspect);
         size_ = {scene.viewport.width, scene.viewport.height};
         pixel_ = {point.x, size_.y - point.y};
-        pixelsPerUnit_ = 0.5 * projection_[1][1] * size_.y;
+        focalLength_ = 0.5 * projection_[1][1] * size_.y;
         // The direction of the ray through the pixel, with z = −1.
         const glm::dvec2 ndc = 2.0 * pixel_ / size_ - 1.0;
         ray_ = {(ndc.x + projection_[2][0]) / projection_[0][0], (ndc.y + projection_[2][1]) / projection_[1][1], -1};
@@ -88,16 +88,16 @@ class Picker {
             const double distance = glm::distance(pixelAt(i), pixel_);
             if (distance > nearest || styles.points[i] == Visibility::hidden) continue;
             nearest = distance;
-            hit_ = {elementOfPoint(section->pointSource[i]), PictureArea::matrix, 0};
+            picked_ = {elementOfPoint(section->pointSource[i]), PictureArea::matrix, 0};
         }
-        if (hit_) return;
+        if (picked_) return;
         nearest = std::max(scene_.matrix.lineWidth / 2 * size_.y, kReach);
         for (std::size_t e = 0; scene_.look.parts.bars && e < section->edges.size(); ++e) {
             const double distance = distanceFromLine(pixelAt(section->edges[e][0]), pixelAt(section->edges[e][1]));
             if (distance > nearest || styles.edges[e] == Visibility::hidden) continue;
             nearest = distance;
-            hit_ = {elementOf(section->edgeSource[e], ElementKind::cell, counts_[3], ElementKind::face),
-                    PictureArea::matrix, 0};
+            picked_ = {elementOf(section->edgeSource[e], ElementKind::cell, counts_[3], ElementKind::face),
+                       PictureArea::matrix, 0};
         }
     }
 
@@ -113,10 +113,10 @@ class Picker {
         const bool inColumn = at.x - first - column * layout.columnStep <= 4 * layout.lineStep + layout.lineWidth;
         const double index = row * layout.perRow + column;
         if (!inRow || !inColumn || index >= static_cast<double>(counts_[0])) return;
-        hit_ = {{ElementKind::vertex, static_cast<std::size_t>(index)}, PictureArea::coordinates, 0};
+        picked_ = {{ElementKind::vertex, static_cast<std::size_t>(index)}, PictureArea::coordinates, 0};
     }
 
-    const std::optional<Hit>& hit() const { return hit_; }
+    const std::optional<PickedElement>& picked() const { return picked_; }
 
   private:
     struct Sizes {
@@ -139,9 +139,9 @@ class Picker {
         return glm::distance(from + t * along, pixel_);
     }
 
-    // Tests the elements of slice or part `i`; `where` has the values of a hit except the element.
+    // Tests the elements of slice or part `i`; `where` has what to report with an element that is found.
     void pick(const SliceSet& set, std::size_t i, const glm::dvec3& position, double scale, const Sizes& sizes,
-              const Hit& where) {
+              const PickedElement& where) {
         const std::uint32_t v0 = set.vertexBegin[i], e0 = set.edgeBegin[i];
         points_.clear();
         for (std::uint32_t v = v0; v < set.vertexBegin[i + 1]; ++v)
@@ -150,8 +150,8 @@ class Picker {
         const auto add = [&](double depth, const Element& element) {
             if (depth >= nearest_ || depth < scene_.camera.near) return;
             nearest_ = depth;
-            hit_ = where;
-            hit_->element = element;
+            picked_ = where;
+            picked_->element = element;
         };
         for (std::uint32_t v = v0; sizes.ball > 0 && v < set.vertexBegin[i + 1]; ++v) {
             if (isHidden(scene_.visibilities.vertex(set.vertexSource[v]))) continue;
@@ -180,7 +180,7 @@ class Picker {
 
     // Returns whether a distance in pixels is within a radius in world units at this depth.
     bool isWithin(double pixels, double radius, double depth) const {
-        return depth > 0 && pixels <= std::max(radius * pixelsPerUnit_ / depth, kReach);
+        return depth > 0 && pixels <= std::max(radius * focalLength_ / depth, kReach);
     }
 
     glm::dvec2 pixelOf(const glm::dvec3& point) const {
@@ -214,23 +214,23 @@ class Picker {
     const glm::dmat4 view_;
     glm::dmat4 projection_;
     glm::dvec2 size_, pixel_;  // pixels are measured from the lower left corner
-    double pixelsPerUnit_ = 0;
+    double focalLength_ = 0;
     glm::dvec3 ray_;
     std::vector<glm::dvec3> points_;
     double nearest_ = std::numeric_limits<double>::max();
-    std::optional<Hit> hit_;
+    std::optional<PickedElement> picked_;
 };
 
 }  // namespace
 
-std::optional<Hit> elementAt(const Scene& scene, const slicing::Object& object, glm::dvec2 point) {
+std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Object& object, glm::dvec2 point) {
     Picker picker(scene, object, point);
     picker.pickCoordinates();
-    if (!picker.hit()) picker.pickMatrix();
-    if (picker.hit()) return picker.hit();
+    if (!picker.picked()) picker.pickMatrix();
+    if (picker.picked()) return picker.picked();
     picker.pickSlices();
     picker.pickProjection();
-    return picker.hit();
+    return picker.picked();
 }
 
 std::optional<glm::dvec4> matrixPointAt(const Scene& scene, glm::dvec2 point) {

@@ -21,7 +21,7 @@ inline constexpr auto kPictureAreas =
                                               {"matrix", PictureArea::matrix}});
 
 /// An element that a picture shows at a point.
-struct Hit {
+struct PickedElement {
     slicing::Element element;
     PictureArea area = PictureArea::slice;
     std::size_t slice = 0;  ///< PictureArea::slice: the index of the slice in SliceSet
@@ -32,7 +32,7 @@ struct Hit {
 /// column of the parallel coordinates, or the element that a panel of the matrix shows. Balls and bars are hit up to a
 /// few pixels beyond their edges. Returns an empty optional if there is none. Takes time linear in the size of the
 /// slices.
-std::optional<Hit> elementAt(const Scene& scene, const slicing::Object& object, glm::dvec2 point);
+std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Object& object, glm::dvec2 point);
 
 /// Returns the point of the object's space, in its units, that a panel of the matrix shows at the point (x, y), in
 /// pixels from the upper left corner; nothing outside the panels.

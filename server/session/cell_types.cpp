@@ -42,7 +42,7 @@ Result<std::monostate> check(const CellTypeList& types, const geometry::ObjectIn
 
 }  // namespace
 
-Result<CellTypeList> readCellTypes(std::string_view text) {
+Result<CellTypeList> parseCellTypes(std::string_view text) {
     constexpr std::string_view kSeparators = ", \t";
     CellTypeList types;
     if (text == "none") return types;
@@ -68,7 +68,7 @@ Result<CellTypeList> findCellTypes(std::string_view text, const geometry::Object
         if (object.cellTypes[type].name == text) named.push_back(type);
     }
     if (!named.empty()) return named;
-    const auto numbers = readCellTypes(text);
+    const auto numbers = parseCellTypes(text);
     if (!numbers || numbers->empty()) {
         std::vector<std::string_view> known;
         for (const geometry::CellType& type : object.cellTypes) known.emplace_back(type.name);

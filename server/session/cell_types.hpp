@@ -14,7 +14,7 @@ using CellTypeList = std::vector<std::uint32_t>;
 
 /// Parses cell type numbers separated by commas, blanks or tabs, such as "0,2". Returns them sorted and without
 /// duplicates; for an empty text and for "none", returns an empty list. Error: `bad_expression`.
-Result<CellTypeList> readCellTypes(std::string_view text);
+Result<CellTypeList> parseCellTypes(std::string_view text);
 
 /// Returns the cell types of `object` that `text` selects: numbers, or one name, such as "hexagonal prism", which
 /// selects all cell types with this name. Returns at least one cell type. Errors: `bad_expression`; `out_of_range` if

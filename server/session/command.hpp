@@ -28,7 +28,7 @@ struct Rotate {
     bool continues = false;  ///< whether it belongs to the undo step of the previous command, as in a gesture
 };
 /// Turns an element of the object toward +w, by the shortest rotation.
-struct Toward {
+struct TurnToward {
     slicing::ElementKind kind = slicing::ElementKind::cell;
     /// The index of the element; if absent, the element closest to +w, or the next one if that is already there.
     std::optional<std::size_t> index;
@@ -73,6 +73,6 @@ struct Reset {};
 struct CommandLine {
     std::string line;  ///< with or without the ':'
 };
-using Command = std::variant<Key, Rotate, Toward, Set, Load, Undo, Redo, Reset, CommandLine>;
+using Command = std::variant<Key, Rotate, TurnToward, Set, Load, Undo, Redo, Reset, CommandLine>;
 
 }  // namespace oval4d::session

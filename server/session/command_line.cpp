@@ -154,7 +154,7 @@ struct ValueReader {
         return std::monostate{};
     }
     Result<std::monostate> operator()(std::optional<CellTypeList> Set::* member) const {
-        auto types = readCellTypes(text);
+        auto types = parseCellTypes(text);
         if (!types) return bad(types.error().code, std::string(name) + ": " + types.error().message);
         set.*member = std::move(*types);
         return std::monostate{};
@@ -176,7 +176,7 @@ Words split(std::string_view line) {
 
 Result<Command> oneSetting(std::string_view name, std::string_view value) {
     Set set;
-    if (auto done = putSetting(name, value, set); !done) return done.error();
+    if (auto done = parseSetting(name, value, set); !done) return done.error();
     return Command{set};
 }
 
@@ -198,7 +198,7 @@ Result<Command> setLine(std::string_view rest, const Words& words, const State& 
                 ErrorCode::bad_expression,
                 text::inQuotes(word) + " has no '='; write set name=value, without blanks, such as set slices=31");
         }
-        if (auto done = putSetting(word.substr(0, equals), word.substr(equals + 1), set); !done) return done.error();
+        if (auto done = parseSetting(word.substr(0, equals), word.substr(equals + 1), set); !done) return done.error();
     }
     return Command{set};
 }
@@ -231,10 +231,10 @@ Result<Command> towardLine(std::string_view rest, const Words& words, const Stat
     }
     const auto kind = parseElementKind(words[0]);
     if (!kind) return kind.error();
-    if (words.size() == 1) return Command{Toward{*kind, {}}};
+    if (words.size() == 1) return Command{TurnToward{*kind, {}}};
     const auto index = parseElementIndex(words[1]);
     if (!index) return index.error();
-    return Command{Toward{*kind, *index}};
+    return Command{TurnToward{*kind, *index}};
 }
 
 Result<Command> keyLine(std::string_view rest, const Words& words, const State& /*state*/) {
@@ -320,7 +320,7 @@ Result<std::size_t> parseElementIndex(std::string_view text) {
                "the number of an element must be a whole number from 0, not " + text::inQuotes(text));
 }
 
-Result<std::monostate> putSetting(std::string_view name, std::string_view value, Set& set) {
+Result<std::monostate> parseSetting(std::string_view name, std::string_view value, Set& set) {
     for (const Setting& setting : kSettings) {
         if (setting.name == name) return std::visit(ValueReader{set, name, value}, setting.member);
     }

@@ -73,7 +73,7 @@ constexpr auto kActions = std::to_array<Action>({
      [](ActionContext& c) -> Done {
          if (!c.state.lastTurn) return kNoRotationYet;
          c.state.turning = !c.state.turning;
-         c.state.approach.reset();
+         c.state.ongoingTurnToward.reset();
          return std::monostate{};
      }},
     {"alpha_up", always<[](ActionContext& c) { stepAngle(c.state.alpha, c.state.step); }>},

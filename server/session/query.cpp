@@ -18,7 +18,7 @@ Result<State> stateFromQuery(const Query& query, const Limits& limits, ObjectLoa
     // Settings are collected and applied together, so that a count and a spacing in either order give the same state.
     Set set;
     std::vector<geometry::Turn> turns;
-    std::optional<Toward> toward;
+    std::optional<TurnToward> toward;
     for (const auto& [name, value] : query) {
         if (name == "rotate") {
             const auto turn = parseTurn(value);
@@ -30,13 +30,13 @@ Result<State> stateFromQuery(const Query& query, const Limits& limits, ObjectLoa
             const std::size_t colon = std::min(element.find(':'), element.size());
             const auto kind = parseElementKind(element.substr(0, colon));
             if (!kind) return kind.error();
-            toward = Toward{*kind, {}, true};
+            toward = TurnToward{*kind, {}, true};
             if (colon < element.size()) {
                 const auto index = parseElementIndex(element.substr(colon + 1));
                 if (!index) return index.error();
                 toward->index = *index;
             }
-        } else if (auto done = putSetting(name, value, set); !done) {
+        } else if (auto done = parseSetting(name, value, set); !done) {
             Error error = done.error();
             if (error.code == ErrorCode::unknown_command) error.message += ", rotate, toward";
             return error;

@@ -39,7 +39,7 @@ class Applier {
         (command.continues ? amend : commit)(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    Done operator()(const Toward& command) {
+    Done operator()(const TurnToward& command) {
         State next = session_.current;
         if (Done done = turnToward(next, command); !done) return done;
         commit(session_, std::move(next), limits_);
@@ -72,7 +72,7 @@ class Applier {
         next.slices.focus = 0;
         next.slices.offset = 0;
         next.turning = false;
-        next.approach.reset();
+        next.ongoingTurnToward.reset();
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
@@ -149,15 +149,15 @@ std::size_t objectBytes(const Session& session) {
 
 void advance(Session& session, double seconds) {
     State& state = session.current;
-    if (state.approach) {
-        auto& [goal, left] = *state.approach;
+    if (state.ongoingTurnToward) {
+        auto& [goal, left] = *state.ongoingTurnToward;
         if (seconds < left) {
             const geometry::Rotation way = goal * state.orientation.inverse();
             state.orientation = way.power(seconds / left) * state.orientation;
             left -= seconds;
         } else {
             state.orientation = goal;
-            state.approach.reset();
+            state.ongoingTurnToward.reset();
         }
     } else if (state.turning && state.lastTurn) {
         state.orientation = geometry::Rotation(state.lastTurn->scaled(kTurnsPerSecond * seconds)) * state.orientation;

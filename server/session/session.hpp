@@ -30,11 +30,12 @@ struct SliceSettings {
     bool operator==(const SliceSettings&) const = default;
 };
 
-/// A motion that ends at an orientation, along the shortest way at constant speed.
-struct Approach {
+/// A turn toward an element that has begun: the object turns to the orientation `goal` along the shortest way, at
+/// constant speed.
+struct OngoingTurnToward {
     geometry::Rotation goal;
     double seconds = 0;  ///< the time that is left; greater than 0
-    bool operator==(const Approach&) const = default;
+    bool operator==(const OngoingTurnToward&) const = default;
 };
 
 /// Everything that determines a picture except the viewport. Undo restores all members except the camera's orbit.
@@ -47,15 +48,15 @@ struct State {
     scene::Look look;
     bool turning = false;                    ///< whether the object turns continuously: advance() repeats `lastTurn`
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
-    std::optional<Approach>
-        approach;  ///< where the object moves by itself, as advance() is called; never while `turning`
+    /// The turn that calls of advance() continue until it ends; empty if there is none, and while `turning` is true.
+    std::optional<OngoingTurnToward> ongoingTurnToward;
 
     /// Returns the hyperplanes that `slices` describes.
     geometry::Hyperplanes hyperplanes() const;
     /// Returns w of the focus slice.
     double focusW() const { return slices.offset + slices.focus * slices.spacing; }
-    /// Returns whether the object moves without further commands: it turns, or approaches an orientation.
-    bool moves() const { return turning || approach; }
+    /// Returns whether the object moves without further commands: continuously, or toward an element.
+    bool moves() const { return turning || ongoingTurnToward; }
     bool operator==(const State&) const = default;
 };
 
@@ -105,9 +106,8 @@ Result<std::monostate> apply(Session& session, const Command& command, const Lim
 
 /// The speed of continuous turning: how often the last rotation is repeated per second.
 inline constexpr double kTurnsPerSecond = 6;
-/// Moves the object as it moves in `seconds` of continuous turning, or of the approach to an orientation, which ends
-/// there. Does nothing if the object does not move. The motion is one undo step from its start to its end, so this
-/// function adds none.
+/// Continues the motion of the object by `seconds`: continuous turning, or a turn toward an element, which ends at its
+/// goal. Does nothing if the object does not move. Adds no undo step, because one undo step covers the whole motion.
 void advance(Session& session, double seconds);
 
 /// Parses a ':' line, with or without the ':', such as "polytope 24-cell", "set slices=31", "rotate xw,yz pi/8 pi/5" or

@@ -102,7 +102,7 @@ void replaceObject(State& state, slicing::Object object) {
         std::clamp(spacing, kMinSpacing * radius, kMaxSpacing * radius);  // rounding may exceed the bounds
     state.slices.focus = 0;
     state.slices.offset = 0;
-    state.approach.reset();
+    state.ongoingTurnToward.reset();
     state.look.cellTypes = {};
     state.look.highlight.reset();
     state.look.focusPoint = glm::dvec3(0);
@@ -132,7 +132,7 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
                          "the orientation must be an orthogonal 4×4 matrix with determinant 1, to within 1e-6"};
         }
         state.orientation = *orientation;
-        state.approach.reset();
+        state.ongoingTurnToward.reset();
     }
     if (set.lastTurn) {
         if (auto valid = checkTurn(*set.lastTurn); !valid) return valid;
@@ -163,7 +163,7 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
         state.look.highlight = *set.highlight;
     }
     put(set.turning, state.turning);
-    if (set.turning) state.approach.reset();
+    if (set.turning) state.ongoingTurnToward.reset();
     if (state.turning && !state.lastTurn) {
         return Error{ErrorCode::nothing_to_undo, "nothing to repeat: no rotation has been made yet"};
     }
@@ -184,10 +184,10 @@ Result<std::monostate> checkTurn(const geometry::Turn& turn) {
 void rotate(State& state, const geometry::Turn& turn) {
     state.orientation = geometry::Rotation(turn) * state.orientation;
     state.lastTurn = turn;
-    state.approach.reset();
+    state.ongoingTurnToward.reset();
 }
 
-Result<std::monostate> turnToward(State& state, const Toward& command) {
+Result<std::monostate> turnToward(State& state, const TurnToward& command) {
     if (auto valid = checkElement(state.object, {command.kind, command.index.value_or(0)}); !valid) return valid;
     const slicing::Element element = command.index
                                          ? slicing::Element{command.kind, *command.index}
@@ -197,14 +197,14 @@ Result<std::monostate> turnToward(State& state, const Toward& command) {
     const geometry::Rotation way = geometry::Rotation::between(state.orientation(own), w);
     const geometry::Rotation goal = way * state.orientation;
     state.turning = false;
-    state.approach.reset();
+    state.ongoingTurnToward.reset();
     constexpr double kRadiansPerSecond = std::numbers::pi / 2;
     const double seconds = way.angle() / kRadiansPerSecond;
-    constexpr double kShortest = 1e-3;  // an approach that takes less time is not seen
+    constexpr double kShortest = 1e-3;  // a turn that takes less time is not seen
     if (command.immediately || seconds < kShortest) {
         state.orientation = goal;
     } else {
-        state.approach = Approach{goal, seconds};
+        state.ongoingTurnToward = OngoingTurnToward{goal, seconds};
     }
     return std::monostate{};
 }

@@ -18,7 +18,7 @@ namespace oval4d::slicing {
 /// sweeps both halves at the same time, on two cores. Reuses its scratch memory between calls.
 class ConvexSlicer {
   public:
-    /// `forkJoin` may be null; then everything runs on the calling thread.
+    /// `forkJoin` must outlive this object. If it is null, everything runs on the calling thread.
     explicit ConvexSlicer(parallel::ForkJoin* forkJoin) : forkJoin_(forkJoin) {}
 
     /// Slices `polytope` and writes the slices to `out`, whose `planes` and `rotatedVertices` must be set. `ranks`

@@ -167,7 +167,7 @@ void ElementSources::clear() {
     for (auto* list : {&vertices, &edges, &ownVertices}) list->clear();
 }
 
-void findSources(const Object& object, const Element& element, ElementSources& out) {
+void findSourcesShowing(const Object& object, const Element& element, ElementSources& out) {
     out.clear();
     std::visit([&](const auto& shared) { findSourcesIn(*shared, element, out); }, object);
     for (auto* list : {&out.vertices, &out.edges, &out.ownVertices}) {

@@ -45,8 +45,8 @@ glm::dvec4 directionOf(const Object& object, const Element& element, const glm::
 /// empty optional if there are no elements of this kind. Takes time linear in the size of the object.
 std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation);
 
-/// What shows an element in slices and in the projection of the whole object: the source numbers (see SliceSet) of
-/// slice vertices and edges, and vertices of the object. The lists are sorted.
+/// The parts of a picture that show one element of the object: slice vertices and slice edges, given by their source
+/// numbers (see SliceSet), and vertices of the object. The lists are sorted and have no duplicates.
 struct ElementSources {
     std::vector<std::uint32_t> vertices, edges;
     std::vector<std::uint32_t> ownVertices;  ///< the element's vertices, as indices into the object's
@@ -58,14 +58,16 @@ struct ElementSources {
     bool operator==(const ElementSources&) const = default;
 };
 
-/// Finds what shows an element: of a vertex, the vertex and where its edges are cut; of an edge, the edge and where it
-/// is cut; of a 2-face or a cell, the bars that are cut from it and its edges. Overwrites `out`. Takes time linear in
-/// the number of edges. Requires element.index < elementCount(object, element.kind).
-void findSources(const Object& object, const Element& element, ElementSources& out);
+/// Finds the parts of a picture that show an element. A vertex is shown by itself and by the slice vertices that are
+/// cut from its edges; an edge by itself and by the slice vertices that are cut from it; a 2-face by the slice edges
+/// that are cut from it, and by its edges; a cell by all that shows its 2-faces; a point by itself. Overwrites `out`.
+/// Takes time linear in the number of edges. Requires element.index < elementCount(object, element.kind).
+void findSourcesShowing(const Object& object, const Element& element, ElementSources& out);
 
-/// Returns the smallest w > `w` (the largest w < `w` if `upward` is false) at which a vertex lies after rotation by
-/// `orientation`: the section w = const changes its combinatorial type only there (Coxeter, Regular Polytopes, §13.1).
-/// Heights that differ by at most kOnPlane circumradii count as equal. Returns an empty optional if there is none.
+/// Returns the w coordinate, after rotation by `orientation`, of the next vertex above `w` or, if `upward` is false,
+/// below `w`. Between two successive vertices, the section w = const does not change its combinatorial type (Coxeter,
+/// Regular Polytopes, §13.1). Heights that differ by at most kOnPlane circumradii count as equal. Returns an empty
+/// optional if there is no such vertex.
 std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
                                        bool upward);
 

@@ -48,15 +48,15 @@ bool PolytopeSlicer::cutTouching(const polytopes::Polytope& polytope, SliceSet& 
         if (k == allUpTo_[v] || (k >= firstAbove && k < lastBelow) || touching_[k] != nullptr) continue;
         if (touched++ == singles_.size()) break;
         touching_[k] = &singles_.at(touched - 1);
-        cutSingle(polytope, k, *touching_[k], out);
+        cutOnePlane(polytope, out, k, *touching_[k]);
     }
     below_.swap(allBelow_);
     upTo_.swap(allUpTo_);
     return touched <= singles_.size();
 }
 
-void PolytopeSlicer::cutSingle(const polytopes::Polytope& polytope, std::int32_t plane, SliceSet& single,
-                               SliceSet& all) {
+void PolytopeSlicer::cutOnePlane(const polytopes::Polytope& polytope, SliceSet& all, std::int32_t plane,
+                                 SliceSet& single) {
     for (std::size_t v = 0; v < below_.size(); ++v) {
         below_[v] = std::clamp(allBelow_[v] - plane, 0, 1);
         upTo_[v] = std::clamp(allUpTo_[v] - plane, 0, 1);

@@ -22,7 +22,7 @@ namespace oval4d::slicing {
 /// A slicer may be used by one thread at a time.
 class PolytopeSlicer {
   public:
-    /// With `forkJoin`, large convex polytopes are sliced on two cores; null: always on one.
+    /// Slices large convex polytopes on two cores if `forkJoin` is not null. `forkJoin` must outlive this object.
     explicit PolytopeSlicer(parallel::ForkJoin* forkJoin = nullptr) : convexSlicer_(forkJoin) {}
 
     /// Slices `polytope` rotated by `orientation`. Overwrites `out` and reuses its memory.
@@ -66,8 +66,9 @@ class PolytopeSlicer {
     // Cuts all slices of a convex polytope by the faster ConvexSlicer. Returns false if it cannot.
     bool cutConvex(const polytopes::Polytope& polytope, SliceSet& out);
     bool cutTouching(const polytopes::Polytope& polytope, SliceSet& out);
-    // Cuts only hyperplane `plane` of `all`, into `single`.
-    void cutSingle(const polytopes::Polytope& polytope, std::int32_t plane, SliceSet& single, SliceSet& all);
+    // Cuts only the slice in hyperplane `plane` of `all`, and writes it to `single`. Borrows the rotated vertices of
+    // `all` during the call.
+    void cutOnePlane(const polytopes::Polytope& polytope, SliceSet& all, std::int32_t plane, SliceSet& single);
     void cutEdges(const polytopes::Polytope& polytope, SliceSet& out);
     void cutFaces(const polytopes::Polytope& polytope, SliceSet& out);
     void cutConvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above);

@@ -31,20 +31,22 @@ class Projector {
   public:
     struct Options {
         HyperplaneProjection projection;
-        /// Whether the 2-faces are wanted, which bound the projected cells. They are left out if any is not convex.
+        /// Whether to write the 2-faces of the object, which bound the projected cells. If any of them is not convex,
+        /// none is written.
         bool cells = false;
-        /// Whether elements are left out that the 4-D eye cannot see: those that belong only to cells whose outer side
-        /// is turned away from it.
+        /// Whether the elements that the 4-D eye cannot see are left out. The eye sees an element if it sees the outer
+        /// side of at least one cell that contains the element.
         bool culled = false;
         int firstSlice = 0, endSlice = 0;  ///< the slices to project are firstSlice … endSlice − 1 of the set
     };
 
-    /// Writes the projection of `object` as part 0 of `out`, and those of the slices as the next parts. A part is
-    /// stored as a slice, and SliceSet::planes is not used. `slices` must have been cut from `object` rotated by
-    /// `orientation`. The source numbers of elements are those of slices that lie in a hyperplane (see SliceSet); so a
-    /// vertex, edge or 2-face of the object has the same number in part 0 and in a slice. For each 2-face in part 0,
-    /// writes to `faceCells` the cell whose color it has: the one that is turned toward the eye, or the first of the
-    /// two; for faces of slices their source.
+    /// Writes the projection of `object` to part 0 of `out`, and the projections of the slices to the following parts.
+    /// Part i is stored like slice i of a SliceSet; SliceSet::planes is not used. `slices` must have been cut from
+    /// `object` rotated by `orientation`. In part 0, the source number of a vertex, edge or 2-face of the object is the
+    /// one that it has in a slice whose hyperplane contains it (see SliceSet). Writes one entry to `faceCells` for each
+    /// face in `out`. For a 2-face in part 0, the entry is the cell that determines its color: the second of its two
+    /// cells if only that one is turned toward the eye, else the first. For a face of a slice, the entry is its source
+    /// number. Overwrites `out` and `faceCells`.
     void project(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices,
                  const Options& options, SliceSet& out, std::vector<std::uint32_t>& faceCells);
 

@@ -94,7 +94,7 @@ struct SectionNamer::Shape {
 };
 
 const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
-    using polytopes::Branch;
+    using polytopes::RegularPolygon;
     static const std::vector<Shape> kShapes = [] {
         std::vector<Shape> shapes;
         for (const polytopes::NamedPolyhedron& solid : polytopes::namedPolyhedra()) {
@@ -102,7 +102,7 @@ const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
                 shapes.emplace_back(std::string(solid.name), 3, polytopes::verticesOf(solid));
         }
         for (int n = 3; n <= kMaxSides; ++n) {
-            const Branch polygon{n, 1};
+            const RegularPolygon polygon{n, 1};
             shapes.emplace_back(polytopes::nounOf(polygon), 2, regularPolygon(n, 0));
             if (n != 4) {  // else a cube
                 const double halfEdge = std::sin(std::numbers::pi / n);
@@ -128,7 +128,7 @@ const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
     return kShapes;
 }
 
-bool SectionNamer::mayName(const Object& object, const geometry::Rotation& orientation, double w) {
+bool SectionNamer::mayHaveName(const Object& object, const geometry::Rotation& orientation, double w) {
     const double slack = kOnPlane * infoOf(object).circumradius;
     const glm::dvec4 direction = orientation.inverse()({0, 0, 0, 1});
     const auto sideOf = [&](const glm::dvec4& vertex) {

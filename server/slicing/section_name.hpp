@@ -27,7 +27,7 @@ struct SectionNames {
 /// following shapes, with errors of at most 1e-6 of the circumradius: the point, the segment, the regular polygons, the
 /// Platonic and Archimedean solids, the uniform prisms and antiprisms (like the polygons, of up to 20 sides), and the
 /// rhombic dodecahedron, which is the middle section of the 24-cell beginning with a vertex. Everything else has no
-/// name, also every slice that is not convex or has several components.
+/// name, including every slice that is not convex or has several components.
 ///
 /// A slice whose numbers of vertices, edges and faces no named shape has takes 0.1 µs, however large it is. A named
 /// slice of V vertices takes time proportional to V² log V: an octahedron 0.2 µs, an icosahedron 0.7 µs, a
@@ -35,11 +35,11 @@ struct SectionNames {
 /// Repeated calls allocate no memory. A namer may be used by one thread at a time.
 class SectionNamer {
   public:
-    /// Returns whether the section of `object`, rotated by `orientation`, at this w may have a name: false if so many
-    /// edges cross the hyperplane, and so many or no vertices lie in it, that no named shape fits, and for a point
-    /// cloud, whose points lie near the hyperplane. Takes time linear in the number of edges, much less than cutting
-    /// the slice.
-    static bool mayName(const Object& object, const geometry::Rotation& orientation, double w);
+    /// Returns false if the section of `object`, rotated by `orientation`, at this w certainly has no name. This is so
+    /// for a point cloud, and if both the number of vertices in the hyperplane, and this number plus the number of
+    /// edges that cross the hyperplane, are 0 or greater than the number of vertices of any named shape. Takes time
+    /// linear in the number of edges, much less than cutting the slice.
+    static bool mayHaveName(const Object& object, const geometry::Rotation& orientation, double w);
 
     /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if it has none.
     /// The name is valid until the process ends.

@@ -55,7 +55,8 @@ struct SliceSet {
     std::size_t edgeCount(int slice) const { return edgeBegin[slice + 1] - edgeBegin[slice]; }
     std::size_t faceCount(int slice) const { return faceBegin[slice + 1] - faceBegin[slice]; }
 
-    /// Returns the total counts of all slices. Not for a default-constructed set, whose arrays are empty.
+    /// Returns the total counts of all slices. Must not be called for a default-constructed set, whose arrays are
+    /// empty.
     SliceCounts totalCounts() const {
         return {vertexBegin.back(), edgeBegin.back(), faceBegin.back(), cornerBegin.back()};
     }

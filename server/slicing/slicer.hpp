@@ -15,7 +15,7 @@ namespace oval4d::slicing {
 /// memory, so that repeated calls of similar size allocate nothing. A slicer may be used by one thread at a time.
 class Slicer {
   public:
-    /// With `forkJoin`, large convex polytopes are sliced on two cores; null: always on one.
+    /// Slices large convex polytopes on two cores if `forkJoin` is not null. `forkJoin` must outlive this object.
     explicit Slicer(parallel::ForkJoin* forkJoin = nullptr) : polytopes_(forkJoin) {}
 
     /// Slices `object` rotated by `orientation`. Overwrites `out` and reuses its memory.

@@ -36,8 +36,8 @@ void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::
     for (; done < bytes * times; done *= 2) std::memcpy(first + done, first, std::min(done, bytes * times - done));
 }
 
-// Copies a single slice into `out` at `at`; returns its size.
-SliceCounts insert(const SliceSet& slice, SliceCounts at, SliceSet& out) {
+// Copies the only slice of the set `slice` into `out`, from position `at` on. Returns its size.
+SliceCounts copySlice(const SliceSet& slice, SliceCounts at, SliceSet& out) {
     const SliceCounts size = slice.totalCounts();
     const auto copy = [](const auto& from, auto& to, std::size_t begin) {
         std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(begin));
@@ -74,7 +74,7 @@ bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> 
         if (vertexPosition_[k] == VertexPosition::inside) {
             out.begin(first + k, here);
             if (!touching.empty() && touching[k] != nullptr) {
-                here = here + insert(*touching[k], here, out);
+                here = here + copySlice(*touching[k], here, out);
             } else {
                 if (!write(k, k + 1, here, out)) return false;
                 here = here + collapse_.collapse(polytope, k, here, size, out);

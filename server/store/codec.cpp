@@ -132,9 +132,9 @@ std::optional<geometry::Turn> turnIn(const json& value) {
     return turn;
 }
 
-json encoded(const std::optional<session::Approach>& approach) {
-    if (!approach) return nullptr;
-    const auto& [goal, seconds] = *approach;
+json encoded(const std::optional<session::OngoingTurnToward>& ongoingTurnToward) {
+    if (!ongoingTurnToward) return nullptr;
+    const auto& [goal, seconds] = *ongoingTurnToward;
     return {quaternion(goal.left()), quaternion(goal.right()), seconds};
 }
 
@@ -144,10 +144,11 @@ geometry::Rotation rotationIn(const json& left, const json& right) {
     return *rotation;
 }
 
-std::optional<session::Approach> approachIn(const json& value) {
+std::optional<session::OngoingTurnToward> ongoingTurnTowardIn(const json& value) {
     if (value.is_null()) return std::nullopt;
-    return session::Approach{rotationIn(value.at(0), value.at(1)),
-                             readNumber(value.at(2), std::numeric_limits<double>::min(), session::kMaxApproachSeconds)};
+    return session::OngoingTurnToward{
+        rotationIn(value.at(0), value.at(1)),
+        readNumber(value.at(2), std::numeric_limits<double>::min(), session::kMaxTurnTowardSeconds)};
 }
 
 json encoded(const scene::Look& look) {
@@ -224,7 +225,7 @@ scene::Look lookIn(const json& value, const slicing::Object& object) {
 // --- States
 
 json encoded(const State& state, ObjectTable& objects) {
-    const auto& [object, orientation, alpha, beta, step, slices, look, turning, last, approach] = state;
+    const auto& [object, orientation, alpha, beta, step, slices, look, turning, last, ongoingTurnToward] = state;
     const auto& [count, spacing, focus, offset] = slices;
     return {objects.number(object),
             quaternion(orientation.left()),
@@ -234,7 +235,7 @@ json encoded(const State& state, ObjectTable& objects) {
             encoded(look),
             turning,
             encoded(last),
-            encoded(approach)};
+            encoded(ongoingTurnToward)};
 }
 
 State stateIn(const json& value, const ObjectList& objects) {
@@ -243,7 +244,7 @@ State stateIn(const json& value, const ObjectList& objects) {
     const json& angles = value.at(3);
     const json& slices = value.at(4);
     constexpr double kTwoPi = 2 * std::numbers::pi;
-    // Records written by earlier versions of the program have no offset and no approach.
+    // Records written by earlier versions of the program have no offset and no turn toward an element.
     const double radius = info.circumradius;
     State state{object,
                 rotationIn(value.at(1), value.at(2)),
@@ -258,12 +259,12 @@ State stateIn(const json& value, const ObjectList& objects) {
                 lookIn(value.at(5), object),
                 value.at(6).get<bool>(),
                 turnIn(value.at(7)),
-                value.size() > 8 ? approachIn(value.at(8)) : std::nullopt};
+                value.size() > 8 ? ongoingTurnTowardIn(value.at(8)) : std::nullopt};
     const auto& [count, spacing, focus, offset] = state.slices;
     if (count < 1 || count > kMaxSlices || count % 2 == 0 || !(spacing > 0))
         throwUnreadable("the number of slices or their spacing is not allowed");
     if (focus < -session::kMaxFocus || focus > session::kMaxFocus) throwUnreadable("the focus is out of range");
-    if (state.turning && state.approach) throwUnreadable("a state both turns and approaches an orientation");
+    if (state.turning && state.ongoingTurnToward) throwUnreadable("a state both turns and approaches an orientation");
     if (state.turning && !state.lastTurn) throwUnreadable("a state is turning, but has no last rotation");
     return state;
 }

@@ -15,7 +15,7 @@ class MemoryStore final : public Store {
     /// `quota`: the maximum total size of all records, in bytes.
     explicit MemoryStore(std::size_t quota = kDefaultQuota) : quota_(quota) {}
 
-    WritePolicy writePolicy() const override { return WritePolicy::at_close; }
+    WriteTiming writeTiming() const override { return WriteTiming::at_close; }
     std::string name() const override { return "memory"; }
     std::optional<std::string> tokenHash(const std::string& id) override;
     std::optional<Record> claim(const std::string& id) override;
@@ -24,7 +24,7 @@ class MemoryStore final : public Store {
     void remove(std::span<const std::string> ids) override;
     void touch(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds age) override;
-    std::vector<std::string> poll() override { return {}; }
+    std::vector<std::string> pollClaims() override { return {}; }
     std::size_t size() const override { return entries_.size(); }
 
   private:

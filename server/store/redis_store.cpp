@@ -288,7 +288,7 @@ void RedisStore::touch(std::span<const std::string> ids) {
     for (std::size_t i = 0; i < (hashed ? 3 : 2) * ids.size(); ++i) receive();
 }
 
-std::vector<std::string> RedisStore::poll() {
+std::vector<std::string> RedisStore::pollClaims() {
     const std::string list = "oval4d:taken:" + self_;
     send({"MULTI"});
     send({"LRANGE", list, "0", "-1"});

@@ -21,7 +21,7 @@ class RedisStore final : public Store {
     explicit RedisStore(const StoreOptions& options);
     ~RedisStore() override;
 
-    WritePolicy writePolicy() const override { return WritePolicy::at_once; }
+    WriteTiming writeTiming() const override { return WriteTiming::at_once; }
     std::string name() const override;
     std::optional<std::string> tokenHash(const std::string& id) override;
     std::optional<Record> claim(const std::string& id) override;
@@ -31,7 +31,7 @@ class RedisStore final : public Store {
     void remove(std::span<const std::string> ids) override;
     void touch(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds /*age*/) override { return 0; }
-    std::vector<std::string> poll() override;
+    std::vector<std::string> pollClaims() override;
     std::size_t size() const override { return size_; }
 
   private:

@@ -424,7 +424,7 @@ std::size_t SqliteStore::expire(Milliseconds age) {
     });
 }
 
-std::vector<std::string> SqliteStore::poll() {
+std::vector<std::string> SqliteStore::pollClaims() {
     withRepair([&] {
         releasePages(kMaxReleasedPages);
         size_ = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));

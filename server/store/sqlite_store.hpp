@@ -25,7 +25,7 @@ class SqliteStore final : public Store {
     /// file.
     explicit SqliteStore(std::string path, std::size_t quota = kDefaultQuota);
 
-    WritePolicy writePolicy() const override { return WritePolicy::soon; }
+    WriteTiming writeTiming() const override { return WriteTiming::soon; }
     std::string name() const override { return "sqlite:" + path_; }
     std::optional<std::string> tokenHash(const std::string& id) override;
     bool isDamaged(const std::string& id) override;
@@ -35,7 +35,7 @@ class SqliteStore final : public Store {
     void remove(std::span<const std::string> ids) override;
     void touch(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds age) override;
-    std::vector<std::string> poll() override;
+    std::vector<std::string> pollClaims() override;
     std::size_t size() const override { return size_; }
 
   private:

@@ -81,12 +81,13 @@ class Store {
     virtual ~Store() = default;
 
     /// The time at which changes to an open session must be written to the store.
-    enum class WritePolicy : std::uint8_t {
+    enum class WriteTiming : std::uint8_t {
         at_close,  ///< when the last client leaves the session
         soon,      ///< within a second
         at_once,   ///< before the change is acknowledged, because another server may have to take the session over
     };
-    virtual WritePolicy writePolicy() const = 0;
+    /// Returns when changes must be written to this store.
+    virtual WriteTiming writeTiming() const = 0;
 
     /// Returns the name of the store for logs, without passwords, such as "sqlite:/var/lib/oval4d/sessions.sqlite".
     virtual std::string name() const = 0;
@@ -125,11 +126,11 @@ class Store {
     /// and returns 0 if the store expires records itself.
     virtual std::size_t expire(Milliseconds age) = 0;
 
-    /// Polls the store: updates size(), and returns the ids of the sessions that other servers have claimed from this
-    /// one since the last poll.
-    virtual std::vector<std::string> poll() = 0;
+    /// Updates size(), and returns the ids of the sessions that other servers have claimed from this one since the last
+    /// call.
+    virtual std::vector<std::string> pollClaims() = 0;
 
-    /// Returns the approximate number of stored sessions, as of the last poll().
+    /// Returns the approximate number of stored sessions, as of the last pollClaims().
     virtual std::size_t size() const = 0;
 };
 

@@ -54,7 +54,7 @@ std::size_t bytesOf(const Session& session) {
 
 WriteBehindStore::WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener)
     : store_(std::move(store)),
-      writePolicy_(store_->writePolicy()),
+      writeTiming_(store_->writeTiming()),
       name_(store_->name()),
       settings_(settings),
       listener_(std::move(listener)),
@@ -202,7 +202,7 @@ void WriteBehindStore::dropKeys(const std::string& id) {
     if (!cached_.contains(id)) keys_.erase(id);
 }
 
-void WriteBehindStore::release(const std::string& id) {
+void WriteBehindStore::discardFetched(const std::string& id) {
     const std::lock_guard lock(mutex_);
     cached_.erase(id);
 }
@@ -210,7 +210,7 @@ void WriteBehindStore::release(const std::string& id) {
 std::size_t WriteBehindStore::count() const {
     const std::lock_guard lock(mutex_);
     // If servers share the store (at_once), the number of stored sessions says nothing about the load of this server.
-    return writePolicy_ == Store::WritePolicy::at_once ? cached_.size() : kept_ + created_;
+    return writeTiming_ == Store::WriteTiming::at_once ? cached_.size() : kept_ + created_;
 }
 
 std::size_t WriteBehindStore::unsaved() const {
@@ -517,7 +517,7 @@ void WriteBehindStore::poll() {
     }
     try {
         if (Clock::now() >= refreshAt_) refreshExpiry();
-        for (const std::string& id : timed("pulse", [&] { return store_->poll(); })) dropTaken(id);
+        for (const std::string& id : timed("pulse", [&] { return store_->pollClaims(); })) dropTaken(id);
     } catch (const std::exception& fault) {
         storeFailed(fault);
         return;

@@ -71,7 +71,7 @@ class WriteBehindStore {
     WriteBehindStore& operator=(const WriteBehindStore&) = delete;
     ~WriteBehindStore();
 
-    Store::WritePolicy writePolicy() const { return writePolicy_; }
+    Store::WriteTiming writeTiming() const { return writeTiming_; }
     const std::string& name() const { return name_; }
 
     /// Creates a session that is open on this server, and returns its credentials. It is not in the store until it is
@@ -80,16 +80,16 @@ class WriteBehindStore {
 
     /// Claims a session for this server. Calls `done` with the session, or with an error: `not_found`, `bad_token`, or
     /// `internal` if the session cannot be fetched now. After a fetch with a record, the caller must decode the record,
-    /// and then call setStoredKeys() or, if the record cannot be decoded, release().
+    /// and then call setStoredKeys() or, if the record cannot be decoded, discardFetched().
     void fetch(SessionCredentials credentials, std::function<void(FetchResult)> done);
 
     /// Records which objects of a fetched session the store already has, so that they are not written again.
     void setStoredKeys(const std::string& id, KeysBySerial keys);
 
-    /// Queues the whole session for writing, or only its current state (SaveScope::head). Then calls `written`: with
-    /// true when the session is stored; also with true, at once, while the store is unavailable, so that clients are
-    /// not kept waiting; with false if the session will not be stored, because another server has taken it over or
-    /// because it was removed.
+    /// Queues the whole session for writing, or only its current state (SaveScope::head). Calls `written(true)` when
+    /// the session is stored, or at once if the store is unavailable, so that clients need not wait. Calls
+    /// `written(false)` if the session will not be stored, because another server has taken it over or because it was
+    /// removed.
     void save(const std::string& id, session::Session value, SaveScope scope, Written written = {});
 
     /// Queues the last write of a session that no client has open anymore. The session stays in memory until it is
@@ -100,8 +100,8 @@ class WriteBehindStore {
     /// store is pending. Does nothing if a client has the session open, on this server or another.
     void remove(const std::string& id);
 
-    /// Drops a fetched session from memory, without changing its record, because the record could not be decoded.
-    void release(const std::string& id);
+    /// Drops a fetched session from memory, because its record could not be decoded. Does not change the record.
+    void discardFetched(const std::string& id);
 
     /// Returns the approximate number of sessions in the store and in memory. If servers share the store, returns only
     /// the number of sessions in this server's memory.
@@ -172,7 +172,7 @@ class WriteBehindStore {
     Clock::time_point nextWake() const;
 
     const std::unique_ptr<Store> store_;
-    const Store::WritePolicy writePolicy_;
+    const Store::WriteTiming writeTiming_;
     const std::string name_;
     const Settings settings_;
     const Listener listener_;

@@ -40,16 +40,17 @@ class CborWriter {
     /// Appends encoded CBOR unchanged: a value, or members of an object.
     void raw(std::string_view text) { buffer_.put(text); }
 
-    // Typed arrays (RFC 8746), little-endian. `doubles` writes double precision; `vectors` and `floats` write single
-    // precision; `pairs`, `triples` and `numbers` write integers of 8, 16 or 32 bits, the smallest size that is
-    // sufficient for all numbers of the array. Vectors, pairs and triples are flattened.
+    // Typed arrays (RFC 8746), little-endian. `doubles` writes double precision; `vectors` and `roundedFloats` write
+    // single precision, to which they round doubles; `pairs`, `triples` and `numbers` write integers of 8, 16 or 32
+    // bits, the smallest size that is sufficient for all numbers of the array. Vectors, pairs and triples are
+    // flattened.
     void doubles(std::span<const double> list);
     void vectors(std::span<const glm::dvec3> list);
     void vectors(std::span<const glm::dvec4> list);
     void pairs(std::span<const Pair> list);
     void triples(std::span<const Triple> list);
     void numbers(std::span<const std::uint32_t> list);
-    void floats(std::span<const float> list);
+    void roundedFloats(std::span<const float> list);  ///< writes all digits; only JsonWriter rounds to decimals
     void image(std::span<const std::uint8_t> pixels, std::size_t columns);  ///< 8-bit values, row by row
 
     template <typename T>

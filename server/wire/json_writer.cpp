@@ -25,7 +25,7 @@ char* putIntegers(char* at, std::span<const std::uint32_t> list) {
 }
 
 // Writes the separator of two arrays, and overwrites one byte after it. Returns the end of the separator.
-char* putSeparator(char* at) {
+char* putArraySeparator(char* at) {
     std::memcpy(at, "],[", 4);
     return at + 3;
 }
@@ -118,7 +118,7 @@ void JsonWriter::array(std::size_t numbers, Put put) {
     buffer_.moveTo(at);
 }
 
-void JsonWriter::floats(std::span<const float> list) {
+void JsonWriter::roundedFloats(std::span<const float> list) {
     constexpr double kDecimals = 1e4;
     beginArray();
     for (const float number : list) value(std::round(number * kDecimals) / kDecimals);
@@ -138,7 +138,7 @@ void JsonWriter::tuples(std::span<const std::array<std::uint32_t, Size>> list) {
     array(Size * list.size(), [list](char* at) {
         if (list.empty()) return at;
         *at++ = '[';
-        for (const auto& tuple : list) at = putSeparator(putIntegers(at, tuple) - 1);
+        for (const auto& tuple : list) at = putArraySeparator(putIntegers(at, tuple) - 1);
         return at - 2;
     });
 }
@@ -156,7 +156,7 @@ void JsonWriter::lists(JaggedArrayView view) {
         *at++ = '[';
         for (std::size_t i = 0; i + 1 < view.begin.size(); ++i) {
             const auto list = view.items.subspan(view.begin[i] - view.begin[0], view.begin[i + 1] - view.begin[i]);
-            at = putSeparator(putIntegers(at, list) - (list.empty() ? 0 : 1));
+            at = putArraySeparator(putIntegers(at, list) - (list.empty() ? 0 : 1));
         }
         return at - 2;
     });
@@ -171,7 +171,7 @@ void JsonWriter::image(std::span<const std::uint8_t> pixels, std::size_t columns
                 at = text::putInteger(at, pixel);
                 *at++ = ',';
             }
-            at = putSeparator(at - 1);
+            at = putArraySeparator(at - 1);
         }
         return at - 2;
     });

@@ -161,7 +161,7 @@ std::string stateMessage(const session::State& state, const slicing::SectionName
     return out;
 }
 
-std::string atMessage(const std::optional<scene::Hit>& hit, const std::optional<glm::dvec4>& point,
+std::string atMessage(const std::optional<scene::PickedElement>& picked, const std::optional<glm::dvec4>& point,
                       const scene::Scene& scene, const slicing::Object& object, std::uint64_t revision,
                       std::optional<double> id) {
     std::string out;
@@ -170,15 +170,15 @@ std::string atMessage(const std::optional<scene::Hit>& hit, const std::optional<
         begin(w, "at", id);
         w.member("revision", revision);
         w.key("highlight");
-        writeElement(w, hit ? std::optional(hit->element) : std::nullopt);
-        if (hit) {
-            w.member("in", text::nameOf(scene::kPictureAreas, hit->area));
-            if (hit->area == scene::PictureArea::slice) {
-                w.member("slice", scene.placements[hit->slice].index);
-                w.member("w", scene.placements[hit->slice].w);
+        writeElement(w, picked ? std::optional(picked->element) : std::nullopt);
+        if (picked) {
+            w.member("in", text::nameOf(scene::kPictureAreas, picked->area));
+            if (picked->area == scene::PictureArea::slice) {
+                w.member("slice", scene.placements[picked->slice].index);
+                w.member("w", scene.placements[picked->slice].w);
             }
             slicing::ElementSources sources;
-            slicing::findSources(object, hit->element, sources);
+            slicing::findSourcesShowing(object, picked->element, sources);
             double least = std::numeric_limits<double>::max(), most = -least;
             for (const std::uint32_t v : sources.ownVertices) {
                 least = std::min(least, scene.slices->rotatedVertices[v].w);
@@ -187,8 +187,8 @@ std::string atMessage(const std::optional<scene::Hit>& hit, const std::optional<
             w.member("least_w", least);
             w.member("most_w", most);
             w.member("vertices", std::uint64_t{sources.ownVertices.size()});
-            if (hit->element.kind == slicing::ElementKind::cell) {
-                const std::uint32_t kind = slicing::typeOfCells(object)[hit->element.index];
+            if (picked->element.kind == slicing::ElementKind::cell) {
+                const std::uint32_t kind = slicing::typeOfCells(object)[picked->element.index];
                 w.member("kind", std::uint64_t{kind});
                 w.member("name", std::string_view(slicing::infoOf(object).cellTypes[kind].name));
             }
@@ -209,7 +209,7 @@ std::string errorMessage(const Error& error, std::optional<double> id) {
     {
         JsonWriter w(out);
         begin(w, "error", id);
-        w.member("code", wireName(error.code));
+        w.member("code", protocolName(error.code));
         w.member("message", std::string_view(error.message));
         w.endObject();
     }

@@ -24,9 +24,9 @@ std::string stateMessage(const session::State& state, const slicing::SectionName
 void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
                   std::optional<double> id, std::string& out);
 
-/// Returns the `at` message: what the picture `scene` of `object` shows at a point. `hit` is empty if that is nothing.
-/// `point` is the point of the object's space that a panel of the matrix shows there, if there is a panel.
-std::string atMessage(const std::optional<scene::Hit>& hit, const std::optional<glm::dvec4>& point,
+/// Returns the `at` message: what the picture `scene` of `object` shows at a point. `picked` is empty if that is
+/// nothing. `point` is the point of the object's space that a panel of the matrix shows there, if there is a panel.
+std::string atMessage(const std::optional<scene::PickedElement>& picked, const std::optional<glm::dvec4>& point,
                       const scene::Scene& scene, const slicing::Object& object, std::uint64_t revision,
                       std::optional<double> id);
 

@@ -119,8 +119,8 @@ session::Set setOf(const json& message) {
     return set;
 }
 
-session::Toward towardOf(const json& message) {
-    session::Toward toward;
+session::TurnToward towardOf(const json& message) {
+    session::TurnToward toward;
     choose(message, "element", slicing::kElementKinds, toward.kind);
     take(message, "number", toward.index);
     toward.immediately = message.value("immediately", false);
@@ -152,7 +152,7 @@ Get getOf(const json& message) {
     if (get.what == GetTarget::at) {
         if (!message.contains("x") || !message.contains("y"))
             throw InvalidRequest{"get: the element at a point needs /x and /y, in pixels from the upper left corner"};
-        get.at = {message.at("x").get<double>(), message.at("y").get<double>()};
+        get.point = {message.at("x").get<double>(), message.at("y").get<double>()};
     }
     if (get.what == GetTarget::file) get.file = exportRequestOf(message);
     return get;

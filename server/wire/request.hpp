@@ -52,7 +52,7 @@ struct Get {
     GetTarget what = GetTarget::state;
     std::optional<scene::Viewport>
         viewport;                 ///< for slices, frames and at; if absent, the connection's viewport is used
-    glm::dvec2 at{0};             ///< for GetTarget::at: pixels from the upper left corner
+    glm::dvec2 point{0};          ///< for GetTarget::at: pixels from the upper left corner
     exports::ExportRequest file;  ///< the options of the export, for GetTarget::file
 };
 /// Reports that the client has shown the picture with this revision.

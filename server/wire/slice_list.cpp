@@ -83,9 +83,9 @@ void writeBalls(W& w, const SliceSet& slices, std::size_t from, std::size_t to) 
     w.key("balls");
     w.beginObject();
     w.key("scale");
-    w.floats(part(slices.ballScale, begin, end));
+    w.roundedFloats(part(slices.ballScale, begin, end));
     w.key("opacity");
-    w.floats(part(slices.ballOpacity, begin, end));
+    w.roundedFloats(part(slices.ballOpacity, begin, end));
     w.endObject();
 }
 

@@ -92,10 +92,11 @@ inline void requireSound(const session::State& state, const session::Limits& lim
     require(ratio >= session::kMinSpacing * (1 - 1e-9) && ratio <= session::kMaxSpacing * (1 + 1e-9),
             "the spacing is within its bounds");
     require(within(offset / info.circumradius, session::kMaxOffset * (1 + 1e-9)), "the offset is within its bounds");
-    if (state.approach) {
-        require(!state.turning, "what approaches an orientation does not turn");
-        const double seconds = state.approach->seconds;
-        require(seconds > 0 && seconds <= session::kMaxApproachSeconds, "an approach ends within its bound");
+    if (state.ongoingTurnToward) {
+        require(!state.turning, "an object does not turn continuously and toward an element");
+        const double seconds = state.ongoingTurnToward->seconds;
+        require(seconds > 0 && seconds <= session::kMaxTurnTowardSeconds,
+                "a turn toward an element ends within its bound");
     }
     for (int axis = 0; axis < 3; ++axis)
         require(within(state.look.focusPoint[axis] / info.circumradius, session::kMaxOffset * (1 + 1e-9)),

@@ -70,7 +70,7 @@ export class Pointing {
         else {
             const state = this.state()!;
             this.sources ??= new ElementSources(layout!.picture, state.polytope);
-            const lit = this.sources.litBy(found);
+            const lit = this.sources.showing(found);
             if (!isSame) this.stage.light(lit);
             this.label.textContent = describe(found, [...lit.ownVertices], layout!, state);
             this.place();

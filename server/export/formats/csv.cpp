@@ -12,7 +12,7 @@ namespace oval4d::exports {
 namespace {
 
 void appendSlice(std::string& out, const slicing::SliceSet& slices, int i) {
-    const Measures m = measure(slices, i);
+    const SliceMeasurements m = measureSlice(slices, i);
     out += std::to_string(slices.planes.first + i) + ',';
     append(out, slices.planes.w(i));
     for (const std::size_t count : {slices.vertexCount(i), slices.edgeCount(i), m.faces})
@@ -30,7 +30,7 @@ void appendSlice(std::string& out, const slicing::SliceSet& slices, int i) {
 
 }  // namespace
 
-std::string csv(const SceneInput& source) {
+std::string measurementsCsv(const SceneInput& source) {
     const slicing::SliceSet& slices = *source.scene.slices;
     std::string out = "n,w,vertices,edges,faces,volume,area,centroid_x,centroid_y,centroid_z\n";
     for (int i = 0; i < slices.planes.count; ++i) appendSlice(out, slices, i);

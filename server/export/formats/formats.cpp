@@ -28,13 +28,13 @@ struct Writer {
     std::string (*ofScene)(const SceneInput&);
 };
 constexpr auto kWriters = std::to_array<Writer>({{"3mf", threeMf, nullptr},
-                                                 {"csv", nullptr, csv},
+                                                 {"csv", nullptr, measurementsCsv},
                                                  {"glb", glb, nullptr},
                                                  {"obj", obj, nullptr},
                                                  {"off", nullptr, off},
                                                  {"ply", ply, nullptr},
                                                  {"stl", stl, nullptr},
-                                                 {"svg", nullptr, svg},
+                                                 {"svg", nullptr, parallelCoordinatesSvg},
                                                  {"x3d", x3d, nullptr}});
 
 std::vector<Format> readTable() {

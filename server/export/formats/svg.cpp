@@ -120,7 +120,7 @@ std::string strip(const SceneInput& source) {
 
 }  // namespace
 
-std::string svg(const SceneInput& source) {
+std::string parallelCoordinatesSvg(const SceneInput& source) {
     if (source.scene.slices->rotatedVertices.size() > scene::kMaxVerticesAsLines) return strip(source);
     const Columns columns(source.scene.slices->rotatedVertices.size());
     const double height = columns.rowStep * static_cast<double>(columns.rows) + kMargin;

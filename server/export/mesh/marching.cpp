@@ -124,7 +124,7 @@ class MarchingTetrahedra {
     // one end are a subset of the bits of the other end.
     std::uint32_t vertex(const glm::ivec3& at, unsigned inside, unsigned outside) {
         const glm::ivec3 lower = at + offset(inside & outside);
-        auto& ids = idsOf(lower);
+        auto& ids = blockIdsOf(lower);
         std::uint32_t& id = ids[static_cast<std::size_t>(indexIn(lower)) * 7 + (inside ^ outside) - 1];
         if (id == kNone) {
             id = static_cast<std::uint32_t>(mesh_.points.size());
@@ -149,7 +149,9 @@ class MarchingTetrahedra {
     }
 
     using Ids = std::array<std::uint32_t, static_cast<std::size_t>(kPoints) * 7>;
-    Ids& idsOf(const glm::ivec3& point) {
+    // Returns the indices of mesh points on the edges of the block that contains `point`: seven for each point of the
+    // block, kNone where there is none. Creates them on first use.
+    Ids& blockIdsOf(const glm::ivec3& point) {
         const std::uint64_t key = keyOf(point);
         if (last_ == nullptr || lastKey_ != key) {
             auto& ids = ids_[key];

@@ -68,10 +68,11 @@ struct EdgeCrossing {
 /// Finds the crossing on the edge between a point that is inside and a neighboring point that is outside.
 using FindCrossing = std::function<EdgeCrossing(const glm::ivec3& inside, const glm::ivec3& outside)>;
 
-/// Returns a mesh of the surface that separates inside points from outside points. For every cube with an inside
-/// corner, the field must have the block of the cube's lowest corner and all values that `crossing` reads. The mesh's
-/// coordinates are rounded to `grid`. The field's step must be at least 64 steps of `grid`: crossings are kept away
-/// from the ends of their edges, so that no two crossings coincide after rounding.
+/// Returns a mesh of the surface that separates inside points from outside points. If a cube has an inside corner, the
+/// field must contain the block of the cube's lowest corner (see SampledField::ensureBlock), and the values that
+/// `crossing` reads for the edges of the cube. The mesh's coordinates are rounded to `grid`. The field's step must be
+/// at least 64 steps of `grid`: crossings are kept away from the ends of their edges, so that no two crossings coincide
+/// after rounding.
 Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const Grid& grid, const Budget& budget);
 
 /// Returns a function that finds crossings by linear interpolation of the values. The function refers to `field`, which

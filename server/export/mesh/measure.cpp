@@ -24,8 +24,8 @@ struct Mean {
 
 }  // namespace
 
-Measures measure(const slicing::SliceSet& slices, int i) {
-    Measures out;
+SliceMeasurements measureSlice(const slicing::SliceSet& slices, int i) {
+    SliceMeasurements out;
     const std::size_t count = slices.vertexCount(i);
     if (count == 0) return out;
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];

@@ -11,7 +11,7 @@ namespace oval4d::exports {
 
 /// The measurements of a slice, in the polytope's units. A region that the faces of a star enclose several times counts
 /// several times, as is usual for the content of star polytopes.
-struct Measures {
+struct SliceMeasurements {
     std::size_t faces = 0;     ///< the number of faces; all loops of one cell count as one face
     double volume = 0;         ///< 0 for a flat slice
     double area = 0;           ///< surface area; for a flat slice, the area of one side
@@ -22,6 +22,6 @@ struct Measures {
 };
 
 /// Returns the measurements of slice i.
-Measures measure(const slicing::SliceSet& slices, int i);
+SliceMeasurements measureSlice(const slicing::SliceSet& slices, int i);
 
 }  // namespace oval4d::exports

@@ -68,8 +68,8 @@ class OuterSurface {
     // Returns −1 or 1 if the edge from a to b, projected onto the yz-plane, crosses the ray y = row.y, z > row.z; else
     // 0. The edge from b to a gives exactly the negative. Therefore, despite rounding, a closed surface crosses every
     // line along x equally often in both directions.
-    int crossings(std::uint32_t a, std::uint32_t b, const glm::dvec3& row) const {
-        if (a > b) return -crossings(b, a, row);
+    int signedCrossing(std::uint32_t a, std::uint32_t b, const glm::dvec3& row) const {
+        if (a > b) return -signedCrossing(b, a, row);
         const glm::dvec3& p = points_[a];
         const glm::dvec3& q = points_[b];
         if ((p.y <= row.y) == (q.y <= row.y)) return 0;
@@ -91,7 +91,7 @@ class OuterSurface {
             for (int k = least.z; k <= most.z; ++k) {
                 for (int j = least.y; j <= most.y; ++j) {
                     const glm::dvec3 row = field.positionOf({0, j, k});
-                    const int turns = crossings(a, b, row) + crossings(b, c, row) + crossings(c, a, row);
+                    const int turns = signedCrossing(a, b, row) + signedCrossing(b, c, row) + signedCrossing(c, a, row);
                     if (turns == 0) continue;
                     const glm::dvec3 to = row - points_[a];
                     const double x = points_[a].x - (normal.y * to.y + normal.z * to.z) / normal.x;

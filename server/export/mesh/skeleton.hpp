@@ -16,8 +16,9 @@ struct SkeletonRadii {
 /// polytope.
 SkeletonRadii skeletonRadii(const scene::Scene& scene, double scale);
 
-/// Returns the approximate number of triangles of the skeletons of all slices for cubes as wide as the radius of a bar
-/// (see skeletonOf). Cubes of half the width give four times as many triangles.
+/// Returns an estimate of the total number of triangles that skeletonOf gives for all slices if `cube` is the radius of
+/// a bar. If `cube` is half as large, there are four times as many triangles. `scale` is in millimeters per unit of the
+/// polytope.
 double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& radii);
 
 /// Returns the skeleton of slice i, meshed by marching tetrahedra in cubes that are `cube` millimeters wide. `scale` is

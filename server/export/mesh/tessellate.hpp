@@ -17,9 +17,9 @@ using Contour = std::vector<glm::dvec2>;
 /// tessellator fails.
 std::vector<Contour> outlineOf(const std::vector<Contour>& contours);
 
-/// Returns counterclockwise triangles that fill the region bounded by the contours. A triangle's corners are indices
-/// that count the corners of all contours consecutively. No corner is added or dropped: each edge of a contour is an
-/// edge of exactly one triangle. Returns no triangles if the contours cross or touch.
+/// Returns counterclockwise triangles that fill the region bounded by the contours. The three indices of a triangle
+/// refer to the concatenated list of the corners of all contours. No corner is added or dropped: each edge of a contour
+/// is an edge of exactly one triangle. Returns no triangles if the contours cross or touch.
 std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Contour>& contours);
 
 }  // namespace oval4d::exports

@@ -31,10 +31,10 @@ std::optional<Authority> parseAuthority(std::string_view text);
 /// does not have it.
 class AccessControl {
   public:
-    /// `loopback`: whether the server listens only on loopback addresses. `hosts`: the allowed host names; if empty,
-    /// only the loopback names if `loopback` is true, else all names. `origins`: the allowed foreign origins; the
-    /// server's own origin is always allowed. In both lists, "*" allows all. `token`: the required token; empty if none
-    /// is required.
+    /// `loopback`: whether the server listens only on loopback addresses. `hosts`: the allowed host names. If it is
+    /// empty, only loopback names are allowed if `loopback` is true, and all names if it is false. `origins`: the
+    /// allowed foreign origins; the server's own origin is always allowed. In both lists, "*" allows all. `token`: the
+    /// required token; empty if none is required.
     AccessControl(std::vector<std::string> hosts, std::vector<std::string> origins, std::string token, bool loopback);
 
     enum class Verdict { allowed, bad_host, bad_origin, bad_token };

@@ -29,14 +29,15 @@ class ScopedFileMetrics {
 
 }  // namespace
 
-std::function<FileResult(std::size_t worker)> fileJob(Services services, const session::State& state,
-                                                      const exports::ExportRequest& request, const ClientPtr& client) {
-    return [services, state, request, client](std::size_t /*worker*/) -> FileResult {
+std::function<ExportResult(std::size_t worker)> exportJob(Services services, const session::State& state,
+                                                          const exports::ExportRequest& request,
+                                                          const ClientPtr& client) {
+    return [services, state, request, client](std::size_t /*worker*/) -> ExportResult {
         ScopedFileMetrics fileMetrics(services.metrics);
         auto held = client->byteAccount().forceReserve(0);
         exports::Limits limits = services.options.file;
-        limits.reserve = [&held](std::size_t bytes) { return bytes <= held.size() || held.grow(bytes); };
-        auto made = pipeline::exportState(state, request, limits, services.fileWorkers.stopToken());
+        limits.reserve = [&held](std::size_t bytes) { return bytes <= held.size() || held.growTo(bytes); };
+        auto made = pipeline::exportState(state, request, limits, services.exportWorkers.stopToken());
         if (!made) {
             const bool overBudget = made.error().code == ErrorCode::too_many;
             return Result<SharedBytes>(overBudget ? kTooManyBytes : made.error());

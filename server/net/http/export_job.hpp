@@ -12,12 +12,13 @@
 namespace oval4d::net {
 
 /// The file, or an error; empty only until the job is done.
-using FileResult = std::optional<Result<SharedBytes>>;
+using ExportResult = std::optional<Result<SharedBytes>>;
 
 /// Returns a job that makes the requested file. The bytes of the file are reserved on the client's byte account until
-/// the last copy of the Bytes is destroyed. Errors: those of pipeline::exportState; `too_many` means that the account
-/// has no room.
-std::function<FileResult(std::size_t worker)> fileJob(Services services, const session::State& state,
-                                                      const exports::ExportRequest& request, const ClientPtr& client);
+/// the last copy of the SharedBytes is destroyed. Errors: those of pipeline::exportState; `too_many` means that the
+/// account has no room.
+std::function<ExportResult(std::size_t worker)> exportJob(Services services, const session::State& state,
+                                                          const exports::ExportRequest& request,
+                                                          const ClientPtr& client);
 
 }  // namespace oval4d::net

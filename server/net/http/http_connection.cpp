@@ -146,7 +146,7 @@ std::optional<Reply> parseErrorReply(boost::system::error_code fault) {
 }
 
 asio::awaitable<void> HttpConnection::run() {
-    registration_.onEndRequest([weak = weak_from_this()](ConnectionRegistry::EndReason reason) {
+    registration_.setEndHandler([weak = weak_from_this()](ConnectionRegistry::EndReason reason) {
         if (const auto self = weak.lock())
             asio::post(self->stream_.get_executor(), [self, reason] { self->end(reason); });
     });
@@ -362,7 +362,7 @@ asio::awaitable<void> HttpConnection::upgrade(HttpRequest request, std::string s
         std::make_shared<WebSocketConnection>(std::move(stream_), context_.services, context_.sessions, client_,
                                               std::move(session), [this] { registration_.setInUse(true); });
     registration_.setInUse(false);
-    registration_.onEndRequest([weak = std::weak_ptr(connection)](ConnectionRegistry::EndReason reason) {
+    registration_.setEndHandler([weak = std::weak_ptr(connection)](ConnectionRegistry::EndReason reason) {
         const auto self = weak.lock();
         if (!self) return;
         if (reason == ConnectionRegistry::EndReason::stopping) {

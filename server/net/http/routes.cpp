@@ -186,7 +186,7 @@ asio::awaitable<Result<session::State>> Routes::state(session::Query query, Clie
         if (!loader->isPending()) co_return state;
         const auto reservation = client->byteAccount().reserve(loader->bytesNeeded());
         if (!reservation) co_return kTooManyBytes;
-        co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader), client->lane(),
+        co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader), client->pictureLane(),
                                            loader->estimatedDuration());
     }
 }
@@ -203,7 +203,7 @@ asio::awaitable<Reply> Routes::frame(session::Query query, ClientPtr client) {
         const auto requested = co_await state(std::move(query), client);
         if (!requested) co_return countedError(requested.error());
         auto png = co_await runOnPool<std::optional<SharedBytes>>(
-            services_.pictureWorkers, frameJob(*requested, *viewport, client, services_.metrics), client->lane(),
+            services_.pictureWorkers, frameJob(*requested, *viewport, client, services_.metrics), client->pictureLane(),
             pipeline::frameCost(*requested, *viewport));
         if (!png) co_return countedError(kTooManyBytes);
         co_return reply("image/png", std::move(*png));
@@ -221,9 +221,9 @@ asio::awaitable<Reply> Routes::file(session::Query query, const exports::Format&
         if (!exported) co_return countedError(exported.error());
         const auto requested = co_await state(std::move(query), client);
         if (!requested) co_return countedError(requested.error());
-        const FileResult made =
-            co_await runOnPool<FileResult>(services_.fileWorkers, fileJob(services_, *requested, *exported, client),
-                                           client->fileLane(), pipeline::fileCost(*requested));
+        const ExportResult made = co_await runOnPool<ExportResult>(
+            services_.exportWorkers, exportJob(services_, *requested, *exported, client), client->exportLane(),
+            pipeline::exportCost(*requested));
         if (!*made) co_return countedError(made->error());
         Reply answer = reply(format.mediaType, **made);
         answer.headers.emplace_back("Content-Disposition",

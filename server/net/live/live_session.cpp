@@ -109,7 +109,7 @@ void LiveSession::updateReservation(bool polytopesChanged) {
     assertOnStrand();
     if (polytopesChanged) objectBytes_ = session::objectBytes(session_);
     const std::size_t bytes = objectBytes_ + session::historyBytes(session_);
-    if (bytes > held_.size() && !held_.grow(bytes)) {
+    if (bytes > held_.size() && !held_.growTo(bytes)) {
         session::forgetOlderHalf(session_);
         objectBytes_ = session::objectBytes(session_);
     }
@@ -125,7 +125,7 @@ void LiveSession::saveNow(store::WriteBehindStore::Written written) {
 /// Schedules a save. Must be called after each change.
 void LiveSession::scheduleSave() {
     assertOnStrand();
-    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
+    if (writeBehind_.writeTiming() == store::Store::WriteTiming::at_close) return;
     saveTimer_.start(weak_from_this(), Clock::now() + kSaveDelay, [](LiveSession& session) { session.saveNow(); });
 }
 
@@ -162,8 +162,8 @@ LiveSession::Lanes LiveSession::lanesOf(const Peer& peer) const {
     for (const auto& [key, client] : clients_) {
         if (client.lanes.client == own) return client.lanes;
     }
-    return {own, std::make_shared<parallel::WorkerPool::Lane>(own->share()),
-            std::make_shared<parallel::WorkerPool::Lane>(own->fileShare())};
+    return {own, std::make_shared<parallel::WorkerPool::Lane>(own->pictureShare()),
+            std::make_shared<parallel::WorkerPool::Lane>(own->exportShare())};
 }
 
 asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request) {
@@ -202,7 +202,7 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
                 break;
             }
             if (loader->isFilePending()) {
-                co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(loader), client_->loadingLane(),
+                co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(loader), client_->loadLane(),
                                                    loader->estimatedDuration());
             } else {
                 co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader),
@@ -224,7 +224,7 @@ asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, cons
     if (reached != before) {
         changed_ = Clock::now();
         scheduleSave();
-        if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
+        if (writeBehind_.writeTiming() == store::Store::WriteTiming::at_once) {
             // The head of a record is saved without objects, so a new object requires a save of the whole session.
             const bool whole = session_.current.object != shown;
             auto write = storeWriter(whole ? store::WriteBehindStore::SaveScope::whole
@@ -269,7 +269,7 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
             break;
         case wire::GetTarget::at:
             key.stream = Stream::geometry;
-            co_await answerWithPicture(peer, key, id, get.at);
+            co_await answerWithPicture(peer, key, id, get.point);
             break;
         case wire::GetTarget::file:
             co_await answerWithFile(peer, get.file, id);
@@ -280,11 +280,11 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
 asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
                                                   RequestId id) {
     const std::uint64_t askedRevision = revision();
-    FileResult made;
+    ExportResult made;
     try {
-        made = co_await runOnPool<FileResult>(services_.fileWorkers,
-                                              fileJob(services_, session_.current, request, peer->client()),
-                                              lanesOf(*peer).files, pipeline::fileCost(session_.current));
+        made = co_await runOnPool<ExportResult>(services_.exportWorkers,
+                                                exportJob(services_, session_.current, request, peer->client()),
+                                                lanesOf(*peer).exports, pipeline::exportCost(session_.current));
     } catch (const parallel::QueueFull&) {
         made = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -373,7 +373,7 @@ void LiveSession::update() {
     }
 }
 
-/// Moves an object that turns continuously or approaches an orientation, if the next step is due and a client that has
+/// Moves an object that turns continuously or turns toward an element, if the next step is due and a client that has
 /// the current revision can receive the next one.
 void LiveSession::advanceMotion() {
     assertOnStrand();

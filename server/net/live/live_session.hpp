@@ -52,15 +52,17 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// Executes a request of a client that was added with welcome(), and returns once the request is answered.
     boost::asio::awaitable<void> execute(std::shared_ptr<Peer> peer, wire::Request request);
 
-    /// Removes a client, then calls `left` with the session's value on the session's strand. `left` must return whether
-    /// the removed client was the last one. If so, this object no longer writes the session to the store.
+    /// Removes a client on the session's strand, then calls `left` there with the value of the session. `left` returns
+    /// whether the session has no client anymore; if it returns true, this object never writes the session to the store
+    /// again.
     void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
 
     /// Writes the whole session to the store. Releases its reference to `completion` once the session is written, or
     /// once the store is found to be unavailable.
     void save(std::shared_ptr<void> completion = {});
 
-    /// Closes all connections because another server has taken over the session.
+    /// Closes all connections, and never writes the session to the store again, because another server has taken over
+    /// the session.
     void disconnectAll();
 
   private:
@@ -69,7 +71,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// A client's lanes in the worker pools for its jobs in this session.
     struct Lanes {
         ClientPtr client;
-        parallel::WorkerPool::LanePtr pictures, files;
+        parallel::WorkerPool::LanePtr pictures, exports;
     };
     /// A connection to this session.
     struct Subscriber {

@@ -58,7 +58,7 @@ SessionManager::SessionManager(Services services, std::unique_ptr<store::Store> 
       writeBehind_(std::move(store), settingsFrom(services.options), listener()) {}
 
 WriteBehindStore::Listener SessionManager::listener() {
-    return {[this](const std::string& id) { disconnectAll(id); },
+    return {[this](const std::string& id) { dropTakenSession(id); },
             [this](const std::string& id) {
                 if (const auto session = find(id)) session->save();
             },
@@ -115,12 +115,12 @@ void SessionManager::create(const ClientPtr& client, const JoinHandler& done) {
     const auto session = activate(credentials, client, session::Session{});
     lock.unlock();
     spdlog::info("session created session={}", credentials.id);
-    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
+    if (writeBehind_.writeTiming() == store::Store::WriteTiming::at_once) {
         // The session must be in the shared store before its client learns its id, so that every server can open it.
         writeBehind_.save(credentials.id, session::Session{}, WriteBehindStore::SaveScope::whole,
                           [done, session](bool) { done(session); });
     } else {
-        if (writeBehind_.writePolicy() == store::Store::WritePolicy::soon) session->save();
+        if (writeBehind_.writeTiming() == store::Store::WriteTiming::soon) session->save();
         done(session);
     }
 }
@@ -160,9 +160,9 @@ void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::Fet
             [self = shared_from_this(), pending, record = std::move(fetch->record)](std::size_t /*worker*/) {
                 self->decode(pending, record);
             },
-            pending.client->lane(), cost);
+            pending.client->pictureLane(), cost);
         if (accepted) return;
-        writeBehind_.release(pending.credentials.id);
+        writeBehind_.discardFetched(pending.credentials.id);
         finishOpening(pending, kTooManyJobs);
     }
 }
@@ -177,7 +177,7 @@ void SessionManager::decode(const PendingJoin& pending, const store::Record& rec
         finishOpening(pending, std::move(value));
     } catch (const std::exception& fault) {
         spdlog::error("session cannot be read session={} store={} fault=\"{}\"", id, writeBehind_.name(), fault.what());
-        writeBehind_.release(id);
+        writeBehind_.discardFetched(id);
         finishOpening(pending,
                       Error{ErrorCode::not_found, "this session is stored in a form that the server cannot read: " +
                                                       std::string(fault.what())});
@@ -227,7 +227,7 @@ void SessionManager::leave(const std::shared_ptr<LiveSession>& session, std::sha
 }
 
 /// Disconnects the clients of a session that another server has taken over.
-void SessionManager::disconnectAll(const std::string& id) {
+void SessionManager::dropTakenSession(const std::string& id) {
     std::shared_ptr<LiveSession> session;
     {
         const std::lock_guard lock(mutex_);
@@ -249,7 +249,7 @@ std::shared_ptr<LiveSession> SessionManager::find(const std::string& id) const {
 }
 
 void SessionManager::saveAll(const std::shared_ptr<void>& completion) {
-    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
+    if (writeBehind_.writeTiming() == store::Store::WriteTiming::at_close) return;
     const std::lock_guard lock(mutex_);
     for (const auto& [id, live] : live_) live.session->save(completion);
 }

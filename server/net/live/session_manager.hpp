@@ -34,7 +34,7 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     void leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer);
 
     /// Writes all open sessions to the store, unless sessions are written only when they are closed
-    /// (WritePolicy::at_close). Releases its references to `completion` once the sessions are written, or once the
+    /// (WriteTiming::at_close). Releases its references to `completion` once the sessions are written, or once the
     /// store is found to be unavailable.
     void saveAll(const std::shared_ptr<void>& completion = {});
     const store::WriteBehindStore& writeBehind() const { return writeBehind_; }
@@ -66,7 +66,7 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     void finishOpening(const PendingJoin& pending, Result<session::Session> value);
     std::shared_ptr<LiveSession> activate(store::SessionCredentials credentials, const ClientPtr& client,
                                           session::Session value);
-    void disconnectAll(const std::string& id);
+    void dropTakenSession(const std::string& id);
 
     const Services services_;
     mutable std::mutex mutex_;

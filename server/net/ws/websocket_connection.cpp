@@ -211,7 +211,7 @@ asio::awaitable<Parsed> WebSocketConnection::parse(std::string_view text) {
     if (text.size() <= services_.options.maxRequestBytes)
         co_return wire::parseRequest(text, services_.options.maxDepth);
     auto work = parseJob(text, services_.options);
-    co_return co_await runOnPool<Parsed>(services_.pictureWorkers.workers(), std::move(work), client_->lane(),
+    co_return co_await runOnPool<Parsed>(services_.pictureWorkers.workers(), std::move(work), client_->pictureLane(),
                                          Seconds(kParseSecondsPerByte * static_cast<double>(text.size())));
 }
 

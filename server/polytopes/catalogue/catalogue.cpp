@@ -112,16 +112,16 @@ const std::unordered_map<std::string, const CatalogueEntry*>& index() {
     return kIndex;
 }
 
-struct Near {
+struct NearMatch {
     std::string_view name;
     const CatalogueEntry* entry;
 };
 
 // Returns the names with the least edit distance from `text`. If several have the same distance, keeps only those whose
 // length is nearest to that of `text`, because a wrong letter is likelier than a missing one.
-std::vector<Near> nearest(std::string_view text) {
+std::vector<NearMatch> nearest(std::string_view text) {
     const std::size_t wanted = text::folded(text).size();
-    std::vector<Near> best;
+    std::vector<NearMatch> best;
     std::pair<std::size_t, std::size_t> least(-1, -1);
     for (const polytopes::CatalogueEntry& entry : entries()) {
         const auto consider = [&](std::string_view name) {
@@ -191,7 +191,7 @@ std::string_view nearestName(std::string_view text) { return nearest(text).front
 std::vector<std::string_view> nearestNames(std::string_view text) {
     constexpr std::size_t kMost = 3;
     std::vector<std::string_view> names;
-    for (const Near& near : nearest(text)) names.push_back(near.name);
+    for (const NearMatch& near : nearest(text)) names.push_back(near.name);
     names.resize(std::min(names.size(), kMost));
     return names;
 }

@@ -87,7 +87,7 @@ DesignOrError duoprismNamed(std::vector<std::string> words) {
         const std::size_t between = std::min(pair.find(','), pair.find('x'));
         if (between != std::string::npos) words = {pair.substr(0, between), pair.substr(between + 1)};
     }
-    std::vector<Branch> polygons;
+    std::vector<RegularPolygon> polygons;
     for (const std::string& word : words) {
         std::string own = word;
         if (own.ends_with(',')) own.pop_back();
@@ -147,17 +147,17 @@ constexpr auto kNotations = std::to_array<Notation>({
     dualNamed,
     // A Schläfli symbol: "{5,5/2,5}", "t0,1{3,3,5}".
     [](const NameWords& text) -> std::optional<DesignOrError> {
-        if (text.from(0).find('{') == std::string::npos) return {};
-        return designFrom(parseSchlaefli(text.from(0)));
+        if (text.joinedFrom(0).find('{') == std::string::npos) return {};
+        return designFrom(parseSchlaefli(text.joinedFrom(0)));
     },
     // A diagram: "x5o3o3x", "x3o3o *b3o", "x5o x7o".
     [](const NameWords& text) -> std::optional<DesignOrError> {
-        if (!looksLikeDiagram(text.from(0))) return {};
-        return designFrom(parseDiagram(text.from(0)));
+        if (!looksLikeDiagram(text.joinedFrom(0))) return {};
+        return designFrom(parseDiagram(text.joinedFrom(0)));
     },
     // The diagram of a snub prism: "s4s3s x".
     [](const NameWords& text) -> std::optional<DesignOrError> {
-        if (auto snub = snubPrismNamed(text.from(0))) return *snub;
+        if (auto snub = snubPrismNamed(text.joinedFrom(0))) return *snub;
         return {};
     },
     // A duoprism: "5,7-duoprism", "5-7 duoprism", "triangular-square duoprism", "pentagonal duoprism" (both pentagons).

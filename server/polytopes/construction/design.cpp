@@ -20,7 +20,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr Branch kSquare{4, 1};
+constexpr RegularPolygon kSquare{4, 1};
 
 Diagram known(std::string_view linearNotation) { return std::get<Diagram>(parseDiagram(linearNotation)); }
 
@@ -124,7 +124,7 @@ Design designOf(const Diagram& diagram) {
     if (const auto found = named.find(canonical(diagram)); found != named.end()) return found->second;
     // If every connected component has at most two mirrors, the polytope is a duoprism. Two components of a single
     // mirror together generate a square.
-    std::vector<Branch> polygons;
+    std::vector<RegularPolygon> polygons;
     int single = 0;
     for (const MirrorSet component : componentsOf(diagram)) {
         if (std::popcount(component) > 2) return {linearNotationOf(diagram), wythoffian(diagram)};
@@ -140,7 +140,7 @@ Design designOf(const Diagram& diagram) {
     return duoprism(polygons.at(0), polygons.at(1));
 }
 
-Design duoprism(Branch p, Branch q) {
+Design duoprism(RegularPolygon p, RegularPolygon q) {
     if (p == kSquare && q == kSquare) return designOf(known("x4o3o3o"));
     if (q < p) std::swap(p, q);
     return {textOf(p) + "," + textOf(q) + "-duoprism",

@@ -18,7 +18,7 @@ Design designOf(const Diagram& diagram);
 
 /// Returns the design of the duoprism of the regular polygons p and q, which may be stars and must have at least 3
 /// sides. The name has the smaller number first, as in "5,7-duoprism". For p = q = 4, the design is that of the 8-cell.
-Design duoprism(Branch p, Branch q);
+Design duoprism(RegularPolygon p, RegularPolygon q);
 
 /// Returns the design of the prism over the antiprism of a regular polygon, such as "pentagonal antiprism prism".
 /// `sides` is the number of sides of the polygon, at least 3. For 3 sides, the design is that of the octahedral prism.

@@ -10,12 +10,15 @@
 namespace oval4d::polytopes {
 
 /// A branch of a diagram: the mirrors at its two ends meet at the angle π · denominator / numerator. The default is the
-/// right angle, for which no branch is drawn. A Branch also denotes the regular polygon {numerator/denominator}, which
-/// is a star polygon if the denominator is not 1.
+/// right angle, for which no branch is drawn.
 struct Branch {
     int numerator = 2, denominator = 1;
     auto operator<=>(const Branch&) const = default;
 };
+
+/// The regular polygon {numerator/denominator}, which is a star polygon if the denominator is not 1. It has the type of
+/// a branch, because the branch p between a ringed and an unringed mirror generates the polygon {p}.
+using RegularPolygon = Branch;
 
 /// A set of mirrors of a diagram: bit i is set if it contains mirror i.
 using MirrorSet = unsigned;
@@ -54,7 +57,7 @@ std::vector<MirrorSet> componentsOf(const Diagram& diagram, MirrorSet set = 0xf)
 
 /// Returns whether every connected component of `set` contains a ringed mirror. If so, the images of the generating
 /// vertex under the reflections in these mirrors are the vertices of an element of the polytope; its dimension is the
-/// number of mirrors. Otherwise the images span a lower dimension.
+/// number of mirrors. Otherwise, they span a lower dimension.
 bool generatesElement(const Diagram& diagram, MirrorSet set);
 
 /// Returns the order of the Coxeter group that the mirrors of `set` generate, or 0 if the group is not finite. The

@@ -106,11 +106,11 @@ std::optional<Design> dualOfRegular(const Design& base) {
 std::optional<DesignOrError> dualNamed(const NameWords& text) {
     if (text.words.front() != "dual" || text.words.size() < 2) return {};
     const std::size_t skipped = text.words[1] == "of" ? 2 : 1;
-    DesignOrError described = text.lookup(text.from(skipped));
+    DesignOrError described = text.lookup(text.joinedFrom(skipped));
     const auto* base = std::get_if<Design>(&described);
     if (base == nullptr) {
         NameError error = std::get<NameError>(described);
-        if (error.message.empty()) error.message = "'" + text.from(skipped) + "' is not the name of a polytope";
+        if (error.message.empty()) error.message = "'" + text.joinedFrom(skipped) + "' is not the name of a polytope";
         return error;
     }
     if (const auto* dual = dynamic_cast<const Dual*>(base->recipe.get())) return dual->base();

@@ -28,7 +28,7 @@ struct NameWords {
     const DesignLookup& lookup;
 
     /// Returns the words from index `first` on, joined by spaces.
-    std::string from(std::size_t first) const { return text::joined(words, first, words.size()); }
+    std::string joinedFrom(std::size_t first) const { return text::joined(words, first, words.size()); }
     /// Returns all words except the last one.
     std::vector<std::string> withoutLast() const { return {words.begin(), words.end() - 1}; }
 };

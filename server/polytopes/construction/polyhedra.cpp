@@ -41,7 +41,7 @@ constexpr auto kNamed = std::to_array<NamedPolyhedron>({
 });
 
 struct NamedPolygon {
-    Branch polygon;
+    RegularPolygon polygon;
     std::string_view adjective, noun;
 };
 constexpr auto kPolygons = std::to_array<NamedPolygon>({
@@ -73,7 +73,7 @@ PolyhedronSignature shapeOf(const Diagram& prism) {
         if (std::popcount(set) != 2) continue;
         const int a = std::countr_zero(set);
         const int b = std::bit_width(set) - 1;
-        Branch polygon = prism.branches[a][b];
+        RegularPolygon polygon = prism.branches[a][b];
         if (prism.ringed.at(a) && prism.ringed.at(b)) polygon.numerator *= 2;
         shape.faces[polygon] += count;
     }
@@ -133,21 +133,21 @@ std::vector<glm::dvec3> verticesOf(const NamedPolyhedron& polyhedron) {
     return vertices;
 }
 
-std::string adjectiveOf(Branch polygon) {
+std::string adjectiveOf(RegularPolygon polygon) {
     for (const NamedPolygon& named : kPolygons) {
         if (named.polygon == polygon) return std::string(named.adjective);
     }
     return textOf(polygon) + "-gonal";
 }
 
-std::string nounOf(Branch polygon) {
+std::string nounOf(RegularPolygon polygon) {
     for (const NamedPolygon& named : kPolygons) {
         if (named.polygon == polygon) return std::string(named.noun);
     }
     return textOf(polygon) + "-gon";
 }
 
-std::optional<Branch> polygonNamed(std::string_view word) {
+std::optional<RegularPolygon> polygonNamed(std::string_view word) {
     for (const NamedPolygon& named : kPolygons) {
         if (word == named.adjective || word == named.noun) return named.polygon;
     }
@@ -172,7 +172,7 @@ std::string nameOf(const PolyhedronSignature& shape, double tolerance) {
         const auto n = static_cast<std::uint32_t>(polygon.numerator);
         if (count != 2 || shape.vertices != 2 * n || shape.faces.size() != 2) continue;
         const double angle = std::numbers::pi * polygon.denominator / polygon.numerator;
-        const auto beside = [&](Branch side) {
+        const auto beside = [&](RegularPolygon side) {
             const auto found = shape.faces.find(side);
             return found == shape.faces.end() ? 0 : found->second;
         };

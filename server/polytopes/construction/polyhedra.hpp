@@ -34,18 +34,18 @@ bool isConvex(const NamedPolyhedron& polyhedron);
 std::vector<glm::dvec3> verticesOf(const NamedPolyhedron& polyhedron);
 
 /// Returns the adjective of a polygon: "pentagonal", "pentagrammic", "17-gonal", "7/2-gonal".
-std::string adjectiveOf(Branch polygon);
+std::string adjectiveOf(RegularPolygon polygon);
 
 /// Returns the noun of a polygon: "pentagon", "pentagram", "17-gon", "7/2-gon".
-std::string nounOf(Branch polygon);
+std::string nounOf(RegularPolygon polygon);
 
 /// Returns the polygon that a word names, such as "5", "5-gonal", "pentagonal", "pentagon", "5/2" or "pentagrammic";
 /// std::nullopt if it names none.
-std::optional<Branch> polygonNamed(std::string_view word);
+std::optional<RegularPolygon> polygonNamed(std::string_view word);
 
 /// The properties by which nameOf recognizes a uniform polyhedron, scaled to edge length 2.
 struct PolyhedronSignature {
-    std::map<Branch, std::uint32_t> faces;  ///< the number of faces of each polygon
+    std::map<RegularPolygon, std::uint32_t> faces;  ///< the number of faces of each polygon
     std::uint32_t vertices = 0;
     double circumradius = 0;
 };

@@ -61,11 +61,11 @@ struct Noun {
     std::string one, many;
 };
 
-// Reads `records` records into `lists`, and their lines into `origins`. A record is a number n ≥ `least`, followed by n
-// indices that are less than `below`.
+// Reads `records` records into `lists`, and their positions in the file into `positions`. A record is a number n ≥
+// `least`, followed by n indices that are less than `below`.
 void readLists(FileTokenizer& file, std::uint32_t records, std::size_t below, std::size_t least,
                const std::string& what, const Noun& member, geometry::JaggedArray& lists,
-               std::vector<PolygonSoup::Origin>& origins) {
+               std::vector<PolygonSoup::SourcePosition>& positions) {
     lists.begin.reserve(std::size_t{records} + 1);
     std::vector<std::uint32_t> list;
     for (std::uint32_t i = 0; i < records; ++i) {
@@ -92,7 +92,7 @@ void readLists(FileTokenizer& file, std::uint32_t records, std::size_t below, st
             list.push_back(index);
         }
         lists.add(list);
-        origins.push_back({line, i});
+        positions.push_back({line, i});
     }
 }
 
@@ -102,13 +102,14 @@ void checkCells(const PolygonSoup& soup) {
         list.assign(soup.cells[c].begin(), soup.cells[c].end());
         std::sort(list.begin(), list.end());
         if (std::adjacent_find(list.begin(), list.end()) != list.end()) {
-            throwImportError(soup.cellOrigins[c].line,
-                             "cell " + std::to_string(soup.cellOrigins[c].number) + " lists one of its 2-faces twice");
+            throwImportError(
+                soup.cellSourcePositions[c].line,
+                "cell " + std::to_string(soup.cellSourcePositions[c].number) + " lists one of its 2-faces twice");
         }
     }
 }
 
-Imported finish(const PolygonSoup& soup, double mergeDistance, const std::string& name) {
+Imported repairAndBuild(const PolygonSoup& soup, double mergeDistance, const std::string& name) {
     Imported result;
     PolygonSoup repaired = soup;
     repair(repaired, mergeDistance, result.warnings);
@@ -133,8 +134,9 @@ Imported readOff4(std::string_view text, const std::string& name, const ImportLi
             v[i] = parseCoordinate(word, file.line());
         }
     }
-    readLists(file, counts.faces, counts.vertices, 3, "2-face", {"vertex", "vertices"}, soup.faces, soup.faceOrigins);
-    readLists(file, counts.cells, counts.faces, 4, "cell", {"2-face", "2-faces"}, soup.cells, soup.cellOrigins);
+    readLists(file, counts.faces, counts.vertices, 3, "2-face", {"vertex", "vertices"}, soup.faces,
+              soup.faceSourcePositions);
+    readLists(file, counts.cells, counts.faces, 4, "cell", {"2-face", "2-faces"}, soup.cells, soup.cellSourcePositions);
     file.skipLine();
     if (const auto rest = file.next(); !rest.empty())
         throwImportError(file.line(), inQuotes(rest) + " follows the last cell");
@@ -142,11 +144,11 @@ Imported readOff4(std::string_view text, const std::string& name, const ImportLi
 
     Imported result = [&] {
         try {
-            return finish(soup, kMergeDistance * halfDiagonal(soup.vertices), name);
+            return repairAndBuild(soup, kMergeDistance * halfDiagonal(soup.vertices), name);
         } catch (const ImportError&) {
             // Coinciding vertices may belong to different components of a compound: try again without merging them.
             try {
-                return finish(soup, -1, name);
+                return repairAndBuild(soup, -1, name);
             } catch (const ImportError&) {
             }
             throw;

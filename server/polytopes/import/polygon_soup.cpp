@@ -31,8 +31,8 @@ double deviation(std::vector<glm::dvec4> points, int dimension) {
     return glm::length(*std::max_element(points.begin(), points.end(), shorter));
 }
 
-std::string nameOf(const char* element, const PolygonSoup::Origin& origin) {
-    return std::string(element) + ' ' + std::to_string(origin.number) + ' ';
+std::string nameOf(const char* element, const PolygonSoup::SourcePosition& position) {
+    return std::string(element) + ' ' + std::to_string(position.number) + ' ';
 }
 
 }  // namespace
@@ -55,18 +55,18 @@ void checkFlat(const PolygonSoup& soup) {
     for (std::size_t f = 0; f < soup.faces.size(); ++f) {
         points.clear();
         for (const std::uint32_t v : soup.faces[f]) points.push_back(soup.vertices[v]);
-        const auto& origin = soup.faceOrigins[f];
+        const auto& position = soup.faceSourcePositions[f];
         if (deviation(points, 2) > kFlat * size)
-            throwImportError(origin.line, nameOf("2-face", origin) + "is not flat");
+            throwImportError(position.line, nameOf("2-face", position) + "is not flat");
     }
     for (std::size_t c = 0; c < soup.cells.size(); ++c) {
         points.clear();
         for (const std::uint32_t f : soup.cells[c]) {
             for (const std::uint32_t v : soup.faces[f]) points.push_back(soup.vertices[v]);
         }
-        const auto& origin = soup.cellOrigins[c];
+        const auto& position = soup.cellSourcePositions[c];
         if (deviation(points, 3) > kFlat * size)
-            throwImportError(origin.line, nameOf("cell", origin) + "does not lie in a hyperplane");
+            throwImportError(position.line, nameOf("cell", position) + "does not lie in a hyperplane");
     }
 }
 
@@ -76,8 +76,8 @@ Polytope build(PolygonSoup soup, std::string name) {
     } catch (const InvalidPolytope& fault) {
         const bool face = fault.part == InvalidPolytope::Part::face;
         if (fault.part == InvalidPolytope::Part::whole) throwImportError(0, fault.detail);
-        const auto& origin = (face ? soup.faceOrigins : soup.cellOrigins)[fault.index];
-        throwImportError(origin.line, nameOf(face ? "2-face" : "cell", origin) + fault.detail);
+        const auto& position = (face ? soup.faceSourcePositions : soup.cellSourcePositions)[fault.index];
+        throwImportError(position.line, nameOf(face ? "2-face" : "cell", position) + fault.detail);
     }
 }
 

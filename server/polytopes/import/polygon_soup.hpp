@@ -16,14 +16,14 @@ namespace oval4d::polytopes {
 /// Vertices, 2-faces and cells as read from a file, with their positions in the file.
 struct PolygonSoup {
     /// The position of an element in the file.
-    struct Origin {
+    struct SourcePosition {
         std::size_t line = 0;      ///< counted from 1
         std::uint32_t number = 0;  ///< its index among the 2-faces, or among the cells, of the file; from 0
     };
 
     std::vector<glm::dvec4> vertices;
-    geometry::JaggedArray faces, cells;            ///< vertex loops and lists of 2-faces, as in Polytope
-    std::vector<Origin> faceOrigins, cellOrigins;  ///< parallel to `faces` and `cells`
+    geometry::JaggedArray faces, cells;  ///< vertex loops and lists of 2-faces, as in Polytope
+    std::vector<SourcePosition> faceSourcePositions, cellSourcePositions;  ///< parallel to `faces` and `cells`
 };
 
 /// Returns the size of a set of points: half the diagonal of its bounding box; 0 for no points. The tolerances of the

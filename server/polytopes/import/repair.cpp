@@ -85,7 +85,7 @@ class Repairer {
     // Splits 2-faces into simple loops and removes 2-faces without area.
     void simplifyFaces() {
         geometry::JaggedArray faces;
-        std::vector<PolygonSoup::Origin> origins;
+        std::vector<PolygonSoup::SourcePosition> positions;
         std::vector<std::vector<std::uint32_t>> becomes(soup_.faces.size());
         std::size_t vanished = 0, compound = 0;
         for (std::size_t f = 0; f < soup_.faces.size(); ++f) {
@@ -98,7 +98,7 @@ class Repairer {
                 if (std::any_of(loops.begin(), loops.begin() + static_cast<std::ptrdiff_t>(i), same)) continue;
                 becomes[f].push_back(static_cast<std::uint32_t>(faces.size()));
                 faces.add(loops[i]);
-                origins.push_back(soup_.faceOrigins[f]);
+                positions.push_back(soup_.faceSourcePositions[f]);
             }
         }
         if (vanished > 0)
@@ -109,7 +109,7 @@ class Repairer {
         }
         if (vanished + compound == 0 && faces.items.size() == soup_.faces.items.size()) return;
         soup_.faces = std::move(faces);
-        soup_.faceOrigins = std::move(origins);
+        soup_.faceSourcePositions = std::move(positions);
         renumberFaces(becomes);
     }
 
@@ -137,19 +137,19 @@ class Repairer {
     // Splits cells into their connected components.
     void splitCells() {
         geometry::JaggedArray cells;
-        std::vector<PolygonSoup::Origin> origins;
+        std::vector<PolygonSoup::SourcePosition> positions;
         std::size_t compound = 0;
         for (std::size_t c = 0; c < soup_.cells.size(); ++c) {
             const auto pieces = piecesOf(soup_.cells[c]);
             compound += pieces.size() > 1 ? 1 : 0;
             for (const auto& piece : pieces) {
                 cells.add(piece);
-                origins.push_back(soup_.cellOrigins[c]);
+                positions.push_back(soup_.cellSourcePositions[c]);
             }
         }
         if (compound == 0) return;
         soup_.cells = std::move(cells);
-        soup_.cellOrigins = std::move(origins);
+        soup_.cellSourcePositions = std::move(positions);
         warn(counted(compound, "cell consists of several pieces and was", "cells consist of several pieces and were") +
              " split into one cell for each piece");
     }
@@ -165,16 +165,16 @@ class Repairer {
                              "2-faces lie in no cell and were left out"));
             }
             geometry::JaggedArray faces;
-            std::vector<PolygonSoup::Origin> origins;
+            std::vector<PolygonSoup::SourcePosition> positions;
             std::vector<std::vector<std::uint32_t>> becomes(soup_.faces.size());
             for (std::uint32_t f = 0; f < soup_.faces.size(); ++f) {
                 if (!used[f]) continue;
                 becomes[f] = {static_cast<std::uint32_t>(faces.size())};
                 faces.add(soup_.faces[f]);
-                origins.push_back(soup_.faceOrigins[f]);
+                positions.push_back(soup_.faceSourcePositions[f]);
             }
             soup_.faces = std::move(faces);
-            soup_.faceOrigins = std::move(origins);
+            soup_.faceSourcePositions = std::move(positions);
             renumberFaces(becomes);
         }
         dropUnusedVertices();

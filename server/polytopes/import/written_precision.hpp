@@ -17,13 +17,12 @@ class WrittenPrecision {
     /// Adds a coordinate along axis 0 … 3, as text and as a number.
     void add(std::string_view word, int axis, double value);
 
-    /// Returns the maximum rounding error of a coordinate along each axis: half the unit of the last digit. Returns 0,
-    /// which means that the coordinates are exact, if the unit is so coarse that the coordinates were hardly rounded to
-    /// it: if `size`, half the diagonal of the points' bounding box, is at most 400 units. This is the case for
-    /// coordinates such as 0.5 and 10.5.
+    /// Returns the maximum rounding error of a coordinate along each axis: half the unit of the last digit. Returns 0
+    /// for all axes if the coordinates count as exact: if `size`, half the diagonal of the points' bounding box, is at
+    /// most 400 units of the last digit. Programs hardly round coordinates to such coarse units, as in 0.5 and 10.5.
     glm::dvec4 rounding(double size) const;
 
-    /// Returns whether all coordinates are whole numbers that are written without decimal point and exponent.
+    /// Returns whether every coordinate is written as an integer: without a decimal point and without an exponent.
     bool whole() const { return whole_; }
 
   private:

@@ -67,7 +67,7 @@ void ShapeBatch::quad(const std::array<glm::vec3, 4>& corners, float u, float v,
 void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color color, float opacity) {
     const float distance2 = glm::dot(center, center), inside2 = distance2 - radius * radius;
     if (center.z > -radius || inside2 <= 0) return;  // the ball contains the eye or is behind it
-    const Thickness size = thickness(radius * projection_.pixelsPerUnit() / -center.z, 2);
+    const Thickness size = thickness(radius * projection_.focalLength() / -center.z, 2);
     if (size.alpha * opacity < kMinAlpha) return;
     const glm::vec3 z = -center / std::sqrt(distance2);
     const glm::vec3 x = glm::normalize(glm::vec3(z.z, 0, -z.x));
@@ -92,7 +92,7 @@ void ShapeBatch::addBar(const glm::vec3& from, const glm::vec3& to, float radius
     const glm::vec3 n = glm::cross(from, to);
     const float n2 = glm::dot(n, n), axis2 = glm::dot(axis, axis), inside2 = n2 - radius * radius * axis2;
     if (inside2 <= 0) return;  // the view is along the axis: the ball at the near end hides the bar
-    const Thickness size = thickness(radius * projection_.pixelsPerUnit() / (-0.5f * (from.z + to.z)), 1);
+    const Thickness size = thickness(radius * projection_.focalLength() / (-0.5f * (from.z + to.z)), 1);
     if (size.alpha * opacity < kMinAlpha) return;
     const glm::vec3 x = n / std::sqrt(n2);
     glm::vec3 z = glm::cross(x, axis) / std::sqrt(axis2);
@@ -251,7 +251,7 @@ void ShapeProgram::drawWithDepth(DepthRange range, const ShapeBatch& shapes) {
 
 void ShapeProgram::draw(const ShapeBatch& shapes, float scale, float offset) {
     program_.use();
-    glUniform3f(toDepth_, scale, offset, 2 / shapes.projection().pixelsPerUnit());
+    glUniform3f(toDepth_, scale, offset, 2 / shapes.projection().focalLength());
     program_.draw(shapes.vertices().data(), shapes.vertices().size(), shapes.indices());
 }
 

@@ -115,8 +115,8 @@ TEST(ByteBudget, LimitsEachClientAndAllTogether) {
     first.reset();
     second.reset();
     auto growing = one->forceReserve(10);
-    EXPECT_TRUE(growing.grow(60));
-    EXPECT_FALSE(growing.grow(61));
+    EXPECT_TRUE(growing.growTo(60));
+    EXPECT_FALSE(growing.growTo(61));
     EXPECT_EQ(one->held(), 60U);
     growing.resize(0);
     const auto forced = one->forceReserve(1000);

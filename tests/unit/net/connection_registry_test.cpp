@@ -33,22 +33,22 @@ TEST_F(ConnectionRegistryTest, AsksEachConnectionOnceToEnd) {
     ConnectionRegistry connections(10, 10);
     Registration early(connections, one);
     int asked = 0;
-    early.onEndRequest([&](EndReason reason) { asked += reason == EndReason::stopping ? 1 : 100; });
+    early.setEndHandler([&](EndReason reason) { asked += reason == EndReason::stopping ? 1 : 100; });
     connections.stopAll();
     EXPECT_EQ(asked, 1);
     Registration late(connections, one);
-    late.onEndRequest([&](EndReason) { asked += 10; });
+    late.setEndHandler([&](EndReason) { asked += 10; });
     EXPECT_EQ(asked, 11) << "later connections are asked at once";
 }
 
 TEST_F(ConnectionRegistryTest, ASlotMayBeDestroyedInItsEndHandler) {
     ConnectionRegistry connections(10, 10);
     auto early = std::make_unique<Registration>(connections, one);
-    early->onEndRequest([&](EndReason) { early.reset(); });
+    early->setEndHandler([&](EndReason) { early.reset(); });
     connections.stopAll();
     EXPECT_EQ(connections.size(), 0U);
     auto late = std::make_unique<Registration>(connections, one);
-    late->onEndRequest([&](EndReason) { late.reset(); });
+    late->setEndHandler([&](EndReason) { late.reset(); });
     EXPECT_EQ(connections.size(), 0U);
 }
 
@@ -59,7 +59,7 @@ TEST_F(ConnectionRegistryTest, EvictsTheOldestIdleConnectionOfAFullClient) {
     for (int i = 0; i < 3; ++i) {
         EXPECT_EQ(connections.admit(*one), Admission::admitted);
         registrations.push_back(std::make_unique<Registration>(connections, one));
-        registrations.back()->onEndRequest(
+        registrations.back()->setEndHandler(
             [&ended, i](EndReason reason) { ended.push_back(reason == EndReason::evicted ? i : -1); });
     }
     registrations[0]->setInUse(true);
@@ -80,7 +80,7 @@ TEST_F(ConnectionRegistryTest, EvictsFromTheClientWithTheMostConnectionsWhenFull
     int asked = 0;
     for (int i = 0; i < 4; ++i) {
         registrations.push_back(std::make_unique<Registration>(connections, i == 0 ? other : one));
-        registrations.back()->onEndRequest([&asked, i](EndReason) { asked = i; });
+        registrations.back()->setEndHandler([&asked, i](EndReason) { asked = i; });
     }
     EXPECT_EQ(connections.admit(*other), Admission::admitted);
     EXPECT_EQ(asked, 1) << "the first of the three connections of this client";

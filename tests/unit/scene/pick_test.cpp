@@ -38,7 +38,7 @@ struct Picture {
         const glm::dvec4 clip = scene.camera.projection(1280.0 / 720) * scene.camera.view() * glm::dvec4(world, 1);
         return {(clip.x / clip.w + 1) / 2 * 1280, (1 - clip.y / clip.w) / 2 * 720, clip.w};
     }
-    std::optional<Hit> at(const glm::dvec3& pixel) { return elementAt(scene, object, {pixel.x, pixel.y}); }
+    std::optional<PickedElement> at(const glm::dvec3& pixel) { return pickElement(scene, object, {pixel.x, pixel.y}); }
 };
 
 TEST(Pick, FindsTheVertexThatIsNearestToTheViewer) {

@@ -61,7 +61,7 @@ inline void expectRefused(Session& session, const Command& command, ErrorCode co
     const Session before = session;
     const auto done = apply(session, command, limits);
     ASSERT_FALSE(done) << "expected: " << says;
-    EXPECT_EQ(wireName(done.error().code), wireName(code)) << done.error().message;
+    EXPECT_EQ(protocolName(done.error().code), protocolName(code)) << done.error().message;
     EXPECT_NE(done.error().message.find(says), std::string::npos) << done.error().message;
     EXPECT_TRUE(session == before) << done.error().message;
 }

@@ -25,17 +25,17 @@ double finish(Session& session) {
     return seconds;
 }
 
-TEST(Toward, MovesAlongTheShortestWayAtConstantSpeed) {
+TEST(TurnToward, MovesAlongTheShortestWayAtConstantSpeed) {
     Session session;
     line(session, "polytope tesseract");
     press(session, "ryt");
     const geometry::Rotation start = session.current.orientation;
-    must(session, Toward{ElementKind::cell, 3});
+    must(session, TurnToward{ElementKind::cell, 3});
     EXPECT_EQ(session.current.orientation, start) << "it moves, and does not jump";
-    ASSERT_TRUE(session.current.approach);
-    const geometry::Rotation goal = session.current.approach->goal;
+    ASSERT_TRUE(session.current.ongoingTurnToward);
+    const geometry::Rotation goal = session.current.ongoingTurnToward->goal;
     const double angle = (goal * start.inverse()).angle();
-    EXPECT_NEAR(session.current.approach->seconds, angle / (std::numbers::pi / 2), 1e-9);
+    EXPECT_NEAR(session.current.ongoingTurnToward->seconds, angle / (std::numbers::pi / 2), 1e-9);
     double before = angle;
     while (session.current.moves()) {
         advance(session, 1.0 / 60);
@@ -50,7 +50,7 @@ TEST(Toward, MovesAlongTheShortestWayAtConstantSpeed) {
     EXPECT_EQ(session.revision, revision) << "the motion has ended";
 }
 
-TEST(Toward, IsOneUndoStep) {
+TEST(TurnToward, IsOneUndoStep) {
     Session session;
     line(session, "polytope 24-cell");
     press(session, "r");
@@ -65,14 +65,14 @@ TEST(Toward, IsOneUndoStep) {
     EXPECT_EQ(session.current, after);
 }
 
-TEST(Toward, EndsWhenTheObjectIsTurnedOtherwise) {
+TEST(TurnToward, EndsWhenTheObjectIsTurnedOtherwise) {
     for (const char* command : {"rotate xy 10deg", "polytope 5-cell", "reset", "undo"}) {
         Session session;
         line(session, "polytope tesseract");
         press(session, "r");
         line(session, "toward vertex 2");
         advance(session, 0.1);
-        ASSERT_TRUE(session.current.approach);
+        ASSERT_TRUE(session.current.ongoingTurnToward);
         line(session, command);
         EXPECT_FALSE(session.current.moves()) << command;
     }
@@ -82,10 +82,10 @@ TEST(Toward, EndsWhenTheObjectIsTurnedOtherwise) {
     press(session, "ze");
     EXPECT_FALSE(session.current.turning);
     press(session, " ");
-    EXPECT_TRUE(session.current.turning && !session.current.approach);
+    EXPECT_TRUE(session.current.turning && !session.current.ongoingTurnToward);
 }
 
-TEST(Toward, RefusesElementsThatDoNotExist) {
+TEST(TurnToward, RefusesElementsThatDoNotExist) {
     Session session;
     line(session, "polytope tesseract");
     expectRefused(session, CommandLine{"toward cell 8"}, ErrorCode::out_of_range,
@@ -102,7 +102,7 @@ TEST(Toward, RefusesElementsThatDoNotExist) {
     EXPECT_NEAR(topOf(session.current), 1, 1e-12);
 }
 
-TEST(Toward, IsImmediateInQueries) {
+TEST(TurnToward, IsImmediateInQueries) {
     const auto state = stateFromQuery({{"toward", "cell:2"}, {"polytope", "tesseract"}, {"rotate", "xw:0.3"}});
     ASSERT_TRUE(state) << state.error().message;
     EXPECT_NEAR(topOf(*state), 1, 1e-12);

@@ -78,7 +78,7 @@ TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
     session.current.look.parts.bars = session.current.look.parts.labels = false;
     session.current.look.projection = {scene::ProjectionKind::orthogonal, 2};
     session.current.slices.offset = 0.1;
-    session.current.approach = session::Approach{{}, 1};
+    session.current.ongoingTurnToward = session::OngoingTurnToward{{}, 1};
     ObjectTable table;
     auto record = nlohmann::json::from_cbor(encodeWhole(session, 10, table.keyOf));
     nlohmann::json& look = record.at(3).at(5);  // of the current state
@@ -87,14 +87,14 @@ TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
     while (flags.size() > 4) flags.erase(4);  // 0.1.0 knew faces, bars, balls and coordinates,
     while (look.size() > 6) look.erase(6);    // and no projection,
     record.at(3).at(4).erase(3);              // no offset,
-    record.at(3).erase(8);                    // and no approach
+    record.at(3).erase(8);                    // and no turn toward an element
     const Session back = decode(encodeCbor(record), "", table.objectOf, support::cache());
     EXPECT_FALSE(back.current.look.parts.bars);
     EXPECT_TRUE(back.current.look.parts.faces && back.current.look.parts.labels && back.current.look.parts.back);
     EXPECT_FALSE(back.current.look.parts.cells || back.current.look.parts.sections);
     EXPECT_EQ(back.current.look.projection, scene::ProjectionSettings{});
     EXPECT_EQ(back.current.slices.offset, 0);
-    EXPECT_FALSE(back.current.approach);
+    EXPECT_FALSE(back.current.ongoingTurnToward);
 }
 
 TEST(Codec, LimitsUndoSteps) {

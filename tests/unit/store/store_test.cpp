@@ -93,7 +93,7 @@ std::unique_ptr<Store> connectWhenReady(const StoreOptions& options) {
     for (int i = 0; i < 500; ++i) {
         auto store = std::make_unique<RedisStore>(options);
         try {
-            store->poll();
+            store->pollClaims();
             return store;
         } catch (const StoreError&) {
             std::this_thread::sleep_for(20ms);
@@ -149,7 +149,7 @@ TEST_P(AnyStore, ReturnsSavedRecords) {
     EXPECT_EQ(save(whole(3, "newest")), SaveResult::saved);
     record = store->claim("one");
     EXPECT_EQ(record->whole + "|" + record->head, "newest|") << "the head is replaced";
-    store->poll();
+    store->pollClaims();
     EXPECT_EQ(store->size(), 1U);
 }
 
@@ -201,7 +201,7 @@ TEST_P(AnyStore, ExpiresUntouchedSessions) {
     }
     EXPECT_FALSE(store->tokenHash("one"));
     EXPECT_TRUE(store->tokenHash("two"));
-    store->poll();
+    store->pollClaims();
     EXPECT_EQ(store->size(), 1U);
 }
 
@@ -294,7 +294,7 @@ TEST(SqliteStore, StaysWithinItsQuotaAndReleasesFreePages) {
         EXPECT_GT(most, kQuota / 2);
         std::this_thread::sleep_for(2ms);
         store.expire(0ms);
-        for (int i = 0; i < 10; ++i) store.poll();
+        for (int i = 0; i < 10; ++i) store.pollClaims();
         EXPECT_EQ(store.size(), 0U);
     }
     EXPECT_LT(bytesIn(folder.path), kQuota / 4);
@@ -442,15 +442,15 @@ TEST(RedisStore, PollReturnsSessionsClaimedByOthers) {
     ASSERT_TRUE(one && two);
     const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {}, {}, false};
     EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::saved);
-    EXPECT_TRUE(one->poll().empty());
+    EXPECT_TRUE(one->pollClaims().empty());
     EXPECT_EQ(two->claim("id")->fence, 2U);
-    EXPECT_EQ(one->poll(), std::vector<std::string>{"id"});
-    EXPECT_TRUE(one->poll().empty()) << "returned only once";
+    EXPECT_EQ(one->pollClaims(), std::vector<std::string>{"id"});
+    EXPECT_TRUE(one->pollClaims().empty()) << "returned only once";
     EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::claimed);
     const RecordUpdate last{{"id", "secret"}, 2, "", "whole", {}, {}, true};
     EXPECT_EQ(two->save({&last, 1}).at(0), SaveResult::saved);
     EXPECT_EQ(one->claim("id")->fence, 3U);
-    EXPECT_TRUE(two->poll().empty()) << "the server had closed the session itself";
+    EXPECT_TRUE(two->pollClaims().empty()) << "the server had closed the session itself";
 }
 
 TEST(RedisStore, RemovesOnlyItsOwnSessions) {
@@ -475,8 +475,8 @@ TEST(RedisStore, RecoversWhenRedisHasLostAllData) {
     EXPECT_EQ(one->save({&first, 1}).at(0), SaveResult::saved);
     redis.reset();
     EXPECT_THROW(one->save({&first, 1}), StoreError);
-    EXPECT_THROW(one->poll(), StoreError);
-    EXPECT_THROW(two->poll(), StoreError);
+    EXPECT_THROW(one->pollClaims(), StoreError);
+    EXPECT_THROW(two->pollClaims(), StoreError);
     redis = std::make_unique<Redis>(port);
     ASSERT_TRUE(connectWhenReady(redis->options()));
     const RecordUpdate head{{"id", "secret"}, 1, "head", "", {}, {}, false};

@@ -68,7 +68,7 @@ inline void wander(session::Session& session, std::mt19937& random, int steps) {
                 command = session::Redo{};
                 break;
             case 4:
-                command = session::Toward{slicing::ElementKind::edge, {}};
+                command = session::TurnToward{slicing::ElementKind::edge, {}};
                 break;
             case 5:
                 set.offset = 0.1 * angle(random);

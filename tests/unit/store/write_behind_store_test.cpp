@@ -23,7 +23,7 @@ struct StoreControl {
 class FaultyStore final : public Store {
   public:
     explicit FaultyStore(std::shared_ptr<StoreControl> control) : control_(std::move(control)) {}
-    WritePolicy writePolicy() const override { return WritePolicy::at_once; }
+    WriteTiming writeTiming() const override { return WriteTiming::at_once; }
     std::string name() const override { return "faulty"; }
     std::optional<std::string> tokenHash(const std::string& id) override { return checked().tokenHash(id); }
     std::optional<Record> claim(const std::string& id) override { return checked().claim(id); }
@@ -45,7 +45,7 @@ class FaultyStore final : public Store {
     }
     void touch(std::span<const std::string> ids) override { checked().touch(ids); }
     std::size_t expire(Milliseconds age) override { return checked().expire(age); }
-    std::vector<std::string> poll() override { return checked().poll(); }
+    std::vector<std::string> pollClaims() override { return checked().pollClaims(); }
     std::size_t size() const override { return control_->kept.size(); }
 
   private:

@@ -120,7 +120,7 @@ TEST_P(BadMessages, GetTheirError) {
     const auto result = parseRequest(GetParam().text);
     const auto* bad = std::get_if<BadRequest>(&result);
     ASSERT_TRUE(bad) << GetParam().text;
-    EXPECT_EQ(wireName(bad->error.code), wireName(GetParam().code)) << bad->error.message;
+    EXPECT_EQ(protocolName(bad->error.code), protocolName(GetParam().code)) << bad->error.message;
     EXPECT_NE(bad->error.message.find(GetParam().says), std::string::npos) << bad->error.message;
     EXPECT_EQ(bad->id, GetParam().id);
     EXPECT_EQ(bad->notJson, GetParam().notJson);

@@ -30,7 +30,7 @@ TEST(Tables, TheErrorsAreThoseOfTheCode) {
     const json schema = json::parse(protocol_data::embeddedFile("schema/error.schema.json"));
     const auto inSchema = schema.at("properties").at("code").at("enum").get<std::set<std::string>>();
     for (std::size_t i = 0; i < table.size(); ++i) {
-        EXPECT_EQ(table[i].at("code"), wireName(static_cast<ErrorCode>(i)));
+        EXPECT_EQ(table[i].at("code"), protocolName(static_cast<ErrorCode>(i)));
         EXPECT_FALSE(table[i].at("meaning").get<std::string>().empty());
         EXPECT_FALSE(table[i].at("hint").get<std::string>().empty());
         EXPECT_EQ(inSchema.count(table[i].at("code")), 1U);

@@ -3,7 +3,7 @@
 import type { Slices, Viewport } from "@oval4d/protocol";
 
 import { DensityImage } from "./density_image";
-import type { Lit } from "./lit";
+import type { HighlightedElements } from "./highlighted_elements";
 import { cssColor, kMinTextSize, setFont } from "./pen";
 
 const kHighlightOpacity = 0.35; // of the bands behind highlighted vertices
@@ -11,9 +11,14 @@ const kFocusMark = 0.009; // half the width of the focus mark, as a fraction of 
 
 const density = new DensityImage();
 
-export function drawCoordinates(pen: CanvasRenderingContext2D, picture: Slices, viewport: Viewport, lit: Lit): void {
+export function drawCoordinates(
+    pen: CanvasRenderingContext2D,
+    picture: Slices,
+    viewport: Viewport,
+    highlighted: HighlightedElements,
+): void {
     if (picture.scene.coordinates.columns > 0) drawDensityStrip(pen, picture, viewport);
-    else drawLines(pen, picture, viewport, lit);
+    else drawLines(pen, picture, viewport, highlighted);
 }
 
 /** The vertex whose column contains this point, in pixels. */
@@ -33,7 +38,7 @@ function drawLines(
     pen: CanvasRenderingContext2D,
     { coordinates: values, scene }: Slices,
     viewport: Viewport,
-    lit: Lit,
+    highlighted: HighlightedElements,
 ): void {
     const { height } = viewport;
     const { per_row: perRow, amplitude, named, ...layout } = scene.coordinates;
@@ -51,7 +56,7 @@ function drawLines(
     }
     pen.fillStyle = cssColor(scene.colors.highlight);
     pen.globalAlpha = kHighlightOpacity;
-    for (const i of lit.ownVertices) {
+    for (const i of highlighted.ownVertices) {
         const column = left + (i % perRow) * columnStep;
         const [from, to] = [snap(column - lineStep / 2), snap(column + 3.5 * lineStep + thickness)];
         pen.fillRect(from, zeroOf(Math.floor(i / perRow)) - amplitude * height, to - from, 2 * amplitude * height);

@@ -7,7 +7,7 @@
 import type { Elements, PolytopeElement, Slice, Slices, State } from "@oval4d/protocol";
 
 import type { Hit } from "./hit_test";
-import type { Lit } from "./lit";
+import type { HighlightedElements } from "./highlighted_elements";
 import { areaVector } from "./polygon";
 
 /** The polytope's numbers of elements. */
@@ -44,7 +44,7 @@ export class ElementSources {
     }
 
     /** What shows the element. */
-    litBy(element: PolytopeElement): Lit {
+    showing(element: PolytopeElement): HighlightedElements {
         const ownVertices = this.verticesOf(element);
         const { number } = element;
         const { edges: edgeCount, faces: faceCount } = this.counts;

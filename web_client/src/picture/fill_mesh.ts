@@ -7,7 +7,7 @@ import type { Fill, Slices, Vector } from "@oval4d/protocol";
 
 import { GrowingBuffer } from "./growing_buffer";
 import type { Lens } from "./lens";
-import { cellColor, type Lit } from "./lit";
+import { cellColor, type HighlightedElements } from "./highlighted_elements";
 import { kFace } from "./shaders";
 import { ShapeBuffers } from "./shape_buffers";
 
@@ -29,7 +29,7 @@ export class FillMesh {
     private readonly index = new GrowingBuffer(Uint32Array, 1);
 
     /** Writes the triangles of a new picture; returns false if no slice has a fill. */
-    update(picture: Slices, lit: Lit): boolean {
+    update(picture: Slices, highlighted: HighlightedElements): boolean {
         const { slices, scene } = picture;
         let points = 0;
         let corners = 0;
@@ -43,18 +43,18 @@ export class FillMesh {
         this.reserve(points, corners);
         for (const part of this.parts) this.writePart(part, picture);
         this.shapes.markChanged();
-        this.paint(picture, lit);
+        this.paint(picture, highlighted);
         return slices.some((slice) => slice.fill);
     }
 
     /** Writes the colors of the picture last passed to update(). */
-    paint({ scene: { colors, opacity, faded } }: Slices, lit: Lit): void {
+    paint({ scene: { colors, opacity, faded } }: Slices, highlighted: HighlightedElements): void {
         for (const { fill, first } of this.parts) {
             for (let t = 0; t < fill.tints.length; ++t) {
                 const alpha = opacity * (fill.seen?.[t] === kFaded ? faded : 1);
                 // A triangle takes its color from its last point, which is never that of a triangle of another tint.
                 const item = first + fill.triangles[3 * t + 2]!;
-                this.shapes.setColor(item, cellColor(fill.tints[t]!, colors, lit), alpha);
+                this.shapes.setColor(item, cellColor(fill.tints[t]!, colors, highlighted), alpha);
             }
         }
         this.shapes.color.markChanged();

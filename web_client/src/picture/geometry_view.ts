@@ -7,7 +7,7 @@ import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
 
 import { FillMesh } from "./fill_mesh";
 import { Lens } from "./lens";
-import { type Lit, litSources } from "./lit";
+import { type HighlightedElements, allHighlighted } from "./highlighted_elements";
 import { Mesh } from "./mesh";
 import { drawOverlay } from "./overlay";
 import { ProjectionMesh } from "./projection_mesh";
@@ -43,8 +43,8 @@ export class GeometryView {
     private readonly pen: CanvasRenderingContext2D;
     private picture: Slices | undefined;
     private pictureOrbit: Orbit | undefined;
-    private pointed: Lit | undefined;
-    private lit: Lit | undefined;
+    private pointed: HighlightedElements | undefined;
+    private highlighted: HighlightedElements | undefined;
     /** Where the slices are on the screen; undefined before the first picture. It is valid until the next picture. */
     layout: SliceLayout | undefined;
     private sortedOrbit: Orbit | undefined; // the orbit for which the mesh is ordered
@@ -95,9 +95,9 @@ export class GeometryView {
         this.picture = picture;
         this.pictureOrbit = orbit;
         this.layout = new SliceLayout(picture, orbit);
-        const lit = (this.lit = litSources(picture, this.pointed));
-        const filled = this.fillMesh.update(picture, lit);
-        this.mesh.update(picture, !filled, lit);
+        const highlighted = (this.highlighted = allHighlighted(picture, this.pointed));
+        const filled = this.fillMesh.update(picture, highlighted);
+        this.mesh.update(picture, !filled, highlighted);
         this.fillDrawing.visible = filled;
         this.drawing.material = filled ? this.solid : this.flat;
         this.sortedOrbit = undefined;
@@ -106,19 +106,19 @@ export class GeometryView {
         this.uniforms.shading.value.set(light.ambient, light.diffuse, light.specular, light.shininess);
         this.uniforms.ballRadius.value = picture.scene.shown.balls ? ball : bar;
         this.uniforms.barRadius.value = bar;
-        const projected = this.projectionMesh.update(picture, lit);
+        const projected = this.projectionMesh.update(picture, highlighted);
         for (const drawing of this.projectionDrawings) drawing.visible = projected;
         this.projectionUniforms.barRadius.value = this.projectionMesh.barRadius;
     }
 
     /** Lights what shows the element under the pointer, until it is called again. */
-    light(pointed: Lit | undefined): void {
+    light(pointed: HighlightedElements | undefined): void {
         this.pointed = pointed;
         if (!this.picture) return;
-        const lit = (this.lit = litSources(this.picture, pointed));
-        this.mesh.paint(this.picture, lit);
-        this.fillMesh.paint(this.picture, lit);
-        if (!this.projectionMesh.update(this.picture, lit)) return;
+        const highlighted = (this.highlighted = allHighlighted(this.picture, pointed));
+        this.mesh.paint(this.picture, highlighted);
+        this.fillMesh.paint(this.picture, highlighted);
+        if (!this.projectionMesh.update(this.picture, highlighted)) return;
         if (this.sortedOrbit) this.projectionMesh.sortForCamera(this.lens);
     }
 
@@ -143,7 +143,7 @@ export class GeometryView {
         this.camera.matrixWorldInverse.copy(this.lens.view);
         this.renderer.setClearColor(this.background.setHex(scene.colors.background));
         this.render();
-        drawOverlay(this.pen, this.picture, this.lens, size, this.lit!);
+        drawOverlay(this.pen, this.picture, this.lens, size, this.highlighted!);
     }
 
     /**

@@ -8,7 +8,7 @@ import type { Slices, Vector } from "@oval4d/protocol";
 import { Elements } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
 import type { Lens } from "./lens";
-import { cellColor, type Lit } from "./lit";
+import { cellColor, type HighlightedElements } from "./highlighted_elements";
 import { PaintersOrder } from "./painters_order";
 import { kBall, kBar, kFace } from "./shaders";
 import { ShapeBuffers } from "./shape_buffers";
@@ -23,7 +23,7 @@ export class Mesh {
     private readonly index = new GrowingBuffer(Uint32Array, 1);
 
     /** Writes the elements of a new picture; `faces` is false if FillMesh draws the faces. */
-    update(picture: Slices, faces: boolean, lit: Lit): void {
+    update(picture: Slices, faces: boolean, highlighted: HighlightedElements): void {
         const { elements } = this;
         elements.update(picture);
         this.reserve();
@@ -42,12 +42,12 @@ export class Mesh {
         }
         this.writeFaces();
         this.shapes.markChanged();
-        this.paint(picture, lit);
+        this.paint(picture, highlighted);
         this.order.setParts({ ...shown, faces: shown.faces && faces });
     }
 
     /** Writes the colors of the picture last passed to update(). */
-    paint({ scene }: Slices, lit: Lit): void {
+    paint({ scene }: Slices, highlighted: HighlightedElements): void {
         const { bodies, cornerBegin, vertexCount, edgeCount } = this.elements;
         const { shown, colors, faded, opacity } = scene;
         const opacities = [0, faded, 1];
@@ -56,17 +56,17 @@ export class Mesh {
         for (const { slice, vertices, edges, faces } of bodies) {
             const { of, seen, balls, tints = of.faces } = slice;
             for (let i = 0; i < vertices[1] - vertices[0]; ++i) {
-                const color = lit.vertices.has(of.vertices[i]!) ? colors.highlight : ballColor;
+                const color = highlighted.vertices.has(of.vertices[i]!) ? colors.highlight : ballColor;
                 const alpha = (balls?.opacity[i] ?? 1) * opacities[seen?.vertices[i] ?? 2]!;
                 for (let k = 0; k < 4; ++k) shapes.setColor(4 * (vertices[0] + i) + k, color, alpha);
             }
             for (let i = 0; i < edges[1] - edges[0]; ++i) {
-                const color = lit.edges.has(of.edges[i]!) ? colors.highlight : colors.bar;
+                const color = highlighted.edges.has(of.edges[i]!) ? colors.highlight : colors.bar;
                 const alpha = opacities[seen?.edges[i] ?? 2]!;
                 for (let k = 0; k < 4; ++k) shapes.setColor(4 * (vertexCount + edges[0] + i) + k, color, alpha);
             }
             for (let i = 0; i < faces[1] - faces[0]; ++i) {
-                const color = cellColor(tints[i]!, colors, lit);
+                const color = cellColor(tints[i]!, colors, highlighted);
                 const alpha = opacity * opacities[seen?.faces[i] ?? 2]!;
                 const [begin, end] = [cornerBegin[faces[0] + i]!, cornerBegin[faces[0] + i + 1]!];
                 for (let c = begin; c < end; ++c) shapes.setColor(4 * (vertexCount + edgeCount) + c, color, alpha);

@@ -5,7 +5,7 @@ import type { SceneDescription, Slice, Slices, Viewport } from "@oval4d/protocol
 
 import { drawCoordinates } from "./coordinates";
 import type { Lens } from "./lens";
-import type { Lit } from "./lit";
+import type { HighlightedElements } from "./highlighted_elements";
 import { cssColor, kMinTextSize, setFont } from "./pen";
 
 export function drawOverlay(
@@ -13,13 +13,13 @@ export function drawOverlay(
     picture: Slices,
     lens: Lens,
     viewport: Viewport,
-    lit: Lit,
+    highlighted: HighlightedElements,
 ): void {
     const { scene, slices } = picture;
     pen.clearRect(0, 0, viewport.width, viewport.height);
     pen.textAlign = "center";
     pen.textBaseline = "alphabetic";
-    if (scene.shown.coordinates) drawCoordinates(pen, picture, viewport, lit);
+    if (scene.shown.coordinates) drawCoordinates(pen, picture, viewport, highlighted);
     drawLabels(pen, slices, scene, lens, viewport);
     drawAxes(pen, scene, lens, viewport);
 }

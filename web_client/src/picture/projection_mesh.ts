@@ -8,7 +8,7 @@ import type { ObjectProjection, Slices } from "@oval4d/protocol";
 import { ensureCapacity } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
 import type { Lens } from "./lens";
-import { cellColor, type Lit } from "./lit";
+import { cellColor, type HighlightedElements } from "./highlighted_elements";
 import { areaVector } from "./polygon";
 import { kBall, kBar, kFace } from "./shaders";
 import { kQuad, ShapeBuffers } from "./shape_buffers";
@@ -36,7 +36,7 @@ export class ProjectionMesh {
     private count = 0;
 
     /** Takes over the projection of a new picture; returns whether there is one. */
-    update(picture: Slices, lit: Lit): boolean {
+    update(picture: Slices, highlighted: HighlightedElements): boolean {
         const { projection, scene } = picture;
         if (!projection) return false;
         const { parts, position } = projection;
@@ -59,7 +59,7 @@ export class ProjectionMesh {
             ];
             for (let v = 0; part.ball > 0 && v < part.vertices.length / 3; ++v) {
                 const opacity = opacities[part.seen?.vertices[v] ?? 2]! * (part.balls?.opacity[v] ?? 1);
-                const color = lit.vertices.has(part.of.vertices[v]!) ? scene.colors.highlight : part.ball_color;
+                const color = highlighted.vertices.has(part.of.vertices[v]!) ? scene.colors.highlight : part.ball_color;
                 for (let corner = 0; corner < 4; ++corner, ++this.used) {
                     this.shapes.setVector("at", this.used, ...point(v));
                     this.shapes.setVector("to", this.used, part.ball * (part.balls?.scale[v] ?? 1), 0, 0);
@@ -70,7 +70,7 @@ export class ProjectionMesh {
             }
             for (let e = 0; part.bar > 0 && e < part.edges.length / 2; ++e) {
                 const opacity = opacities[part.seen?.edges[e] ?? 2]!;
-                const color = lit.edges.has(part.of.edges[e]!) ? scene.colors.highlight : part.bar_color;
+                const color = highlighted.edges.has(part.of.edges[e]!) ? scene.colors.highlight : part.bar_color;
                 for (let corner = 0; corner < 4; ++corner, ++this.used) {
                     this.shapes.setVector("at", this.used, ...point(part.edges[2 * e]!));
                     this.shapes.setVector("to", this.used, ...point(part.edges[2 * e + 1]!));
@@ -79,7 +79,8 @@ export class ProjectionMesh {
                 }
                 addQuad(opacity);
             }
-            if (part.opacity > 0) this.addFaces(part, point, (cell) => cellColor(cell, scene.colors, lit), opacities);
+            const color = (cell: number): number => cellColor(cell, scene.colors, highlighted);
+            if (part.opacity > 0) this.addFaces(part, point, color, opacities);
         });
         this.solidIndex.used = solids;
         this.solidIndex.markChanged();

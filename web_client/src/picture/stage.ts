@@ -5,7 +5,7 @@ import { pngText, type Orbit, type Slices, type State, type Viewport } from "@ov
 
 import { FrameView } from "./frame_view";
 import { GeometryView } from "./geometry_view";
-import type { Lit } from "./lit";
+import type { HighlightedElements } from "./highlighted_elements";
 import type { SliceLayout } from "./slice_layout";
 
 /** Where the slices are rendered: on this page, or on the server. */
@@ -86,7 +86,7 @@ export class Stage {
     }
 
     /** Lights what shows the element under the pointer; the caller then draws. */
-    light(pointed: Lit | undefined): void {
+    light(pointed: HighlightedElements | undefined): void {
         this.geometry?.light(pointed);
     }
 

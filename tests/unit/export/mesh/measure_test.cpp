@@ -15,14 +15,14 @@ using namespace oval4d::slicing;
 
 TEST(Measure, cubesOctahedraAndTetrahedra) {
     const Polytope& cube = named("8-cell");
-    const Measures c = measure(cutAt(cube, {}, 0.4), 0);
+    const SliceMeasurements c = measureSlice(cutAt(cube, {}, 0.4), 0);
     EXPECT_EQ(c.faces, 6U);
     EXPECT_NEAR(c.volume, 8, 1e-12);
     EXPECT_NEAR(c.area, 24, 1e-12);
     EXPECT_NEAR(glm::length(c.centroid), 0, 1e-12);
 
     // At w = 0 the 16-cell is an octahedron of edge 2.
-    const Measures o = measure(cutAt(named("16-cell"), {}, 0), 0);
+    const SliceMeasurements o = measureSlice(cutAt(named("16-cell"), {}, 0), 0);
     EXPECT_EQ(o.faces, 8U);
     EXPECT_NEAR(o.volume, std::sqrt(2) / 3 * 8, 1e-12);
     EXPECT_NEAR(o.area, 2 * std::sqrt(3) * 4, 1e-12);
@@ -33,7 +33,7 @@ TEST(Measure, cubesOctahedraAndTetrahedra) {
     const double top = pen.circumradius;
     const double bottom = -top / 4;
     for (const double t : {0.0, 0.25, 0.7}) {
-        const Measures m = measure(cutAt(pen, up, bottom + t * (top - bottom)), 0);
+        const SliceMeasurements m = measureSlice(cutAt(pen, up, bottom + t * (top - bottom)), 0);
         const double edge = 2 * (1 - t);
         EXPECT_NEAR(m.volume, edge * edge * edge / (6 * std::sqrt(2)), 1e-9);
         EXPECT_NEAR(m.area, std::sqrt(3) * edge * edge, 1e-9);
@@ -46,10 +46,10 @@ TEST(Measure, movesWithTheSlice) {
     std::mt19937 random(3);
     const Rotation turned = randomRotation(random);
     SliceSet s = cutAt(p, turned, 0.2);
-    const Measures here = measure(s, 0);
+    const SliceMeasurements here = measureSlice(s, 0);
     const glm::dvec3 by(100, -20, 3);
     for (auto& v : s.vertices) v += by;
-    const Measures there = measure(s, 0);
+    const SliceMeasurements there = measureSlice(s, 0);
     EXPECT_NEAR(there.volume, here.volume, 1e-10);
     EXPECT_NEAR(there.area, here.area, 1e-10);
     EXPECT_NEAR(glm::distance(there.centroid, here.centroid + by), 0, 1e-10);
@@ -71,7 +71,7 @@ TEST(Measure, theCentersOfSlicesAreThatOfThePolytope) {
             const double step = (levels[i + 1] - levels[i]) / 4;
             constexpr std::array kWeights{7.0, 32.0, 12.0, 32.0, 7.0};
             for (int k = 0; k < 5; ++k) {
-                const Measures m = measure(cutAt(p, turned, levels[i] + k * step), 0);
+                const SliceMeasurements m = measureSlice(cutAt(p, turned, levels[i] + k * step), 0);
                 sum += 2 * step / 45 * kWeights[k] * m.volume * m.centroid;
                 whole += 2 * step / 45 * kWeights[k] * m.volume;
             }
@@ -86,20 +86,20 @@ TEST(Measure, flatOnesAndHoles) {
     const auto corner = [&](int i) { return p.vertices[p.faces[0][i]]; };
     const glm::dvec4 middle = (corner(0) + corner(1) + corner(2)) / 3.0;
     const Rotation up = ontoW(middle);
-    const Measures m = measure(cutAt(p, up, glm::length(middle)), 0);
+    const SliceMeasurements m = measureSlice(cutAt(p, up, glm::length(middle)), 0);
     EXPECT_EQ(m.volume, 0);
     EXPECT_TRUE(m.hasCentroid);
     const glm::dvec4 at = up(middle);
     EXPECT_NEAR(glm::distance(m.centroid, glm::dvec3(at.x, at.y, at.z)), 0, 1e-9);
 
-    const Measures dented = [] {
+    const SliceMeasurements dented = [] {
         const Polytope prism = product(kDented, kSquare);
-        return measure(cutAt(prism, {}, 0.5), 0);
+        return measureSlice(cutAt(prism, {}, 0.5), 0);
     }();
     EXPECT_NEAR(dented.volume, 2 * kDentedArea, 1e-12);
     EXPECT_NEAR(dented.area, 2 * kDentedArea + 2 * (4 + 2 + 1.5 + 1.5 + 1 + 1.5 + 1.5 + 2), 1e-12);
     EXPECT_NEAR(dented.centroid.y, (8 * -1 + 1.5 * 0.75) / kDentedArea, 1e-12);
-    EXPECT_FALSE(measure(cutAt(p, {}, 10), 0).hasCentroid);
+    EXPECT_FALSE(measureSlice(cutAt(p, {}, 10), 0).hasCentroid);
 }
 
 }  // namespace

@@ -26,14 +26,14 @@ bool expectSolid(const Polytope& p, const Rotation& orientation, double w) {
     const Mesh mesh = solid(p, s);
     if (mesh.triangles.empty()) {
         // No solid: the slice is empty, or thinner than a few steps of the grid.
-        const Measures m = measure(s, 0);
+        const SliceMeasurements m = measureSlice(s, 0);
         const double step = Grid(kSize, kSize).step();
         EXPECT_LE(m.volume * std::pow(scaleOf(p), 3), 4 * step * m.area * scaleOf(p) * scaleOf(p));
         return false;
     }
     expectPrintable(mesh);
     const double exact = oval4d::support::volumeOf(s, 0) * std::pow(scaleOf(p), 3);
-    const double rounding = 2 * Grid(kSize, kSize).step() * measure(s, 0).area * scaleOf(p) * scaleOf(p);
+    const double rounding = 2 * Grid(kSize, kSize).step() * measureSlice(s, 0).area * scaleOf(p) * scaleOf(p);
     EXPECT_NEAR(volumeOf(mesh), exact, rounding);
     return true;
 }

@@ -45,7 +45,7 @@ TEST(Polygons, haveNouns) {
     EXPECT_EQ(nounOf({17, 1}), "17-gon");
     EXPECT_EQ(nounOf({5, 2}), "pentagram");
     EXPECT_EQ(nounOf({7, 2}), "7/2-gon");
-    for (int n = 3; n < 30; ++n) EXPECT_EQ(polygonNamed(nounOf({n, 1})), (Branch{n, 1}));
+    for (int n = 3; n < 30; ++n) EXPECT_EQ(polygonNamed(nounOf({n, 1})), (RegularPolygon{n, 1}));
 }
 
 }  // namespace

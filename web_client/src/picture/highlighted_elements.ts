@@ -4,7 +4,7 @@
 import type { SceneDescription, Slices } from "@oval4d/protocol";
 
 /** What shows one element or more. */
-export interface Lit {
+export interface HighlightedElements {
     /** Values of `of.vertices` and `of.edges`, in slices and in the projection. */
     vertices: ReadonlySet<number>;
     edges: ReadonlySet<number>;
@@ -15,7 +15,7 @@ export interface Lit {
 }
 
 /** What shows the kept element and the element under the pointer. */
-export function litSources({ highlight }: Slices, pointed: Lit | undefined): Lit {
+export function allHighlighted({ highlight }: Slices, pointed: HighlightedElements | undefined): HighlightedElements {
     return {
         vertices: new Set([...(highlight?.vertices ?? []), ...(pointed?.vertices ?? [])]),
         edges: new Set([...(highlight?.edges ?? []), ...(pointed?.edges ?? [])]),
@@ -25,6 +25,6 @@ export function litSources({ highlight }: Slices, pointed: Lit | undefined): Lit
 }
 
 /** The color of a face that this cell colors. */
-export function cellColor(cell: number, colors: SceneDescription["colors"], lit: Lit): number {
-    return cell === lit.cell ? colors.highlight : (colors.cells[cell] ?? colors.bar);
+export function cellColor(cell: number, colors: SceneDescription["colors"], highlighted: HighlightedElements): number {
+    return cell === highlighted.cell ? colors.highlight : (colors.cells[cell] ?? colors.bar);
 }
