@@ -26,6 +26,7 @@ import { markMode, pageSections } from "./page_tools";
 import { executePageCommand } from "./page_commands";
 import { Picker } from "./picker";
 import { type Mode, Stage } from "./picture/stage";
+import { PointedLabel } from "./pointed_label";
 import { Pointing } from "./pointing";
 import { Readings } from "./readings";
 import { RotationControl } from "./rotation";
@@ -88,7 +89,8 @@ export class App {
         failed: (error) => this.notice.show(error.message),
     });
     private readonly rotation = new RotationControl((rotation) => this.send(rotation));
-    private readonly pointing: Pointing = new Pointing(this.drawing, this.stage, () => this.state);
+    private readonly pointedLabel = new PointedLabel(this.drawing);
+    private readonly pointing: Pointing = new Pointing(this.drawing, this.stage, this.pointedLabel, () => this.state);
     private readonly help = new Help();
     private readonly commandLine = new CommandLine({
         run: (line) => this.execute(line),
