@@ -15,6 +15,7 @@ import "./connection.mjs";
 import "./links.mjs";
 import "./pointer.mjs";
 import "./pointing.mjs";
+import "./frame_pointing.mjs";
 import "./phone.mjs";
 import "./first_visit.mjs";
 import "./performance.mjs";

@@ -13,6 +13,7 @@ import { FileLoading } from "./file_loading";
 import { isFirstVisit, kFirstView, Welcome } from "./first_visit";
 import { FocusSlider } from "./focus_slider";
 import { FrameLayout } from "./frame_layout";
+import { FramePointing } from "./frame_pointing";
 import { listenForGamepads } from "./gamepad";
 import { listenForGestures } from "./gestures";
 import { Help } from "./help";
@@ -26,6 +27,7 @@ import { markMode, pageSections } from "./page_tools";
 import { executePageCommand } from "./page_commands";
 import { Picker } from "./picker";
 import { type Mode, Stage } from "./picture/stage";
+import { PointedLabel } from "./pointed_label";
 import { Pointing } from "./pointing";
 import { Readings } from "./readings";
 import { RotationControl } from "./rotation";
@@ -88,7 +90,15 @@ export class App {
         failed: (error) => this.notice.show(error.message),
     });
     private readonly rotation = new RotationControl((rotation) => this.send(rotation));
-    private readonly pointing: Pointing = new Pointing(this.drawing, this.stage, () => this.state);
+    private readonly pointedLabel = new PointedLabel(this.drawing);
+    private readonly pointing: Pointing = new Pointing(this.drawing, this.stage, this.pointedLabel, () => this.state);
+    private readonly framePointing: FramePointing = new FramePointing(
+        this.drawing,
+        this.stage,
+        this.client,
+        this.pointedLabel,
+        (revision) => revision === this.state?.revision && !this.state.moving && this.keyRepeat.mayRepeat,
+    );
     private readonly help = new Help();
     private readonly commandLine = new CommandLine({
         run: (line) => this.execute(line),
@@ -259,6 +269,7 @@ export class App {
         this.client.shown(revision);
         this.keyRepeat.picturePresented(revision);
         this.latency.picturePresented(revision, by);
+        this.framePointing.picturePresented(revision);
         this.connection.picturePresented(this.latency.last);
     }
 
@@ -285,6 +296,7 @@ export class App {
 
     private setMode(mode: Mode): void {
         this.stage.mode = mode;
+        this.framePointing.reset();
         markMode(mode);
         this.requestStream();
     }
@@ -404,7 +416,11 @@ export class App {
     /** Requests a change, and tracks it until its picture is presented. */
     private async request(command: Command): Promise<void> {
         const answer = this.client.request(command);
-        await Promise.all([this.keyRepeat.track(answer), this.latency.track(command.type, answer)]);
+        try {
+            await Promise.all([this.keyRepeat.track(answer), this.latency.track(command.type, answer)]);
+        } finally {
+            this.framePointing.update();
+        }
     }
 
     /** Like request(), but shows an error as a notice. Resolves to whether the command has been executed. */

@@ -1,16 +1,13 @@
-// The element under the pointer: it is named beside the pointer, and lit in all slices, the projection and the parallel
-// coordinates.
+// The element under the pointer in the page's own picture: it is named beside the pointer, and lit in all slices, the
+// projection and the parallel coordinates. For the server's pictures, see frame_pointing.ts.
 
 import type { PolytopeElement, Slice, State } from "@oval4d/protocol";
 
-import { byId } from "./element";
-import { capitalize, formatCoordinate, formatLength } from "./format";
+import { followHover, type Point } from "./hover";
 import { elementOfHit, ElementSources } from "./picture/element_sources";
 import type { SliceLayout } from "./picture/slice_layout";
 import type { Stage } from "./picture/stage";
-
-const kGap = 14; // pixels between the pointer and the label
-const kMargin = 4; // pixels between the label and the edges of the drawing
+import type { ElementDescription, PointedLabel } from "./pointed_label";
 
 /** An element of the polytope, and the slice in which it was pointed at. */
 export interface Pointed extends PolytopeElement {
@@ -18,8 +15,7 @@ export interface Pointed extends PolytopeElement {
 }
 
 export class Pointing {
-    private readonly label = byId("pointed");
-    private at: { x: number; y: number } | undefined; // in pixels from the upper left corner of the drawing
+    private at: Point | undefined;
     private scheduled = false;
     private shown: Pointed | undefined;
     private sources: ElementSources | undefined;
@@ -28,12 +24,10 @@ export class Pointing {
     constructor(
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
+        private readonly label: PointedLabel,
         private readonly state: () => State | undefined,
     ) {
-        drawing.addEventListener("pointermove", (event) => this.moved(event));
-        drawing.addEventListener("pointerup", (event) => this.moved(event));
-        drawing.addEventListener("pointerdown", () => this.moveTo(undefined));
-        drawing.addEventListener("pointerleave", () => this.moveTo(undefined));
+        followHover(drawing, (at) => this.moveTo(at));
     }
 
     /** The element at a point of the drawing, in pixels. */
@@ -61,30 +55,25 @@ export class Pointing {
         if (!found && !shown) return false;
         const isSame = !isNew && found?.element === shown?.element && found?.number === shown?.number;
         if (isSame && found?.slice === shown?.slice) {
-            this.place();
+            this.label.place(at!);
             return false;
         }
         this.shown = found;
-        this.label.hidden = !found;
-        if (!found) this.stage.light(undefined);
-        else {
+        if (!found) {
+            this.stage.light(undefined);
+            this.label.hide();
+        } else {
             const state = this.state()!;
             this.sources ??= new ElementSources(layout!.picture, state.polytope);
             const lit = this.sources.showing(found);
             if (!isSame) this.stage.light(lit);
-            this.label.textContent = describe(found, [...lit.ownVertices], layout!, state);
-            this.place();
+            this.label.show(descriptionOf(found, [...lit.ownVertices], layout!, state), at!);
         }
         return !isSame;
     }
 
-    private moved({ pointerType, buttons, clientX, clientY }: PointerEvent): void {
-        const { left, top } = this.drawing.getBoundingClientRect();
-        this.moveTo(pointerType === "touch" || buttons !== 0 ? undefined : { x: clientX - left, y: clientY - top });
-    }
-
     /** Updates once in each animation frame. */
-    private moveTo(at: { x: number; y: number } | undefined): void {
+    private moveTo(at: Point | undefined): void {
         if (!at && !this.at) return;
         this.at = at;
         if (this.scheduled) return;
@@ -94,39 +83,23 @@ export class Pointing {
             if (this.update()) this.stage.drawNow();
         });
     }
-
-    /** Places the label beside the pointer, within the drawing. */
-    private place(): void {
-        const { x, y } = this.at!;
-        const { offsetWidth: width, offsetHeight: height } = this.label;
-        const { clientWidth, clientHeight } = this.drawing;
-        const left = Math.max(kMargin, Math.min(x + kGap, clientWidth - width - kMargin));
-        const isBelow = y + kGap + height + kMargin <= clientHeight;
-        const top = isBelow ? y + kGap : Math.max(kMargin, y - kGap - height);
-        this.label.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
-    }
 }
 
-/** The element's name, and what is known of its shape and its place. */
-function describe(
+function descriptionOf(
     { element, number, slice }: Pointed,
     own: number[],
     { picture: { coordinates } }: SliceLayout,
     { polytope: { kinds = [] } }: State,
-): string {
-    const parts = [`${capitalize(element)} ${number}`];
+): ElementDescription {
     const points = coordinates.length > 0 ? own.map((v) => [...coordinates.subarray(4 * v, 4 * v + 4)]) : [];
-    if (element === "cell" && kinds.length === 1) parts.push(kinds[0]!.name);
-    if (element === "vertex" && points[0]) parts[0] += ` (${points[0].map(formatCoordinate).join(", ")})`;
-    else if (points.length > 0) {
-        if (element === "edge" && points.length === 2) {
-            const [a, b] = points as [number[], number[]];
-            parts.push(`length ${formatLength(Math.hypot(...a.map((value, i) => value - b[i]!)))}`);
-        }
-        const w = points.map((point) => point[3]!);
-        const [least, most] = [Math.min(...w), Math.max(...w)].map(formatCoordinate);
-        parts.push(least === most ? `w ${least}` : `w ${least} … ${most}`);
-    }
-    if (slice) parts.push(`slice w ${formatCoordinate(slice.w)}`);
-    return parts.join(" · ");
+    const common = { element, number, sliceW: slice?.w };
+    if (element === "vertex") return { ...common, coordinates: points[0] };
+    const w = points.map((point) => point[3]!);
+    const [a, b] = points.length === 2 ? points : [];
+    return {
+        ...common,
+        kind: element === "cell" && kinds.length === 1 ? kinds[0]!.name : undefined,
+        length: element === "edge" && a && b ? Math.hypot(...a.map((value, i) => value - b[i]!)) : undefined,
+        range: w.length > 0 ? [Math.min(...w), Math.max(...w)] : undefined,
+    };
 }

@@ -1,0 +1,295 @@
+// The element under the pointer in the server's pictures: when the page asks for its name, and when it shows it.
+import assert from "node:assert/strict";
+import { setTimeout as pause } from "node:timers/promises";
+
+import { columnsOf, faceIn, frames, label, labeled, openTurned, rounded } from "./pointing.mjs";
+import { presented } from "./support/browser.mjs";
+import { project, worldPoints } from "./support/scene.mjs";
+import { test } from "./support/suite.mjs";
+
+const kRest = 200; // milliseconds without a new picture after which the page asks
+const kInterval = 70; // milliseconds between two requests, at least
+const kMargin = 300; // milliseconds after which a request that is due has been sent, on a busy machine, too
+const kBackground = [4, 4];
+
+/** Runs in the page: logs what the page asks about points, and can hold the answers back, or the keys. */
+function watchRequests() {
+    /** Moves a pointer of this type over the drawing at once, without the browser's input queue. */
+    window.movePointer = (pointerType, [x, y]) => {
+        const drawing = document.getElementById("drawing");
+        const { left, top } = drawing.getBoundingClientRect();
+        const place = { clientX: left + x, clientY: top + y };
+        drawing.dispatchEvent(new PointerEvent("pointermove", { pointerType, pointerId: 7, ...place }));
+    };
+    window.asked = [];
+    window.isHeld = { answers: false, keys: false };
+    window.held = { answers: [], keys: [] };
+    const { send } = WebSocket.prototype;
+    WebSocket.prototype.send = function (text) {
+        const message = JSON.parse(text);
+        const time = performance.now();
+        if (message.type === "shown") window.shownAt = time;
+        if (message.what === "at") window.asked.push({ ...message, time, rested: time - window.shownAt });
+        if (message.type !== "key" || !window.isHeld.keys) return send.call(this, text);
+        return void window.held.keys.push(() => send.call(this, text));
+    };
+    const { set } = Object.getOwnPropertyDescriptor(WebSocket.prototype, "onmessage");
+    Object.defineProperty(WebSocket.prototype, "onmessage", {
+        set(handler) {
+            set.call(this, (event) => {
+                const isHeld = window.isHeld.answers && /^\{"type":"at"/.test(event.data);
+                if (isHeld) window.held.answers.push(() => handler?.call(this, event));
+                else handler?.call(this, event);
+            });
+        },
+    });
+}
+
+/** Opens the page with a picture of the server's, which rests. */
+async function openServed() {
+    const opened = await openTurned({}, { before: watchRequests });
+    const { page } = opened;
+    await page.click("[data-page-tool=frames]");
+    await page.waitForSelector("#drawing[data-drawn-by=frames]");
+    await pause(kRest + kMargin);
+    return {
+        ...opened,
+        asked: () => page.evaluate(() => window.asked),
+        forget: () => page.evaluate(() => void (window.asked.length = 0)),
+        /** Waits until the page has asked this often. */
+        untilAsked: (times) => page.waitForFunction((least) => window.asked.length >= least, times),
+        /** Holds the answers about points back from now on, or the keys. */
+        hold: (what) => page.evaluate((name) => void (window.isHeld[name] = true), what),
+        /** Passes the first of what is held on, when there is one, and returns what the label then shows. */
+        async passFirst(what) {
+            await page.waitForFunction((name) => window.held[name].length > 0, what);
+            await page.evaluate((name) => void window.held[name].shift()(), what);
+            return label(page);
+        },
+        /** Passes everything on. */
+        release: (what) =>
+            page.evaluate((name) => {
+                window.isHeld[name] = false;
+                window.held[name].splice(0).forEach((passOn) => passOn());
+            }, what),
+    };
+}
+
+test("frame pointing: the server names what is under the mouse, with the words of the page's own picture", async () => {
+    const { page, script, errors, size, picture, moveTo, asked, close } = await openServed();
+    const seen = await picture();
+    const { at, source } = faceIn(seen, size, 1);
+    const { revision } = await script.state();
+    await moveTo(...at);
+    const text = await labeled(page, /./);
+    assert.match(text, new RegExp(`^Cell ${source} · octahedron · w −?[\\d.]+ … −?[\\d.]+ · slice w 0.2$`));
+    const [{ type, what, width, height, x, y }] = await asked();
+    assert.deepEqual([type, what, width, height], ["get", "at", size.width, size.height]);
+    assert.ok(Math.hypot(x - at[0], y - at[1]) < 1);
+
+    const vertex = 7;
+    const w = rounded(seen.coordinates[4 * vertex + 3]);
+    await moveTo(...columnsOf(seen.scene, size)(vertex));
+    assert.equal(await labeled(page, /^Vertex/), `Vertex ${vertex} · w ${w}`);
+
+    const [whole] = seen.projection.parts;
+    const placed = { position: seen.projection.position, vertices: whole.vertices };
+    const points = worldPoints({ scale: seen.projection.scale }, placed);
+    const { eye } = seen.scene.camera;
+    const near = points.map((point) => Math.hypot(...point.map((value, k) => value - eye[k])));
+    const nearest = near.indexOf(Math.min(...near));
+    await moveTo(...project(seen.scene, points[nearest], size));
+    await labeled(page, new RegExp(`^Vertex ${whole.of.vertices[nearest] - 96} · w −?[\\d.]+$`));
+
+    await moveTo(...kBackground);
+    await labeled(page, /^$/);
+    assert.equal((await script.state()).revision, revision, "pointing changes nothing");
+    await page.click("[data-page-tool=geometry]");
+    await page.waitForSelector("#drawing[data-drawn-by=geometry]");
+    await moveTo(...at);
+    assert.equal(await labeled(page, /./), text);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("frame pointing: the label goes when the mouse leaves, drags or touches, and the page asks nothing then", async () => {
+    const { page, size, picture, moveTo, asked, forget, close } = await openServed();
+    const { at, source } = faceIn(await picture(), size, 1);
+    const assertNamed = () => labeled(page, new RegExp(`^Cell ${source} `));
+    await moveTo(...at);
+    await assertNamed();
+    await page.hover("#help-button");
+    await labeled(page, /^$/);
+    await moveTo(...at);
+    await assertNamed();
+    await forget();
+    await page.mouse.down();
+    await labeled(page, /^$/);
+    await moveTo(at[0] + 2, at[1]);
+    await moveTo(at[0] + 1, at[1]);
+    await pause(kMargin);
+    assert.deepEqual(await asked(), [], "while a button is down");
+    await moveTo(...at);
+    await page.mouse.up(); // a click, which highlights the cell in a new picture
+    await page.waitForFunction(() => window.asked.length > 0);
+    await assertNamed();
+
+    await page.hover("#help-button");
+    await forget();
+    await page.evaluate((place) => window.movePointer("touch", place), at);
+    await pause(kMargin);
+    assert.deepEqual(await asked(), [], "a finger");
+    assert.equal(await label(page), "");
+    await close();
+});
+
+test("frame pointing: one request is in flight, and the next one is about the newest place", async () => {
+    const { page, size, picture, moveTo, asked, untilAsked, hold, passFirst, close } = await openServed();
+    const { at, source } = faceIn(await picture(), size, 1);
+    await hold("answers");
+    await moveTo(...at);
+    await untilAsked(1);
+    for (let i = 0; i <= 20; ++i) await moveTo(at[0] + (kBackground[0] - at[0]) * (i / 20), at[1] * (1 - i / 20) + 4);
+    await pause(kMargin);
+    assert.equal((await asked()).length, 1, "one in flight");
+    assert.equal(await passFirst("answers"), "", "the pointer is far from the cell of this answer");
+    await untilAsked(2);
+    const { x, y } = (await asked())[1];
+    assert.deepEqual([x, y], kBackground, "the places between are skipped");
+    assert.equal(await passFirst("answers"), "");
+    await pause(kMargin);
+    assert.equal((await asked()).length, 2);
+
+    // The pointer has moved by a few pixels when the answer arrives.
+    await moveTo(...at);
+    await untilAsked(3);
+    await moveTo(at[0] + 3, at[1] + 2);
+    await frames(page);
+    assert.match(await passFirst("answers"), new RegExp(`^Cell ${source} `));
+    await untilAsked(4);
+
+    // The label goes along for some pixels, but not farther, without an answer.
+    const top = async () => {
+        await frames(page);
+        return (await page.locator("#pointed").boundingBox()).y;
+    };
+    const before = await top();
+    await moveTo(at[0] + 3, at[1] + 12);
+    const after = await top();
+    assert.ok(Math.abs(after - before - 10) <= 1, `from ${before} to ${after}`);
+    await moveTo(at[0] + 60, at[1] + 2);
+    await labeled(page, /^$/);
+    await close();
+});
+
+test("frame pointing: a pointer that is back before the next request is answered", async () => {
+    const { page, size, picture, hold, release, close } = await openServed();
+    const { at, source } = faceIn(await picture(), size, 1);
+    await hold("answers");
+    await page.evaluate(
+        async ([place, away]) => {
+            const turnOfLoop = () => new Promise((resolve) => setTimeout(resolve));
+            window.movePointer("mouse", place);
+            while (window.held.answers.length === 0) await turnOfLoop();
+            window.movePointer("mouse", away);
+            window.held.answers.shift()();
+            await turnOfLoop();
+            window.movePointer("mouse", place);
+        },
+        [at, kBackground],
+    );
+    await release("answers");
+    await labeled(page, new RegExp(`^Cell ${source} `));
+    await close();
+});
+
+test("frame pointing: requests keep their distance, and only another pixel is worth one", async () => {
+    const { page, size, picture, moveTo, asked, forget, close } = await openServed();
+    const { at } = faceIn(await picture(), size, 1);
+    const until = Date.now() + 1500;
+    for (let i = 0; Date.now() < until; ++i) await moveTo(at[0] + (i % 40) - 20, at[1]);
+    const times = (await asked()).map(({ time }) => time);
+    assert.ok(times.length >= 3, `${times.length} requests`);
+    for (let i = 1; i < times.length; ++i) {
+        assert.ok(times[i] - times[i - 1] >= kInterval - 2, `${times[i] - times[i - 1]} ms between two requests`);
+    }
+
+    await moveTo(Math.round(at[0]), Math.round(at[1]));
+    await labeled(page, /./);
+    await pause(kMargin);
+    await forget();
+    await pause(kMargin);
+    await moveTo(Math.round(at[0]) + 0.3, Math.round(at[1]) - 0.3);
+    await pause(kMargin);
+    assert.deepEqual(await asked(), []);
+    await moveTo(Math.round(at[0]) + 1, Math.round(at[1]));
+    await page.waitForFunction(() => window.asked.length === 1);
+    await close();
+});
+
+test("frame pointing: a new picture ends the label, and the page asks again when the picture rests", async () => {
+    const { page, script, size, picture, press, moveTo, asked, forget, untilAsked, hold, passFirst, release, close } =
+        await openServed();
+    const { at } = faceIn(await picture(), size, 0);
+    await moveTo(...at);
+    await labeled(page, /^Cell/);
+    await hold("answers");
+    const turn = async () => {
+        const { revision } = await script.request({ type: "rotate", planes: ["xw"], angles: [0.001] });
+        await presented(page, revision);
+    };
+    await turn();
+    assert.equal(await label(page), "");
+    await page.waitForFunction(() => window.held.answers.length === 1);
+    await turn();
+    assert.equal(await passFirst("answers"), "", "the answer is about the picture before");
+    await release("answers");
+    await labeled(page, /^Cell/);
+    for (const { rested } of await asked()) assert.ok(rested >= kRest - 2, `${rested} ms after a picture`);
+
+    // While the polytope turns, there is no label.
+    await press("Space");
+    await labeled(page, /^$/);
+    await forget();
+    const { revision: first } = await script.state();
+    await script.until((state) => state.revision > first + 5, "the turning");
+    await moveTo(at[0] + 2, at[1]);
+    await pause(kMargin);
+    assert.deepEqual(await asked(), []);
+    await press("Space");
+    await untilAsked(1);
+    await close();
+});
+
+test("frame pointing: commands go first, and the requests of pointing fail silently", async () => {
+    const { page, errors, size, picture, moveTo, asked, untilAsked, hold, release, close } = await openServed();
+    const { at } = faceIn(await picture(), size, 0);
+    await page.focus("#drawing");
+    await hold("keys");
+    await page.keyboard.press("0"); // the focus is at 0 already: there will be no new picture
+    await page.waitForFunction(() => window.held.keys.length === 1);
+    await moveTo(...at);
+    await pause(kMargin);
+    assert.deepEqual(await asked(), [], "while a key is unanswered");
+    await release("keys");
+    await untilAsked(1);
+    await labeled(page, /./);
+
+    await page.evaluate(() => {
+        const { send } = WebSocket.prototype;
+        WebSocket.prototype.send = function (text) {
+            WebSocket.prototype.send = send;
+            return send.call(this, text.replace(/"x":\d+/, '"x":"left"'));
+        };
+    });
+    await moveTo(at[0] + 1, at[1]);
+    await untilAsked(2);
+    await pause(kMargin);
+    assert.equal((await asked())[1].x, "left", "the server has refused this one");
+    assert.equal(await page.locator("#notice").isVisible(), false);
+    await moveTo(at[0] + 2, at[1]);
+    await untilAsked(3);
+    await labeled(page, /./);
+    assert.deepEqual(errors, []);
+    await close();
+});

@@ -1,0 +1,125 @@
+// The element under the pointer in the pictures that the server draws. The page asks the server for its name.
+//
+// The server handles the messages of a page one after the other, so that a key waits for an answer that is being made.
+// The page therefore asks about one point at a time, and only while the picture rests and no command is unanswered.
+
+import type { At, Client } from "@oval4d/protocol";
+
+import { followHover, type Point } from "./hover";
+import type { ElementDescription, PointedLabel } from "./pointed_label";
+import type { Stage } from "./picture/stage";
+
+const kRest = 200; // milliseconds without a new picture after which the picture rests; longer than the steps of turning
+const kInterval = 70; // milliseconds between two requests, at least
+const kNear = 8; // pixels by which the pointer may have moved on when the answer arrives
+const kFollow = 24; // pixels within which the label goes along with the pointer until the next answer
+
+export class FramePointing {
+    private pointer: Point | undefined;
+    private named: Point | undefined; // the point of the element that the label names
+    private revision: number | undefined; // of the picture, once it rests
+    private asked = ""; // the pixel of the last request about this picture
+    private isAsking = false;
+    private resting: ReturnType<typeof setTimeout> | undefined;
+
+    /** `isIdle` returns whether this revision is the newest, and no command is unanswered. */
+    constructor(
+        private readonly drawing: HTMLElement,
+        private readonly stage: Stage,
+        private readonly client: Client,
+        private readonly label: PointedLabel,
+        private readonly isIdle: (revision: number) => boolean,
+    ) {
+        followHover(drawing, (at) => this.moved(at));
+    }
+
+    picturePresented(revision: number): void {
+        this.reset();
+        if (this.stage.mode !== "frames") return;
+        this.resting = setTimeout(() => {
+            this.revision = revision;
+            this.update();
+        }, kRest);
+    }
+
+    /** Forgets the picture and its element. */
+    reset(): void {
+        clearTimeout(this.resting);
+        this.revision = undefined;
+        this.asked = "";
+        this.hide();
+    }
+
+    /** Asks what is under the pointer, if that is not known. To be called when the page may have become idle. */
+    update(): void {
+        if (!this.isAsking) void this.ask();
+    }
+
+    private moved(at: Point | undefined): void {
+        this.pointer = at;
+        if (!at || (this.named && distance(at, this.named) > kFollow)) {
+            this.hide();
+            this.asked = ""; // the pointer may return to the same pixel
+        } else if (this.named) {
+            this.label.place(at);
+        }
+        this.update();
+    }
+
+    /** Asks about the pointer's place until the last answer is about its newest place. */
+    private async ask(): Promise<void> {
+        this.isAsking = true;
+        for (let pixel = this.nextPixel(); pixel; pixel = this.nextPixel()) {
+            const pointer = this.pointer!;
+            const request = this.client.request({ type: "get", what: "at", ...pixel, ...this.stage.size });
+            const interval = new Promise((resolve) => setTimeout(resolve, kInterval));
+            const answer = await request.catch(() => undefined);
+            if (answer) this.answered(answer, pointer);
+            await interval;
+        }
+        this.isAsking = false;
+    }
+
+    /** The pixel of the picture to ask about, if any. */
+    private nextPixel(): Point | undefined {
+        const { pointer, revision } = this;
+        if (!pointer || revision === undefined || !this.isIdle(revision)) return undefined;
+        const ratio = this.stage.size.height / this.drawing.clientHeight;
+        const pixel = { x: Math.round(pointer.x * ratio), y: Math.round(pointer.y * ratio) };
+        const asked = `${pixel.x} ${pixel.y}`;
+        if (asked === this.asked) return undefined;
+        this.asked = asked;
+        return pixel;
+    }
+
+    /** Shows what is at a point, unless the picture has changed or the pointer has moved on. */
+    private answered(answer: At, at: Point): void {
+        const { pointer } = this;
+        if (answer.revision !== this.revision || !pointer) return;
+        const element = descriptionOf(answer);
+        if (distance(pointer, at) > kNear) {
+            this.asked = ""; // the pointer may return to the same pixel
+        } else if (element) {
+            this.named = at;
+            this.label.show(element, pointer);
+        } else {
+            this.hide();
+        }
+    }
+
+    private hide(): void {
+        if (!this.named) return; // otherwise the label belongs to the page's own picture
+        this.named = undefined;
+        this.label.hide();
+    }
+}
+
+function distance(a: Point, b: Point): number {
+    return Math.hypot(a.x - b.x, a.y - b.y);
+}
+
+function descriptionOf({ highlight, name, least_w: least, most_w: most, w }: At): ElementDescription | undefined {
+    if (!highlight) return undefined;
+    const range = least === undefined || most === undefined ? undefined : ([least, most] as const);
+    return { ...highlight, kind: name, range, sliceW: w };
+}

@@ -1,0 +1,19 @@
+// The place of a mouse or pen that hovers over a part of the page.
+
+/** In pixels of the page, from the upper left corner of the part. */
+export interface Point {
+    x: number;
+    y: number;
+}
+
+/** Calls `moved` with the pointer's place; with undefined when it leaves, while a button is down, and for touch. */
+export function followHover(area: HTMLElement, moved: (at: Point | undefined) => void): void {
+    const follow = ({ pointerType, buttons, clientX, clientY }: PointerEvent): void => {
+        const { left, top } = area.getBoundingClientRect();
+        moved(pointerType === "touch" || buttons !== 0 ? undefined : { x: clientX - left, y: clientY - top });
+    };
+    area.addEventListener("pointermove", follow);
+    area.addEventListener("pointerup", follow);
+    area.addEventListener("pointerdown", () => moved(undefined));
+    area.addEventListener("pointerleave", () => moved(undefined));
+}
