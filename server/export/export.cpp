@@ -8,6 +8,9 @@
 #include <glm/geometric.hpp>
 
 #include "export/arrangement.hpp"
+#include "export/drawing/coordinates_drawing.hpp"
+#include "export/drawing/matrix_drawing.hpp"
+#include "export/drawing/projection_drawing.hpp"
 #include "export/formats/text.hpp"
 #include "export/label/label.hpp"
 #include "export/mesh/skeleton.hpp"
@@ -40,10 +43,16 @@ class Exporter {
 
     std::string run() {
         const Format& format = *request_.format;
+        if (format.writeDrawing != nullptr) return format.writeDrawing(drawing());
         if (format.writeScene != nullptr && request_.extent == Extent::projection) {
-            throw ExportRefused{
-                {ExportError::Cause::no_body, "a projection is exported as balls and bars, which " + format.name +
-                                                  " files do not contain; choose another format, such as stl"}};
+            throw ExportRefused{{ExportError::Cause::no_body,
+                                 "a projection is exported as balls and bars or as a drawing, which " + format.name +
+                                     " files do not contain; choose another format, such as stl or svg"}};
+        }
+        if (request_.extent == Extent::matrix) {
+            throw ExportRefused{{ExportError::Cause::no_body, "the matrix is exported as a drawing, which " +
+                                                                  format.name +
+                                                                  " files do not contain; choose svg or pdf"}};
         }
         if (format.writeScene != nullptr) return format.writeScene({scene_, object_});
         const std::vector<NamedMesh> solids = bodies();
@@ -51,6 +60,12 @@ class Exporter {
     }
 
   private:
+    Drawing drawing() const {
+        if (request_.extent == Extent::projection) return drawProjection(scene_);
+        if (request_.extent == Extent::matrix) return drawMatrix(scene_);
+        return drawCoordinates(scene_);
+    }
+
     std::vector<NamedMesh> bodies() {
         std::vector<SliceBodies> groups;
         const auto color = request_.body == Body::skeleton ? scene::style().bar : scene::style().ball;

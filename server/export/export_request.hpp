@@ -4,13 +4,12 @@
 #include <array>
 #include <cstdint>
 
+#include "export/extent.hpp"
 #include "export/formats/formats.hpp"
 #include "text/choice.hpp"
 
 namespace oval4d::exports {
 
-/// What to export: only the focus slice, all slices, or the projection of the whole object.
-enum class Extent : std::uint8_t { focus, oval, projection };
 /// The shape of a slice's body: the filled slice, or its balls and bars merged into one body. A projection is always
 /// exported as balls and bars.
 enum class Body : std::uint8_t { solid, skeleton };
@@ -18,8 +17,6 @@ enum class Body : std::uint8_t { solid, skeleton };
 /// the body; `separate`: on a plate next to the body.
 enum class Label : std::uint8_t { none, engraved, separate };
 
-inline constexpr auto kExtents = std::to_array<text::Choice<Extent>>(
-    {{"focus", Extent::focus}, {"oval", Extent::oval}, {"projection", Extent::projection}});
 inline constexpr auto kBodies = std::to_array<text::Choice<Body>>(
     {{"solid", Body::solid}, {"skeleton", Body::skeleton}, {"frame", Body::skeleton}});  // "frame": the former name
 inline constexpr auto kLabels = std::to_array<text::Choice<Label>>(

@@ -61,10 +61,18 @@ Result<std::string> exportState(const session::State& state, const exports::Expo
     if (request.extent != exports::Extent::oval) planes = {state.slices.focus, 1, planes.spacing, planes.offset};
     slicing::SliceSet slices;
     slicing::Slicer().slice(state.object, state.orientation, planes, slices);
-    if (request.extent == exports::Extent::projection) slices = projectionOf(state, slices);
+    const bool drawing = request.format->writeDrawing != nullptr;
+    if (request.extent == exports::Extent::projection && !drawing) slices = projectionOf(state, slices);
     scene::Look look;
-    look.parts.faces = look.parts.coordinates = false;  // formats fill faces and draw coordinates themselves
+    if (drawing) {
+        look = state.look;
+        look.view = request.extent == exports::Extent::matrix ? scene::View::matrix : scene::View::single;
+        if (look.projection.kind == scene::ProjectionKind::off)
+            look.projection.kind = scene::ProjectionKind::perspective;
+    }
     look.coloring = state.look.coloring;
+    look.parts.coordinates = false;          // drawings have their own layout of the coordinates
+    if (!drawing) look.parts.faces = false;  // formats with bodies fill faces themselves
     scene::Scene scene;
     scene::Composer composer;
     composer.compose(state.object, state.orientation, slices, state.slices.focus, look, {}, scene);

@@ -13,6 +13,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import meshes
+import png
 import pytest
 from harness import SLOW, Server, run_oval4d
 from test_pacing import open_nonreading_socket
@@ -356,7 +357,76 @@ def test_the_projection_has_the_size_of_the_object(server, tmp_path):
         assert 0 < ball < 0.15 * outer
 
 
-@pytest.mark.parametrize("format_", [row["name"] for row in TABLE if "bodies" not in row])
-def test_formats_without_bodies_refuse_the_projection(server, format_):
+@pytest.mark.parametrize("format_", [row["name"] for row in TABLE if row["group"] == "data"])
+def test_formats_for_data_refuse_the_projection(server, format_):
     error = export_refusal(server, format_, "polytope=tesseract&of=projection")
     assert "choose another format" in error["message"]
+
+
+@pytest.mark.parametrize("format_", [row["name"] for row in TABLE if row["group"] != "figure"])
+def test_only_figures_have_the_matrix(server, format_):
+    error = export_refusal(server, format_, "polytope=tesseract&of=matrix")
+    assert error["code"] == "no_body" and "choose svg or pdf" in error["message"]
+
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def svg_of(server, tmp_path, query):
+    """Returns the root element of a drawing, whose shapes are all within its page."""
+    path = fetch_file_to(server, tmp_path / "drawing.svg", query)
+    subprocess.run(["xmllint", "--noout", str(path)], check=True, timeout=60)
+    root = ElementTree.fromstring(path.read_bytes())
+    width, height = (float(root.get(name)) for name in ("width", "height"))
+    for line in root.iter(SVG + "line"):
+        assert all(0 <= float(line.get(x)) <= width and 0 <= float(line.get(y)) <= height
+                   for x, y in (("x1", "y1"), ("x2", "y2")))
+    return root
+
+
+@pytest.mark.parametrize("polytope, vertices, edges", [("tesseract", 16, 32), ("120-cell", 600, 1200)])
+def test_a_drawing_of_the_projection_has_all_edges(server, tmp_path, polytope, vertices, edges):
+    query = f"polytope={polytope}&{ROTATION}&of=projection&focus=99&faces=off"
+    root = svg_of(server, tmp_path, query)
+    lines = [line for line in root.iter(SVG + "line") if line.get("stroke-linecap") == "round"]
+    assert (len(lines), len(list(root.iter(SVG + "circle")))) == (edges, vertices), "the focus slice is beside the object"
+    assert not list(root.iter(SVG + "polygon"))
+    root = svg_of(server, tmp_path, f"{query}&back=off")
+    assert len([line for line in root.iter(SVG + "line") if line.get("stroke-linecap") == "round"]) < edges
+    root = svg_of(server, tmp_path, f"polytope={polytope}&{ROTATION}&of=projection&cells=on&faces=off")
+    assert len(list(root.iter(SVG + "polygon"))) == {"tesseract": 24, "120-cell": 720}[polytope]
+
+
+def test_a_drawing_of_the_matrix_has_the_sections(server, tmp_path):
+    root = svg_of(server, tmp_path, "polytope=tesseract&of=matrix&point=0.1,0.2,0.3,-0.1")
+    groups = {group.get("id"): group for group in root.iter(SVG + "g")}
+    assert set(groups) == {a + b for a in "xyzw" for b in "xyzw" if a != b} | {"names"}
+    assert [text.text for text in root.iter(SVG + "text")] == list("xyzw")
+    for name, group in groups.items():
+        if name != "names":
+            polygon, = group.iter(SVG + "polygon")
+            corners = [tuple(map(float, corner.split(","))) for corner in polygon.get("points").split()]
+            assert len({x for x, _ in corners}) == len({y for _, y in corners}) == 2, "a square"
+            assert len(list(group.iter(SVG + "circle"))) == 4
+
+
+@pytest.mark.parametrize("query, words", [
+    ("polytope=5-cell", ["P0", "P4"]), ("polytope=120-cell", list("xyzw")), ("polytope=24-cell&of=matrix", list("xyzw")),
+    ("polytope=24-cell&of=projection&cells=on&hidden=none", []), ("polytope={5/2,5,3}&of=matrix", list("xyzw")),
+    ("polytope={5/2,5,3}&of=projection", []),
+])
+def test_a_pdf_document_has_the_drawing_on_one_page(server, tmp_path, query, words):
+    """MuPDF, an independent reader, opens the document without a complaint and sees what the SVG image shows."""
+    path = fetch_file_to(server, tmp_path / "drawing.pdf", f"{query}&{ROTATION}")
+    assert path.read_bytes().startswith(b"%PDF-1.")
+    info = subprocess.run(["mutool", "info", str(path)], check=True, timeout=60, capture_output=True, text=True)
+    assert "Pages: 1" in info.stdout and "error" not in info.stderr
+    text = subprocess.run(["mutool", "draw", "-F", "txt", str(path)], check=True, timeout=60, capture_output=True, text=True)
+    assert "error" not in text.stderr and all(word in text.stdout.split() for word in words)
+    picture = tmp_path / "drawing.png"
+    subprocess.run(["mutool", "draw", "-q", "-r", "72", "-o", str(picture), str(path)], check=True, timeout=60)
+    root = svg_of(server, tmp_path, f"{query}&{ROTATION}")
+    size, data = png.pixels(picture.read_bytes())
+    assert size == pytest.approx([float(root.get("width")), float(root.get("height"))], abs=1)
+    dark = sum(min(rgb) < 200 for rgb in zip(data[::3], data[1::3], data[2::3]))
+    assert dark > 0.01 * size[0] * size[1]

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "export/budget.hpp"
+#include "export/drawing/drawing.hpp"
 #include "export/mesh/mesh.hpp"
 #include "scene/scene.hpp"
 #include "slicing/object.hpp"
@@ -26,13 +27,14 @@ struct BodiesInput {
     }
 };
 
-/// The input of formats without bodies: a scene, and the object whose slices it contains.
+/// The input of data formats: a scene, and the object whose slices it contains.
 struct SceneInput {
     const scene::Scene& scene;
     const slicing::Object& object;
 };
 
-/// A file format of protocol/export_formats.json. Exactly one of `writeBodies` and `writeScene` is not null.
+/// A file format of protocol/export_formats.json. Exactly one of its writers is not null: the first of a format with
+/// bodies, the second of a format for data, the third of a format for figures.
 struct Format {
     /// How the bodies are arranged. `none`: the format has no bodies; `plate`: in rows for a 3-D printer; `oval`: as in
     /// the oval view.
@@ -43,6 +45,7 @@ struct Format {
     Arrangement arrangement = Arrangement::none;
     std::string (*writeBodies)(const BodiesInput&) = nullptr;
     std::string (*writeScene)(const SceneInput&) = nullptr;
+    std::string (*writeDrawing)(const Drawing&) = nullptr;
 };
 
 }  // namespace oval4d::exports

@@ -10,6 +10,7 @@
 #include "export/formats/glb.hpp"
 #include "export/formats/obj.hpp"
 #include "export/formats/off.hpp"
+#include "export/formats/pdf.hpp"
 #include "export/formats/ply.hpp"
 #include "export/formats/stl.hpp"
 #include "export/formats/svg.hpp"
@@ -21,27 +22,29 @@ namespace oval4d::exports {
 
 namespace {
 
-/// The name of a format and the function that writes it: `ofBodies` or `ofScene`; the other one is null.
+/// The name of a format and the function that writes it: of bodies, of a scene or of a drawing; the others are null.
 struct Writer {
     std::string_view name;
-    std::string (*ofBodies)(const BodiesInput&);
-    std::string (*ofScene)(const SceneInput&);
+    std::string (*ofBodies)(const BodiesInput&) = nullptr;
+    std::string (*ofScene)(const SceneInput&) = nullptr;
+    std::string (*ofDrawing)(const Drawing&) = nullptr;
 };
-constexpr auto kWriters = std::to_array<Writer>({{"3mf", threeMf, nullptr},
-                                                 {"csv", nullptr, measurementsCsv},
-                                                 {"glb", glb, nullptr},
-                                                 {"obj", obj, nullptr},
-                                                 {"off", nullptr, off},
-                                                 {"ply", ply, nullptr},
-                                                 {"stl", stl, nullptr},
-                                                 {"svg", nullptr, parallelCoordinatesSvg},
-                                                 {"x3d", x3d, nullptr}});
+constexpr auto kWriters = std::to_array<Writer>({{.name = "3mf", .ofBodies = threeMf},
+                                                 {.name = "csv", .ofScene = measurementsCsv},
+                                                 {.name = "glb", .ofBodies = glb},
+                                                 {.name = "obj", .ofBodies = obj},
+                                                 {.name = "off", .ofScene = off},
+                                                 {.name = "pdf", .ofDrawing = pdf},
+                                                 {.name = "ply", .ofBodies = ply},
+                                                 {.name = "stl", .ofBodies = stl},
+                                                 {.name = "svg", .ofDrawing = svg},
+                                                 {.name = "x3d", .ofBodies = x3d}});
 
 std::vector<Format> readTable() {
     std::vector<Format> table;
     const auto rows = nlohmann::json::parse(protocol_data::embeddedFile("export_formats.json")).at("formats");
     for (const auto& row : rows) {
-        Format format{row.at("name"), row.at("media_type"), Format::Arrangement::none, nullptr, nullptr};
+        Format format{.name = row.at("name"), .mediaType = row.at("media_type")};
         const auto writer = std::ranges::find(kWriters, format.name, &Writer::name);
         const std::string bodies = row.value("bodies", "");
         if (writer == kWriters.end() || (writer->ofBodies != nullptr) == bodies.empty())
@@ -50,6 +53,7 @@ std::vector<Format> readTable() {
             format.arrangement = bodies == "plate" ? Format::Arrangement::plate : Format::Arrangement::oval;
         format.writeBodies = writer->ofBodies;
         format.writeScene = writer->ofScene;
+        format.writeDrawing = writer->ofDrawing;
         table.push_back(std::move(format));
     }
     if (table.size() != kWriters.size())

@@ -1,9 +1,9 @@
 #include "export/formats/svg.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
+#include <string_view>
+#include <variant>
 
 #include "export/formats/text.hpp"
 #include "scene/density_plot.hpp"
@@ -11,14 +11,6 @@
 namespace oval4d::exports {
 
 namespace {
-
-// Lengths are in units of 1/72 inch. The drawing is as wide as a text column of a printed page.
-constexpr double kWidth = 480;
-constexpr double kMargin = 12;
-constexpr double kAmplitude = 40;  // length of a line whose value is the circumradius
-constexpr double kMaxColumn = 48;  // bounds of the width of a vertex's column
-constexpr double kMinColumn = 5;
-constexpr double kText = 7;  // font size
 
 std::string number(double value) {
     std::array<char, 32> text{};
@@ -32,44 +24,22 @@ std::string color(scene::Color rgb) {
     return text.data();
 }
 
-/// The positions of the columns. Each vertex has a column, with a vertical line for each of its four coordinates; the
-/// columns are arranged in rows.
-struct Columns {
-    std::size_t count, perRow, rows;
-    double step, rowStep;  ///< from a column to the next, from a row to the next
-    bool named;            ///< whether there is room for the labels P0, P1, …
-
-    explicit Columns(std::size_t vertices) : count(vertices) {
-        const double width = kWidth - 2 * kMargin;
-        const auto most = static_cast<std::size_t>(width / kMinColumn);
-        rows = (count + most - 1) / most;
-        perRow = (count + rows - 1) / rows;
-        step = std::min(width / static_cast<double>(perRow), kMaxColumn);
-        named = step > 3.2 * kText;
-        rowStep = 2 * kAmplitude + kMargin + (named ? 1.5 * kText : 0);
-    }
-    double left(std::size_t i) const { return kMargin + step * static_cast<double>(i % perRow); }
-    double zero(std::size_t row) const { return kMargin + kAmplitude + rowStep * static_cast<double>(row); }
-};
-
-std::string opening(const std::string& name, double height) {
-    return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(kWidth) + ' ' + number(height) +
-           "\" width=\"" + number(kWidth) + "\" height=\"" + number(height) +
-           "\">\n<title>Parallel coordinates of the vertices: " + xmlEscaped(name) + "</title>\n";
+std::string attribute(std::string_view name, const std::string& value) {
+    return ' ' + std::string(name) + "=\"" + value + '"';
 }
+std::string attribute(std::string_view name, double value) { return attribute(name, number(value)); }
 
-std::array<scene::Color, 4> axisColors() {
-    const scene::Style& style = scene::style();
-    return {style.axisX, style.axisY, style.axisZ, style.axisW};
+std::string opacityOf(std::string_view name, double opacity) {
+    return opacity < 1 ? attribute(name, opacity) : std::string();
 }
 
 /// Returns the density as SVG paths. The density is rounded to kTones tones; there is one path for each tone, with the
 /// outlines of all pixels of this tone.
-std::string densityPaths(const scene::DensityPlot& density) {
+std::string densityPaths(const DensityArea& density) {
     using scene::DensityPlot;
     constexpr int kTones = 32;
     const auto toneAt = [&](int row, int column) {
-        return (density.tones()[DensityPlot::index(row, column)] * kTones + 127) / 255;
+        return (density.tones[DensityPlot::index(row, column)] * kTones + 127) / 255;
     };
     std::array<std::string, kTones + 1> paths;
     for (int column = 0; column < DensityPlot::kColumns; ++column) {
@@ -89,73 +59,62 @@ std::string densityPaths(const scene::DensityPlot& density) {
     return out;
 }
 
-std::string strip(const SceneInput& source) {
-    using scene::DensityPlot;
-    scene::DensityPlot density;
-    density.measure(source.scene.slices->rotatedVertices, glm::dmat4(1), source.scene.circumradius);
-    const double step = (kWidth - 2 * kMargin) / 3, bottom = kMargin + 2 * kAmplitude;
-    const std::array<scene::Color, 4> colors = axisColors();
-    std::string out = opening(source.scene.title, bottom + kMargin + kText);
-    out += "<linearGradient id=\"axes\" gradientUnits=\"userSpaceOnUse\" x1=\"0.5\" x2=\"" +
-           number(DensityPlot::kColumns - 0.5) + "\">\n";
-    for (int k = 0; k < 4; ++k)
-        out += "<stop offset=\"" + number(k / 3.0) + "\" stop-color=\"" + color(colors[k]) + "\"/>\n";
-    // Columns are centered on their axes, and rows on their values.
-    const double across = step / DensityPlot::kGap, down = 2 * kAmplitude / (DensityPlot::kRows - 1);
-    out +=
-        "</linearGradient>\n<g id=\"density\" fill=\"url(#axes)\" shape-rendering=\"crispEdges\" "
-        "transform=\"translate(" +
-        number(kMargin - across / 2) + ' ' + number(kMargin - down / 2) + ") scale(" + std::to_string(across) + ' ' +
-        std::to_string(down) + ")\">\n" + densityPaths(density) + "</g>\n";
-    for (int k = 0; k < 4; ++k) {
-        const std::string x = number(kMargin + k * step), name(1, "xyzw"[k]);
-        out += "<line id=\"" + name + "\" stroke=\"" + color(colors[k]) + "\" stroke-width=\"1\" x1=\"" + x +
-               "\" y1=\"" + number(kMargin) + "\" x2=\"" + x + "\" y2=\"" + number(bottom) +
-               "\"/>\n<text font-family=\"DejaVu Sans, sans-serif\" font-size=\"" + number(kText) +
-               "\" text-anchor=\"middle\" fill=\"#444444\" x=\"" + x + "\" y=\"" + number(bottom + 1.3 * kText) +
-               "\">" + name + "</text>\n";
+/// Returns the SVG element of a shape.
+struct ElementWriter {
+    std::string operator()(const Line& line) const {
+        return "<line" + (line.id.empty() ? "" : attribute("id", xmlEscaped(line.id))) +
+               attribute("stroke", color(line.color)) + attribute("stroke-width", line.width) +
+               (line.roundEnds ? attribute("stroke-linecap", "round") : "") +
+               opacityOf("stroke-opacity", line.opacity) + attribute("x1", line.from.x) + attribute("y1", line.from.y) +
+               attribute("x2", line.to.x) + attribute("y2", line.to.y) + "/>\n";
     }
-    return out + "</svg>\n";
-}
+    std::string operator()(const Area& area) const {
+        std::string corners;
+        for (const glm::dvec2& corner : area.corners) {
+            if (!corners.empty()) corners += ' ';
+            corners += number(corner.x) + ',' + number(corner.y);
+        }
+        return "<polygon" + attribute("fill", color(area.color)) + opacityOf("fill-opacity", area.opacity) +
+               attribute("points", corners) + "/>\n";
+    }
+    std::string operator()(const Disk& disk) const {
+        return "<circle" + attribute("fill", color(disk.color)) + opacityOf("fill-opacity", disk.opacity) +
+               attribute("cx", disk.center.x) + attribute("cy", disk.center.y) + attribute("r", disk.radius) + "/>\n";
+    }
+    std::string operator()(const TextLine& line) const {
+        return "<text font-family=\"DejaVu Sans, sans-serif\" text-anchor=\"middle\"" +
+               attribute("font-size", line.size) + attribute("fill", color(line.color)) + attribute("x", line.at.x) +
+               attribute("y", line.at.y) + '>' + xmlEscaped(line.text) + "</text>\n";
+    }
+    std::string operator()(const DensityArea& density) const {
+        using scene::DensityPlot;
+        std::string out = "<linearGradient id=\"axes-colors\" gradientUnits=\"userSpaceOnUse\"" + attribute("x1", 0.5) +
+                          attribute("x2", DensityPlot::kColumns - 0.5) + ">\n";
+        const double last = static_cast<double>(density.axisColors.size()) - 1;
+        for (std::size_t k = 0; k < density.axisColors.size(); ++k) {
+            out += "<stop" + attribute("offset", static_cast<double>(k) / last) +
+                   attribute("stop-color", color(density.axisColors[k])) + "/>\n";
+        }
+        // Columns are centered on their axes, and rows on their values.
+        const double across = (density.bottomRight.x - density.topLeft.x) / (DensityPlot::kColumns - 1);
+        const double down = (density.bottomRight.y - density.topLeft.y) / (DensityPlot::kRows - 1);
+        return out +
+               "</linearGradient>\n<g fill=\"url(#axes-colors)\" shape-rendering=\"crispEdges\" "
+               "transform=\"translate(" +
+               number(density.topLeft.x - across / 2) + ' ' + number(density.topLeft.y - down / 2) + ") scale(" +
+               std::to_string(across) + ' ' + std::to_string(down) + ")\">\n" + densityPaths(density) + "</g>\n";
+    }
+};
 
 }  // namespace
 
-std::string parallelCoordinatesSvg(const SceneInput& source) {
-    if (source.scene.slices->rotatedVertices.size() > scene::kMaxVerticesAsLines) return strip(source);
-    const Columns columns(source.scene.slices->rotatedVertices.size());
-    const double height = columns.rowStep * static_cast<double>(columns.rows) + kMargin;
-    const double right = columns.left(columns.perRow - 1) + columns.step;
-    std::string out = opening(source.scene.title, height);
-    out += "<g stroke=\"" + color(scene::style().zeroLine) + "\" stroke-width=\"0.4\">\n";
-    for (std::size_t row = 0; row < columns.rows; ++row) {
-        const std::string y = number(columns.zero(row));
-        out +=
-            "<line x1=\"" + number(kMargin) + "\" y1=\"" + y + "\" x2=\"" + number(right) + "\" y2=\"" + y + "\"/>\n";
-    }
-    out += "</g>\n";
-    const std::array<scene::Color, 4> axes = axisColors();
-    const double lineStep = columns.step / 5;
-    for (int axis = 0; axis < 4; ++axis) {
-        out += "<g id=\"" + std::string(1, "xyzw"[axis]) + "\" stroke=\"" + color(axes[axis]) + "\" stroke-width=\"" +
-               number(std::min(1.6, 0.7 * lineStep)) + "\">\n";
-        for (std::size_t i = 0; i < source.scene.slices->rotatedVertices.size(); ++i) {
-            const std::string x = number(columns.left(i) + lineStep * (axis + 1));
-            const double zero = columns.zero(i / columns.perRow);
-            out +=
-                "<line x1=\"" + x + "\" y1=\"" + number(zero) + "\" x2=\"" + x + "\" y2=\"" +
-                number(zero - kAmplitude * source.scene.slices->rotatedVertices[i][axis] / source.scene.circumradius) +
-                "\"/>\n";
-        }
-        out += "</g>\n";
-    }
-    if (columns.named) {
-        out += "<g font-family=\"DejaVu Sans, sans-serif\" font-size=\"" + number(kText) +
-               "\" text-anchor=\"middle\" fill=\"#444444\">\n";
-        for (std::size_t i = 0; i < source.scene.slices->rotatedVertices.size(); ++i) {
-            out += "<text x=\"" + number(columns.left(i) + columns.step / 2) + "\" y=\"" +
-                   number(columns.zero(i / columns.perRow) + kAmplitude + 1.2 * kText) + "\">P" + std::to_string(i) +
-                   "</text>\n";
-        }
+std::string svg(const Drawing& drawing) {
+    std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(drawing.width) + ' ' +
+                      number(drawing.height) + '"' + attribute("width", drawing.width) +
+                      attribute("height", drawing.height) + ">\n<title>" + xmlEscaped(drawing.title) + "</title>\n";
+    for (const ShapeGroup& group : drawing.groups) {
+        out += "<g" + attribute("id", xmlEscaped(group.id)) + ">\n";
+        for (const Shape& shape : group.shapes) out += std::visit(ElementWriter(), shape);
         out += "</g>\n";
     }
     return out + "</svg>\n";

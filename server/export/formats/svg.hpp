@@ -2,12 +2,11 @@
 
 #include <string>
 
-#include "export/formats/format.hpp"
+#include "export/drawing/drawing.hpp"
 
 namespace oval4d::exports {
 
-/// Returns an SVG drawing of the parallel coordinates of the rotated vertices. If there are more than
-/// scene::kMaxVerticesAsLines vertices, the drawing is a density plot.
-std::string parallelCoordinatesSvg(const SceneInput& source);
+/// Returns the drawing as an SVG 1.1 image.
+std::string svg(const Drawing& drawing);
 
 }  // namespace oval4d::exports

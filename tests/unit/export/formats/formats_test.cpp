@@ -34,7 +34,8 @@ TEST(Formats, areThoseOfTheTable) {
                                       : bodies == "oval" ? Format::Arrangement::oval
                                                          : Format::Arrangement::none);
         EXPECT_EQ(format.writeBodies != nullptr, !bodies.empty());
-        EXPECT_EQ(format.writeScene != nullptr, bodies.empty());
+        EXPECT_EQ(format.writeDrawing != nullptr, rows[i].at("group") == "figure");
+        EXPECT_EQ(format.writeScene != nullptr, rows[i].at("group") == "data");
     }
     EXPECT_EQ(formatNamed("STL"), nullptr);
     EXPECT_EQ(formatNamed(""), nullptr);
@@ -114,6 +115,14 @@ TEST(Svg, drawsEachCoordinateOfEachVertex) {
     std::size_t lines = 0;
     for (auto at = text.find("<line"); at != std::string::npos; at = text.find("<line", at + 1)) ++lines;
     EXPECT_EQ(lines, 1 + 4 * p.vertices.size());
+}
+
+TEST(Pdf, isAWholeDocument) {
+    for (const char* name : {"24-cell", "120-cell"}) {
+        const std::string text = fileOf(named(name), {}, {0, 1, 1}, {.format = formatNamed("pdf")});
+        EXPECT_TRUE(text.starts_with("%PDF-1."));
+        EXPECT_NE(text.find("%%EOF"), std::string::npos);
+    }
 }
 
 TEST(Svg, drawsTheDensityOfManyVertices) {

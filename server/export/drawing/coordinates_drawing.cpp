@@ -1,0 +1,103 @@
+#include "export/drawing/coordinates_drawing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "scene/density_plot.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+constexpr double kAmplitude = 40;  // length of a line whose value is the circumradius
+constexpr double kMaxColumn = 48;  // bounds of the width of a vertex's column
+constexpr double kMinColumn = 5;
+constexpr double kText = 7;  // font size
+
+/// The positions of the columns. Each vertex has a column, with a vertical line for each of its four coordinates; the
+/// columns are arranged in rows.
+struct Columns {
+    std::size_t count, perRow, rows;
+    double step, rowStep;  ///< from a column to the next, from a row to the next
+    bool named;            ///< whether there is room for the labels P0, P1, …
+
+    explicit Columns(std::size_t vertices) : count(vertices) {
+        const double width = kDrawingWidth - 2 * kDrawingMargin;
+        const auto most = static_cast<std::size_t>(width / kMinColumn);
+        rows = (count + most - 1) / most;
+        perRow = (count + rows - 1) / rows;
+        step = std::min(width / static_cast<double>(perRow), kMaxColumn);
+        named = step > 3.2 * kText;
+        rowStep = 2 * kAmplitude + kDrawingMargin + (named ? 1.5 * kText : 0);
+    }
+    double left(std::size_t i) const { return kDrawingMargin + step * static_cast<double>(i % perRow); }
+    double zero(std::size_t row) const { return kDrawingMargin + kAmplitude + rowStep * static_cast<double>(row); }
+};
+
+std::vector<scene::Color> axisColors() {
+    const scene::Style& style = scene::style();
+    return {style.axisX, style.axisY, style.axisZ, style.axisW};
+}
+
+Drawing drawStrip(const scene::Scene& scene) {
+    scene::DensityPlot density;
+    density.measure(scene.slices->rotatedVertices, glm::dmat4(1), scene.circumradius);
+    const double step = (kDrawingWidth - 2 * kDrawingMargin) / 3, bottom = kDrawingMargin + 2 * kAmplitude;
+    const std::vector<scene::Color> colors = axisColors();
+    const auto tones = density.tones();
+    ShapeGroup strip{"density", {DensityArea{{kDrawingMargin, kDrawingMargin},
+                                             {kDrawingMargin + 3 * step, bottom},
+                                             {tones.begin(), tones.end()},
+                                             colors}}};
+    ShapeGroup axes{"axes", {}};
+    for (int k = 0; k < 4; ++k) {
+        const double x = kDrawingMargin + k * step;
+        const std::string name(1, "xyzw"[k]);
+        axes.shapes.emplace_back(Line{.from = {x, kDrawingMargin}, .to = {x, bottom}, .color = colors[k], .id = name});
+        axes.shapes.emplace_back(TextLine{{x, bottom + 1.3 * kText}, kText, kDrawingText, name});
+    }
+    return {"Parallel coordinates of the vertices: " + scene.title, kDrawingWidth, bottom + kDrawingMargin + kText,
+            {std::move(strip), std::move(axes)}};
+}
+
+}  // namespace
+
+Drawing drawCoordinates(const scene::Scene& scene) {
+    const std::vector<glm::dvec4>& vertices = scene.slices->rotatedVertices;
+    if (vertices.size() > scene::kMaxVerticesAsLines) return drawStrip(scene);
+    const Columns columns(vertices.size());
+    const double right = columns.left(columns.perRow - 1) + columns.step;
+    Drawing drawing{"Parallel coordinates of the vertices: " + scene.title, kDrawingWidth,
+                    columns.rowStep * static_cast<double>(columns.rows) + kDrawingMargin, {}};
+    ShapeGroup& zeros = drawing.groups.emplace_back("zero", std::vector<Shape>());
+    for (std::size_t row = 0; row < columns.rows; ++row) {
+        const double y = columns.zero(row);
+        zeros.shapes.emplace_back(
+            Line{.from = {kDrawingMargin, y}, .to = {right, y}, .width = 0.4, .color = scene::style().zeroLine});
+    }
+    const std::vector<scene::Color> colors = axisColors();
+    const double lineStep = columns.step / 5;
+    for (int axis = 0; axis < 4; ++axis) {
+        ShapeGroup& lines = drawing.groups.emplace_back(std::string(1, "xyzw"[axis]), std::vector<Shape>());
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const double x = columns.left(i) + lineStep * (axis + 1), zero = columns.zero(i / columns.perRow);
+            lines.shapes.emplace_back(Line{.from = {x, zero},
+                                           .to = {x, zero - kAmplitude * vertices[i][axis] / scene.circumradius},
+                                           .width = std::min(1.6, 0.7 * lineStep),
+                                           .color = colors[static_cast<std::size_t>(axis)]});
+        }
+    }
+    if (!columns.named) return drawing;
+    ShapeGroup& names = drawing.groups.emplace_back("names", std::vector<Shape>());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        names.shapes.emplace_back(TextLine{{columns.left(i) + columns.step / 2,
+                                            columns.zero(i / columns.perRow) + kAmplitude + 1.2 * kText},
+                                           kText,
+                                           kDrawingText,
+                                           "P" + std::to_string(i)});
+    }
+    return drawing;
+}
+
+}  // namespace oval4d::exports

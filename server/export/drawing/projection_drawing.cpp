@@ -1,0 +1,130 @@
+#include "export/drawing/projection_drawing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+
+namespace oval4d::exports {
+
+namespace {
+
+using slicing::SliceSet;
+
+constexpr scene::Color kNear = 0x2b3340, kFar = 0xb4bcca, kHalo = 0xffffff;
+constexpr scene::Color kSection = 0xc79a00;  // the section of the focus slice; darker than in pictures, on white ground
+constexpr double kHaloWidth = 1.8;           // of the gap where a bar passes before another, as a multiple of its width
+
+scene::Color mix(scene::Color a, scene::Color b, double t) {
+    scene::Color mixed = 0;
+    for (const int shift : {16, 8, 0}) {
+        const double from = a >> shift & 255, to = b >> shift & 255;
+        mixed |= static_cast<scene::Color>(std::lround(from + t * (to - from))) << shift;
+    }
+    return mixed;
+}
+
+constexpr double kThickness = 0.8;  // of lines, relative to the bars of pictures
+
+class ProjectionDrawer {
+  public:
+    explicit ProjectionDrawer(const scene::Scene& scene)
+        : scene_(scene), view_(glm::dmat3(scene.camera.view())) {
+        // In world units, everything is within the radius of the placement.
+        scale_ = (kDrawingWidth / 2 - kDrawingMargin) / scene.projectionPlacement.radius;
+    }
+
+    ShapeGroup draw() {
+        for (std::size_t part = 0; part < scene_.projection.parts.size(); ++part) addPart(part);
+        std::vector<std::pair<double, std::size_t>> order;
+        for (std::size_t i = 0; i < depths_.size(); ++i) order.emplace_back(depths_[i], i);
+        std::ranges::sort(order);
+        ShapeGroup group{"projection", {}};
+        for (const auto& [depth, i] : order) group.shapes.push_back(std::move(shapes_[i]));
+        return group;
+    }
+
+  private:
+    // Adds a shape; depths increase toward the viewer.
+    template <typename S>
+    void add(double depth, S shape) {
+        depths_.push_back(depth);
+        shapes_.emplace_back(std::move(shape));
+    }
+
+    glm::dvec3 place(const glm::dvec3& p) const { return view_ * (scene_.projection.scale * scale_ * p); }
+    static glm::dvec2 onPaper(const glm::dvec3& p) {
+        return {kDrawingWidth / 2 + p.x, kDrawingWidth / 2 - p.y};
+    }
+
+    // The color of a part at a depth.
+    scene::Color colorAt(std::size_t part, double depth) const {
+        if (part > 0) return scene_.projection.parts[part].barColor == scene::style().axisW ? kSection : kFar;
+        const double reach = scale_ * scene_.projectionPlacement.radius;
+        return mix(kFar, kNear, std::clamp((depth / reach + 1) / 2, 0.0, 1.0));
+    }
+
+    void addPart(std::size_t part) {
+        const scene::ProjectionPart& look = scene_.projection.parts[part];
+        const SliceSet& set = scene_.projection.elements;
+        const scene::Style& style = scene::style();
+        const std::uint32_t v0 = set.vertexBegin[part];
+        const auto isSeen = [&](slicing::Visibility v) { return v != slicing::Visibility::hidden; };
+        for (std::uint32_t f = set.faceBegin[part]; look.faceOpacity > 0 && f < set.faceBegin[part + 1]; ++f) {
+            if (!isSeen(scene_.visibilities.face(set.faceSource[f]))) continue;
+            Area area{{}, scene_.cellColors[scene_.projection.faceCells[f]], look.faceOpacity};
+            double depth = 0;
+            for (std::uint32_t c = set.cornerBegin[f]; c < set.cornerBegin[f + 1]; ++c) {
+                const glm::dvec3 p = place(set.vertices[v0 + set.corners[c]]);
+                area.corners.push_back(onPaper(p));
+                depth += p.z / (set.cornerBegin[f + 1] - set.cornerBegin[f]);
+            }
+            add(depth, std::move(area));
+        }
+        for (std::uint32_t e = set.edgeBegin[part]; look.barRadius > 0 && e < set.edgeBegin[part + 1]; ++e) {
+            if (!isSeen(scene_.visibilities.edge(set.edgeSource[e]))) continue;
+            const glm::dvec3 a = place(set.vertices[v0 + set.edges[e][0]]), b = place(set.vertices[v0 + set.edges[e][1]]);
+            const bool lit = scene_.highlight.hasEdge(set.edgeSource[e]);
+            const double depth = (a.z + b.z) / 2, width = kThickness * 2 * scale_ * look.barRadius;
+            // The halo leaves a gap in the bars behind, but not in those that meet this bar at its ends.
+            const glm::dvec3 gap = 0.12 * (b - a);
+            add(depth, Line{.from = onPaper(a + gap), .to = onPaper(b - gap), .width = kHaloWidth * width,
+                                           .color = kHalo, .opacity = 0.7});
+            add(depth, Line{.from = onPaper(a), .to = onPaper(b), .width = width,
+                                           .color = lit ? style.highlight : colorAt(part, depth), .roundEnds = true});
+        }
+        for (std::uint32_t v = v0; look.ballRadius > 0 && v < set.vertexBegin[part + 1]; ++v) {
+            if (!isSeen(scene_.visibilities.vertex(set.vertexSource[v]))) continue;
+            const glm::dvec3 p = place(set.vertices[v]);
+            const double own = set.ballScale.empty() ? 1 : set.ballScale[v];
+            const double opacity = set.ballOpacity.empty() ? 1 : set.ballOpacity[v];
+            const bool lit = scene_.highlight.hasVertex(set.vertexSource[v]);
+            add(p.z + scale_ * look.ballRadius,
+                               Disk{onPaper(p), scale_ * look.ballRadius * own,
+                                    lit ? style.highlight : colorAt(part, p.z), opacity});
+        }
+    }
+
+    const scene::Scene& scene_;
+    const glm::dmat3 view_;
+    double scale_ = 1;  // points per world unit
+    std::vector<double> depths_;  // of shapes_
+    std::vector<Shape> shapes_;
+};
+
+}  // namespace
+
+Drawing drawProjection(const scene::Scene& scene) {
+    const bool perspective = scene.look.projection.kind == scene::ProjectionKind::perspective;
+    Drawing drawing{std::string(perspective ? "Perspective" : "Orthogonal") + " projection: " + scene.title,
+                    kDrawingWidth, kDrawingWidth, {}};
+    drawing.groups.push_back(ProjectionDrawer(scene).draw());
+    return drawing;
+}
+
+}  // namespace oval4d::exports

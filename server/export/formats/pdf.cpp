@@ -1,0 +1,163 @@
+#include "export/formats/pdf.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include <hpdf.h>
+
+#include "scene/density_plot.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+using scene::DensityPlot;
+
+// libharu reports errors to this function, whose parameters it prescribes. `first` is the HPDF_STATUS that keeps the
+// first error. After an error, the functions of libharu do nothing.
+void recordError(HPDF_STATUS error, HPDF_STATUS /*detail*/, void* first) {
+    auto& status = *static_cast<HPDF_STATUS*>(first);
+    if (status == HPDF_OK) status = error;
+}
+
+float channel(scene::Color color, int shift) { return static_cast<float>(color >> shift & 255U) / 255; }
+
+// Draws shapes on a page. PDF measures positions from the lower left corner.
+class PageWriter {
+  public:
+    PageWriter(HPDF_Doc document, HPDF_Page page, double height)
+        : document_(document), page_(page), height_(height), font_(HPDF_GetFont(document, "Helvetica", nullptr)) {}
+
+    void operator()(const Line& line) {
+        setOpacity(line.opacity);
+        HPDF_Page_SetRGBStroke(page_, channel(line.color, 16), channel(line.color, 8), channel(line.color, 0));
+        HPDF_Page_SetLineWidth(page_, static_cast<float>(line.width));
+        HPDF_Page_SetLineCap(page_, line.roundEnds ? HPDF_ROUND_END : HPDF_BUTT_END);
+        HPDF_Page_MoveTo(page_, x(line.from), y(line.from));
+        HPDF_Page_LineTo(page_, x(line.to), y(line.to));
+        HPDF_Page_Stroke(page_);
+    }
+    void operator()(const Area& area) {
+        if (area.corners.empty()) return;
+        fillWith(area.color, area.opacity);
+        HPDF_Page_MoveTo(page_, x(area.corners[0]), y(area.corners[0]));
+        for (std::size_t i = 1; i < area.corners.size(); ++i)
+            HPDF_Page_LineTo(page_, x(area.corners[i]), y(area.corners[i]));
+        HPDF_Page_ClosePath(page_);
+        HPDF_Page_Fill(page_);
+    }
+    void operator()(const Disk& disk) {
+        fillWith(disk.color, disk.opacity);
+        HPDF_Page_Circle(page_, x(disk.center), y(disk.center), static_cast<float>(disk.radius));
+        HPDF_Page_Fill(page_);
+    }
+    void operator()(const TextLine& line) {
+        fillWith(line.color, 1);
+        HPDF_Page_BeginText(page_);
+        HPDF_Page_SetFontAndSize(page_, font_, static_cast<float>(line.size));
+        const float width = HPDF_Page_TextWidth(page_, line.text.c_str());
+        HPDF_Page_TextOut(page_, x(line.at) - width / 2, y(line.at), line.text.c_str());
+        HPDF_Page_EndText(page_);
+    }
+    // An image of the mixed colors, whose soft mask has the tones.
+    void operator()(const DensityArea& density) {
+        setOpacity(1);
+        std::vector<HPDF_BYTE> colors;
+        for (int row = 0; row < DensityPlot::kRows; ++row) {
+            for (int column = 0; column < DensityPlot::kColumns; ++column) {
+                const double at = static_cast<double>(column) / DensityPlot::kGap;
+                const auto first = std::min(static_cast<std::size_t>(at), density.axisColors.size() - 2);
+                for (const int shift : {16, 8, 0}) {
+                    const float from = channel(density.axisColors[first], shift);
+                    const float to = channel(density.axisColors[first + 1], shift);
+                    const double t = at - static_cast<double>(first);
+                    colors.push_back(static_cast<HPDF_BYTE>(std::lround(255 * (from + t * (to - from)))));
+                }
+            }
+        }
+        const auto image = HPDF_LoadRawImageFromMem(document_, colors.data(), DensityPlot::kColumns, DensityPlot::kRows,
+                                                    HPDF_CS_DEVICE_RGB, 8);
+        const auto mask = HPDF_LoadRawImageFromMem(document_, density.tones.data(), DensityPlot::kColumns,
+                                                   DensityPlot::kRows, HPDF_CS_DEVICE_GRAY, 8);
+        HPDF_Image_AddSMask(image, mask);
+        // Columns are centered on their axes, and rows on their values.
+        const glm::dvec2 size = density.bottomRight - density.topLeft;
+        const double across = size.x / (DensityPlot::kColumns - 1), down = size.y / (DensityPlot::kRows - 1);
+        const glm::dvec2 corner{density.topLeft.x - across / 2, density.bottomRight.y + down / 2};
+        HPDF_Page_DrawImage(page_, image, x(corner), y(corner), static_cast<float>(size.x + across),
+                            static_cast<float>(size.y + down));
+    }
+
+  private:
+    static float x(const glm::dvec2& at) { return static_cast<float>(at.x); }
+    float y(const glm::dvec2& at) const { return static_cast<float>(height_ - at.y); }
+
+    void fillWith(scene::Color color, double opacity) {
+        setOpacity(opacity);
+        HPDF_Page_SetRGBFill(page_, channel(color, 16), channel(color, 8), channel(color, 0));
+    }
+
+    // Opacities are properties of graphics states. Shapes of the same percentage share one.
+    void setOpacity(double opacity) {
+        const int percent = static_cast<int>(std::lround(100 * std::clamp(opacity, 0.0, 1.0)));
+        if (percent == percent_) return;
+        percent_ = percent;
+        HPDF_ExtGState& state = states_[percent];
+        if (state == nullptr) {
+            state = HPDF_CreateExtGState(document_);
+            HPDF_ExtGState_SetAlphaFill(state, static_cast<float>(percent) / 100);
+            HPDF_ExtGState_SetAlphaStroke(state, static_cast<float>(percent) / 100);
+        }
+        HPDF_Page_SetExtGState(page_, state);
+    }
+
+    HPDF_Doc document_;
+    HPDF_Page page_;
+    double height_;
+    HPDF_Font font_;
+    int percent_ = 100;
+    std::map<int, HPDF_ExtGState> states_;
+};
+
+// Document information may not contain other characters without another encoding.
+std::string asciiOnly(std::string text) {
+    std::ranges::replace_if(text, [](char c) { return c < ' ' || c > '~'; }, '?');
+    return text;
+}
+
+}  // namespace
+
+std::string pdf(const Drawing& drawing) {
+    HPDF_STATUS error = HPDF_OK;
+    const std::unique_ptr<std::remove_pointer_t<HPDF_Doc>, decltype(&HPDF_Free)> document(
+        HPDF_New(recordError, &error), HPDF_Free);
+    if (!document) throw std::runtime_error("libharu cannot create a document");
+    HPDF_SetCompressionMode(document.get(), HPDF_COMP_ALL);
+    HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, asciiOnly(drawing.title).c_str());
+    HPDF_SetInfoAttr(document.get(), HPDF_INFO_CREATOR, "oval4d");
+    const HPDF_Page page = HPDF_AddPage(document.get());
+    HPDF_Page_SetWidth(page, static_cast<float>(drawing.width));
+    HPDF_Page_SetHeight(page, static_cast<float>(drawing.height));
+    PageWriter writer(document.get(), page, drawing.height);
+    for (const ShapeGroup& group : drawing.groups) {
+        for (const Shape& shape : group.shapes) std::visit(writer, shape);
+    }
+    HPDF_SaveToStream(document.get());
+    std::string out(HPDF_GetStreamSize(document.get()), '\0');
+    auto size = static_cast<HPDF_UINT32>(out.size());
+    HPDF_ResetStream(document.get());
+    HPDF_ReadFromStream(document.get(), reinterpret_cast<HPDF_BYTE*>(out.data()), &size);
+    out.resize(size);
+    if (error != HPDF_OK) throw std::runtime_error("libharu cannot write the document: error " + std::to_string(error));
+    return out;
+}
+
+}  // namespace oval4d::exports
