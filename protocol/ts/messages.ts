@@ -75,7 +75,8 @@ export interface Settings {
 export interface FileOptions {
     /** A name that export_formats.json lists. */
     format: string;
-    of?: "focus" | "oval" | "projection";
+    /** The matrix, and drawings of the projection, are exported as svg and pdf only. */
+    of?: "focus" | "oval" | "projection" | "matrix";
     /** Filled, or balls and bars merged into one body; "frame" is the former name of "skeleton". */
     body?: "solid" | "skeleton" | "frame";
     /** The diameter of the polytope's circumscribed sphere, in millimeters. */

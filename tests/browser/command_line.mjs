@@ -267,9 +267,9 @@ test("command line: :export saves a file in each format, as the export dialog do
         await page.waitForSelector("#drawing:focus");
         return download;
     };
-    for (const { name, bodies } of formats) {
+    for (const { name, bodies, group } of formats) {
         const download = await save(`export ${name}`);
-        assert.equal(download.suggestedFilename(), bodies ? `8-cell-w-0.${name}` : `8-cell.${name}`);
+        assert.equal(download.suggestedFilename(), `8-cell${bodies ? "-w-0" : group === "figure" ? "-coordinates" : ""}.${name}`);
         assert.ok((await bytesOf(download)).length > 50, name);
     }
     assert.equal((await save("export PNG")).suggestedFilename(), "8-cell.png");

@@ -63,6 +63,7 @@ test("export: every format makes its file, with a descriptive name", async () =>
         off: /^(#.*\n)*4OFF/,
         csv: /^n,w,/,
         svg: /^<(\?xml|svg)/,
+        pdf: /^%PDF-1/,
         x3d: /^<\?xml[^]*<X3D/,
     };
     for (const [format, expected] of Object.entries(begins)) {
@@ -100,6 +101,22 @@ test("export: size, body and slices are as chosen", async () => {
     await close();
 });
 
+test("export: figures show what is chosen", async () => {
+    const { page, script, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "8-cell" });
+    await named(page, "8-cell");
+    for (const [figure, file, title] of [
+        ["focus", "8-cell-coordinates.svg", "Parallel coordinates"],
+        ["projection", "8-cell-projection.svg", "Perspective projection"],
+        ["matrix", "8-cell-matrix.svg", "Planar sections"],
+    ]) {
+        const { name, bytes } = await exported(page, { format: "svg", figure });
+        assert.equal(name, file);
+        assert.match(text(bytes, 400), new RegExp(`<title>${title}`));
+    }
+    await close();
+});
+
 test("export: only the options of the format are shown", async () => {
     const { page, close } = await openWithScript();
     await openExport(page);
@@ -110,6 +127,7 @@ test("export: only the options of the format are shown", async () => {
         off: [],
         csv: [],
         png: ["pixels"],
+        svg: ["figure"],
         glb: ["of", "body", "size", "label"],
     })) {
         await choose(page, "format", format);

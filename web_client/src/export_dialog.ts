@@ -151,8 +151,12 @@ export class ExportDialog {
             const [width, height] = [Number(fields["width"]), Number(fields["height"])];
             return this.client.request({ type: "get", what: "frame", width, height });
         }
-        const { size, ...rest } = fields;
-        const options = size === undefined ? rest : { ...rest, size: Number(size) };
+        const { size, figure, ...rest } = fields;
+        const options = {
+            ...rest,
+            ...(size !== undefined && { size: Number(size) }),
+            ...(figure !== undefined && { of: figure }),
+        };
         return this.client.request({ type: "get", what: "file", ...(options as unknown as FileOptions) });
     }
 
@@ -166,6 +170,10 @@ export class ExportDialog {
         if (choices.includes("of")) {
             const of = this.chosenValue("of");
             parts.push(of === "focus" ? `w ${focusW(state).replace("\u2212", "-")}` : of);
+        }
+        if (choices.includes("figure")) {
+            const figure = this.chosenValue("figure");
+            parts.push(figure === "focus" ? "coordinates" : figure);
         }
         if (choices.includes("body") && this.chosenValue("body") === "skeleton") parts.push("skeleton");
         return fileName(parts, name);

@@ -2,7 +2,7 @@
 
 import table from "../../protocol/export_formats.json";
 
-export type Choice = "of" | "body" | "size" | "label" | "pixels";
+export type Choice = "of" | "figure" | "body" | "size" | "label" | "pixels";
 
 export interface Format {
     /** The name in the protocol, and the file name extension. */
@@ -29,7 +29,17 @@ export const kFormats: { title: string; formats: Format[] }[] = table.groups.map
     formats: [...(group === "figure" ? [kPng] : []), ...table.formats.filter((row) => row.group === group).map(format)],
 }));
 
-function format(row: { name: string; label: string; about: string; media_type: string; bodies?: string }): Format {
+interface Row {
+    name: string;
+    label: string;
+    about: string;
+    media_type: string;
+    group: string;
+    bodies?: string;
+}
+
+function format(row: Row): Format {
     const { name, label, about } = row;
-    return { name, label, about, type: row.media_type, choices: row.bodies ? ["of", "body", "size", "label"] : [] };
+    const choices: Choice[] = row.bodies ? ["of", "body", "size", "label"] : row.group === "figure" ? ["figure"] : [];
+    return { name, label, about, type: row.media_type, choices };
 }
