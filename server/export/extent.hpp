@@ -11,9 +11,7 @@ namespace oval4d::exports {
 /// sections. Formats with bodies have no matrix; figures show the parallel coordinates in place of slices.
 enum class Extent : std::uint8_t { focus, oval, projection, matrix };
 
-inline constexpr auto kExtents = std::to_array<text::Choice<Extent>>({{"focus", Extent::focus},
-                                                                      {"oval", Extent::oval},
-                                                                      {"projection", Extent::projection},
-                                                                      {"matrix", Extent::matrix}});
+inline constexpr auto kExtents = std::to_array<text::Choice<Extent>>(
+    {{"focus", Extent::focus}, {"oval", Extent::oval}, {"projection", Extent::projection}, {"matrix", Extent::matrix}});
 
 }  // namespace oval4d::exports

@@ -46,10 +46,11 @@ Drawing drawStrip(const scene::Scene& scene) {
     const double step = (kDrawingWidth - 2 * kDrawingMargin) / 3, bottom = kDrawingMargin + 2 * kAmplitude;
     const std::vector<scene::Color> colors = axisColors();
     const auto tones = density.tones();
-    ShapeGroup strip{"density", {DensityArea{{kDrawingMargin, kDrawingMargin},
-                                             {kDrawingMargin + 3 * step, bottom},
-                                             {tones.begin(), tones.end()},
-                                             colors}}};
+    ShapeGroup strip{"density",
+                     {DensityArea{{kDrawingMargin, kDrawingMargin},
+                                  {kDrawingMargin + 3 * step, bottom},
+                                  {tones.begin(), tones.end()},
+                                  colors}}};
     ShapeGroup axes{"axes", {}};
     for (int k = 0; k < 4; ++k) {
         const double x = kDrawingMargin + k * step;
@@ -57,7 +58,9 @@ Drawing drawStrip(const scene::Scene& scene) {
         axes.shapes.emplace_back(Line{.from = {x, kDrawingMargin}, .to = {x, bottom}, .color = colors[k], .id = name});
         axes.shapes.emplace_back(TextLine{{x, bottom + 1.3 * kText}, kText, kDrawingText, name});
     }
-    return {"Parallel coordinates of the vertices: " + scene.title, kDrawingWidth, bottom + kDrawingMargin + kText,
+    return {"Parallel coordinates of the vertices: " + scene.title,
+            kDrawingWidth,
+            bottom + kDrawingMargin + kText,
             {std::move(strip), std::move(axes)}};
 }
 
@@ -68,8 +71,10 @@ Drawing drawCoordinates(const scene::Scene& scene) {
     if (vertices.size() > scene::kMaxVerticesAsLines) return drawStrip(scene);
     const Columns columns(vertices.size());
     const double right = columns.left(columns.perRow - 1) + columns.step;
-    Drawing drawing{"Parallel coordinates of the vertices: " + scene.title, kDrawingWidth,
-                    columns.rowStep * static_cast<double>(columns.rows) + kDrawingMargin, {}};
+    Drawing drawing{"Parallel coordinates of the vertices: " + scene.title,
+                    kDrawingWidth,
+                    columns.rowStep * static_cast<double>(columns.rows) + kDrawingMargin,
+                    {}};
     ShapeGroup& zeros = drawing.groups.emplace_back("zero", std::vector<Shape>());
     for (std::size_t row = 0; row < columns.rows; ++row) {
         const double y = columns.zero(row);
@@ -91,11 +96,11 @@ Drawing drawCoordinates(const scene::Scene& scene) {
     if (!columns.named) return drawing;
     ShapeGroup& names = drawing.groups.emplace_back("names", std::vector<Shape>());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        names.shapes.emplace_back(TextLine{{columns.left(i) + columns.step / 2,
-                                            columns.zero(i / columns.perRow) + kAmplitude + 1.2 * kText},
-                                           kText,
-                                           kDrawingText,
-                                           "P" + std::to_string(i)});
+        names.shapes.emplace_back(
+            TextLine{{columns.left(i) + columns.step / 2, columns.zero(i / columns.perRow) + kAmplitude + 1.2 * kText},
+                     kText,
+                     kDrawingText,
+                     "P" + std::to_string(i)});
     }
     return drawing;
 }

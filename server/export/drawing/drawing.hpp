@@ -21,7 +21,7 @@ struct Line {
     double width = 1;
     scene::Color color = 0;
     bool roundEnds = false;
-    double opacity = 1;  ///< 0 … 1
+    double opacity = 1;   ///< 0 … 1
     std::string id = {};  ///< identifies the line in the file; may be empty
 };
 /// The interior of a polygon.

@@ -74,8 +74,8 @@ class SectionDrawer {
         const std::array corners{center + glm::dvec2(-half, -half), center + glm::dvec2(half, -half),
                                  center + glm::dvec2(half, half), center + glm::dvec2(-half, half)};
         for (std::size_t i = 0; i < corners.size(); ++i) {
-            group.shapes.emplace_back(Line{
-                .from = corners[i], .to = corners[(i + 1) % 4], .width = 0.5, .color = kFrame, .roundEnds = true});
+            group.shapes.emplace_back(
+                Line{.from = corners[i], .to = corners[(i + 1) % 4], .width = 0.5, .color = kFrame, .roundEnds = true});
         }
     }
 

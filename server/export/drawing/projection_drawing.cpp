@@ -33,8 +33,7 @@ constexpr double kThickness = 0.8;  // of lines, relative to the bars of picture
 
 class ProjectionDrawer {
   public:
-    explicit ProjectionDrawer(const scene::Scene& scene)
-        : scene_(scene), view_(glm::dmat3(scene.camera.view())) {
+    explicit ProjectionDrawer(const scene::Scene& scene) : scene_(scene), view_(glm::dmat3(scene.camera.view())) {
         // In world units, everything is within the radius of the placement.
         scale_ = (kDrawingWidth / 2 - kDrawingMargin) / scene.projectionPlacement.radius;
     }
@@ -58,9 +57,7 @@ class ProjectionDrawer {
     }
 
     glm::dvec3 place(const glm::dvec3& p) const { return view_ * (scene_.projection.scale * scale_ * p); }
-    static glm::dvec2 onPaper(const glm::dvec3& p) {
-        return {kDrawingWidth / 2 + p.x, kDrawingWidth / 2 - p.y};
-    }
+    static glm::dvec2 onPaper(const glm::dvec3& p) { return {kDrawingWidth / 2 + p.x, kDrawingWidth / 2 - p.y}; }
 
     // The color of a part at a depth.
     scene::Color colorAt(std::size_t part, double depth) const {
@@ -88,15 +85,22 @@ class ProjectionDrawer {
         }
         for (std::uint32_t e = set.edgeBegin[part]; look.barRadius > 0 && e < set.edgeBegin[part + 1]; ++e) {
             if (!isSeen(scene_.visibilities.edge(set.edgeSource[e]))) continue;
-            const glm::dvec3 a = place(set.vertices[v0 + set.edges[e][0]]), b = place(set.vertices[v0 + set.edges[e][1]]);
+            const glm::dvec3 a = place(set.vertices[v0 + set.edges[e][0]]),
+                             b = place(set.vertices[v0 + set.edges[e][1]]);
             const bool lit = scene_.highlight.hasEdge(set.edgeSource[e]);
             const double depth = (a.z + b.z) / 2, width = kThickness * 2 * scale_ * look.barRadius;
             // The halo leaves a gap in the bars behind, but not in those that meet this bar at its ends.
             const glm::dvec3 gap = 0.12 * (b - a);
-            add(depth, Line{.from = onPaper(a + gap), .to = onPaper(b - gap), .width = kHaloWidth * width,
-                                           .color = kHalo, .opacity = 0.7});
-            add(depth, Line{.from = onPaper(a), .to = onPaper(b), .width = width,
-                                           .color = lit ? style.highlight : colorAt(part, depth), .roundEnds = true});
+            add(depth, Line{.from = onPaper(a + gap),
+                            .to = onPaper(b - gap),
+                            .width = kHaloWidth * width,
+                            .color = kHalo,
+                            .opacity = 0.7});
+            add(depth, Line{.from = onPaper(a),
+                            .to = onPaper(b),
+                            .width = width,
+                            .color = lit ? style.highlight : colorAt(part, depth),
+                            .roundEnds = true});
         }
         for (std::uint32_t v = v0; look.ballRadius > 0 && v < set.vertexBegin[part + 1]; ++v) {
             if (!isSeen(scene_.visibilities.vertex(set.vertexSource[v]))) continue;
@@ -105,14 +109,13 @@ class ProjectionDrawer {
             const double opacity = set.ballOpacity.empty() ? 1 : set.ballOpacity[v];
             const bool lit = scene_.highlight.hasVertex(set.vertexSource[v]);
             add(p.z + scale_ * look.ballRadius,
-                               Disk{onPaper(p), scale_ * look.ballRadius * own,
-                                    lit ? style.highlight : colorAt(part, p.z), opacity});
+                Disk{onPaper(p), scale_ * look.ballRadius * own, lit ? style.highlight : colorAt(part, p.z), opacity});
         }
     }
 
     const scene::Scene& scene_;
     const glm::dmat3 view_;
-    double scale_ = 1;  // points per world unit
+    double scale_ = 1;            // points per world unit
     std::vector<double> depths_;  // of shapes_
     std::vector<Shape> shapes_;
 };
@@ -122,7 +125,9 @@ class ProjectionDrawer {
 Drawing drawProjection(const scene::Scene& scene) {
     const bool perspective = scene.look.projection.kind == scene::ProjectionKind::perspective;
     Drawing drawing{std::string(perspective ? "Perspective" : "Orthogonal") + " projection: " + scene.title,
-                    kDrawingWidth, kDrawingWidth, {}};
+                    kDrawingWidth,
+                    kDrawingWidth,
+                    {}};
     drawing.groups.push_back(ProjectionDrawer(scene).draw());
     return drawing;
 }

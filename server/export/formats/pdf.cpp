@@ -137,8 +137,8 @@ std::string asciiOnly(std::string text) {
 
 std::string pdf(const Drawing& drawing) {
     HPDF_STATUS error = HPDF_OK;
-    const std::unique_ptr<std::remove_pointer_t<HPDF_Doc>, decltype(&HPDF_Free)> document(
-        HPDF_New(recordError, &error), HPDF_Free);
+    const std::unique_ptr<std::remove_pointer_t<HPDF_Doc>, decltype(&HPDF_Free)> document(HPDF_New(recordError, &error),
+                                                                                          HPDF_Free);
     if (!document) throw std::runtime_error("libharu cannot create a document");
     HPDF_SetCompressionMode(document.get(), HPDF_COMP_ALL);
     HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, asciiOnly(drawing.title).c_str());
