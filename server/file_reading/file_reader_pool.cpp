@@ -46,7 +46,7 @@ FileReaderPool::Process FileReaderPool::acquire() {
                                                                 options_.timeout, false, options_.onLoss, kNiceness});
 }
 
-void FileReaderPool::release(Process used) {
+void FileReaderPool::retire(Process used) {
     const std::lock_guard lock(mutex_);
     used_.push_back(std::move(used));
     lastUsed_ = Clock::now();
@@ -97,7 +97,7 @@ Result<session::LoadedObject> FileReaderPool::read(std::string_view format, std:
     struct Lease {
         FileReaderPool& readers;
         Process process;
-        ~Lease() { readers.release(std::move(process)); }
+        ~Lease() { readers.retire(std::move(process)); }
     } const lease{*this, acquire()};
     try {
         lease.process->converse(

@@ -51,7 +51,7 @@ class FileReaderPool {
     using Process = std::unique_ptr<process::ChildProcess>;
 
     Process acquire();
-    void release(Process used);
+    void retire(Process used);  // a process reads one file; another thread replaces it
     void replaceUsed(const std::stop_token& stop);
 
     const FileReaderOptions options_;

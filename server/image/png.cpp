@@ -90,7 +90,7 @@ std::uint32_t combinedAdler32(std::uint32_t first, std::uint32_t second, std::si
 }  // namespace
 
 void PngEncoder::encode(const ImageView& image, int from, int to, Band& band) {
-    filterRows(image, from, to, band.filtered);
+    makeFilteredRows(image, from, to, band.filtered);
     band.checksum = isal_adler32(1, band.filtered.data(), band.filtered.size());
     band.chunk.clear();
     const std::size_t start = beginChunk(band.chunk, "IDAT");

@@ -79,7 +79,7 @@ void subtractPaeth(const std::uint8_t* row, const std::uint8_t* above, std::uint
 
 }  // namespace
 
-void filterRows(const image::ImageView& image, int from, int to, std::vector<std::uint8_t>& out) {
+void makeFilteredRows(const image::ImageView& image, int from, int to, std::vector<std::uint8_t>& out) {
     const auto width = static_cast<std::size_t>(image.width);
     out.resize((3 * width + 1) * static_cast<std::size_t>(to - from));
     std::uint8_t* at = out.data();

@@ -12,6 +12,6 @@ namespace oval4d::image {
 /// vertically, drops alpha, and applies PNG's Paeth filter, which predicts a pixel from its left, upper and upper-left
 /// neighbors. Row 0 has no upper neighbors and gets the Sub filter, which predicts a pixel from its left neighbor.
 /// Overwrites `out` with 1 + 3 · width bytes for each row, the filter type first, and reuses its memory.
-void filterRows(const image::ImageView& image, int from, int to, std::vector<std::uint8_t>& out);
+void makeFilteredRows(const image::ImageView& image, int from, int to, std::vector<std::uint8_t>& out);
 
 }  // namespace oval4d::image

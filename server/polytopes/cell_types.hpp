@@ -20,8 +20,9 @@ inline constexpr std::size_t kMaxCellTypes = 64;
 std::vector<std::uint32_t> cellTypesByShape(const Polytope& polytope);
 
 /// Refines a classification of the cells by color refinement. `types` holds the type number of each cell. Splits a type
-/// if the neighbors of its cells differ in their types, and repeats this until nothing changes. If cells that a
-/// symmetry of the polytope maps to each other have equal types before, they have equal types afterward.
+/// if the neighbors of its cells differ in their types, and repeats this until nothing changes. Respects
+/// symmetry: if cells that are equivalent under the polytope's symmetries start with equal types, they end with equal
+/// types.
 std::vector<std::uint32_t> cellTypesByNeighbors(const Polytope& polytope, std::vector<std::uint32_t> types);
 
 /// Sets polytope.typeOfCell and polytope.cellTypes. `labels` holds an arbitrary number for each cell; cells of the same

@@ -47,6 +47,7 @@ class RasterizerProcess {
                                        DrawTimes& times, const std::stop_token& stop);
 
   private:
+    // Receives the answer to a request. Sends the object first if the process asks for it.
     process::TransferResult receiveAnswer(const session::State& state, const process::Channel& channel,
                                           const process::Deadline& deadline);
 

@@ -28,7 +28,8 @@ struct ProjectionPart {
     bool operator==(const ProjectionPart&) const = default;
 };
 
-/// The projection of the whole object from four to three dimensions, and in it the sections of hyperplanes.
+/// The projection of the whole object from four to three dimensions, together with the projected sections of the object
+/// by hyperplanes.
 struct ObjectProjection {
     slicing::SliceSet elements;            ///< as slicing::Projector writes them: part 0 is the object
     std::vector<std::uint32_t> faceCells;  ///< for each face of `elements`, the cell that determines its color

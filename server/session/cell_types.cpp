@@ -100,7 +100,7 @@ scene::CellTypeFilter reveal(scene::CellTypeFilter filter, const CellTypeList& c
     return filter;
 }
 
-Result<std::monostate> setCellTypes(State& state, const Set& set) {
+Result<std::monostate> setCellTypeVisibility(State& state, const Set& set) {
     for (const auto* list : {&set.hidden, &set.faded}) {
         if (!*list) continue;
         if (auto valid = check(**list, slicing::infoOf(state.object)); !valid) return valid;

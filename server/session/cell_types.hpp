@@ -31,6 +31,6 @@ scene::CellTypeFilter reveal(scene::CellTypeFilter filter, const CellTypeList& c
 /// one list, removes the cell types in this list from the other list of `state`. A cell type that is in both lists of
 /// `set` is hidden. Error: `out_of_range` if the object has no cell type with one of the numbers; `state` is then
 /// unchanged.
-Result<std::monostate> setCellTypes(State& state, const Set& set);
+Result<std::monostate> setCellTypeVisibility(State& state, const Set& set);
 
 }  // namespace oval4d::session

@@ -155,7 +155,7 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
     for (std::size_t i = 0; i < scene::kParts.size(); ++i) put(set.parts[i], state.look.parts.*scene::kParts[i].flag);
     state.look.projection.kind = set.projection.value_or(state.look.projection.kind);
     state.look.coloring = set.coloring.value_or(state.look.coloring);
-    if (auto done = setCellTypes(state, set); !done) return done;
+    if (auto done = setCellTypeVisibility(state, set); !done) return done;
     if (set.highlight) {
         if (*set.highlight) {
             if (auto valid = checkElement(state.object, **set.highlight); !valid) return valid;

@@ -28,7 +28,7 @@ void setCount(State& state, int count);
 
 /// Applies the settings that are present in `set`. If it returns an error, some of them may be applied already, so
 /// callers must pass a copy of the state. Errors: those of findObject; `not_a_rotation`; `out_of_range`;
-/// `nothing_to_undo` if the object is to turn continuously before there was a rotation.
+/// `nothing_to_undo` if `set` starts continuous turning, but no rotation has been made that could be repeated.
 Result<std::monostate> applySet(State& state, const Set& set, const LoadedObjects& loaded, const Limits& limits,
                                 ObjectLoader& loader);
 

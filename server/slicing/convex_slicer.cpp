@@ -25,7 +25,7 @@ bool ConvexSlicer::cut(const polytopes::Polytope& polytope, VertexRanks ranks, s
     if (!ranks.anyOnPlane && isWorthTwoCores(polytope, out.planes.count)) return cutHalves(polytope, ranks, out);
     Sweep& sweep = lower_.sweep;
     if (!sweep.begin(polytope, ranks, out.planes.count)) return false;
-    SliceCounts size = sweep.size();
+    SliceCounts size = sweep.maxSize();
     for (const SliceSet* slice : touching) {
         if (slice != nullptr) size = size + slice->totalCounts();
     }
@@ -56,8 +56,8 @@ bool ConvexSlicer::cutHalves(const polytopes::Polytope& polytope, VertexRanks ra
     };
     if (!invoke([&] { begin(lower_, 0, middle); }, [&] { begin(upper_, middle, out.planes.count); })) return false;
     lower_.end = {};
-    upper_.end = lower_.sweep.size();
-    out.resize(lower_.sweep.size() + upper_.sweep.size());
+    upper_.end = lower_.sweep.maxSize();
+    out.resize(lower_.sweep.maxSize() + upper_.sweep.maxSize());
     if (!invoke([&] { cut(lower_, 0); }, [&] { cut(upper_, middle); })) return false;
     out.end(upper_.end);
     return true;

@@ -60,7 +60,7 @@ std::uint32_t DegeneracyCollapse::collapseEdges(const polytopes::Polytope& polyt
         if (a == b) continue;
         std::uint32_t source = edgeSource[i];
         if (vertexSource[a] >= edges && vertexSource[b] >= edges) {
-            if (const std::uint32_t base = baseEdge(polytope, source, {a, b}); base != kNone) {
+            if (const std::uint32_t base = edgeInHyperplane(polytope, source, {a, b}); base != kNone) {
                 newEdge_[i] = sliceEdge_[base];
                 if (newEdge_[i] != kNone) continue;
                 sliceEdge_[base] = kept;
@@ -103,7 +103,7 @@ void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, Slic
             to = begin;
             continue;
         }
-        const std::uint32_t base = allLie ? baseFace(polytope, faceSource[f], to - begin) : kNone;
+        const std::uint32_t base = allLie ? faceInHyperplane(polytope, faceSource[f], to - begin) : kNone;
         cornerBegin[kept] = begin;
         faceSource[kept++] = base == kNone ? faceSource[f] : cells + base;
     }
@@ -113,8 +113,8 @@ void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, Slic
 
 // Returns the edge of the 2-face that lies in the hyperplane and joins these two vertices of the slice; kNone if there
 // is no single edge, because several collinear edges lie between the two.
-std::uint32_t DegeneracyCollapse::baseEdge(const polytopes::Polytope& polytope, std::uint32_t face,
-                                           std::array<std::uint32_t, 2> ends) const {
+std::uint32_t DegeneracyCollapse::edgeInHyperplane(const polytopes::Polytope& polytope, std::uint32_t face,
+                                                   std::array<std::uint32_t, 2> ends) const {
     for (const std::uint32_t e : polytope.faceEdges[face]) {
         const auto [a, b] = polytope.edges[e];
         if (!ranks_.liesIn(a, plane_) || !ranks_.liesIn(b, plane_)) continue;
@@ -125,8 +125,8 @@ std::uint32_t DegeneracyCollapse::baseEdge(const polytopes::Polytope& polytope, 
 
 // Returns the 2-face of the cell that lies in the hyperplane and has this number of corners; kNone if there is none,
 // because the slice face consists of several coplanar 2-faces.
-std::uint32_t DegeneracyCollapse::baseFace(const polytopes::Polytope& polytope, std::uint32_t cell,
-                                           std::size_t corners) const {
+std::uint32_t DegeneracyCollapse::faceInHyperplane(const polytopes::Polytope& polytope, std::uint32_t cell,
+                                                   std::size_t corners) const {
     const auto lies = [&](std::uint32_t v) { return ranks_.liesIn(v, plane_); };
     for (const std::uint32_t f : polytope.cells[cell]) {
         const auto loop = polytope.faces[f];

@@ -39,9 +39,9 @@ class DegeneracyCollapse {
     std::uint32_t collapseEdges(const polytopes::Polytope& polytope, SliceCounts at, std::uint32_t count,
                                 SliceSet& out);
     void collapseFaces(const polytopes::Polytope& polytope, SliceCounts at, SliceCounts& size, SliceSet& out) const;
-    std::uint32_t baseEdge(const polytopes::Polytope& polytope, std::uint32_t face,
-                           std::array<std::uint32_t, 2> ends) const;
-    std::uint32_t baseFace(const polytopes::Polytope& polytope, std::uint32_t cell, std::size_t corners) const;
+    std::uint32_t edgeInHyperplane(const polytopes::Polytope& polytope, std::uint32_t face,
+                                   std::array<std::uint32_t, 2> ends) const;
+    std::uint32_t faceInHyperplane(const polytopes::Polytope& polytope, std::uint32_t cell, std::size_t corners) const;
 
     VertexRanks ranks_;
     int plane_ = 0;

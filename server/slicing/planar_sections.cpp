@@ -152,16 +152,16 @@ void PlanarSlicer::cutFaces(const SliceSet& slices, int slice, PlanarSection& ou
         if (crossings_.empty()) continue;
         const glm::dvec2 first = out.points[crossings_.front().point];
         glm::dvec2 along(0);
-        for (const Crossing& crossing : crossings_) {
+        for (const FaceCrossing& crossing : crossings_) {
             const glm::dvec2 offset = out.points[crossing.point] - first;
             if (std::abs(offset.x) + std::abs(offset.y) > std::abs(along.x) + std::abs(along.y)) along = offset;
         }
         const int widest = std::abs(along.x) > std::abs(along.y) ? 0 : 1;
-        for (Crossing& crossing : crossings_) crossing.along = out.points[crossing.point][widest];
-        std::ranges::stable_sort(crossings_, {}, &Crossing::along);
+        for (FaceCrossing& crossing : crossings_) crossing.along = out.points[crossing.point][widest];
+        std::ranges::stable_sort(crossings_, {}, &FaceCrossing::along);
         int winding = 0;
         std::uint32_t from = kNone;
-        for (const Crossing& crossing : crossings_) {
+        for (const FaceCrossing& crossing : crossings_) {
             if (winding == 0) from = crossing.point;
             winding += crossing.winding;
             if (winding == 0 && from != crossing.point) {

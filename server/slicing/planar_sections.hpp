@@ -54,7 +54,7 @@ class PlanarSlicer {
                const glm::dvec4& point, PlanarSections& out);
 
   private:
-    struct Crossing {
+    struct FaceCrossing {
         double along = 0;         // the position along the line in which the plane meets the face
         int winding = 0;          // the change of the winding number at the crossing
         std::uint32_t point = 0;  // the index of the point of the section
@@ -73,8 +73,8 @@ class PlanarSlicer {
     std::vector<double> distance_;      // per vertex: its signed distance from the hyperplane; 0 within rounding
     std::vector<std::uint32_t> pointOfVertex_;  // per vertex and edge of the slice: the point of the section, or kNone
     std::vector<std::uint32_t> pointOfEdge_;
-    std::vector<Crossing> crossings_;  // of one face
-    bool zeroIsAbove_ = true;          // on which side vertices count that lie in the hyperplane
+    std::vector<FaceCrossing> crossings_;  // of one face
+    bool zeroIsAbove_ = true;              // on which side vertices count that lie in the hyperplane
 };
 
 }  // namespace oval4d::slicing

@@ -216,15 +216,15 @@ void PolytopeSlicer::cutNonconvexFace(const polytopes::Polytope& polytope, std::
         const glm::dvec3 origin = out.vertices[slotPoint_[ups_[0].slot]];
         glm::dvec3 direction(0);
         for (const auto* crossings : {&ups_, &downs_}) {
-            for (const Crossing& c : *crossings) {
+            for (const LoopCrossing& c : *crossings) {
                 const glm::dvec3 d = out.vertices[slotPoint_[c.slot]] - origin;
                 if (glm::dot(d, d) > glm::dot(direction, direction)) direction = d;
             }
         }
         for (auto* crossings : {&ups_, &downs_}) {
-            for (Crossing& c : *crossings) c.along = glm::dot(out.vertices[slotPoint_[c.slot]] - origin, direction);
+            for (LoopCrossing& c : *crossings) c.along = glm::dot(out.vertices[slotPoint_[c.slot]] - origin, direction);
             std::sort(crossings->begin(), crossings->end(),
-                      [](const Crossing& a, const Crossing& b) { return a.along < b.along; });
+                      [](const LoopCrossing& a, const LoopCrossing& b) { return a.along < b.along; });
         }
         for (std::size_t i = 0; i < ups_.size(); ++i) addSegment(polytope, face, k, ups_[i].slot, downs_[i].slot);
     }

@@ -54,7 +54,7 @@ class PolytopeSlicer {
         std::uint32_t source, begin, size;
     };
     // A point where the vertex loop of a 2-face crosses a hyperplane.
-    struct Crossing {
+    struct LoopCrossing {
         std::uint32_t slot;
         double along;  // its position along the line where the hyperplane cuts the 2-face's plane
     };
@@ -117,7 +117,7 @@ class PolytopeSlicer {
     std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // slice vertex, slice edge to the next corner
     std::vector<std::uint32_t> cursor_, cornerCursor_;       // per hyperplane: where to write the next element
     std::vector<std::uint32_t> up_, down_;  // per hyperplane: the slots where a convex 2-face's loop rises and descends
-    std::vector<Crossing> ups_, downs_;     // in one hyperplane: where a nonconvex 2-face's loop rises and descends
+    std::vector<LoopCrossing> ups_, downs_;  // in one hyperplane: where a nonconvex 2-face's loop rises and descends
 };
 
 }  // namespace oval4d::slicing

@@ -71,7 +71,7 @@ bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> 
         const int next = steps_[step + 1];
         advance(polytope, out.rotatedVertices, k);
         const SliceCounts size = countsOfSlice();
-        if (vertexPosition_[k] == VertexPosition::inside) {
+        if (verticesMet_[k] == VerticesMet::inside) {
             out.begin(first + k, here);
             if (!touching.empty() && touching[k] != nullptr) {
                 here = here + copySlice(*touching[k], here, out);
@@ -90,17 +90,17 @@ bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> 
 
 // Finds the hyperplanes at which the set of cut elements may change.
 void Sweep::findSteps(const polytopes::Polytope& polytope, int planes) {
-    vertexPosition_.assign(planes + 1, VertexPosition::none);
-    for (const std::int32_t below : ranks_.below) vertexPosition_[below] = VertexPosition::between;
+    verticesMet_.assign(planes + 1, VerticesMet::none);
+    for (const std::int32_t below : ranks_.below) verticesMet_[below] = VerticesMet::between;
     if (ranks_.anyOnPlane) {
         for (std::size_t v = 0; v < ranks_.below.size(); ++v) {
-            if (ranks_.below[v] != ranks_.upTo[v]) vertexPosition_[ranks_.below[v]] = VertexPosition::inside;
+            if (ranks_.below[v] != ranks_.upTo[v]) verticesMet_[ranks_.below[v]] = VerticesMet::inside;
         }
         collapse_.begin(polytope, ranks_);
     }
     steps_.assign(1, 0);
     for (int k = 1; k < planes; ++k) {
-        if (vertexPosition_[k] != VertexPosition::none) steps_.push_back(k);
+        if (verticesMet_[k] != VerticesMet::none) steps_.push_back(k);
     }
     steps_.push_back(planes);
 }

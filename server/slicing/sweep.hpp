@@ -33,7 +33,7 @@ class Sweep {
     /// Returns an upper bound of the total size of the slices, without those that are passed to `cut` in `touching`.
     /// The bound is not exact if vertices lie in hyperplanes, because slices through vertices become smaller (see
     /// DegeneracyCollapse).
-    SliceCounts size() const { return size_; }
+    SliceCounts maxSize() const { return size_; }
 
     /// Writes the slices to `out`. The first one becomes slice number `first` of `out`, and its elements begin at
     /// position `at`; sets `at` to the position after the last slice. `out` must contain the rotated vertices, and its
@@ -55,7 +55,7 @@ class Sweep {
     };
     // Where vertices lie, as seen from a hyperplane: at least one in it (inside); none in it, but at least one between
     // it and the hyperplane below (between); or none in either place (none).
-    enum class VertexPosition : std::uint8_t { none, between, inside };
+    enum class VerticesMet : std::uint8_t { none, between, inside };
     void findSteps(const polytopes::Polytope& polytope, int planes);
     bool findElements(const polytopes::Polytope& polytope, int planes);
     void advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& rotatedVertices, int plane);
@@ -71,10 +71,10 @@ class Sweep {
     SliceCounts size_;
     int first_ = 0;  // the slice number in `out` of hyperplane 0
     ActiveList edges_, faces_, cells_;
-    std::vector<Span> faceSpan_;                  // per 2-face
-    std::vector<VertexPosition> vertexPosition_;  // per hyperplane
+    std::vector<Span> faceSpan_;            // per 2-face
+    std::vector<VerticesMet> verticesMet_;  // per hyperplane
     // The hyperplanes at which elements may become active or inactive: hyperplane 0, and all others whose
-    // vertexPosition_ is not `none`; then the number of hyperplanes.
+    // verticesMet_ is not `none`; then the number of hyperplanes.
     std::vector<int> steps_;
     std::vector<Line> line_;                // per active edge
     std::vector<std::uint32_t> vertex_;     // per active edge: its slice vertex

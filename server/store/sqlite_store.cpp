@@ -258,7 +258,7 @@ void SqliteStore::logDamagedRecords() {
 /// repairs the file first. WriteBehindStore therefore notices the failure and saves all open sessions again, because
 /// the repair may lose some of them.
 template <typename Work>
-auto SqliteStore::withRepair(Work work) {
+auto SqliteStore::afterPendingRepair(Work work) {
     if (!database_) {
         open();
     } else if (!damage_.empty()) {
@@ -273,14 +273,14 @@ auto SqliteStore::withRepair(Work work) {
 }
 
 std::optional<std::string> SqliteStore::tokenHash(const std::string& id) {
-    return withRepair([&]() -> std::optional<std::string> {
+    return afterPendingRepair([&]() -> std::optional<std::string> {
         Statement statement(*database_, "SELECT token_hash FROM session WHERE id = ?");
         return statement.text(id).row() ? std::optional(statement.bytesAt(0)) : std::nullopt;
     });
 }
 
 bool SqliteStore::isDamaged(const std::string& id) {
-    return withRepair([&] {
+    return afterPendingRepair([&] {
         Statement statement(*database_,
                             "SELECT 1 FROM session WHERE id = ? AND digest <> digest_of(id, token_hash, whole)");
         return statement.text(id).row();
@@ -288,7 +288,7 @@ bool SqliteStore::isDamaged(const std::string& id) {
 }
 
 std::optional<Record> SqliteStore::claim(const std::string& id) {
-    return withRepair([&]() -> std::optional<Record> {
+    return afterPendingRepair([&]() -> std::optional<Record> {
         try {
             Statement statement(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
             statement.number(now()).text(id).row();
@@ -313,7 +313,7 @@ std::optional<Record> SqliteStore::claim(const std::string& id) {
 }
 
 std::vector<SaveResult> SqliteStore::save(std::span<const RecordUpdate> updates) {
-    return withRepair([&] {
+    return afterPendingRepair([&] {
         if (usedPages() + pagesFor(updates) > maxPages_) {
             throw NotWritable(path_ + ": open sessions use up the quota (--store-quota)");
         }
@@ -370,7 +370,7 @@ SaveResult SqliteStore::saveOne(const RecordUpdate& update) {
 }
 
 std::size_t SqliteStore::evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) {
-    return withRepair([&] { return evictUntilFits(pagesFor(updates), isPinned); });
+    return afterPendingRepair([&] { return evictUntilFits(pagesFor(updates), isPinned); });
 }
 
 std::size_t SqliteStore::evictUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned) {
@@ -395,7 +395,7 @@ std::size_t SqliteStore::evictUntilFits(std::int64_t pagesNeeded, const IsPinned
 }
 
 void SqliteStore::remove(std::span<const std::string> ids) {
-    withRepair([&] {
+    afterPendingRepair([&] {
         Transaction all(*database_);
         for (const std::string& id : ids) {
             Statement statement(*database_, "DELETE FROM session WHERE id = ?");
@@ -406,7 +406,7 @@ void SqliteStore::remove(std::span<const std::string> ids) {
 }
 
 void SqliteStore::touch(std::span<const std::string> ids) {
-    withRepair([&] {
+    afterPendingRepair([&] {
         Transaction all(*database_);
         for (const std::string& id : ids) {
             Statement statement(*database_, "UPDATE session SET touched = ? WHERE id = ?");
@@ -417,7 +417,7 @@ void SqliteStore::touch(std::span<const std::string> ids) {
 }
 
 std::size_t SqliteStore::expire(Milliseconds age) {
-    return withRepair([&] {
+    return afterPendingRepair([&] {
         Statement statement(*database_, "DELETE FROM session WHERE touched < ?");
         statement.number(now() - age.count()).row();
         return statement.changes();
@@ -425,7 +425,7 @@ std::size_t SqliteStore::expire(Milliseconds age) {
 }
 
 std::vector<std::string> SqliteStore::pollClaims() {
-    withRepair([&] {
+    afterPendingRepair([&] {
         releasePages(kMaxReleasedPages);
         size_ = static_cast<std::size_t>(database_->number("SELECT count(*) FROM session"));
     });

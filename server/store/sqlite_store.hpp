@@ -40,7 +40,7 @@ class SqliteStore final : public Store {
 
   private:
     template <typename Work>
-    auto withRepair(Work work);
+    auto afterPendingRepair(Work work);
     void open();
     void check();
     void setUp();

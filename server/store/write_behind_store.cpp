@@ -231,7 +231,9 @@ void WriteBehindStore::enqueue(const std::string& id, CachedSession& cached) {
     queue_.push_back(id);
 }
 
-bool WriteBehindStore::mayWrite() const { return (!queue_.empty() || !removals_.empty()) && Clock::now() >= retryAt_; }
+bool WriteBehindStore::isReadyToWrite() const {
+    return (!queue_.empty() || !removals_.empty()) && Clock::now() >= retryAt_;
+}
 
 void WriteBehindStore::recount() {
     created_ =
@@ -254,7 +256,7 @@ void WriteBehindStore::run() {
         } else if (stopping_ && (queue_.empty() || Clock::now() >= stopAt_)) {
             if (!queue_.empty()) spdlog::error("sessions not written count={} store={}", queue_.size(), name_);
             return;
-        } else if (mayWrite()) {
+        } else if (isReadyToWrite()) {
             lock.unlock();
             write();
         } else if (Clock::now() >= pollAt_) {

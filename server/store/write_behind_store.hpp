@@ -168,7 +168,7 @@ class WriteBehindStore {
     void enqueue(const std::string& id, CachedSession& cached);
     void recount();
     std::vector<CachedSession> evictClosed();
-    bool mayWrite() const;
+    bool isReadyToWrite() const;
     Clock::time_point nextWake() const;
 
     const std::unique_ptr<Store> store_;

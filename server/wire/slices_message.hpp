@@ -23,8 +23,8 @@ class SlicesMessageWriter {
     void write(const scene::Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
                std::string& out);
 
-    /// The values of a scene that stay the same while the object turns. The placements stay the same, too, but
-    /// SliceListWriter caches them.
+    /// The values of a scene that stay the same while the object turns. Does not include the placements,
+    /// which stay the same, too: SliceListWriter caches them.
     struct StaticScene {
         scene::View view{};
         scene::Parts shown;

@@ -47,10 +47,10 @@ Drawing drawStrip(const scene::Scene& scene) {
     const std::vector<scene::Color> colors = axisColors();
     const auto tones = density.tones();
     ShapeGroup strip{"density",
-                     {DensityArea{{kDrawingMargin, kDrawingMargin},
-                                  {kDrawingMargin + 3 * step, bottom},
-                                  {tones.begin(), tones.end()},
-                                  colors}}};
+                     {DensityImage{{kDrawingMargin, kDrawingMargin},
+                                   {kDrawingMargin + 3 * step, bottom},
+                                   {tones.begin(), tones.end()},
+                                   colors}}};
     ShapeGroup axes{"axes", {}};
     for (int k = 0; k < 4; ++k) {
         const double x = kDrawingMargin + k * step;

@@ -46,12 +46,12 @@ struct TextLine {
 };
 /// A density strip (see scene::DensityPlot) in a rectangle. The first and the last column are centered on the left and
 /// right edges, the first and the last row on the upper and lower edges.
-struct DensityArea {
+struct DensityImage {
     glm::dvec2 topLeft, bottomRight;
     std::vector<std::uint8_t> tones;       ///< row by row; opacities from 0 to 255
     std::vector<scene::Color> axisColors;  ///< of x, y, z and w; columns between them have mixed colors
 };
-using Shape = std::variant<Line, Area, Disk, TextLine, DensityArea>;
+using Shape = std::variant<Line, Area, Disk, TextLine, DensityImage>;
 
 /// Shapes that belong together. Later shapes cover earlier ones.
 struct ShapeGroup {

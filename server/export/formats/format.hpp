@@ -14,7 +14,7 @@
 namespace oval4d::exports {
 
 /// The input of formats with bodies: the bodies, already arranged.
-struct BodiesInput {
+struct BodiesToWrite {
     std::span<const NamedMesh> solids;
     std::span<const scene::Color> cellColors;  ///< the color of each cell
     const std::string& title;
@@ -43,7 +43,7 @@ struct Format {
     std::string name;       ///< the name in messages, which is also the file name extension: "stl"
     std::string mediaType;  ///< the value of the Content-Type header
     Arrangement arrangement = Arrangement::none;
-    std::string (*writeBodies)(const BodiesInput&) = nullptr;
+    std::string (*writeBodies)(const BodiesToWrite&) = nullptr;
     std::string (*writeScene)(const SceneInput&) = nullptr;
     std::string (*writeDrawing)(const Drawing&) = nullptr;
 };

@@ -25,7 +25,7 @@ namespace {
 /// The name of a format and the function that writes it: of bodies, of a scene or of a drawing; the others are null.
 struct Writer {
     std::string_view name;
-    std::string (*ofBodies)(const BodiesInput&) = nullptr;
+    std::string (*ofBodies)(const BodiesToWrite&) = nullptr;
     std::string (*ofScene)(const SceneInput&) = nullptr;
     std::string (*ofDrawing)(const Drawing&) = nullptr;
 };

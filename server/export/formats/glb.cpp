@@ -65,7 +65,7 @@ class VertexAttribute {
 };
 
 /// Adds a solid to the model. Triangles do not share vertices, so that each triangle has one normal and one color.
-void addMesh(const NamedMesh& solid, const BodiesInput& bodies, tinygltf::Model& model) {
+void addMesh(const NamedMesh& solid, const BodiesToWrite& bodies, tinygltf::Model& model) {
     VertexAttribute positions;
     VertexAttribute normals;
     VertexAttribute colors;
@@ -102,7 +102,7 @@ void addMesh(const NamedMesh& solid, const BodiesInput& bodies, tinygltf::Model&
 
 }  // namespace
 
-std::string glb(const BodiesInput& bodies) {
+std::string glb(const BodiesToWrite& bodies) {
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = "oval4d";

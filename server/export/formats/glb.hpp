@@ -8,6 +8,6 @@ namespace oval4d::exports {
 
 /// Returns a binary glTF 2.0 file in meters, with a node for each body and with vertex colors. Throws
 /// std::runtime_error if tinygltf fails.
-std::string glb(const BodiesInput& bodies);
+std::string glb(const BodiesToWrite& bodies);
 
 }  // namespace oval4d::exports

@@ -16,7 +16,7 @@ std::string wordOf(std::string name) {
 
 }  // namespace
 
-std::string obj(const BodiesInput& bodies) {
+std::string obj(const BodiesToWrite& bodies) {
     std::string out = "# oval4d, millimeters\n";
     std::size_t first = 1;
     for (const NamedMesh& solid : bodies.solids) {

@@ -68,7 +68,7 @@ class PageWriter {
         HPDF_Page_EndText(page_);
     }
     // An image of the mixed colors, whose soft mask has the tones.
-    void operator()(const DensityArea& density) {
+    void operator()(const DensityImage& density) {
         setOpacity(1);
         std::vector<HPDF_BYTE> colors;
         for (int row = 0; row < DensityPlot::kRows; ++row) {

@@ -4,7 +4,7 @@
 
 namespace oval4d::exports {
 
-std::string ply(const BodiesInput& bodies) {
+std::string ply(const BodiesToWrite& bodies) {
     const auto solids = bodies.solids;
     std::size_t points = 0;
     std::size_t triangles = 0;

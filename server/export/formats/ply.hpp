@@ -7,6 +7,6 @@
 namespace oval4d::exports {
 
 /// Returns a binary little-endian PLY file in millimeters, with all bodies in one mesh and a color for each triangle.
-std::string ply(const BodiesInput& bodies);
+std::string ply(const BodiesToWrite& bodies);
 
 }  // namespace oval4d::exports

@@ -13,7 +13,7 @@
 
 namespace oval4d::exports {
 
-std::string stl(const BodiesInput& bodies) {
+std::string stl(const BodiesToWrite& bodies) {
     const auto solids = bodies.solids;
     constexpr std::size_t kHeader = 80;
     constexpr std::size_t kTriangle = 50;

@@ -7,6 +7,6 @@
 namespace oval4d::exports {
 
 /// Returns a binary STL file in millimeters, with all bodies in one mesh.
-std::string stl(const BodiesInput& bodies);
+std::string stl(const BodiesToWrite& bodies);
 
 }  // namespace oval4d::exports

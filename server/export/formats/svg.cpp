@@ -35,7 +35,7 @@ std::string opacityOf(std::string_view name, double opacity) {
 
 /// Returns the density as SVG paths. The density is rounded to kTones tones; there is one path for each tone, with the
 /// outlines of all pixels of this tone.
-std::string densityPaths(const DensityArea& density) {
+std::string densityPaths(const DensityImage& density) {
     using scene::DensityPlot;
     constexpr int kTones = 32;
     const auto toneAt = [&](int row, int column) {
@@ -86,7 +86,7 @@ struct ElementWriter {
                attribute("font-size", line.size) + attribute("fill", color(line.color)) + attribute("x", line.at.x) +
                attribute("y", line.at.y) + '>' + xmlEscaped(line.text) + "</text>\n";
     }
-    std::string operator()(const DensityArea& density) const {
+    std::string operator()(const DensityImage& density) const {
         using scene::DensityPlot;
         std::string out = "<linearGradient id=\"axes-colors\" gradientUnits=\"userSpaceOnUse\"" + attribute("x1", 0.5) +
                           attribute("x2", DensityPlot::kColumns - 0.5) + ">\n";

@@ -72,7 +72,7 @@ void addMesh(PLib3MFModel* model, const NamedMesh& solid) {
 
 }  // namespace
 
-std::string threeMf(const BodiesInput& bodies) {
+std::string threeMf(const BodiesToWrite& bodies) {
     const auto model = owned<PLib3MFModel>("cannot create a model", [](auto** out) { return lib3mf_createmodel(out); });
     check(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER), "cannot set the unit");
     check(lib3mf_model_addmetadatautf8(model.get(), "Title", bodies.title.c_str()), "cannot set the title");

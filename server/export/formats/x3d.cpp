@@ -15,7 +15,7 @@ void appendColor(std::string& out, scene::Color color) {
     }
 }
 
-void appendBody(std::string& out, const NamedMesh& solid, const BodiesInput& bodies) {
+void appendBody(std::string& out, const NamedMesh& solid, const BodiesToWrite& bodies) {
     out += "<Transform translation=\"";
     append(out, glm::dvec3(solid.at * kMeter));
     out += "\"><Shape><Appearance><Material/></Appearance>\n<IndexedFaceSet colorPerVertex=\"false\" coordIndex=\"";
@@ -34,7 +34,7 @@ void appendBody(std::string& out, const NamedMesh& solid, const BodiesInput& bod
 
 }  // namespace
 
-std::string x3d(const BodiesInput& bodies) {
+std::string x3d(const BodiesToWrite& bodies) {
     std::string out =
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<X3D profile=\"Interchange\" version=\"3.3\">\n<head><meta name=\"title\" content=\"" +

@@ -16,9 +16,8 @@ struct SkeletonRadii {
 /// polytope.
 SkeletonRadii skeletonRadii(const scene::Scene& scene, double scale);
 
-/// Returns an estimate of the total number of triangles that skeletonOf gives for all slices if `cube` is the radius of
-/// a bar. If `cube` is half as large, there are four times as many triangles. `scale` is in millimeters per unit of the
-/// polytope.
+/// Returns the estimated total number of triangles of all slices if skeletonOf() meshes them with cubes as wide as the
+/// radius of a bar. Cubes half as wide give four times as many. `scale` is in millimeters per unit of the polytope.
 double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& radii);
 
 /// Returns the skeleton of slice i, meshed by marching tetrahedra in cubes that are `cube` millimeters wide. `scale` is

@@ -306,7 +306,7 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
     const std::uint64_t askedRevision = revision();
     std::optional<Error> failed;
     try {
-        Message picture = co_await runOnPool<Message>(services_.pictureWorkers, requestedPictureJob(key, id, point),
+        Message picture = co_await runOnPool<Message>(services_.pictureWorkers, requestedJob(key, id, point),
                                                       lanesOf(*peer).pictures, pictureCost(session_.current, key));
         peer->send(std::move(picture));
         if (key.stream == Stream::frames) peer->send(doneMessage(id, askedRevision));
@@ -321,8 +321,8 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
 }
 
 /// Returns a job that makes a picture of the current state or, with a point, tells what the picture shows there.
-std::function<Message(pipeline::Pipeline&)> LiveSession::requestedPictureJob(const StreamKey& key, RequestId id,
-                                                                             std::optional<glm::dvec2> point) const {
+std::function<Message(pipeline::Pipeline&)> LiveSession::requestedJob(const StreamKey& key, RequestId id,
+                                                                      std::optional<glm::dvec2> point) const {
     const SnapshotPtr known = snapshot_ && snapshot_->revision == revision() ? snapshot_ : nullptr;
     return [known, state = session_.current, askedRevision = revision(), changed = changed_, key, id, point,
             &metrics = services_.metrics](pipeline::Pipeline& pipeline) {

@@ -117,8 +117,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
                                                    std::optional<glm::dvec2> point = {});
     boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
                                                 RequestId id);
-    std::function<Message(pipeline::Pipeline&)> requestedPictureJob(const StreamKey& key, RequestId id,
-                                                                    std::optional<glm::dvec2> point) const;
+    std::function<Message(pipeline::Pipeline&)> requestedJob(const StreamKey& key, RequestId id,
+                                                             std::optional<glm::dvec2> point) const;
     boost::asio::awaitable<void> applyCommand(std::shared_ptr<Peer> peer, const session::Command& command,
                                               RequestId id);
     std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::SaveScope scope);

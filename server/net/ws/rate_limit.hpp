@@ -6,8 +6,8 @@
 namespace oval4d::net {
 
 /// Limits the rate of requests. Allows bursts of as many requests as the rate allows in two seconds, and refuses the
-/// requests beyond that. Refused requests count, too: a client with as many refused requests as a burst may have is
-/// abusive and should be disconnected. Not thread-safe.
+/// requests beyond that. Refused requests count, too: a client is abusive, and should be disconnected, once as many of
+/// its requests have been refused as a whole burst allows. Not thread-safe.
 class RateLimit {
   public:
     using Clock = TokenBucket::Clock;

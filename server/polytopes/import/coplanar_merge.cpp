@@ -122,7 +122,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 // Returns the triangle opposite a vertex of the simplex.
-Triangle oppositeTo(std::size_t vertex, const Simplex& simplex) {
+Triangle oppositeTo(std::size_t vertex, const SimplexFacet& simplex) {
     Triangle triangle{};
     std::size_t at = 0;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -158,14 +158,15 @@ std::vector<Side> sidesOf(const Triangles& triangles, Corners corners) {
 
 class Merger {
   public:
-    Merger(std::span<const Simplex> simplices, std::span<const glm::dvec4> points, const HullFrame& frame)
+    Merger(std::span<const SimplexFacet> simplices, std::span<const glm::dvec4> points, const HullFrame& frame)
         : simplices_(simplices),
           points_(points),
           frame_(frame),
           cellOf_(simplices.size(), kNone),
           mark_(simplices.size(), 0),
           signs_(simplices.size(), 0) {
-        for (const Simplex& simplex : simplices_) volumes_.push_back(Hyperplane(simplex.vertices, points_).volume());
+        for (const SimplexFacet& simplex : simplices_)
+            volumes_.push_back(Hyperplane(simplex.vertices, points_).volume());
         orient();
     }
 
@@ -574,7 +575,7 @@ class Merger {
         }
     }
 
-    std::span<const Simplex> simplices_;
+    std::span<const SimplexFacet> simplices_;
     std::span<const glm::dvec4> points_;
     const HullFrame& frame_;
     std::vector<double> volumes_;
@@ -589,7 +590,7 @@ class Merger {
 
 }  // namespace
 
-MergedHull mergeCoplanar(std::span<const Simplex> simplices, std::span<const glm::dvec4> points,
+MergedHull mergeCoplanar(std::span<const SimplexFacet> simplices, std::span<const glm::dvec4> points,
                          const HullFrame& frame) {
     return Merger(simplices, points, frame).run();
 }

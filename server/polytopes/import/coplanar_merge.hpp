@@ -15,7 +15,7 @@
 namespace oval4d::polytopes {
 
 /// A facet of a four-dimensional convex hull that has only simplices as facets: a tetrahedron.
-struct Simplex {
+struct SimplexFacet {
     std::array<std::uint32_t, 4> vertices;   ///< indices of points, in ascending order
     std::array<std::uint32_t, 4> neighbors;  ///< neighbor i shares the 2-face opposite vertex i
 };
@@ -31,7 +31,7 @@ struct MergedHull {
 /// merges the triangles between two cells into one 2-face. Merges fewer simplices if the cell would not be convex
 /// otherwise. The resulting cells form a closed boundary, as the simplices do. `points` are in the coordinates of
 /// `frame`, which also gives their noise (HullFrame::noise).
-MergedHull mergeCoplanar(std::span<const Simplex> simplices, std::span<const glm::dvec4> points,
+MergedHull mergeCoplanar(std::span<const SimplexFacet> simplices, std::span<const glm::dvec4> points,
                          const HullFrame& frame);
 
 }  // namespace oval4d::polytopes

@@ -63,13 +63,13 @@ class QhullRun {
     double perturbation() const { return state_.JOGGLEmax; }
 
     /// Returns the facets of the hull, each with its vertices in ascending order.
-    std::vector<Simplex> simplices() {
+    std::vector<SimplexFacet> simplices() {
         qhT* const qh = &state_;
         facetT* facet = nullptr;
         std::vector<std::uint32_t> number(qh->facet_id, 0);
         std::uint32_t next = 0;
         FORALLfacets { number[facet->id] = next++; }
-        std::vector<Simplex> all;
+        std::vector<SimplexFacet> all;
         FORALLfacets {
             // Neighbor i of a simplicial facet lies opposite its vertex i.
             std::array<std::pair<std::uint32_t, std::uint32_t>, kDimensions> corners;
@@ -79,7 +79,7 @@ class QhullRun {
                 corners.at(i) = {static_cast<std::uint32_t>(qh_pointid(qh, vertex->point)), number[neighbor->id]};
             }
             std::sort(corners.begin(), corners.end());
-            Simplex& simplex = all.emplace_back();
+            SimplexFacet& simplex = all.emplace_back();
             for (int i = 0; i < kDimensions; ++i)
                 std::tie(simplex.vertices.at(i), simplex.neighbors.at(i)) = corners.at(i);
         }
@@ -113,7 +113,7 @@ class QhullRun {
 // Returns the simplices of the hull, and sets the perturbation of `frame`. The number of simplices can grow with the
 // square of the number of points. Therefore first computes the hulls of samples of increasing size: if the hull is too
 // large, a sample reveals this before memory is exhausted.
-std::vector<Simplex> simplicialHull(const Points& points, HullFrame& frame, std::size_t maxCells) {
+std::vector<SimplexFacet> simplicialHull(const Points& points, HullFrame& frame, std::size_t maxCells) {
     double perturbation = kPerturbation;
     for (std::size_t count = std::min(kFirstSample, points.size());; count = std::min(2 * count, points.size())) {
         QhullRun run(std::span<const glm::dvec4>(points).first(count), perturbation);
@@ -140,9 +140,9 @@ std::vector<Simplex> simplicialHull(const Points& points, HullFrame& frame, std:
 
 // Returns, for each point, the points that share an edge of a simplex with it; none for a point that is not on the
 // hull.
-std::vector<std::vector<std::uint32_t>> linksOf(std::span<const Simplex> simplices, std::size_t points) {
+std::vector<std::vector<std::uint32_t>> linksOf(std::span<const SimplexFacet> simplices, std::size_t points) {
     std::vector<std::vector<std::uint32_t>> links(points);
-    for (const Simplex& simplex : simplices) {
+    for (const SimplexFacet& simplex : simplices) {
         for (const std::uint32_t v : simplex.vertices) {
             for (const std::uint32_t w : simplex.vertices) {
                 if (v != w) links[v].push_back(w);
@@ -166,7 +166,7 @@ Points placesOf(std::span<const std::uint32_t> which, const Points& points) {
 // Returns, for each point, whether it is a vertex of the hull: whether it lies outside the hull of the others by more
 // than the noise. Points inside an edge, a 2-face or a cell are not vertices of the hull, even if rounding and
 // perturbation have moved them outward and made them vertices of simplices.
-std::vector<bool> verticesOf(std::span<const Simplex> simplices, const Points& points, const HullFrame& frame) {
+std::vector<bool> verticesOf(std::span<const SimplexFacet> simplices, const Points& points, const HullFrame& frame) {
     const auto links = linksOf(simplices, points.size());
     std::vector<bool> vertex(points.size(), false), doubtful(points.size(), false), reached(points.size(), false);
     for (std::uint32_t v = 0; v < points.size(); ++v) {
@@ -222,11 +222,11 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
                                 std::to_string(places.size()));
     }
 
-    std::vector<Simplex> simplices = simplicialHull(places, frame, maxCells);
+    std::vector<SimplexFacet> simplices = simplicialHull(places, frame, maxCells);
     for (int round = 0; round < kMaxRounds; ++round) {
         const std::vector<bool> vertex = verticesOf(simplices, places, frame);
         std::vector<bool> onHull(places.size(), false);
-        for (const Simplex& simplex : simplices) {
+        for (const SimplexFacet& simplex : simplices) {
             for (const std::uint32_t v : simplex.vertices) onHull[v] = true;
         }
         if (vertex == onHull) break;

@@ -166,7 +166,7 @@ Imported readOff4(std::string_view text, const std::string& name, const ImportLi
 // cells, as for a polytope that was scaled and then rounded to whole numbers.
 Hull hullOf(std::span<const glm::dvec4> points, const WrittenPrecision& precision, std::size_t maxCells,
             std::vector<std::string>& warnings) {
-    const glm::dvec4 rounding = precision.rounding(halfDiagonal(points));
+    const glm::dvec4 rounding = precision.maxRoundingError(halfDiagonal(points));
     if (!precision.whole() || rounding == glm::dvec4(0)) return convexHull(points, rounding, maxCells);
     Hull exact = convexHull(points, glm::dvec4(0), maxCells), rounded;
     try {

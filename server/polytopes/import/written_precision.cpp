@@ -51,7 +51,7 @@ void WrittenPrecision::add(std::string_view word, int axis, double value) {
     lastPlace_ = std::min(lastPlace_, digits.last);
 }
 
-glm::dvec4 WrittenPrecision::rounding(double size) const {
+glm::dvec4 WrittenPrecision::maxRoundingError(double size) const {
     if (digits_ == 0) return glm::dvec4(0);
     glm::dvec4 unit(0);
     double least = std::numeric_limits<double>::infinity();

@@ -20,7 +20,7 @@ class WrittenPrecision {
     /// Returns the maximum rounding error of a coordinate along each axis: half the unit of the last digit. Returns 0
     /// for all axes if the coordinates count as exact: if `size`, half the diagonal of the points' bounding box, is at
     /// most 400 units of the last digit. Programs hardly round coordinates to such coarse units, as in 0.5 and 10.5.
-    glm::dvec4 rounding(double size) const;
+    glm::dvec4 maxRoundingError(double size) const;
 
     /// Returns whether every coordinate is written as an integer: without a decimal point and without an exponent.
     bool whole() const { return whole_; }

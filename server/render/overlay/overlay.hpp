@@ -46,7 +46,7 @@ class Overlay {
     /// Adds a straight line with round ends, `width` pixels wide.
     void line(glm::vec2 from, glm::vec2 to, float width, scene::Color color, float opacity = 1);
 
-    /// Adds the interior of a convex polygon. Its edges are not antialiased; lines may cover them.
+    /// Adds the interior of a convex polygon. Its edges are not antialiased; draw lines over them to hide this.
     void polygon(std::span<const glm::vec2> corners, scene::Color color, float opacity = 1);
 
     /// Adds a line of text, centered at x and with its baseline at y. `size` is the height of the em square in pixels.

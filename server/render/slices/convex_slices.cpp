@@ -116,7 +116,7 @@ void ConvexSlicePainter::paintFaces(const SliceView& slice, Side side, ShapeBatc
 }
 
 void ConvexSlicePainter::paintSkeleton(const SliceView& slice, Side side, ShapeBatch& out) {
-    const Skeleton skeleton(slice.scene);
+    const SkeletonStyle skeleton(slice.scene);
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const std::uint32_t v = order_[i];
         if (skeleton.balls && vertexSide_[v] == side)

@@ -38,7 +38,7 @@ void NonconvexSlicePainter::paint(const scene::Scene& scene, Layers& out) {
     std::sort(skeleton_.begin(), skeleton_.end(), farther);
     std::sort(faded_.begin(), faded_.end(), farther);
     const Projection projection = Projection::of(scene.camera, scene.viewport);
-    const Skeleton skeleton(scene);
+    const SkeletonStyle skeleton(scene);
     const auto paintAll = [&](const std::vector<Item>& items, ShapeBatch& shapes) {
         shapes.begin(scene::style());
         shapes.setProjection(projection);
@@ -54,7 +54,7 @@ void NonconvexSlicePainter::collect(const SliceView& slice, DepthRange& depths) 
     const scene::Scene& scene = slice.scene;
     const auto number = static_cast<std::uint32_t>(slice.number);
     const SliceTransform& transform = transforms_[number];
-    const Skeleton skeleton(scene);
+    const SkeletonStyle skeleton(scene);
     glm::vec3* points = points_.data() + slice.firstVertex();
     for (std::uint32_t v = 0; v < slice.vertices(); ++v) {
         points[v] = transform(slice.set.vertices[slice.firstVertex() + v]);
@@ -80,7 +80,7 @@ void NonconvexSlicePainter::add(const Item& item, Visibility visibility) {
     if (visibility == Visibility::full) (item.kind == Kind::patch ? faces_ : skeleton_).push_back(item);
 }
 
-void NonconvexSlicePainter::paintItem(const SliceView& slice, const Item& item, const Skeleton& skeleton,
+void NonconvexSlicePainter::paintItem(const SliceView& slice, const Item& item, const SkeletonStyle& skeleton,
                                       ShapeBatch& out) {
     if (item.kind == Kind::patch) return paintPatch(slice, item.number, out);
     const glm::vec3* points = points_.data() + slice.firstVertex();

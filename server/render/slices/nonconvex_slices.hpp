@@ -36,7 +36,7 @@ class NonconvexSlicePainter {
 
     void collect(const SliceView& slice, DepthRange& depths);
     void add(const Item& item, slicing::Visibility visibility);
-    void paintItem(const SliceView& slice, const Item& item, const Skeleton& skeleton, ShapeBatch& out);
+    void paintItem(const SliceView& slice, const Item& item, const SkeletonStyle& skeleton, ShapeBatch& out);
     void paintPatch(const SliceView& slice, std::uint32_t number, ShapeBatch& out);
 
     std::vector<SliceTransform> transforms_;   // one per slice

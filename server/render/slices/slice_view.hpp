@@ -74,13 +74,13 @@ class SliceTransform {
 
 /// The appearance of balls and bars. If only bars are shown, balls with the radius and color of the bars are drawn at
 /// the vertices, so that the joints of bars are round.
-struct Skeleton {
+struct SkeletonStyle {
     bool balls, bars;
     float ballRadius, barRadius;
     scene::Color ballColor, barColor;
     float hiddenEndLength;  ///< the length of a bar's end that is inside a ball
 
-    explicit Skeleton(const scene::Scene& scene)
+    explicit SkeletonStyle(const scene::Scene& scene)
         : balls(scene.look.parts.balls || scene.look.parts.bars),
           bars(scene.look.parts.bars),
           ballRadius(static_cast<float>(scene.look.parts.balls ? scene.ballRadius : scene.barRadius)),

@@ -238,7 +238,7 @@ TEST(Png, FilterIsPaethInAllRowsButTheFirst) {
     for (int width = 1; width <= 20; ++width) {
         const Image image = makeImage(width, kRows, Kind::noise, random);
         Bytes rows;
-        filterRows({image.width, image.height, image.pixels}, 0, kRows, rows);
+        makeFilteredRows({image.width, image.height, image.pixels}, 0, kRows, rows);
         const std::size_t stride = 3 * static_cast<std::size_t>(width) + 1;
         ASSERT_EQ(rows.size(), kRows * stride);
         for (int y = 0; y < kRows; ++y) {

@@ -344,20 +344,20 @@ TEST(Hull, CellTypesAreTheSameFarFromTheOrigin) {
 }
 
 TEST(WrittenPrecision, IsHalfTheUnitOfTheLastDigit) {
-    const auto rounding = [](const std::vector<const char*>& words, double size) {
+    const auto maxRoundingError = [](const std::vector<const char*>& words, double size) {
         WrittenPrecision precision;
         for (const char* word : words) precision.add(word, 0, std::stod(word));
-        return precision.rounding(size).x;
+        return precision.maxRoundingError(size).x;
     };
-    EXPECT_DOUBLE_EQ(rounding({"0.70711", "-1.00000"}, 1), 0.5e-5);
-    EXPECT_DOUBLE_EQ(rounding({"10.70711", "0.70711", "0.5"}, 1), 0.5e-5);  // fixed number of decimals
-    EXPECT_DOUBLE_EQ(rounding({"10.7071", "0.707107", "0.5"}, 1),
+    EXPECT_DOUBLE_EQ(maxRoundingError({"0.70711", "-1.00000"}, 1), 0.5e-5);
+    EXPECT_DOUBLE_EQ(maxRoundingError({"10.70711", "0.70711", "0.5"}, 1), 0.5e-5);  // fixed number of decimals
+    EXPECT_DOUBLE_EQ(maxRoundingError({"10.7071", "0.707107", "0.5"}, 1),
                      0.5e-4);  // fixed number of digits, determined by the largest number
-    EXPECT_DOUBLE_EQ(rounding({"1.0707e+05", "7.0711E-1"}, 1e5), 5);
-    EXPECT_DOUBLE_EQ(rounding({"7.0711e-10", "0"}, 1e-9), 0.5e-14);
-    EXPECT_EQ(rounding({"0.5", "1.5", "0"}, 2), 0);
-    EXPECT_EQ(rounding({"100000.5", "99999.5"}, 2), 0);
-    EXPECT_EQ(rounding({"5e-10", "1e-9"}, 2e-9), 0);
+    EXPECT_DOUBLE_EQ(maxRoundingError({"1.0707e+05", "7.0711E-1"}, 1e5), 5);
+    EXPECT_DOUBLE_EQ(maxRoundingError({"7.0711e-10", "0"}, 1e-9), 0.5e-14);
+    EXPECT_EQ(maxRoundingError({"0.5", "1.5", "0"}, 2), 0);
+    EXPECT_EQ(maxRoundingError({"100000.5", "99999.5"}, 2), 0);
+    EXPECT_EQ(maxRoundingError({"5e-10", "1e-9"}, 2e-9), 0);
 }
 
 }  // namespace
