@@ -286,3 +286,51 @@ test("matrix: the cursor tells the panels, where Alt-drag still turns and a doub
     assert.deepEqual([camera.azimuth, (await script.state()).camera.azimuth], [0.3, 0.3]);
     await close();
 });
+
+test("matrix: its button is pressed in the matrix view, that of the focus slice is not", async () => {
+    const { page, script, press, close } = await openMatrix({ view: "oval" });
+    const pressed = () =>
+        page.evaluate(() => {
+            const isPressed = (action) => document.querySelector(`[data-action=${action}]`).ariaPressed === "true";
+            return { matrix: isPressed("matrix"), view: isPressed("view") };
+        });
+    assert.deepEqual(await pressed(), { matrix: false, view: false });
+    await page.click("[data-action=matrix]");
+    const { revision } = await script.until(({ view }) => view === "matrix", "the matrix");
+    await presented(page, revision);
+    assert.deepEqual(await pressed(), { matrix: true, view: false });
+    await page.focus("#drawing");
+    await press("o");
+    await press("o");
+    assert.deepEqual(await pressed(), { matrix: false, view: true });
+    await press("m");
+    assert.deepEqual(await pressed(), { matrix: true, view: false });
+    await close();
+});
+
+test("matrix: the command line moves the focus point, and its help mentions it", async () => {
+    const { page, script, errors, close } = await openMatrix();
+    await page.focus("#drawing");
+    await page.keyboard.press(":");
+    await page.keyboard.type("set point=-0.5,pi/8,0,0.25");
+    await page.keyboard.press("Enter");
+    await script.until(({ point }) => point[0] === -0.5 && point[1] === Math.PI / 8, "the point");
+    await page.waitForSelector("#drawing:focus");
+    await page.keyboard.press(":");
+    await page.keyboard.type("set point=1,2");
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => /four numbers/.test(document.getElementById("command-error").textContent));
+    for (const topic of ["point", "matrix"]) {
+        await page.fill("#command", `help ${topic}`);
+        await page.keyboard.press("Enter");
+        await page.waitForSelector("#help[open]");
+        const shown = await page.locator("#help :is(tr, dl > div):visible").allTextContents();
+        assert.ok(shown.length > 0 && shown.length < 8, shown.join("; "));
+        assert.ok(shown.every((line) => line.includes(topic)), shown.join("; "));
+        await page.keyboard.press("Escape");
+        await page.waitForSelector("#drawing:focus");
+        await page.keyboard.press(":");
+    }
+    assert.deepEqual(errors, []);
+    await close();
+});
