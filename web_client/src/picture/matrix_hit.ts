@@ -32,7 +32,8 @@ export function hitInPanel(
     if (found || !shown.bars) return found;
     edges.forEach(([from, to], e) => {
         if (seen?.edges[e] === 0) return;
-        take(distanceFromSegment(pixel, places[from]!, places[to]!), (matrix.line_width / 2) * height, { kind: "faces", source: of.edges[e]! });
+        const distance = distanceFromSegment(pixel, places[from]!, places[to]!);
+        take(distance, (matrix.line_width / 2) * height, { kind: "faces", source: of.edges[e]! });
     });
     return found;
 }
