@@ -253,7 +253,7 @@ test("matrix: one finger moves the focus point, two fingers zoom", async () => {
 });
 
 test("matrix: the cursor tells the panels, where Alt-drag still turns and a double click does not reset the view", async () => {
-    const { page, script, size, picture, moveTo, close } = await openMatrix();
+    const { page, script, press, size, picture, moveTo, close } = await openMatrix();
     const { matrix } = await picture();
     const cursor = () => page.evaluate(() => getComputedStyle(document.getElementById("drawing")).cursor);
     const wy = panelOf(matrix, "wy", size);
@@ -268,6 +268,11 @@ test("matrix: the cursor tells the panels, where Alt-drag still turns and a doub
     await page.mouse.up();
     await moveTo(...wy.at(0, 2.3));
     assert.equal(await cursor(), "grab", "between two panels");
+    await moveTo(...inside);
+    for (const [key, expected] of [["o", "grab"], ["m", "crosshair"]]) {
+        await press(key);
+        assert.equal(await cursor(), expected, "under a mouse at rest, after another view");
+    }
 
     await script.request({ type: "set", point: kPoint, camera: { azimuth: 0.3 } });
     const { last } = await script.until(({ camera }) => camera.azimuth === 0.3, "the camera");

@@ -57,7 +57,10 @@ export class App {
     private readonly stage = new Stage(this.drawing, {
         presented: (revision, by) => this.picturePresented(revision, by),
         resized: () => this.stageResized(),
-        beforeDraw: () => this.pointing.update(),
+        beforeDraw: () => {
+            this.pointing.update();
+            this.focusPointDrag.update();
+        },
         graphicsChanged: (isAvailable) => this.graphicsChanged(isAvailable),
     });
     private readonly client = new Client({

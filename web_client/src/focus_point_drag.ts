@@ -9,6 +9,7 @@ import type { Stage } from "./picture/stage";
 
 export class FocusPointDrag {
     private panel: MatrixPanel | undefined; // in which the drag began
+    private hovering: Point | undefined; // where the mouse hovers
 
     /** `matrix` returns the matrix in the picture; undefined if there is none, or while its layout is not known. */
     constructor(
@@ -17,7 +18,15 @@ export class FocusPointDrag {
         private readonly focusPoint: FocusPoint,
         private readonly matrix: () => SectionMatrix | undefined,
     ) {
-        followHover(drawing, (at) => at && this.showCursor(at));
+        followHover(drawing, (at) => {
+            this.hovering = at;
+            this.update();
+        });
+    }
+
+    /** Shows the cursor for what is under the pointer. To be called when the picture changes. */
+    update(): void {
+        if (this.hovering) this.showCursor(this.hovering);
     }
 
     /** Whether a point of the drawing, in pixels, is in a panel. */
