@@ -339,3 +339,51 @@ test("matrix: the command line moves the focus point, and its help mentions it",
     assert.deepEqual(errors, []);
     await close();
 });
+
+test("matrix: what only the panels cut is lit and described, too", async () => {
+    const slices = { count: 3, spacing: 0.05 };
+    const { page, size, picture, moveTo, close } = await openMatrix({ slices, projection: "off" });
+    const seen = await picture();
+    const inSlices = (kind, source) => seen.slices.some(({ of }) => of[kind].includes(source));
+    const wx = panelOf(seen.matrix, "wx", size);
+    const { points, edges, of } = wx.section;
+    await moveTo(4, 4);
+    const before = await shot(page);
+    const outside = edges.findIndex((_, e) => !inSlices("faces", of.edges[e]));
+    const ends = edges[outside].map((p) => wx.place(points[p]));
+    await moveTo(...middle(ends));
+    assert.match(await labeled(page, /./), new RegExp(`^Cell ${of.edges[outside]} `));
+    const lit = await shot(page);
+    for (const end of ends) assert.ok(litAt(before, lit, end), "the ends of the edge");
+
+    const cellsAt = (p) => of.edges.filter((_, e) => edges[e].includes(p));
+    const corner = points.findIndex(
+        (_, p) => !inSlices("edges", of.points[p]) && cellsAt(p).every((cell) => inSlices("faces", cell)),
+    );
+    await moveTo(...wx.place(points[corner]));
+    assert.match(await labeled(page, /^Face/), new RegExp(`^Face ${of.points[corner]} · w`));
+    await close();
+});
+
+test("matrix: moves in two panels add up while the first one is not answered", async () => {
+    const { page, script, size, picture, click, close } = await openMatrix();
+    const { matrix } = await picture();
+    await page.evaluate(() => {
+        window.held = [];
+        const { send } = WebSocket.prototype;
+        WebSocket.prototype.send = function (text) {
+            if (!JSON.parse(text).point || window.isReleased) return send.call(this, text);
+            return void window.held.push(() => send.call(this, text)); // the server receives it later
+        };
+    });
+    await click(...panelOf(matrix, "yx", size).at(0.4, 0.5));
+    await page.waitForFunction(() => window.held.length === 1);
+    await click(...panelOf(matrix, "wz", size).at(-0.1, -0.4));
+    await frames(page);
+    await page.evaluate(() => {
+        window.isReleased = true;
+        window.held.forEach((sendNow) => sendNow());
+    });
+    await pointAt(script, [0.4, 0.5, -0.1, -0.4], "both moves");
+    await close();
+});

@@ -37,9 +37,7 @@ export function listenForGestures(drawing: HTMLElement, { orbit, rotation, focus
     const fingersChanged = (): void => {
         const [a, b] = [...fingers.values()];
         pair = a && b && fingers.size === 2 ? new TwoFingers(a, b) : undefined;
-        if (!pair) return;
-        movesPoint = false;
-        rotation.begin();
+        if (pair) rotation.begin();
     };
     const drag = (before: PointerEvent, now: PointerEvent): void => {
         const [dx, dy] = [now.clientX - before.clientX, now.clientY - before.clientY];
