@@ -243,6 +243,8 @@ test("accessibility: changes are announced after a pause", async () => {
     await spoken("turned xw 6°");
     await press("o");
     await spoken("single view");
+    await press("m");
+    await spoken("matrix view, focus point 0, 0, 0, 0");
     await press("f");
     await spoken("faces off");
     await close();

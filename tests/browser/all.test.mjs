@@ -16,6 +16,7 @@ import "./links.mjs";
 import "./pointer.mjs";
 import "./pointing.mjs";
 import "./frame_pointing.mjs";
+import "./matrix.mjs";
 import "./phone.mjs";
 import "./first_visit.mjs";
 import "./performance.mjs";

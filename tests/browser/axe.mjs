@@ -47,6 +47,8 @@ for (const [setting, { options, disabled = [] }] of Object.entries(settings)) {
         await page.focus("#drawing");
         await press("w");
         await examine("the projection");
+        await press("m");
+        await examine("the matrix");
         for (const [key, id] of Object.entries({ s: "picker", x: "export", "?": "help" })) {
             await page.keyboard.press(key);
             await page.waitForSelector(`#${id}[open]`);

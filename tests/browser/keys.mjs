@@ -46,6 +46,7 @@ export const effects = {
     polytope_next: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
     polytope_previous: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
     view: (_, after) => assert.equal(after.view, "single"),
+    matrix: (_, after) => assert.equal(after.view, "matrix"),
     projection: (_, after) => assert.equal(after.projection, "perspective"),
     cells: toggles("cells"),
     back: toggles("back"),
@@ -88,7 +89,7 @@ asking.leave();
 
 test("keys: the table is complete", () => {
     const names = table.map(({ name }) => name).sort();
-    const expected = [..."234567rtykjKJlh0Gu.[]{}()sinNopafbwcWCex:?←→↓↑-+", "gg", "zc", "zf", "ze", "zv", "Ctrl-r", "Space", "Home"].sort();
+    const expected = [..."234567rtykjKJlh0Gu.[]{}()sinNompafbwcWCex:?←→↓↑-+", "gg", "zc", "zf", "ze", "zv", "Ctrl-r", "Space", "Home"].sort();
     assert.deepEqual(names, expected);
 });
 

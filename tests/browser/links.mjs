@@ -32,6 +32,19 @@ test("links: a query opens its view", async () => {
     await close();
 });
 
+test("links: a query opens the matrix at a point", async () => {
+    const query = "?view=matrix&polytope=24-cell&point=0.2,-0.1,sqrt(2)/4,0.5";
+    const { page, errors, close } = await openPage({ url: url + query });
+    await ready(page);
+    const script = await scriptFor(page);
+    const { view, point, section } = await script.state();
+    assert.deepEqual([view, point, section.w], ["matrix", [0.2, -0.1, Math.SQRT2 / 4, 0.5], 0.5]);
+    assert.equal(await page.locator("#notice").textContent(), "");
+    assert.deepEqual(errors, []);
+    script.leave();
+    await close();
+});
+
 test("links: all errors in a query are reported, and the rest of the query applies", async () => {
     const { page, errors, close } = await openPage({ url: `${url}?polytope=25-cell&alpha=two&slices=11&sides=3` });
     await page.waitForFunction(() => /“set sides=3”/.test(document.getElementById("notice").textContent));

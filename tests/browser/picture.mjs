@@ -18,7 +18,7 @@ async function picture(page) {
 
 /** Switches the rendering mode and waits for a picture rendered in that mode. */
 async function drawBy(page, mode) {
-    await page.click(`[data-page-tool=${mode}]`);
+    await page.locator(`[data-page-tool=${mode}]`).dispatchEvent("click"); // in a narrow window it may be in a closed tab
     await page.waitForSelector(`#drawing[data-drawn-by=${mode}]`);
 }
 
@@ -135,6 +135,54 @@ for (const { name, settings, mean: most = 1, far: allowed = 0.005 } of views) {
         assert.ok(far < allowed, `${(100 * far).toFixed(2)} % of the pixels differ much`);
         await drawBy(page, "geometry");
         assert.ok(compare(await picture(page), geometry).mean < 0.1, "switching back restores the first picture");
+        assert.deepEqual(errors, []);
+        await close();
+    });
+}
+
+/** The part of a picture that shows the matrix. */
+function matrixOf({ width, height, data }, { left, bottom, step }) {
+    const [x, y, side] = [left, 1 - bottom - 4 * step, 4 * step].map((length) => Math.floor(length * height));
+    const row = (i) => data.subarray(4 * ((y + i) * width + x), 4 * ((y + i) * width + x + side));
+    return { width: side, height: side, data: Buffer.concat(Array.from({ length: side }, (_, i) => row(i))) };
+}
+
+const matrices = [
+    { name: "a 24-cell", settings: { polytope: "24-cell", point: [0.2, 0.1, -0.3, 0.15] } },
+    {
+        name: "a kind hidden, another one faded, and a cell highlighted",
+        settings: { polytope: "cantellated 5-cell", color: "kind", hidden: [1], faded: [2], point: [0.1, 0.3, 0, -0.2] },
+        highlight: { element: "cell", number: 2 },
+    },
+    { name: "a kind hidden with its vertices", settings: { polytope: "omnitruncated 5-cell", hidden: [0], point: [0.1, 0.9, 0, -1] } },
+    { name: "a 2-face highlighted", settings: { polytope: "5-cell" }, highlight: { element: "face", number: 3 } },
+    { name: "a star", settings: { polytope: "great stellated 120-cell", point: [0.1, 0.2, 0.3, 0.1] }, mean: 1.2, far: 0.003 },
+    { name: "a star's bars", settings: { polytope: "{5/2,5,3}", shown: { faces: false, balls: false } }, mean: 0.8, far: 0.003 },
+    { name: "faces alone", settings: { polytope: "600-cell", shown: { bars: false, balls: false } } },
+    { name: "a point cloud", settings: { polytope: "dots", slices: { spacing: 0.5 } } },
+    { name: "a tall window", settings: { polytope: "8-cell" }, viewport: { width: 400, height: 1000 }, mean: 0.7 },
+    { name: "the focus point beyond the panels", settings: { polytope: "16-cell", point: [5, 0, -5, 0] } },
+];
+for (const { name, settings, highlight, mean: most = 0.5, far: allowed = 0.0015, viewport } of matrices) {
+    test(`picture: geometry and frame agree: the matrix: ${name}`, async () => {
+        const { page, script, errors, close } = await openWithScript(viewport && { viewport });
+        const dots = Array.from({ length: 90 }, (_, i) => [1, 2, 3, 4].map((k) => Math.sin(k * i * i + k)));
+        const lines = dots.map((dot, i) => [...dot, 0.05 + 0.15 * (i % 2)].join(" "));
+        await script.request({ type: "load", name: "dots", format: "cloud", data: `CLOUD\n${lines.join("\n")}\n` });
+        await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.7, 0.3] });
+        await script.request({ type: "set", view: "matrix", ...settings });
+        // Without the labels, the only texts in the matrix are the axes' names.
+        const { revision } = await script.request({ type: "set", highlight: highlight ?? null, shown: { labels: false } });
+        await presented(page, revision);
+        const geometry = await picture(page);
+        const { width, height } = geometry;
+        const { matrix } = await script.request({ type: "get", what: "slices", width, height });
+        assert.equal(viewport !== undefined, matrix.left < 0.1, "beside the slice, or below it in a tall window");
+        await drawBy(page, "frames");
+        const [own, served] = [geometry, await picture(page)].map((one) => matrixOf(one, matrix));
+        const { mean, far } = compare(own, served);
+        assert.ok(mean < most, `mean difference ${mean.toFixed(2)} of 255`);
+        assert.ok(far < allowed, `${(100 * far).toFixed(2)} % of the pixels differ much`);
         assert.deepEqual(errors, []);
         await close();
     });

@@ -48,7 +48,7 @@ export async function labeled(page, pattern) {
 export const frames = (page) =>
     page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
-async function shot(page) {
+export async function shot(page) {
     await frames(page);
     return decode(await page.locator("#drawing").screenshot());
 }
@@ -57,7 +57,7 @@ async function shot(page) {
 const isLit = ([r, g, b]) => r > 90 && r - g > 45 && b - g > 25 && r > b;
 
 /** Whether the pixels around this point have become lit. */
-function litAt(before, after, [x, y]) {
+export function litAt(before, after, [x, y]) {
     for (let dx = -3; dx <= 3; ++dx) {
         for (let dy = -3; dy <= 3; ++dy) {
             const [was, is] = [before, after].map((one) => pixelAt(one, x + dx, y + dy));
@@ -67,7 +67,7 @@ function litAt(before, after, [x, y]) {
     return false;
 }
 
-const middle = (points) => points[0].map((_, k) => points.reduce((sum, point) => sum + point[k], 0) / points.length);
+export const middle = (points) => points[0].map((_, k) => points.reduce((sum, point) => sum + point[k], 0) / points.length);
 
 const loopOf = ({ faces }, f) => [...faces.corners.slice(faces.begin[f], faces.begin[f + 1])];
 
@@ -156,7 +156,7 @@ test("pointing: a cell under the mouse is named, and lit in its slices, the proj
 });
 
 /** Asserts that two pictures agree everywhere but at the label of this point. */
-function assertSame(one, other, [left, top]) {
+export function assertSame(one, other, [left, top]) {
     let differing = 0;
     for (let y = 0; y < one.height; ++y) {
         for (let x = 0; x < one.width; ++x) {

@@ -11,12 +11,16 @@ import { byId } from "./element";
 import { ExportDialog } from "./export_dialog";
 import { FileLoading } from "./file_loading";
 import { isFirstVisit, kFirstView, Welcome } from "./first_visit";
+import { FocusPoint } from "./focus_point";
+import { FocusPointDrag } from "./focus_point_drag";
 import { FocusSlider } from "./focus_slider";
 import { FrameLayout } from "./frame_layout";
+import { FrameMatrix } from "./frame_matrix";
 import { FramePointing } from "./frame_pointing";
 import { listenForGamepads } from "./gamepad";
 import { listenForGestures } from "./gestures";
 import { Help } from "./help";
+import type { Point } from "./hover";
 import { KeyRepeat } from "./key_repeat";
 import { editingAction, isForControl, strokeFromEvent, strokesOfBinding, type Stroke } from "./keys";
 import { Latency } from "./latency";
@@ -53,7 +57,10 @@ export class App {
     private readonly stage = new Stage(this.drawing, {
         presented: (revision, by) => this.picturePresented(revision, by),
         resized: () => this.stageResized(),
-        beforeDraw: () => this.pointing.update(),
+        beforeDraw: () => {
+            this.pointing.update();
+            this.focusPointDrag.update();
+        },
         graphicsChanged: (isAvailable) => this.graphicsChanged(isAvailable),
     });
     private readonly client = new Client({
@@ -73,7 +80,8 @@ export class App {
         onState: (state) => this.update(state),
         onSlices: (slices) => {
             this.slider.updatePicture(slices);
-            this.stage.showSlices(slices, this.state?.camera ?? this.stage.orbit);
+            // The state of a picture arrives before it.
+            if (this.state) this.stage.showSlices(slices, this.state.camera, this.state.polytope);
         },
         onFrame: (png) => this.stage.showFrame(png).catch((error: Error) => this.notice.show(error.message)),
         onError: (error) => this.notice.show(error.message),
@@ -89,6 +97,14 @@ export class App {
         pressKey: (key, held) => this.sendStroke({ key, shift: false, ctrl: false }, held),
         failed: (error) => this.notice.show(error.message),
     });
+    private readonly frameMatrix = new FrameMatrix(this.client, this.stage);
+    private readonly focusPoint = new FocusPoint(this.client, {
+        began: () => this.slider.stop(),
+        failed: (error) => this.notice.show(error.message),
+    });
+    private readonly focusPointDrag = new FocusPointDrag(this.drawing, this.stage, this.focusPoint, () =>
+        this.stage.layout ? this.stage.layout.picture.matrix : this.frameMatrix.current,
+    );
     private readonly rotation = new RotationControl((rotation) => this.send(rotation));
     private readonly pointedLabel = new PointedLabel(this.drawing);
     private readonly pointing: Pointing = new Pointing(this.drawing, this.stage, this.pointedLabel, () => this.state);
@@ -131,7 +147,8 @@ export class App {
         listenForGestures(this.drawing, {
             orbit: this.orbit,
             rotation: this.rotation,
-            click: (x, y) => void this.click(x, y),
+            focusPoint: this.focusPointDrag,
+            click: (at) => void this.click(at),
         });
         listenForGamepads(this.rotation);
         document.addEventListener("keydown", (event) => this.keydown(event));
@@ -187,6 +204,7 @@ export class App {
         this.keyRepeat.restart();
         this.latency.restart();
         this.slider.restart();
+        this.focusPoint.restart();
         try {
             await this.restoreView();
             this.requestStream();
@@ -237,7 +255,7 @@ export class App {
         } catch (error) {
             if ((error as RequestError).code === "not_connected") throw error;
             this.notice.show((error as Error).message);
-            const { polytope, slices, hidden, faded, ...rest } = lost;
+            const { polytope, slices, point, hidden, faded, ...rest } = lost;
             await this.client.request({ ...rest, type: "set", turning: false });
         }
     }
@@ -256,6 +274,8 @@ export class App {
         this.state = state;
         this.orbit.adoptCamera(state);
         this.frameLayout.update(state);
+        this.frameMatrix.update(state);
+        this.focusPoint.update(state);
         this.slider.update(state);
         const { name } = state.polytope;
         this.polytopeButton.querySelector("b")!.textContent = name;
@@ -275,7 +295,10 @@ export class App {
 
     private stageResized(): void {
         clearTimeout(this.resizing);
-        this.resizing = setTimeout(() => this.requestStream(), kResizeDelay);
+        this.resizing = setTimeout(() => {
+            this.requestStream();
+            if (this.state) this.frameMatrix.update(this.state);
+        }, kResizeDelay);
     }
 
     /** Sets the mode that the user chose. */
@@ -299,6 +322,7 @@ export class App {
         this.framePointing.reset();
         markMode(mode);
         this.requestStream();
+        if (this.state) this.frameMatrix.update(this.state);
     }
 
     private keydown(event: KeyboardEvent): void {
@@ -340,15 +364,17 @@ export class App {
 
     /**
      * Highlights the element at a point of the drawing, in pixels, and makes its slice the focus slice. Beside the
-     * elements, only a slice becomes the focus; on the background, the highlight ends.
+     * elements, only a slice becomes the focus; in a panel of the matrix, the focus point moves there; on the background,
+     * the highlight ends.
      */
-    private async click(x: number, y: number): Promise<void> {
+    private async click({ x, y }: Point): Promise<void> {
         const { orbit, size } = this.stage;
         const ratio = size.height / this.drawing.clientHeight;
         const layout = this.stage.layout ?? (await this.frameLayout.request());
         this.slider.stop();
         if (!layout) return;
         const pointed = this.pointing.elementAt(x, y, layout);
+        if (!pointed && this.focusPointDrag.moveTo({ x, y })) return;
         const slice = pointed
             ? pointed.slice
             : layout.sliceAt(x * ratio, y * ratio, orbit, size, kLeastDisc * ratio);

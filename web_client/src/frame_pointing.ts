@@ -118,8 +118,11 @@ function distance(a: Point, b: Point): number {
     return Math.hypot(a.x - b.x, a.y - b.y);
 }
 
-function descriptionOf({ highlight, name, least_w: least, most_w: most, w }: At): ElementDescription | undefined {
-    if (!highlight) return undefined;
+function descriptionOf(answer: At): ElementDescription | undefined {
+    const { highlight, name, least_w: least, most_w: most, w } = answer;
+    // A slice that has been zoomed may reach behind a panel of the matrix.
+    const isBehindPanel = answer.point !== undefined && answer.in !== "matrix";
+    if (!highlight || isBehindPanel) return undefined;
     const range = least === undefined || most === undefined ? undefined : ([least, most] as const);
     return { ...highlight, kind: name, range, sliceW: w };
 }

@@ -1,7 +1,9 @@
 // Mouse, pen and touch on the drawing. Dragging orbits the view, the wheel or a pinch zooms, a click keeps what is under
 // it lit (see pointing.ts). With Alt, or with two fingers, dragging rolls the 4-D ball; with Alt and Shift, the ball of
-// every slice.
+// every slice. In a panel of the matrix, dragging moves the focus point.
 
+import type { FocusPointDrag } from "./focus_point_drag";
+import type { Point } from "./hover";
 import type { OrbitControl } from "./orbit";
 import { type Ball, turnsOfDrag, turnsOfTwist, turnsOfWheel } from "./rolling_ball";
 import type { RotationControl } from "./rotation";
@@ -15,17 +17,23 @@ const kSlop = { mouse: 4, touch: 10 }; // pixels by which the pointer may move i
 export interface GestureTargets {
     orbit: OrbitControl;
     rotation: RotationControl;
-    /** A click at a point, in pixels from the upper left corner of the drawing. */
-    click(x: number, y: number): void;
+    focusPoint: FocusPointDrag;
+    /** A click at a point of the drawing. */
+    click(at: Point): void;
 }
 
-export function listenForGestures(drawing: HTMLElement, { orbit, rotation, click }: GestureTargets): void {
+export function listenForGestures(drawing: HTMLElement, { orbit, rotation, focusPoint, click }: GestureTargets): void {
     const fingers = new Map<number, PointerEvent>();
     let isClick = false; // whether the pointer has not moved since it went down
     let isRolling = false; // whether the drag began with Alt
+    let movesPoint = false; // whether the drag began in a panel of the matrix
     let pair: TwoFingers | undefined;
     let wheelAt = -Infinity; // time of the last wheel event that turned, in milliseconds
 
+    const placeOf = ({ clientX, clientY }: MouseEvent): Point => {
+        const { left, top } = drawing.getBoundingClientRect();
+        return { x: clientX - left, y: clientY - top };
+    };
     const fingersChanged = (): void => {
         const [a, b] = [...fingers.values()];
         pair = a && b && fingers.size === 2 ? new TwoFingers(a, b) : undefined;
@@ -34,6 +42,7 @@ export function listenForGestures(drawing: HTMLElement, { orbit, rotation, click
     const drag = (before: PointerEvent, now: PointerEvent): void => {
         const [dx, dy] = [now.clientX - before.clientX, now.clientY - before.clientY];
         if (isRolling) rotation.turn(turnsOfDrag(ballOf(now), dx, dy, drawing.clientHeight));
+        else if (movesPoint) focusPoint.dragTo(placeOf(now));
         else orbit.drag(dx, dy);
     };
     const movePair = (moved: TwoFingers): void => {
@@ -50,6 +59,7 @@ export function listenForGestures(drawing: HTMLElement, { orbit, rotation, click
         isClick = fingers.size === 1;
         isRolling = event.altKey && fingers.size === 1;
         if (isRolling) rotation.begin();
+        movesPoint = isClick && !isRolling && focusPoint.begin(placeOf(event));
         fingersChanged();
     });
     drawing.addEventListener("pointermove", (event) => {
@@ -71,8 +81,7 @@ export function listenForGestures(drawing: HTMLElement, { orbit, rotation, click
     drawing.addEventListener("click", (event) => {
         // The second click of a double click is none.
         if (!isClick || event.detail !== 1 || isModified(event)) return;
-        const { left, top } = drawing.getBoundingClientRect();
-        click(event.clientX - left, event.clientY - top);
+        click(placeOf(event));
     });
     drawing.addEventListener(
         "wheel",
@@ -91,7 +100,9 @@ export function listenForGestures(drawing: HTMLElement, { orbit, rotation, click
         },
         { passive: false },
     );
-    drawing.addEventListener("dblclick", (event) => isModified(event) || orbit.reset());
+    drawing.addEventListener("dblclick", (event) => {
+        if (!isModified(event) && !focusPoint.canMoveTo(placeOf(event))) orbit.reset();
+    });
 }
 
 function ballOf({ shiftKey }: MouseEvent): Ball {

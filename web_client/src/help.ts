@@ -11,6 +11,7 @@ const kGestures = [
     ["Point", "Name what is under the pointer, and light it everywhere"],
     ["Click", "Keep it lit, and make its slice the focus; on the background: end the light"],
     ["Double click", "Reset the view"],
+    ["Drag or click in the matrix", "Move the focus point there"],
     ["Alt + drag", "Turn in xw and yw: roll the 4-D ball"],
     ["Alt + wheel", "Turn in zw"],
     ["Alt + Shift + drag", "Turn in xz and yz, in every slice"],

@@ -5,7 +5,7 @@ import type { State } from "@oval4d/protocol";
 import { angleExpression, editableAngle, withoutBlanks } from "./angles";
 import { spokenKinds } from "./colors";
 import { byId } from "./element";
-import { formatDegrees, focusW, formatLength, formatRotation } from "./format";
+import { formatCoordinate, formatDegrees, focusW, formatLength, formatRotation } from "./format";
 import { ReadingField } from "./reading_field";
 import { makeToolbar } from "./toolbar";
 
@@ -107,7 +107,8 @@ export class Readings {
             state.polytope.name,
             ...kReadings.map((one) => one.spoken(state)),
             state.section.name && `section: ${state.section.name}`,
-            state.view === "oval" ? "oval view" : "single view",
+            `${state.view} view`,
+            state.view === "matrix" ? `focus point ${state.point.map(formatCoordinate).join(", ")}` : "",
             state.turning ? "turning" : "at rest",
             state.color === "plain" ? "plain colors" : `colored by ${state.color}`,
             spokenKinds(state),

@@ -37,6 +37,7 @@ const kHoldInterval = 60; // milliseconds between repetitions
 const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
     view: (state) => state.view === "single",
+    matrix: (state) => state.view === "matrix",
     ...Object.fromEntries(
         Object.keys(parts.properties).map((part) => [part, (state: State) => state.shown[part as keyof Parts]]),
     ),

@@ -4,14 +4,11 @@
 // The vertices of an element of a convex polytope follow from the hyperplanes of its cells: a slice of a cell lies in a
 // plane, and the hyperplane of the cell contains this plane and has the whole polytope on one side.
 
-import type { Elements, PolytopeElement, Slice, Slices, State } from "@oval4d/protocol";
+import type { Elements, PolytopeElement, Slice, Slices } from "@oval4d/protocol";
 
 import type { Hit } from "./hit_test";
-import type { HighlightedElements } from "./highlighted_elements";
+import type { Counts, HighlightedElements } from "./highlighted_elements";
 import { areaVector } from "./polygon";
-
-/** The polytope's numbers of elements. */
-export type Counts = Pick<State["polytope"], "edges" | "faces" | "cells">;
 
 const kFlat = 1e-5; // circumradii: the distance within which a vertex lies in a hyperplane
 const kLevel = 1e-4; // circumradii: a vertex nearer to the slice says nothing about the slope of a hyperplane
@@ -20,6 +17,10 @@ const kLevel = 1e-4; // circumradii: a vertex nearer to the slice says nothing a
 type Hyperplane = readonly [a: number, b: number, c: number, m: number, offset: number];
 
 export function elementOfHit({ kind, source }: Hit, counts: Counts): PolytopeElement {
+    if (kind === "points") {
+        if (source < counts.faces) return { element: "face", number: source };
+        return elementOfHit({ kind: "vertices", source: source - counts.faces }, counts);
+    }
     const [cut, inside, count] = (
         {
             vertices: ["edge", "vertex", counts.edges],
@@ -39,7 +40,8 @@ export class ElementSources {
         private readonly picture: Slices,
         private readonly counts: Counts,
     ) {
-        this.slices = picture.slices.filter((slice) => slice.drawn && slice.vertices.length > 0);
+        // Slices that are not drawn tell as much.
+        this.slices = picture.slices.filter((slice) => slice.vertices.length > 0);
         this.bodies = [...this.slices, ...(picture.projection?.parts ?? [])];
     }
 
@@ -59,6 +61,7 @@ export class ElementSources {
         } else {
             if (element.element === "face") this.addFace(number, edges);
             else this.addFacesOf(number, edges);
+            if (element.element === "cell") this.addSectionEnds(number, edges);
             this.addEdgesBetween(ownVertices, edges);
         }
         return { vertices, edges, ownVertices, ...(element.element === "cell" && { cell: number }) };
@@ -106,6 +109,16 @@ export class ElementSources {
             }
             return cells.every((cell) => cell < this.counts.cells) ? cells : [];
         }
+        return element === "face" ? this.cellsAtPoint(number) : [];
+    }
+
+    /** The two cells that meet at a 2-face, if a planar section cuts them. */
+    private cellsAtPoint(face: number): number[] {
+        for (const { edges, of } of this.picture.matrix?.sections ?? []) {
+            const at = of.points.indexOf(face);
+            const cells = at < 0 ? [] : of.edges.filter((_, e) => edges[e]!.includes(at));
+            if (cells.length === 2) return cells;
+        }
         return [];
     }
 
@@ -152,6 +165,16 @@ export class ElementSources {
             isCorner.forEach((isIn, v) => isIn && this.addCutEdge(of.vertices[v]!, sources));
             for (let e = 0; e < of.edges.length; ++e) {
                 if (isCorner[edges[2 * e]!] && isCorner[edges[2 * e + 1]!]) sources.add(of.edges[e]!);
+            }
+        }
+    }
+
+    /** Adds the 2-faces and edges of a cell that planar sections cut. */
+    private addSectionEnds(cell: number, sources: Set<number>): void {
+        for (const { edges, of } of this.picture.matrix?.sections ?? []) {
+            for (const end of edges.filter((_, e) => of.edges[e] === cell).flat()) {
+                const source = of.points[end]!;
+                if (source < this.counts.faces + this.counts.edges) sources.add(source);
             }
         }
     }

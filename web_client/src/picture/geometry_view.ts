@@ -1,4 +1,4 @@
-// Geometry mode: renders the slices with WebGL, and draws labels, axes and parallel coordinates on a 2-D canvas above.
+// Geometry mode: renders the slices with WebGL, and draws all that is flat on a 2-D canvas above.
 
 import { type BufferGeometry, Camera, Color, ColorManagement, GLSL3, LinearSRGBColorSpace } from "three";
 import { Mesh as Drawing, RawShaderMaterial, Scene, Vector3, Vector4, WebGLRenderer } from "three";
@@ -7,7 +7,7 @@ import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
 
 import { FillMesh } from "./fill_mesh";
 import { Lens } from "./lens";
-import { type HighlightedElements, allHighlighted } from "./highlighted_elements";
+import { type Counts, type HighlightedElements, allHighlighted } from "./highlighted_elements";
 import { Mesh } from "./mesh";
 import { drawOverlay } from "./overlay";
 import { ProjectionMesh } from "./projection_mesh";
@@ -43,6 +43,7 @@ export class GeometryView {
     private readonly pen: CanvasRenderingContext2D;
     private picture: Slices | undefined;
     private pictureOrbit: Orbit | undefined;
+    private counts: Counts = { edges: 0, faces: 0, cells: 0 };
     private pointed: HighlightedElements | undefined;
     private highlighted: HighlightedElements | undefined;
     /** Where the slices are on the screen; undefined before the first picture. It is valid until the next picture. */
@@ -90,8 +91,12 @@ export class GeometryView {
         });
     }
 
-    /** Replaces the slices to draw; `orbit` is the orbit for which the server placed the camera. */
-    update(picture: Slices, orbit: Orbit): void {
+    /**
+     * Replaces the slices to draw; `orbit` is the orbit for which the server placed the camera, `counts` are the
+     * polytope's.
+     */
+    update(picture: Slices, orbit: Orbit, counts: Counts): void {
+        this.counts = counts;
         this.picture = picture;
         this.pictureOrbit = orbit;
         this.layout = new SliceLayout(picture, orbit);
@@ -143,7 +148,7 @@ export class GeometryView {
         this.camera.matrixWorldInverse.copy(this.lens.view);
         this.renderer.setClearColor(this.background.setHex(scene.colors.background));
         this.render();
-        drawOverlay(this.pen, this.picture, this.lens, size, this.highlighted!);
+        drawOverlay(this.pen, this.picture, this.lens, size, this.highlighted!, this.counts);
     }
 
     /**

@@ -1,7 +1,10 @@
 // What is drawn in the color of the highlight: the kept element, which the server determines, and the element under the
 // pointer.
 
-import type { SceneDescription, Slices } from "@oval4d/protocol";
+import type { SceneDescription, Slices, State } from "@oval4d/protocol";
+
+/** The polytope's numbers of elements. */
+export type Counts = Pick<State["polytope"], "edges" | "faces" | "cells">;
 
 /** What shows one element or more. */
 export interface HighlightedElements {
@@ -27,4 +30,9 @@ export function allHighlighted({ highlight }: Slices, pointed: HighlightedElemen
 /** The color of a face that this cell colors. */
 export function cellColor(cell: number, colors: SceneDescription["colors"], highlighted: HighlightedElements): number {
     return cell === highlighted.cell ? colors.highlight : (colors.cells[cell] ?? colors.bar);
+}
+
+/** Whether a point of a planar section, given by its value of `of.points`, shows a highlighted element. */
+export function isPointLit(source: number, { vertices, edges }: HighlightedElements, counts: Counts): boolean {
+    return source < counts.faces + counts.edges ? edges.has(source) : vertices.has(source - counts.faces);
 }

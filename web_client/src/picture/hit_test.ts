@@ -6,12 +6,12 @@ import { ensureCapacity } from "./elements";
 import type { Lens } from "./lens";
 import { areaVector } from "./polygon";
 
-/** An element of a slice, or of a part of the projection. */
+/** An element of a slice, of a part of the projection, or of a planar section. An edge of a section counts as a face. */
 export interface Hit {
-    kind: "vertices" | "edges" | "faces";
+    kind: "vertices" | "edges" | "faces" | "points";
     /** The value of `of`: the element of the polytope. */
     source: number;
-    /** Absent in the projection. */
+    /** Absent in the projection and in the matrix. */
     slice?: Slice;
 }
 
@@ -27,7 +27,7 @@ interface Body {
     distance: number; // from the eye
 }
 
-const kReach = 4; // pixels on the page: the least radius of balls and bars for the pointer
+export const kReach = 4; // pixels on the page: the least radius of balls and bars for the pointer
 // A ball rises above the faces around it, and also covers the bars that end in it: multiples of its radius.
 const kBallRise = 3;
 const kBarRise = 2;

@@ -1,11 +1,12 @@
-// Draws the axes, the labels and the parallel coordinates over the picture. Positions are rounded to canvas pixels, so
+// Draws the axes, the labels, the parallel coordinates and the matrix of planar sections over the picture. Positions are rounded to canvas pixels, so
 // that lines are sharp.
 
 import type { SceneDescription, Slice, Slices, Viewport } from "@oval4d/protocol";
 
 import { drawCoordinates } from "./coordinates";
 import type { Lens } from "./lens";
-import type { HighlightedElements } from "./highlighted_elements";
+import type { Counts, HighlightedElements } from "./highlighted_elements";
+import { drawMatrix } from "./matrix_drawing";
 import { cssColor, kMinTextSize, setFont } from "./pen";
 
 export function drawOverlay(
@@ -14,6 +15,7 @@ export function drawOverlay(
     lens: Lens,
     viewport: Viewport,
     highlighted: HighlightedElements,
+    counts: Counts,
 ): void {
     const { scene, slices } = picture;
     pen.clearRect(0, 0, viewport.width, viewport.height);
@@ -22,6 +24,7 @@ export function drawOverlay(
     if (scene.shown.coordinates) drawCoordinates(pen, picture, viewport, highlighted);
     drawLabels(pen, slices, scene, lens, viewport);
     drawAxes(pen, scene, lens, viewport);
+    drawMatrix(pen, picture, viewport, highlighted, counts);
 }
 
 interface Label {

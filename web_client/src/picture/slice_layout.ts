@@ -3,8 +3,10 @@
 import type { Orbit, Slice, Slices, Viewport } from "@oval4d/protocol";
 
 import { columnAt } from "./coordinates";
-import { type Hit, hitAt } from "./hit_test";
+import { type Hit, hitAt, kReach } from "./hit_test";
 import { Lens } from "./lens";
+import { hitInPanel } from "./matrix_hit";
+import { type MatrixPanel, panelAt } from "./matrix_panel";
 
 export class SliceLayout {
     private readonly lens = new Lens();
@@ -45,13 +47,22 @@ export class SliceLayout {
 
     /** What is drawn at a point of the picture, in pixels, of which a pixel of the page has `ratio`. */
     hitAt(x: number, y: number, orbit: Orbit, size: Viewport, ratio: number): Hit | undefined {
-        this.lens.set(this.picture.scene.camera, size, this.orbit, orbit);
+        const { matrix, scene } = this.picture;
+        const panel = this.panelAt(x, y, size);
+        if (panel) return hitInPanel(panel, matrix!, scene, size, [x, y], kReach * ratio);
+        this.lens.set(scene.camera, size, this.orbit, orbit);
         return hitAt(this.picture, this.lens, x, y, ratio);
     }
 
     /** The vertex whose parallel coordinates are at a point of the picture, in pixels. */
     columnAt(x: number, y: number, size: Viewport): number | undefined {
-        return columnAt(this.picture, size, x, y);
+        return this.panelAt(x, y, size) ? undefined : columnAt(this.picture, size, x, y);
+    }
+
+    /** The panel of the matrix at a point of the picture, in pixels. */
+    private panelAt(x: number, y: number, size: Viewport): MatrixPanel | undefined {
+        const { matrix } = this.picture;
+        return matrix && panelAt(matrix, x, y, size);
     }
 
     /** The largest distance of a vertex from the slice's center on the screen, in pixels. */

@@ -5,7 +5,7 @@ import { pngText, type Orbit, type Slices, type State, type Viewport } from "@ov
 
 import { FrameView } from "./frame_view";
 import { GeometryView } from "./geometry_view";
-import type { HighlightedElements } from "./highlighted_elements";
+import type { Counts, HighlightedElements } from "./highlighted_elements";
 import type { SliceLayout } from "./slice_layout";
 
 /** Where the slices are rendered: on this page, or on the server. */
@@ -90,9 +90,9 @@ export class Stage {
         this.geometry?.light(pointed);
     }
 
-    showSlices(slices: Slices, orbit: Orbit): void {
+    showSlices(slices: Slices, orbit: Orbit, counts: Counts): void {
         if (this.currentMode !== "geometry" || !this.geometry) return;
-        this.geometry.update(slices, orbit);
+        this.geometry.update(slices, orbit, counts);
         this.unpresentedRevision = slices.revision;
         this.redraw();
     }

@@ -1,0 +1,81 @@
+// Dragging in the panels of the matrix: the focus point follows the pointer along the two axes of the panel.
+
+import type { SectionMatrix } from "@oval4d/protocol";
+
+import type { FocusPoint } from "./focus_point";
+import { followHover, type Point } from "./hover";
+import { type MatrixPanel, panelAt } from "./picture/matrix_panel";
+import type { Stage } from "./picture/stage";
+
+export class FocusPointDrag {
+    private panel: MatrixPanel | undefined; // in which the drag began
+    private hovering: Point | undefined; // where the mouse hovers
+
+    /** `matrix` returns the matrix in the picture; undefined if there is none, or while its layout is not known. */
+    constructor(
+        private readonly drawing: HTMLElement,
+        private readonly stage: Stage,
+        private readonly focusPoint: FocusPoint,
+        private readonly matrix: () => SectionMatrix | undefined,
+    ) {
+        followHover(drawing, (at) => {
+            this.hovering = at;
+            this.update();
+        });
+    }
+
+    /** Shows the cursor for what is under the pointer. To be called when the picture changes. */
+    update(): void {
+        if (this.hovering) this.showCursor(this.hovering);
+    }
+
+    /** Whether a point of the drawing, in pixels, is in a panel. */
+    canMoveTo(at: Point): boolean {
+        return this.panelAt(at) !== undefined;
+    }
+
+    /** Begins a drag; returns false if there is no panel at this point of the drawing. */
+    begin(at: Point): boolean {
+        this.panel = this.panelAt(at);
+        this.showCursor(at);
+        if (!this.panel) return false;
+        this.focusPoint.begin();
+        return true;
+    }
+
+    /** Continues the drag. Beyond the panel, the focus point stays at its edge. */
+    dragTo(at: Point): void {
+        if (this.panel) this.moveIn(this.panel, at);
+    }
+
+    /** Moves the focus point to a point of the drawing; returns false if there is no panel. */
+    moveTo(at: Point): boolean {
+        const panel = this.panelAt(at);
+        if (!panel) return false;
+        this.focusPoint.begin();
+        this.moveIn(panel, at);
+        return true;
+    }
+
+    private moveIn(panel: MatrixPanel, at: Point): void {
+        const { x, y } = this.pixelOf(at);
+        const [across, up] = panel.coordinatesAt(x, y);
+        this.focusPoint.move([[panel.column, across], [panel.row, up]]);
+    }
+
+    private panelAt(at: Point): MatrixPanel | undefined {
+        const matrix = this.matrix();
+        const { x, y } = this.pixelOf(at);
+        return matrix && panelAt(matrix, x, y, this.stage.size);
+    }
+
+    /** A point of the drawing in pixels of the picture. */
+    private pixelOf({ x, y }: Point): Point {
+        const ratio = this.stage.size.height / this.drawing.clientHeight;
+        return { x: x * ratio, y: y * ratio };
+    }
+
+    private showCursor(at: Point): void {
+        this.drawing.toggleAttribute("data-panel", this.canMoveTo(at));
+    }
+}

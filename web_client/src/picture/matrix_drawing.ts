@@ -1,0 +1,135 @@
+// Draws the matrix of planar sections, like server/render/overlay/matrix_panels.cpp.
+
+import type { SceneDescription, SectionMatrix, Slices, Viewport } from "@oval4d/protocol";
+
+import { cellColor, type Counts, type HighlightedElements, isPointLit } from "./highlighted_elements";
+import { type MatrixPanel, nameCenter, panelsOf } from "./matrix_panel";
+import { cssColor, setFont } from "./pen";
+
+const kPanelOpacity = 0.22;
+const kFillOpacity = 0.16;
+const kAxisOpacity = 0.55; // of the lines through the focus point
+const kCorner = 0.03; // the radius of a panel's corners, as a fraction of its side
+const kNameHeight = 0.3; // of an axis' name, as a fraction of a panel's side
+const kFocusLine = 0.0011; // the width of the lines, as a fraction of the viewport's height
+
+/** What all panels of a picture have in common. */
+interface Look {
+    pen: CanvasRenderingContext2D;
+    matrix: SectionMatrix;
+    scene: SceneDescription;
+    viewport: Viewport;
+    highlighted: HighlightedElements;
+    /** The polytope's numbers of elements. */
+    counts: Counts;
+}
+
+export function drawMatrix(
+    pen: CanvasRenderingContext2D,
+    { matrix, scene }: Slices,
+    viewport: Viewport,
+    highlighted: HighlightedElements,
+    counts: Counts,
+): void {
+    if (!matrix) return;
+    const look = { pen, matrix, scene, viewport, highlighted, counts };
+    drawNames(look);
+    for (const panel of panelsOf(matrix, viewport)) drawPanel(panel, look);
+    pen.globalAlpha = 1;
+}
+
+function drawNames({ pen, matrix, scene, viewport }: Look): void {
+    const digits = setFont(pen, kNameHeight * matrix.panel * viewport.height);
+    scene.colors.axes.forEach((color, axis) => {
+        const { x, y } = nameCenter(matrix, axis, viewport);
+        pen.fillStyle = cssColor(color);
+        pen.fillText("xyzw"[axis]!, Math.round(x), Math.round(y + digits / 2));
+    });
+}
+
+function drawPanel(panel: MatrixPanel, look: Look): void {
+    const { pen, matrix, scene, viewport } = look;
+    const { shown, colors } = scene;
+    const box = boxOf(panel);
+    pen.globalAlpha = kPanelOpacity;
+    pen.fillStyle = cssColor(colors.zero);
+    pen.beginPath();
+    pen.roundRect(box.left, box.top, box.width, box.height, kCorner * matrix.panel * viewport.height);
+    pen.fill();
+    const points = panel.section.points.map((point) => panel.pixelOf(point));
+    if (shown.faces) drawFill(panel, points, look);
+    drawFocusLines(panel, box, look);
+    if (shown.bars) drawEdges(panel, points, look);
+    if (shown.balls || panel.section.balls) drawPoints(panel, points, look);
+}
+
+type Box = ReturnType<typeof boxOf>;
+type Pixel = [x: number, y: number];
+
+function boxOf({ x, y, half }: MatrixPanel) {
+    const [left, top, right, bottom] = [x - half, y - half, x + half, y + half].map(Math.round) as Quadruple;
+    return { left, top, right, bottom, width: right - left, height: bottom - top };
+}
+
+type Quadruple = [number, number, number, number];
+
+/** Fills the section, unless its edges cross. */
+function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen, scene }: Look): void {
+    const isConvex = scene.opacity < 1; // see `opacity` in protocol/README.md
+    if (boundary.length === 0 || !isConvex) return;
+    pen.globalAlpha = kFillOpacity;
+    pen.fillStyle = cssColor(scene.colors.ball);
+    pen.beginPath();
+    for (const p of boundary) pen.lineTo(...points[p]!);
+    pen.fill();
+}
+
+/** Draws the lines in which the plane meets the other planes of its row and its column. */
+function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, viewport }: Look): void {
+    const { row, column, section } = panel;
+    const [first, second] = section.axes;
+    const [x, y] = panel.pixelOf([matrix.point[first]!, matrix.point[second]!]);
+    const width = Math.max(1, Math.round(kFocusLine * viewport.height));
+    pen.globalAlpha = kAxisOpacity;
+    if (y > box.top && y < box.bottom) {
+        pen.fillStyle = cssColor(scene.colors.axes[column]!);
+        pen.fillRect(box.left, y - width / 2, box.width, width);
+    }
+    if (x > box.left && x < box.right) {
+        pen.fillStyle = cssColor(scene.colors.axes[row]!);
+        pen.fillRect(x - width / 2, box.top, width, box.height);
+    }
+}
+
+function drawEdges({ section }: MatrixPanel, points: Pixel[], { pen, matrix, scene, viewport, highlighted }: Look): void {
+    const opacities = [0, scene.faded, 1];
+    pen.lineWidth = Math.max(1, matrix.line_width * viewport.height);
+    pen.lineCap = "round";
+    section.edges.forEach(([from, to], e) => {
+        const opacity = opacities[section.seen?.edges[e] ?? 2]!;
+        if (opacity === 0) return;
+        pen.globalAlpha = opacity;
+        pen.strokeStyle = cssColor(cellColor(section.tints[e]!, scene.colors, highlighted));
+        pen.beginPath();
+        pen.moveTo(...points[from]!);
+        pen.lineTo(...points[to]!);
+        pen.stroke();
+    });
+    pen.lineCap = "butt";
+}
+
+function drawPoints({ section }: MatrixPanel, points: Pixel[], look: Look): void {
+    const { pen, matrix, scene, viewport, highlighted, counts } = look;
+    const { balls, of, seen } = section;
+    const opacities = [0, scene.faded, 1];
+    points.forEach(([x, y], i) => {
+        const opacity = opacities[seen?.points[i] ?? 2]! * (balls?.opacity[i] ?? 1);
+        if (opacity === 0) return;
+        const isLit = isPointLit(of.points[i]!, highlighted, counts);
+        pen.globalAlpha = opacity;
+        pen.fillStyle = cssColor(isLit ? scene.colors.highlight : scene.colors.ball);
+        pen.beginPath();
+        pen.arc(x, y, Math.max(1, matrix.ball * viewport.height * (balls?.scale[i] ?? 1)), 0, 2 * Math.PI);
+        pen.fill();
+    });
+}

@@ -1,0 +1,73 @@
+// Where the panels of the matrix of planar sections are in the picture. Pixels are counted from the upper left corner.
+
+import type { PlanarSection, SectionMatrix, Viewport } from "@oval4d/protocol";
+
+const kAxes = [0, 1, 2, 3] as const; // x, y, z, w
+
+/** The panel of the plane that is parallel to two axes: axis `column` points to the right, axis `row` upward. */
+export class MatrixPanel {
+    readonly section: PlanarSection;
+    /** The center, which shows the origin. */
+    readonly x: number;
+    readonly y: number;
+    /** Half the side of the panel. */
+    readonly half: number;
+    private readonly pixelsPerUnit: number;
+
+    constructor(
+        { left, bottom, panel, step, reach, sections }: SectionMatrix,
+        readonly row: number,
+        readonly column: number,
+        { height }: Viewport,
+    ) {
+        const [first, second] = [Math.min(row, column), Math.max(row, column)];
+        this.section = sections.find(({ axes }) => axes[0] === first && axes[1] === second)!;
+        this.x = (left + column * step + panel / 2) * height;
+        this.y = (1 - bottom - (3 - row) * step - panel / 2) * height;
+        this.half = (panel / 2) * height;
+        this.pixelsPerUnit = this.half / reach;
+    }
+
+    /** Where a point with these coordinates along the axes of the section is drawn. */
+    pixelOf([first, second]: readonly [number, number]): [x: number, y: number] {
+        const [across, up] = this.column < this.row ? [first, second] : [second, first];
+        return [this.x + across * this.pixelsPerUnit, this.y - up * this.pixelsPerUnit];
+    }
+
+    /** The coordinates along axis `column` and axis `row` of the point in the panel that is nearest to a pixel. */
+    coordinatesAt(x: number, y: number): [across: number, up: number] {
+        const within = (offset: number): number => Math.min(this.half, Math.max(-this.half, offset));
+        return [within(x - this.x) / this.pixelsPerUnit, within(this.y - y) / this.pixelsPerUnit];
+    }
+}
+
+/** All panels that show a section. */
+export function panelsOf(matrix: SectionMatrix, viewport: Viewport): MatrixPanel[] {
+    return kAxes.flatMap((row) =>
+        kAxes.filter((column) => column !== row).map((column) => new MatrixPanel(matrix, row, column, viewport)),
+    );
+}
+
+/** The center of the panel on the diagonal that names an axis. */
+export function nameCenter({ left, bottom, panel, step }: SectionMatrix, axis: number, { height }: Viewport) {
+    return {
+        x: (left + axis * step + panel / 2) * height,
+        y: (1 - bottom - (3 - axis) * step - panel / 2) * height,
+    };
+}
+
+/** The panel that contains a pixel; none on the diagonal, between the panels and outside the matrix. */
+export function panelAt(matrix: SectionMatrix, x: number, y: number, viewport: Viewport): MatrixPanel | undefined {
+    const { left, bottom, panel, step } = matrix;
+    const [across, up] = [x / viewport.height - left, 1 - y / viewport.height - bottom];
+    const [column, fromBottom] = [Math.floor(across / step), Math.floor(up / step)];
+    const isInside =
+        column >= 0 &&
+        column <= 3 &&
+        fromBottom >= 0 &&
+        fromBottom <= 3 &&
+        across - column * step <= panel &&
+        up - fromBottom * step <= panel;
+    const row = 3 - fromBottom;
+    return isInside && row !== column ? new MatrixPanel(matrix, row, column, viewport) : undefined;
+}
