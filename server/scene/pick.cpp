@@ -226,8 +226,11 @@ class Picker {
 std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Object& object, glm::dvec2 point) {
     Picker picker(scene, object, point);
     picker.pickCoordinates();
-    if (!picker.picked()) picker.pickMatrix();
     if (picker.picked()) return picker.picked();
+    if (matrixPointAt(scene, point)) {  // panels cover the slices behind them
+        picker.pickMatrix();
+        return picker.picked();
+    }
     picker.pickSlices();
     picker.pickProjection();
     return picker.picked();

@@ -47,7 +47,8 @@ struct Set {
     std::optional<double> offset;       ///< SliceSettings::offset
     std::optional<double> focusW;       ///< w of the focus slice: sets focus and offset (see moveFocusTo())
     std::optional<scene::View> view;
-    std::optional<glm::dvec4> focusPoint;  ///< Look::focusPoint, and w of the focus slice as in focusW
+    std::optional<glm::dvec4> focusPoint;  ///< Look::focusPoint; and w of the focus slice, as focusW, which
+                                           ///< is ignored if `focus`, `offset` or `focusW` is present
     std::optional<bool> turning;           ///< whether the object turns continuously
     std::array<std::optional<bool>, scene::kParts.size()> parts;  ///< per row of scene::kParts: whether it is shown
     std::optional<double> azimuth, elevation, zoom;               ///< the members of scene::CameraOrbit

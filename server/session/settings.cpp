@@ -70,7 +70,8 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
             }
         }
         state.look.focusPoint = glm::dvec3(point);
-        moveFocusTo(state, point.w);
+        const bool placed = set.focus || set.offset || set.focusW;  // they say more than the point: which slice is at w
+        if (!placed) moveFocusTo(state, point.w);
     }
     if (set.focusW) {
         double w = 0;

@@ -37,6 +37,20 @@ async def test_messages_commands_queries_and_undo_agree(server):
         assert (await point())[:3] == [0, 0, 0]
 
 
+@pytest.mark.parametrize("slices", [
+    {"spacing": 0.1, "focus": 1, "offset": 1}, {"spacing": 0.3, "focus": -7, "offset": 0.14}, {"spacing": 0.2, "focus": 3, "offset": -0.75},
+])
+async def test_a_state_is_a_valid_set(server, slices):
+    async with Client(server, stream="none") as client, Client(server, stream="none") as other:
+        await client.request("set", polytope="24-cell", view="matrix", point=[0.1, 0.2, 0.3, 0.4])
+        await client.request("set", slices=slices)
+        state = await client.request("get", what="state")
+        assert {name: state["slices"][name] for name in slices} == slices
+        await other.request("set", **{name: value for name, value in state.items() if name not in ("type", "id")})
+        again = await other.request("get", what="state")
+        assert all(again[name] == state[name] for name in state if name not in ("id", "revision"))
+
+
 @pytest.mark.parametrize("value, says", [
     ([0, 0, 0], "point"), ([0, 0, 0, "w"], "point"), ("origin", "point"), ([0, 100, 0, 0], "the point's y must be from"),
     ([0, 0, 0, 1e9], "the point's w must be from"),

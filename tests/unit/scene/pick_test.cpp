@@ -105,6 +105,12 @@ TEST(Pick, FindsTheElementsOfPlanarSections) {
                 EXPECT_LT(glm::distance(*point, expected), 1e-9);
             }
         }
+        Look zoomed = look;
+        zoomed.orbit.zoom = 20;
+        Picture near(name, zoomed, {});
+        const glm::dvec2 corner = near.scene.matrix.center(3, 0) + glm::dvec2(0.49 * near.scene.matrix.panel);
+        EXPECT_FALSE(near.at({720 * corner.x, 720 * (1 - corner.y), 0})) << "panels cover the slice behind them";
+        EXPECT_TRUE(near.at({720 * (near.scene.matrix.left - 0.05), 360, 0}));
         // The diagonal has names only, and left of the matrix is the slice.
         const glm::dvec2 diagonal = layout.center(1, 1);
         EXPECT_FALSE(matrixPointAt(picture.scene, {720 * diagonal.x, 720 * (1 - diagonal.y)}));
