@@ -62,9 +62,7 @@ TEST(CommandLine, EverySettingCanBeSet) {
     EXPECT_EQ(now.alpha, 0.1);
     EXPECT_EQ(now.beta, -0.2);
     EXPECT_EQ(now.step, 0.01);
-    EXPECT_EQ(now.slices.count, 11);
-    EXPECT_EQ(now.slices.spacing, 0.2);
-    EXPECT_DOUBLE_EQ(now.focusW(), 0.5);
+    EXPECT_EQ(now.slices, (SliceSettings{11, 0.2, -2})) << "the focus counts more than w of the point";
     EXPECT_TRUE(now.turning);
     EXPECT_EQ(now.look, (scene::Look{scene::View::single,
                                      {false, false, false, false},
