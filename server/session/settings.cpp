@@ -60,8 +60,10 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
         state.slices.focus = *set.focus;
     }
     if (set.focusPoint) {
+        // `focus`, `offset` and `focusW` say more than w of the point, which then may be any number.
+        const bool placed = set.focus || set.offset || set.focusW;
         glm::dvec4 point(0);
-        for (int axis = 0; axis < 4; ++axis) {
+        for (int axis = 0; axis < (placed ? 3 : 4); ++axis) {
             const std::string name = std::string("the point's ") + "xyzw"[axis];
             if (auto done =
                     put(name, (*set.focusPoint)[axis], {-kMaxOffset * radius, kMaxOffset * radius, ""}, point[axis]);
@@ -70,7 +72,6 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
             }
         }
         state.look.focusPoint = glm::dvec3(point);
-        const bool placed = set.focus || set.offset || set.focusW;  // they say more than the point: which slice is at w
         if (!placed) moveFocusTo(state, point.w);
     }
     if (set.focusW) {

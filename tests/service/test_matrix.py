@@ -39,6 +39,7 @@ async def test_messages_commands_queries_and_undo_agree(server):
 
 @pytest.mark.parametrize("slices", [
     {"spacing": 0.1, "focus": 1, "offset": 1}, {"spacing": 0.3, "focus": -7, "offset": 0.14}, {"spacing": 0.2, "focus": 3, "offset": -0.75},
+    {"spacing": 2, "focus": 1_000_000, "offset": 0},
 ])
 async def test_a_state_is_a_valid_set(server, slices):
     async with Client(server, stream="none") as client, Client(server, stream="none") as other:
