@@ -81,20 +81,31 @@ ConnectionRegistry::EndHandler ConnectionRegistry::evictIdle(const Client* clien
 }
 
 ConnectionRegistry::Admission ConnectionRegistry::admit(const Client& client, std::size_t registered, bool isProxy) {
-    EndHandler end;
+    Admission admission = Admission::admitted;
+    std::vector<EndHandler> ends;
+    const auto evict = [&](const Client* from, Admission otherwise) {
+        if (EndHandler end = evictIdle(from)) {
+            ends.push_back(std::move(end));
+        } else {
+            admission = otherwise;
+        }
+    };
     {
         const std::lock_guard lock(mutex_);
-        if (!isProxy && countOf(&client) - registered >= maxPerClient_) {
-            end = evictIdle(&client);
-            if (!end) return Admission::client_full;
-        } else if (entries_.size() - registered >= maxConnections_) {
-            const auto most = std::ranges::max_element(counts_, {}, &decltype(counts_)::value_type::second);
-            end = evictIdle(most->first);
-            if (!end) return Admission::server_full;
+        // Connections that were refused stay registered until they have ended, so more than one may be beyond a limit.
+        while (admission == Admission::admitted) {
+            if (!isProxy && countOf(&client) - registered >= maxPerClient_) {
+                evict(&client, Admission::client_full);
+            } else if (entries_.size() - registered >= maxConnections_) {
+                const auto most = std::ranges::max_element(counts_, {}, &decltype(counts_)::value_type::second);
+                evict(most->first, Admission::server_full);
+            } else {
+                break;
+            }
         }
     }
-    if (end) end(EndReason::evicted);
-    return Admission::admitted;
+    for (const EndHandler& end : ends) end(EndReason::evicted);
+    return admission;
 }
 
 std::size_t ConnectionRegistry::size() const {

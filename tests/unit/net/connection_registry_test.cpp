@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <tuple>
 #include <vector>
 
 namespace oval4d::net {
@@ -87,6 +88,32 @@ TEST_F(ConnectionRegistryTest, EvictsFromTheClientWithTheMostConnectionsWhenFull
     registrations.push_back(std::make_unique<Registration>(connections, other));
     for (const auto& registration : registrations) registration->setInUse(true);
     EXPECT_EQ(connections.admit(*other), Admission::server_full);
+}
+
+// A refused connection stays registered until it has ended. Its eviction makes no room for another one.
+TEST_F(ConnectionRegistryTest, ARefusedConnectionMakesNoRoom) {
+    for (const auto& [most, perClient, full] :
+         {std::tuple(3, 100, Admission::server_full), {100, 3, Admission::client_full}}) {
+        ConnectionRegistry connections(most, perClient);
+        std::vector<std::unique_ptr<Registration>> registrations;
+        const auto add = [&](bool inUse) {
+            registrations.push_back(std::make_unique<Registration>(connections, one));
+            registrations.back()->setEndHandler([](EndReason) {});
+            registrations.back()->setInUse(inUse);
+        };
+        for (int i = 0; i < 3; ++i) {
+            EXPECT_EQ(connections.admit(*one), Admission::admitted);
+            add(true);
+        }
+        EXPECT_EQ(connections.admit(*one), full);
+        add(false);
+        add(false);
+        EXPECT_EQ(connections.admit(*one), full);
+        EXPECT_EQ(connections.size(), 3U) << "those that were refused have been evicted";
+        registrations[1]->setInUse(false);
+        EXPECT_EQ(connections.admit(*one), Admission::admitted);
+        EXPECT_EQ(connections.size(), 2U);
+    }
 }
 
 TEST_F(ConnectionRegistryTest, AConnectionMayMoveToAnotherClient) {
