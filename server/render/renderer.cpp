@@ -5,12 +5,17 @@
 #include <mutex>
 #include <stdexcept>
 
+#include <glm/common.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+
 #include "parallel/ownership.hpp"
 #include "render/context.hpp"
 #include "render/overlay/annotations.hpp"
 #include "render/overlay/density_strip.hpp"
 #include "render/overlay/matrix_panels.hpp"
 #include "render/overlay/overlay.hpp"
+#include "render/projection.hpp"
 #include "render/slices/convex_slices.hpp"
 #include "render/slices/nonconvex_slices.hpp"
 #include "render/slices/projection_painter.hpp"
@@ -35,6 +40,26 @@ constexpr std::size_t kBatchIndices = 12'000;
 std::unique_lock<std::mutex> lockDriver() {
     static std::mutex driver;
     return std::unique_lock(driver);
+}
+
+/// Clears the depth buffer where the projection of the whole object is drawn. To clear all of it would take longer than
+/// to draw the projection.
+void clearDepthBehindProjection(const scene::Scene& scene) {
+    const auto& [shown, position, radius] = scene.projectionPlacement;
+    const glm::dvec3 center(scene.camera.view() * glm::dvec4(position, 1));
+    const double nearest = -center.z - radius;  // the distance of the nearest point from the eye, along the view axis
+    if (nearest > 0) {
+        const Projection projection = Projection::of(scene.camera, scene.viewport);
+        const glm::vec2 middle = projection.pixel(center);
+        const float reach = projection.focalLength() * static_cast<float>(radius / nearest) + 1;
+        const glm::vec2 size(scene.viewport.width, scene.viewport.height);
+        const glm::ivec2 from(glm::clamp(glm::floor(middle - reach), glm::vec2(0), size));
+        const glm::ivec2 to(glm::clamp(glm::ceil(middle + reach), glm::vec2(0), size));
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(from.x, from.y, to.x - from.x, to.y - from.y);
+    }
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glDisable(GL_SCISSOR_TEST);
 }
 
 }  // namespace
@@ -159,7 +184,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
             impl_->flushShapes();
             impl_->projectionPainter.paint(scene, impl_->projectionLayers);
             glEnable(GL_DEPTH_TEST);
-            glClear(GL_DEPTH_BUFFER_BIT);
+            clearDepthBehindProjection(scene);
             impl_->drawProjection(impl_->projectionLayers.depths);
             glDisable(GL_DEPTH_TEST);
         };
