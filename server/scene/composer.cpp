@@ -137,7 +137,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     for (int i = options.firstSlice; i < options.endSlice; ++i) {
         const bool isFocus = i == focusSlice;
         const double thickness = (isFocus ? kSection : kThinSection) * bar;
-        const Color color = isFocus ? styles.axisW : styles.bar;
+        const Color color = isFocus ? styles.axes[3] : styles.bar;
         const bool filled = isFocus && look.parts.faces && !out.crossing;
         const bool points = !slices.ballScale.empty();
         projection.parts.push_back({points ? 1.02 * ball : thickness, thickness, color, color, filled ? 0.5 : 0});

@@ -86,6 +86,8 @@ struct MatrixLayout {
     glm::dvec2 center(int row, int column) const {
         return {left + column * step + panel / 2, bottom + (3 - row) * step + panel / 2};
     }
+    /// Returns the length that represents one unit of an object with this circumradius.
+    double scale(double circumradius) const { return panel / 2 / (kReach * circumradius); }
     /// A panel that shows a section: its row and column are the axes upward and to the right.
     struct Panel {
         int row, column;

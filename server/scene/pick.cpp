@@ -27,9 +27,7 @@ Element elementOf(std::uint32_t source, ElementKind cut, std::size_t count, Elem
 }
 
 // Returns the number of pixels per unit of the object in the panels of the matrix.
-double pixelsPerUnitOf(const Scene& scene) {
-    return scene.matrix.panel / 2 / MatrixLayout::kReach / scene.circumradius * scene.viewport.height;
-}
+double pixelsPerUnitOf(const Scene& scene) { return scene.matrix.scale(scene.circumradius) * scene.viewport.height; }
 
 // Finds the element nearest to the viewer at one pixel.
 class Picker {

@@ -13,14 +13,6 @@ namespace {
 
 using scene::Scene;
 
-template <typename W>
-void writeNumbers(W& w, std::string_view name, std::initializer_list<double> list) {
-    w.key(name);
-    w.beginArray();
-    for (const double number : list) w.value(number);
-    w.endArray();
-}
-
 // Writes an array of pairs of numbers, in the same way in all encodings.
 template <typename W, typename Pairs>
 void writePairs(W& w, std::string_view name, const Pairs& list) {
@@ -35,8 +27,8 @@ void writePairs(W& w, std::string_view name, const Pairs& list) {
 }
 
 // Writes an array of numbers, in the same way in all encodings.
-template <typename W, typename Numbers>
-void writeList(W& w, std::string_view name, const Numbers& list) {
+template <typename W, typename Numbers = std::initializer_list<double>>
+void writeNumbers(W& w, std::string_view name, const Numbers& list) {
     w.key(name);
     w.beginArray();
     for (const auto& number : list) {
@@ -76,7 +68,7 @@ void writeColors(W& w, const scene::Style& style, const std::vector<scene::Color
     w.member("highlight", style.highlight);
     w.key("axes");
     w.beginArray();
-    for (const scene::Color color : {style.axisX, style.axisY, style.axisZ, style.axisW}) w.value(color);
+    for (const scene::Color color : style.axes) w.value(color);
     w.endArray();
     w.key("cells");
     w.numbers(cells);
@@ -224,28 +216,28 @@ void SlicesMessageWriter::writeMatrix(W& w, const Scene& scene) {
         const slicing::PlanarSection& section = matrix.sections[i];
         const scene::SectionMatrix::SectionStyle& styles = matrix.styles[i];
         w.beginObject();
-        writeList(w, "axes", section.axes);
+        writeNumbers(w, "axes", section.axes);
         writePairs(w, "points", section.points);
         writePairs(w, "edges", section.edges);
-        writeList(w, "boundary", section.boundary);
+        writeNumbers(w, "boundary", section.boundary);
         w.key("of");
         w.beginObject();
-        writeList(w, "points", section.pointSource);
-        writeList(w, "edges", section.edgeSource);
+        writeNumbers(w, "points", section.pointSource);
+        writeNumbers(w, "edges", section.edgeSource);
         w.endObject();
-        writeList(w, "tints", styles.edgeCells);
+        writeNumbers(w, "tints", styles.edgeCells);
         if (!scene.visibilities.allVisible()) {
             w.key("seen");
             w.beginObject();
-            writeList(w, "points", styles.points);
-            writeList(w, "edges", styles.edges);
+            writeNumbers(w, "points", styles.points);
+            writeNumbers(w, "edges", styles.edges);
             w.endObject();
         }
         if (!section.ballScale.empty()) {
             w.key("balls");
             w.beginObject();
-            writeList(w, "scale", section.ballScale);
-            writeList(w, "opacity", section.ballOpacity);
+            writeNumbers(w, "scale", section.ballScale);
+            writeNumbers(w, "opacity", section.ballOpacity);
             w.endObject();
         }
         w.endObject();

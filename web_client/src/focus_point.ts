@@ -12,7 +12,7 @@ export interface FocusPointEvents {
     failed(error: Error): void;
 }
 
-interface Place {
+interface PointOfRevision {
     point: Point4;
     revision: number;
 }
@@ -25,8 +25,8 @@ export class FocusPoint {
     private isSending = false;
     private isScheduled = false;
     private continues = false; // whether the next move belongs to the undo step of the last one
-    private answered: Place = { point: kOrigin, revision: 0 };
-    private seen: Place = { point: kOrigin, revision: 0 }; // in the newest state
+    private answered: PointOfRevision = { point: kOrigin, revision: 0 };
+    private seen: PointOfRevision = { point: kOrigin, revision: 0 }; // in the newest state
 
     constructor(
         private readonly client: Client,

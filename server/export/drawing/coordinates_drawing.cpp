@@ -35,16 +35,11 @@ struct Columns {
     double zero(std::size_t row) const { return kDrawingMargin + kAmplitude + rowStep * static_cast<double>(row); }
 };
 
-std::vector<scene::Color> axisColors() {
-    const scene::Style& style = scene::style();
-    return {style.axisX, style.axisY, style.axisZ, style.axisW};
-}
-
 Drawing drawStrip(const scene::Scene& scene) {
     scene::DensityPlot density;
     density.measure(scene.slices->rotatedVertices, glm::dmat4(1), scene.circumradius);
     const double step = (kDrawingWidth - 2 * kDrawingMargin) / 3, bottom = kDrawingMargin + 2 * kAmplitude;
-    const std::vector<scene::Color> colors = axisColors();
+    const auto& colors = scene::style().axes;
     const auto tones = density.tones();
     ShapeGroup strip{"density",
                      {DensityImage{{kDrawingMargin, kDrawingMargin},
@@ -81,7 +76,7 @@ Drawing drawCoordinates(const scene::Scene& scene) {
         zeros.shapes.emplace_back(
             Line{.from = {kDrawingMargin, y}, .to = {right, y}, .width = 0.4, .color = scene::style().zeroLine});
     }
-    const std::vector<scene::Color> colors = axisColors();
+    const auto& colors = scene::style().axes;
     const double lineStep = columns.step / 5;
     for (int axis = 0; axis < 4; ++axis) {
         ShapeGroup& lines = drawing.groups.emplace_back(std::string(1, "xyzw"[axis]), std::vector<Shape>());

@@ -2,6 +2,7 @@
 // Drawings for printing, made of lines and areas that are sharp at any size. Writers of figure formats need no other
 // data.
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -48,8 +49,8 @@ struct TextLine {
 /// right edges, the first and the last row on the upper and lower edges.
 struct DensityImage {
     glm::dvec2 topLeft, bottomRight;
-    std::vector<std::uint8_t> tones;       ///< row by row; opacities from 0 to 255
-    std::vector<scene::Color> axisColors;  ///< of x, y, z and w; columns between them have mixed colors
+    std::vector<std::uint8_t> tones;         ///< row by row; opacities from 0 to 255
+    std::array<scene::Color, 4> axisColors;  ///< of x, y, z and w; columns between them have mixed colors
 };
 using Shape = std::variant<Line, Area, Disk, TextLine, DensityImage>;
 

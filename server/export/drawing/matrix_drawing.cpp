@@ -64,10 +64,7 @@ class SectionDrawer {
         return kDrawingMargin + (kPanel + kPanelGap) * glm::dvec2(column, row) + kPanel / 2;
     }
 
-    static scene::Color colorOfAxis(int axis) {
-        const scene::Style& style = scene::style();
-        return std::array{style.axisX, style.axisY, style.axisZ, style.axisW}[static_cast<std::size_t>(axis)];
-    }
+    static scene::Color colorOfAxis(int axis) { return scene::style().axes[static_cast<std::size_t>(axis)]; }
 
     static void drawFrame(const glm::dvec2& center, ShapeGroup& group) {
         const double half = kPanel / 2;

@@ -61,7 +61,7 @@ class ProjectionDrawer {
 
     // The color of a part at a depth.
     scene::Color colorAt(std::size_t part, double depth) const {
-        if (part > 0) return scene_.projection.parts[part].barColor == scene::style().axisW ? kSection : kFar;
+        if (part > 0) return scene_.projection.parts[part].barColor == scene::style().axes[3] ? kSection : kFar;
         const double reach = scale_ * scene_.projectionPlacement.radius;
         return mix(kFar, kNear, std::clamp((depth / reach + 1) / 2, 0.0, 1.0));
     }

@@ -49,7 +49,7 @@ void paintStripAxes(const scene::Scene& scene, Overlay& overlay) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene::style();
     const auto height = static_cast<double>(scene.viewport.height);
-    const std::array colors{style.axisX, style.axisY, style.axisZ, style.axisW};
+    const auto& colors = style.axes;
     const float thickness = std::max(1.0F, static_cast<float>(std::round(layout.lineWidth * height)));
     const auto levelOf = [&](double value) {
         return static_cast<float>((layout.zero + value * layout.amplitude) * height);
@@ -97,7 +97,8 @@ void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) 
         scene::Color color;
         char name;
     };
-    std::array axes{Axis{turn[0], style.axisX, 'x'}, Axis{turn[1], style.axisY, 'y'}, Axis{turn[2], style.axisZ, 'z'}};
+    std::array axes{Axis{turn[0], style.axes[0], 'x'}, Axis{turn[1], style.axes[1], 'y'},
+                    Axis{turn[2], style.axes[2], 'z'}};
     // Ties are broken by name, because std::stable_sort would allocate memory.
     std::sort(axes.begin(), axes.end(), [](const Axis& a, const Axis& b) {
         return a.direction.z != b.direction.z ? a.direction.z < b.direction.z : a.name < b.name;
@@ -147,7 +148,7 @@ void paintCoordinates(const scene::Scene& scene, Overlay& overlay) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene::style();
     const auto height = static_cast<double>(scene.viewport.height);
-    const std::array colors{style.axisX, style.axisY, style.axisZ, style.axisW};
+    const auto& colors = style.axes;
     const auto count = static_cast<int>(scene.slices->rotatedVertices.size());
     // Lines at least one pixel wide are sharpest on whole pixels.
     const double lineWidth = layout.lineWidth * height;

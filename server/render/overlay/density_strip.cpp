@@ -70,7 +70,7 @@ void DensityStrip::draw(const scene::Scene& scene) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene::style();
     const double aspect = static_cast<double>(scene.viewport.width) / scene.viewport.height;
-    const std::array colors{style.axisX, style.axisY, style.axisZ, style.axisW};
+    const auto& colors = style.axes;
     std::array<Corner, 8> corners;  // the lower and the upper end of each axis
     for (std::size_t k = 0; k < 4; ++k)
         for (const std::size_t above : {0u, 1u}) {

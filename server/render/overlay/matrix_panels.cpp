@@ -24,7 +24,7 @@ class SectionPainter {
         : scene_(scene),
           overlay_(overlay),
           height_(scene.viewport.height),
-          pixelsPerUnit_(scene.matrix.panel / 2 / scene::MatrixLayout::kReach / scene.circumradius * height_) {}
+          pixelsPerUnit_(scene.matrix.scale(scene.circumradius) * height_) {}
 
     void paint(std::size_t section, bool transposed) {
         const PlanarSection& from = scene_.sectionMatrix.sections[section];
@@ -56,10 +56,7 @@ class SectionPainter {
         return center_ + pixelsPerUnit_ * (transposed_ ? glm::dvec2(p.y, p.x) : p);
     }
 
-    static Color colorOfAxis(int axis) {
-        const scene::Style& style = scene::style();
-        return std::array{style.axisX, style.axisY, style.axisZ, style.axisW}[static_cast<std::size_t>(axis)];
-    }
+    static Color colorOfAxis(int axis) { return scene::style().axes[static_cast<std::size_t>(axis)]; }
 
     Box panel() const {
         const double half = scene_.matrix.panel / 2 * height_;

@@ -238,7 +238,7 @@ TEST_F(Pictures, ShowTheDensityOfManyVertices) {
     const image::Image image = subject.draw(renderer());
     const scene::CoordinatesLayout& layout = subject.scene.coordinates;
     const scene::Style& style = scene::style();
-    const std::array colors{style.axisX, style.axisY, style.axisZ, style.axisW};
+    const auto& colors = style.axes;
     const double height = subject.scene.viewport.height;
     const auto xOf = [&](double column) {
         return static_cast<int>((layout.left + layout.lineWidth / 2 + column / DensityPlot::kGap * layout.lineStep) *

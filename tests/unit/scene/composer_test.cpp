@@ -168,13 +168,13 @@ TEST(ObjectProjection, hasTheSectionOfTheFocusOrOfAllHyperplanes) {
     look.projection.kind = scene::ProjectionKind::orthogonal;
     const Scene focus = composed("24-cell", 21, {}, look);
     ASSERT_EQ(focus.projection.parts.size(), 2U);
-    EXPECT_EQ(focus.projection.parts[1].barColor, scene::style().axisW);
+    EXPECT_EQ(focus.projection.parts[1].barColor, scene::style().axes[3]);
     look.parts.sections = true;
     const Scene all = composed("24-cell", 21, {}, look);
     ASSERT_EQ(all.projection.parts.size(), 22U);
     ASSERT_EQ(all.projection.elements.vertexBegin.size(), 23U);
     for (std::size_t i = 1; i < all.projection.parts.size(); ++i)
-        EXPECT_EQ(all.projection.parts[i].barColor == scene::style().axisW, i == 11);
+        EXPECT_EQ(all.projection.parts[i].barColor == scene::style().axes[3], i == 11);
     look.parts.bars = look.parts.balls = false;
     const Scene none = composed("24-cell", 21, {}, look);
     EXPECT_EQ(none.projection.parts[0].ballRadius, 0);
