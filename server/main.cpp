@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
     oval4d::RenderOptions renderOptions;
     CLI::App* render = app.add_subcommand("render", "Write one picture as a PNG file");
     oval4d::addRenderOptions(*render, renderOptions);
-    oval4d::ExportOptions exportOptions;
+    oval4d::ExportOutputOptions exportOptions;
     CLI::App* exporting = app.add_subcommand("export", "Write a slice or the oval as a file for other programs");
     oval4d::addExportOptions(*exporting, exportOptions);
     // Hidden subcommands, with which the server starts this program as a child process. Child processes read their

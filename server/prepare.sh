@@ -144,9 +144,13 @@ compile() {
     step "compile-$1" "compiling build/$1" cmake --build "$root/build/$1" --parallel "$(compile_jobs)" --target "${@:2}"
 }
 
-# Builds the fuzzers with the Clang version whose fuzzer runtime tests/packages.txt installs.
-build_fuzzers() {
-    local clang
-    for clang in clang++-16 clang++-19 clang++; do command -v "$clang" >/dev/null && break; done
-    configure fuzz -DCMAKE_CXX_COMPILER="$clang" && compile fuzz fuzz
+# build_sanitized <asan-ubsan|tsan> <targets …>: builds the targets with sanitizers. For the fuzzers, asan-ubsan needs
+# Clang, in the version whose runtime libraries tests/packages.txt installs.
+build_sanitized() {
+    local compiler=() clang
+    if [[ $1 == asan-ubsan ]]; then
+        for clang in clang++-16 clang++-19 clang++; do command -v "$clang" >/dev/null && break; done
+        compiler=("-DCMAKE_CXX_COMPILER=$clang")
+    fi
+    configure "$1" "${compiler[@]}" && compile "$@"
 }

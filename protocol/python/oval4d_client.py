@@ -7,20 +7,24 @@
         open("24-cell.png", "wb").write(oval.frame(1280, 720))
 
 ../README.md specifies the messages and their members. Needs python3-websockets (10 or later), and python3-cbor2 for
-slices in CBOR. A separate thread handles the socket. Therefore any thread may call the client, and the connection stays
-open while a script is idle.
+slices in CBOR; with python3-numpy, arrays can be shown as fields, and surfaces are its arrays. A separate thread handles the socket.
+Therefore any thread may call the client, and the connection stays open while a script is idle.
 """
 
 import array
 import asyncio
+import base64
+import http.client
+import io
 import itertools
 import json
+import os
 import random
 import re
 import struct
 import threading
 import time
-from urllib.parse import urlsplit, urlunsplit
+from urllib.parse import quote, urlencode, urlsplit, urlunsplit
 
 import websockets
 
@@ -28,9 +32,16 @@ try:
     import cbor2
 except ImportError:
     cbor2 = None
+try:
+    import numpy
+except ImportError:
+    numpy = None
 
 SUBPROTOCOL = "oval4d.v1"
 PNG = b"\x89PNG\r\n\x1a\n"
+SURFACE_TYPES = {"points": "f4", "normals": "f4", "triangles": "u4", "level": "u1", "cap": "u1", "colors": "u4",
+                 "cap_colors": "u4"}
+MAX_DATA = 1 << 20  # bytes of a file that is sent in a message; a larger one is uploaded by HTTP
 RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # close codes after which the client reconnects to its session
 
 
@@ -125,11 +136,107 @@ class Client:
     def set(self, **settings):
         return self.request("set", **settings)
 
+    def restore(self, source):
+        """Shows the state in a picture that oval4d has made, without turning. `source` is the path of a PNG file or of a
+        state as JSON, the bytes of either, or a state as a dict. Raises ValueError if it contains no state."""
+        if isinstance(source, (str, os.PathLike)):
+            with open(source, "rb") as file:
+                source = file.read()
+        try:
+            state = source if isinstance(source, dict) else png_state(source) if source.startswith(PNG) else json.loads(source)
+        except RecursionError:
+            state = None
+        if not isinstance(state, dict) or state.get("type") != "state":
+            raise ValueError('not a state of oval4d, whose "type" is "state"')
+        settings = {name: value for name, value in state.items() if name not in ("type", "id")}
+        return self.set(**settings | {"turning": False})
+
     def command(self, line):
         return self.request("command", line=line)
 
-    def load(self, name, data, format="off"):
-        return self.request("load", name=name, data=data, format=format)
+    def load(self, name, data, format="off", box=None, **members):
+        """Loads an object from the text of a file, or a formula, and shows it. `box` is that of formula(); the other
+        members are those of `load`, such as axes."""
+        domain = {} if box is None else {"box": [[float(low), float(high)] for low, high in box]}
+        return self.request("load", name=name, data=data, format=format, **domain, **members)
+
+    def formula(self, formula, box=None, levels=None, inside=None, name="formula", values=None):
+        """Shows the field of a formula of x, y, z and w, such as "x^2+y^2+z^2-w < a; a=0.5". `box` is its domain, four
+        pairs of numbers; without it, all coordinates are from -2 to 2. `levels` are up to four values at which surfaces
+        are shown, at first only 0; `inside` is "below" (at first) or "above". The surfaces are colored by `values`, a
+        formula such as "a*x", if it is given. All of it is one step of undo. If the levels are refused, the field is
+        shown without them."""
+        colored = {} if values is None else {"values": values}
+        return self._show(self.load(name, formula, "formula", box, **colored), levels, inside)
+
+    def field(self, name, array, axes=None, spacing=None, origin=None, levels=None, inside=None, values=None):
+        """Shows a numpy array of 1 to 4 dimensions as a field. `axes` are those of its indices, "tzyx" or the last of
+        these if it is None; t means w. `spacing` (a number, or four along x, y, z and w) is the distance between samples,
+        and `origin` (four numbers) the place of the first one; without both, the server chooses them. `levels` and
+        `inside` are those of formula(), but at first the level is in the middle of the values, and the inside above. The
+        surfaces are colored by `values`, another array of the same shape, or a formula of x, y, z and w in the units of
+        the box."""
+        samples = _samples(array)
+        axes = axes or "tzyx"[-samples.ndim :]
+        box = None if spacing is None and origin is None else _box(samples.shape, axes, spacing, origin)
+        return self._show(self._send_array(name, samples, values, axes=axes, box=box), levels, inside)
+
+    def append(self, name, array, axes=None, values=None):
+        """Adds a moment, a numpy array with the axes "zyx", or several, "tzyx", at the end of w of the field `name`, for
+        example while a simulation runs. A field with an array of `values` needs those of the moment. The settings stay
+        the same. It is no step of undo."""
+        samples = _samples(array)
+        return self._send_array(name, samples, values, axes=axes or "tzyx"[-samples.ndim :], append=True)
+
+    def upload(self, name, data, format=None, axes=None, box=None, variable=None, append=False, values=None,
+               values_variable=None):
+        """Loads the bytes of an array's file, or a file that is open in binary mode, by HTTP. `format` is "npy",
+        "netcdf", "hdf5" or "nifti"; the server detects it if it is None. `box` is that of formula(). The surfaces are
+        colored by the formula `values`, or by the array `values_variable` of the same file."""
+        flat = None if box is None else ",".join(repr(float(end)) for side in box for end in side)
+        query = {"format": format, "axes": axes, "box": flat, "variable": variable, "values": values,
+                 "values_variable": values_variable}
+        parts = urlsplit(self._url)
+        path = re.sub(r"/ws(/[^/]*)?$", "", parts.path) + "/api/v1/sessions/" + quote(self.welcome["session"], safe="")
+        path += "/fields/" + quote(name, safe="") + ("/moments" if append else "")
+        query = "&".join(filter(None, [parts.query, urlencode({k: v for k, v in query.items() if v}, quote_via=quote)]))
+        size = len(data) if isinstance(data, (bytes, bytearray, memoryview)) else data.seek(0, io.SEEK_END)
+        if size > self.welcome["limits"]["upload"]:  # the server would close the connection before it has read the file
+            raise Refused("too_large", f"the server accepts files of at most {self.welcome['limits']['upload']} bytes")
+        if hasattr(data, "seek"):
+            data.seek(0)
+        kind = http.client.HTTPSConnection if parts.scheme in ("wss", "https") else http.client.HTTPConnection
+        connection = kind(parts.hostname, parts.port, timeout=self.timeout)
+        try:
+            headers = {**dict(self._headers or {}), "Session-Token": self.welcome["token"], "Content-Length": str(size)}
+            connection.request("POST" if append else "PUT", f"{path}?{query}", data, headers)
+            answer = connection.getresponse()
+            text = answer.read().decode(errors="replace")
+        finally:
+            connection.close()
+        message = json.loads(text) if answer.getheader("Content-Type") == "application/json" else None
+        if answer.status != 200:
+            raise Refused(message["code"] if message else str(answer.status), message["message"] if message else text)
+        return message
+
+    def _show(self, done, levels, inside):
+        settings = {} if levels is None else {"levels": [float(level) for level in levels]}
+        settings |= {} if inside is None else {"inside": inside}
+        return self.set(continues=True, **settings) if settings else done
+
+    def _send_array(self, name, samples, values=None, box=None, **members):
+        format = "npy"
+        if values is None or isinstance(values, str):
+            file = io.BytesIO()
+            numpy.save(file, samples, allow_pickle=False)
+            data = file.getvalue()
+            members |= {} if values is None else {"values": values}
+        else:
+            format, data = "netcdf", _netcdf({"field": samples, "values": _samples(values)})
+            members |= {"variable": "field", "values_variable": "values"}
+        if len(data) > MAX_DATA or 4 * len(data) > 2 * self.welcome["limits"]["message"]:
+            return self.upload(name, data, format, box=box, **members)
+        return self.load(name, base64.b64encode(data).decode(), format, box, **members)
 
     def undo(self):
         return self.request("undo")
@@ -148,6 +255,11 @@ class Client:
         return self.get("state")
 
     def slices(self, width=None, height=None):
+        """Returns a slices message. A slice of a field has a "surface" if its hyperplane meets one. Its "points",
+        "normals" and "triangles" are numpy arrays of shape (n, 3), and its "level", "cap", "colors" and "cap_colors" of
+        shape (n,); without numpy, they are lists. The triangles, which are triples of points, are counterclockwise as seen from
+        outside, and those of each level form a closed surface. If the field has fog, the slice has a "fog": its "values"
+        are a numpy array with the indices z, y, x; without numpy, they are bytes, x fastest."""
         return self.get("slices", width, height)
 
     def frame(self, width=None, height=None):
@@ -164,6 +276,12 @@ class Client:
         label, as in `get`."""
         return self.request("get", what="file", format=format, **members)
 
+    def critical(self):
+        """Returns the critical message: where the section by the hyperplane w changes its type. Its "sections", in the
+        order of w, have "w" and "change"; those of a field also "level", and "components", "cavities" and "euler" of
+        the body below and above w. Finding those of a field may take seconds."""
+        return self.get("critical")
+
     def catalogue(self):
         return self.get("catalogue")["polytopes"]
 
@@ -175,13 +293,13 @@ class Client:
         self.send({"type": "shown", "revision": revision})
 
     def wait(self, revision, timeout=None):
-        """Waits for the picture of this revision or of a later one, or for the state if the stream is "none". Returns
-        the newest state."""
+        """Waits for the picture of this revision or of a later one, or for the state if the stream is "none". Drafts of
+        fields do not count. Returns the newest state."""
 
         def arrived():
             newest = {"geometry": self.newest_slices, "frames": self.newest_frame and png_state(self.newest_frame)}
             message = newest.get(self._stream, self.newest_state)
-            return message is not None and message["revision"] >= revision
+            return message is not None and message["revision"] >= revision and "draft" not in message
 
         self._wait_for(arrived, timeout, f"revision {revision}")
         return self.newest_state
@@ -278,6 +396,9 @@ class Client:
             pause = min(2 * pause, 5)
             try:
                 self._socket = await self._open(url, self._headers)
+                if self._closing:
+                    await self._socket.close()
+                    break
                 await self._socket.send(json.dumps({**self._hello, "type": "hello", "token": self.welcome["token"]}))
             except (OSError, websockets.WebSocketException, asyncio.TimeoutError):
                 continue
@@ -303,7 +424,7 @@ class Client:
             if isinstance(data, bytes) and not 0xA0 <= data[0] < 0xC0:  # not a CBOR map, so a file
                 self._binary = data
                 return None
-            message = json.loads(data) if isinstance(data, str) else from_cbor(data)
+            message = from_json(data) if isinstance(data, str) else from_cbor(data)
             kind, number = message["type"], message.get("id")
             if kind == "slices" and number is None:
                 picture = message["revision"]
@@ -337,6 +458,50 @@ class Client:
         self._loop.close()
 
 
+def _samples(values):
+    """Returns an array without the digits that the server does not keep: it computes with float32."""
+    if numpy is None:
+        raise ImportError("arrays need python3-numpy")
+    values = numpy.asarray(values)
+    return values.astype("f4") if values.dtype.kind == "f" and values.dtype.itemsize > 4 else values
+
+
+def _netcdf(arrays):
+    """Returns a NetCDF file (classic, with 64-bit offsets) with these arrays of one shape, as float32."""
+    shape = next(iter(arrays.values())).shape
+    if any(values.shape != shape for values in arrays.values()):
+        raise ValueError("the arrays must have the same shape")
+
+    def text(name):
+        return struct.pack(">i", len(name)) + name.encode() + bytes(-len(name) % 4)
+
+    def listed(tag, items):
+        return struct.pack(">ii", tag, len(items)) + b"".join(items)
+
+    data = [values.astype(">f4").tobytes() for values in arrays.values()]
+    absent, number, dimension, variable = bytes(8), 5, 10, 11  # tags of the format
+
+    def header(begin):
+        dimensions = [text(f"d{i}") + struct.pack(">i", size) for i, size in enumerate(shape)]
+        variables = []
+        for name, bytes_of in zip(arrays, data):
+            places = struct.pack(f">i{len(shape)}i", len(shape), *range(len(shape)))
+            size = min(len(bytes_of), 0xFFFFFFFC)
+            variables.append(text(name) + places + absent + struct.pack(">iIq", number, size, begin))
+            begin += len(bytes_of)
+        return b"CDF\x02" + bytes(4) + listed(dimension, dimensions) + absent + listed(variable, variables)
+
+    return header(len(header(0))) + b"".join(data)
+
+
+def _box(shape, axes, spacing, origin):
+    """Returns the box of an array; an axis that the array does not have gets no extent."""
+    spacing = (1 if spacing is None else spacing,) * 4 if spacing is None or numpy.isscalar(spacing) else spacing
+    sizes = dict(zip(axes.replace("t", "w"), shape))
+    lows = origin or (0, 0, 0, 0)
+    return [(low, low + step * (sizes.get(axis, 1) - 1)) for axis, low, step in zip("xyzw", lows, spacing)]
+
+
 def png_state(png):
     """Returns the state in a frame's iTXt chunk. Sent as a `set`, it restores the picture. Raises ValueError if the
     bytes are not a frame with a state."""
@@ -356,9 +521,24 @@ def png_state(png):
     raise ValueError("not an oval4d frame: it contains no state")
 
 
+def from_json(text):
+    """Returns a message in JSON as a dict. The surfaces of a slices message have the form that slices() describes."""
+    message = json.loads(text)
+    if isinstance(message, dict) and message.get("type") == "slices":
+        for piece in message["slices"]:
+            if "surface" in piece and numpy is not None:
+                piece["surface"] = {name: numpy.array(value, SURFACE_TYPES[name]) if name in SURFACE_TYPES else value
+                                    for name, value in piece["surface"].items()}
+            if "fog" in piece:
+                fog = piece["fog"]
+                fog["values"] = _lattice(bytes(itertools.chain(*fog["values"])), fog["size"])
+    return message
+
+
 def from_cbor(data):
     """Returns a slices message that is encoded in CBOR as a dict, with one dict per slice. Typed arrays become
-    array.array of floats or integers. Raises ValueError if the bytes are not such a message."""
+    array.array of floats or integers; surfaces have the form that slices() describes. Raises ValueError if the bytes
+    are not such a message."""
     if cbor2 is None:
         raise ImportError("decoding slices in CBOR needs python3-cbor2")
 
@@ -427,4 +607,49 @@ def _slices_of(columns):
         for piece, row in zip(slices, zip(*parts.values())):
             if row[1]:
                 piece["fill"] = dict(zip(parts, row))
+    if "surface" in columns:
+        for piece, surface in zip(slices, _surfaces_of(columns["surface"])):
+            if len(surface["triangles"]):
+                piece["surface"] = surface
+    if "fog" in columns:
+        for piece, fog in zip(slices, _fogs_of(columns["fog"])):
+            if len(fog["values"]):
+                piece["fog"] = fog
     return slices
+
+
+def _fogs_of(columns):
+    """Returns one dict per slice with its fog."""
+    sizes = _rows(columns["size"], [1] * len(columns["step"]), 3)
+    walls = _rows(columns["walls"], columns["counts"]["walls"], 4)
+    values = _rows(columns["values"], [x * y * z for x, y, z in sizes])
+    minima = _rows(columns["min"], [1] * len(sizes), 3)
+    return [{"size": size.tolist(), "min": least.tolist(), "step": step,
+             "walls": [own[i : i + 4].tolist() for i in range(0, len(own), 4)], "values": _lattice(row, size)}
+            for size, least, step, own, row in zip(sizes, minima, columns["step"], walls, values)]
+
+
+def _lattice(values, size):
+    """Returns the values of fog, x fastest, as slices() describes them."""
+    if numpy is not None:
+        return numpy.frombuffer(bytearray(values), numpy.uint8).reshape(tuple(reversed(size)))
+    return bytes(values)
+
+
+def _surfaces_of(columns):
+    """Returns one dict per slice with its surface."""
+    counts = columns["counts"]
+
+    def shaped(flat, name, width):
+        if numpy is not None:
+            values = numpy.array(flat, SURFACE_TYPES[name])
+            return values if width == 1 else values.reshape(-1, width)
+        return list(flat) if width == 1 else [list(flat[i : i + width]) for i in range(0, len(flat), width)]
+
+    surfaces = {"color": columns["color"]} if "color" in columns else {}
+    for name, of, width in (("points", "points", 3), ("normals", "points", 3), ("triangles", "triangles", 3),
+                            ("level", "triangles", 1), ("cap", "triangles", 1), ("colors", "points", 1),
+                            ("cap_colors", "points", 1)):
+        if name in columns:
+            surfaces[name] = [shaped(row, name, width) for row in _rows(columns[name], counts[of], width)]
+    return [dict(zip(surfaces, row)) for row in zip(*surfaces.values())]

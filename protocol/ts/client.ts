@@ -3,7 +3,7 @@
 
 import { Arena } from "./arena";
 import { decodeCbor, decodeText, isFile, isPng } from "./decode";
-import type { At, Catalogue, Done, Encoding, ErrorMessage, FileOptions, Keymap, Message, Request } from "./messages";
+import type { At, Catalogue, Critical, Done, Encoding, ErrorMessage, FileOptions, Keymap, Message, Request } from "./messages";
 import type { Slices, State, Stream, Viewport, Welcome } from "./messages";
 
 /** The session's name and token, which give access to it. */
@@ -138,6 +138,7 @@ export class Client {
     request(message: { type: "get"; what: "frame"; width?: number; height?: number }): Promise<Uint8Array>;
     request(message: { type: "get"; what: "at"; x: number; y: number; width?: number; height?: number }): Promise<At>;
     request(message: { type: "get"; what: "file" } & FileOptions): Promise<Uint8Array>;
+    request(message: { type: "get"; what: "critical" }): Promise<Critical>;
     request(message: { type: "get"; what: "catalogue" }): Promise<Catalogue>;
     request(message: { type: "get"; what: "keymap" }): Promise<Keymap>;
     request(message: Exclude<Request, { type: "hello" | "get" | "shown" }>): Promise<Done>;

@@ -1,10 +1,7 @@
 // The slices of a CBOR message, which has one array per property with the values of all slices. The parts of the
 // projection have the same columns for their elements.
 
-import type { Elements, ObjectProjection, ProjectionLook, Slice, Vector } from "./messages";
-
-/** An array of integers whose width is the least that its largest value fits into. */
-export type Integers = Uint8Array | Uint16Array | Uint32Array;
+import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Surface, Vector } from "./messages";
 
 /** A value for each kind of element of a slice. */
 type OfEach<T> = Record<"vertices" | "edges" | "faces", T>;
@@ -40,6 +37,27 @@ export interface Columns extends ElementColumns {
         triangles: Integers;
         tints: Integers;
         seen?: Integers;
+    };
+    surface?: {
+        counts: Record<"points" | "triangles", Integers>;
+        /** Of each slice. */
+        color?: Integers;
+        points: Float32Array;
+        normals: Float32Array;
+        triangles: Integers;
+        level: Uint8Array;
+        cap: Uint8Array;
+        /** Of each point. */
+        colors?: Integers;
+        cap_colors?: Integers;
+    };
+    fog?: {
+        counts: Record<"walls", Integers>;
+        size: Integers;
+        min: Float32Array;
+        step: Float64Array;
+        walls: Float32Array;
+        values: Uint8Array;
     };
 }
 
@@ -121,6 +139,8 @@ function elementsOf(columns: ElementColumns, room: Room): Elements[] {
 export function rowsOf(columns: Columns, room: Room): Slice[] {
     const elements = elementsOf(columns, room);
     const filled = columns.fill && fillsOf(columns.fill, widener(room));
+    const surfaces = columns.surface && surfacesOf(columns.surface, widener(room));
+    const fogs = columns.fog && fogsOf(columns.fog);
     return columns.index.map((index, i) => {
         const slice: Slice = {
             index,
@@ -134,6 +154,8 @@ export function rowsOf(columns: Columns, room: Room): Slice[] {
             ...elements[i]!,
         };
         if (filled?.[i]!.triangles.length) slice.fill = filled[i];
+        if (surfaces?.[i]!.triangles.length) slice.surface = surfaces[i];
+        if (fogs?.[i]!.values.length) slice.fog = fogs[i];
         return slice;
     });
 }
@@ -156,4 +178,37 @@ function fillsOf(fill: NonNullable<Columns["fill"]>, wide: (list: Integers) => U
             ...(seen && { seen: seen.subarray(begin, end) }),
         };
     });
+}
+
+function surfacesOf(surface: NonNullable<Columns["surface"]>, wide: (list: Integers) => Uint32Array): Surface[] {
+    const points = ranges(surface.counts.points, surface.points.length / 3);
+    const triangles = ranges(surface.counts.triangles, surface.level.length);
+    const colors = surface.colors && wide(surface.colors);
+    const capColors = surface.cap_colors && wide(surface.cap_colors);
+    return points.map(([first, last], i) => {
+        const [begin, end] = triangles[i]!;
+        return {
+            ...(surface.color && { color: surface.color[i]! }),
+            points: surface.points.subarray(3 * first, 3 * last),
+            normals: surface.normals.subarray(3 * first, 3 * last),
+            triangles: surface.triangles.subarray(3 * begin, 3 * end),
+            level: surface.level.subarray(begin, end),
+            cap: surface.cap.subarray(begin, end),
+            ...(colors && { colors: colors.subarray(first, last) }),
+            ...(capColors && { cap_colors: capColors.subarray(first, last) }),
+        };
+    });
+}
+
+function fogsOf(fog: NonNullable<Columns["fog"]>): Fog[] {
+    const walls = ranges(fog.counts.walls, fog.walls.length / 4);
+    const sizes = Array.from(fog.step, (_, i): Vector => [fog.size[3 * i]!, fog.size[3 * i + 1]!, fog.size[3 * i + 2]!]);
+    const points = ranges(Uint32Array.from(sizes, ([x, y, z]) => x * y * z), fog.values.length);
+    return sizes.map((size, i) => ({
+        size,
+        min: vector(fog.min, i),
+        step: fog.step[i]!,
+        walls: fog.walls.subarray(4 * walls[i]![0], 4 * walls[i]![1]),
+        values: fog.values.subarray(...points[i]!),
+    }));
 }

@@ -4,8 +4,9 @@
 import * as cborX from "cbor-x/decode-no-eval";
 
 import type { Arena, Numbers } from "./arena";
-import { partsOf, rowsOf, type Columns, type Integers, type PartColumns } from "./columns";
-import type { Elements, Message, ObjectProjection, ProjectionLook, Slice, Slices } from "./messages";
+import { partsOf, rowsOf, type Columns, type PartColumns } from "./columns";
+import type { Elements, Fog, Integers, Message, ObjectProjection, ProjectionLook } from "./messages";
+import type { Slice, Slices, Surface } from "./messages";
 
 const cbor = new cborX.Decoder({ mapsAsObjects: true, useRecords: false });
 
@@ -97,8 +98,19 @@ interface JsonElements {
     balls?: { scale: number[]; opacity: number[] };
 }
 
-interface JsonSlice extends Omit<Slice, keyof Elements | "fill">, JsonElements {
+interface JsonSlice extends Omit<Slice, keyof Elements | "fill" | "surface" | "fog">, JsonElements {
     fill?: { points: number[][]; triangles: number[][]; tints: number[]; seen?: number[] };
+    surface?: {
+        color?: number;
+        points: number[][];
+        normals: number[][];
+        triangles: number[][];
+        level: number[];
+        cap: number[];
+        colors?: number[];
+        cap_colors?: number[];
+    };
+    fog?: Omit<Fog, "walls" | "values"> & { walls: number[][]; values: number[][] };
 }
 
 function flattened(message: Message): Message {
@@ -141,7 +153,7 @@ function flattenedElements<T extends JsonElements>(all: T): Omit<T, keyof JsonEl
     };
 }
 
-function flattenedSlice({ fill, ...slice }: JsonSlice): Slice {
+function flattenedSlice({ fill, surface, fog, ...slice }: JsonSlice): Slice {
     return {
         ...flattenedElements(slice),
         ...(fill && {
@@ -152,6 +164,21 @@ function flattenedSlice({ fill, ...slice }: JsonSlice): Slice {
                 ...(fill.seen && { seen: indices(fill.seen) }),
             },
         }),
+        ...(surface && { surface: flattenedSurface(surface) }),
+        ...(fog && { fog: { ...fog, walls: floats(fog.walls), values: Uint8Array.from(fog.values.flat()) } }),
+    };
+}
+
+function flattenedSurface({ colors, cap_colors, ...surface }: NonNullable<JsonSlice["surface"]>): Surface {
+    return {
+        ...surface,
+        points: floats(surface.points),
+        normals: floats(surface.normals),
+        triangles: indices(surface.triangles),
+        level: Uint8Array.from(surface.level),
+        cap: Uint8Array.from(surface.cap),
+        ...(colors && { colors: indices(colors) }),
+        ...(cap_colors && { cap_colors: indices(cap_colors) }),
     };
 }
 

@@ -5,9 +5,22 @@ export type Plane = "xy" | "xz" | "xw" | "yz" | "yw" | "zw";
 export type Stream = "none" | "geometry" | "frames";
 export type Encoding = "json" | "cbor";
 export type View = "oval" | "single" | "matrix";
-/** What face colors show: the cell, the kind of the cell, the w of the cell's center after the rotation, or nothing. */
-export type Coloring = "cell" | "kind" | "w" | "plain" | "light";
+/**
+ * What face colors show: the cell, its kind, the w of its center after the rotation, nothing, or how it faces a light in
+ * four dimensions. What the surfaces of a field show: the level, the w of the slice, nothing, or how fast they move
+ * outward along w, or the value of the second function or of the field itself.
+ */
+export type Coloring = "cell" | "kind" | "w" | "plain" | "light" | "growth" | "value";
 export type Vector = [number, number, number];
+/** The side of a level that belongs to the body: where the field's value is smaller, or larger. */
+export type Inside = "below" | "above";
+/** The caps of a field's surfaces: in the color of the surface, colored by value, or not drawn. */
+export type Caps = "plain" | "value" | "open";
+/** The ranges of x, y, z and w. */
+export type Box = [Interval, Interval, Interval, Interval];
+export type Interval = [least: number, most: number];
+/** An array of integers. With CBOR, its width is the least that the largest value fits into. */
+export type Integers = Uint8Array | Uint16Array | Uint32Array;
 
 /** Which parts of the picture are drawn. */
 export type Parts = Record<keyof (typeof import("../schema/parts.schema.json"))["properties"], boolean>;
@@ -44,11 +57,27 @@ export interface Viewport {
     height: number;
 }
 
+/**
+ * A control point of the transfer function of fog: the opacity, from 0 to 1, of a layer as thick as the circumradius, and
+ * the color 0xRRGGBB, which may be absent.
+ */
+export interface FogPoint {
+    value: number;
+    opacity: number;
+    color?: number;
+}
+
 // To the server
 
 /** The members of `set`. Absent settings keep their values. */
 export interface Settings {
     polytope?: string | { name: string };
+    /** How much space a unit of w is worth, if w is time. */
+    pace?: number;
+    /** The velocity in units of x, y and z per unit of the object's own w with which the observer moves. */
+    follow?: Vector;
+    /** The velocity of a Lorentz boost; 1 is the speed of light. */
+    boost?: Vector;
     orientation?: number[][];
     alpha?: number;
     beta?: number;
@@ -62,6 +91,16 @@ export interface Settings {
     shown?: Partial<Parts>;
     camera?: Partial<Orbit>;
     color?: Coloring;
+    /** For fields only. */
+    caps?: Caps;
+    /** 1 to 4 different numbers; for fields only. */
+    levels?: number[];
+    /** For fields only. */
+    inside?: Inside;
+    /** The transfer function of fog: no points, or 2 to 8 in the order of their values; for fields only. */
+    fog?: FogPoint[];
+    /** For fields only. */
+    field?: FieldDefinition;
     projection?: Projection;
     /** The w of the 4-D eye, in circumradii. */
     eye?: number;
@@ -69,6 +108,27 @@ export interface Settings {
     hidden?: number[];
     faded?: number[];
     highlight?: PolytopeElement | null;
+}
+
+/** What defines a field: its formula, or the shape and the range of its array; and its domain. */
+export interface FieldDefinition {
+    formula?: string;
+    shape?: number[];
+    range?: [number, number];
+    /** Present if the range is that of a selection of the samples, because there are too many to read all of them. */
+    estimated?: boolean;
+    values?: ColoringValues;
+    box: Box;
+}
+
+/** What the colors of values show: the second function of a field, or without one its own values. */
+export interface ColoringValues {
+    formula?: string;
+    variable?: string;
+    /** The values at the ends of the color scale. */
+    range: [number, number];
+    /** 0xRRGGBB, from one end of the scale to the other. */
+    colors: number[];
 }
 
 /** The options of an exported file. `body`, `size` and `label` apply only to formats with bodies. */
@@ -90,12 +150,24 @@ export type Request =
     | { type: "rotate"; planes: Plane[]; angles: number[]; continues?: boolean }
     | { type: "toward"; element: ElementKind; number?: number; immediately?: boolean }
     | ({ type: "set"; continues?: boolean } & Settings)
-    | { type: "load"; name: string; format: string; data: string }
+    | {
+          type: "load";
+          name: string;
+          format?: string;
+          data?: string;
+          path?: string;
+          box?: Box;
+          axes?: string;
+          variable?: string;
+          values?: string;
+          values_variable?: string;
+          append?: boolean;
+      }
     | { type: "undo" }
     | { type: "redo" }
     | { type: "reset" }
     | { type: "command"; line: string }
-    | { type: "get"; what: "state" | "slices" | "frame" | "catalogue" | "keymap"; width?: number; height?: number }
+    | { type: "get"; what: "state" | "slices" | "frame" | "critical" | "catalogue" | "keymap"; width?: number; height?: number }
     | { type: "get"; what: "at"; x: number; y: number; width?: number; height?: number }
     | ({ type: "get"; what: "file" } & FileOptions)
     | { type: "shown"; revision: number };
@@ -126,6 +198,10 @@ export interface State {
     id?: number;
     revision: number;
     polytope: { name: string; vertices: number; edges: number; faces: number; cells: number; kinds?: CellKind[] };
+    /** The frame of reference, which applies before the orientation. */
+    pace: number;
+    follow: Vector;
+    boost: Vector;
     /** The matrix M, 4 × 4, by rows; v' = M v maps the polytope's own coordinates to the rotated ones. */
     orientation: number[][];
     alpha: number;
@@ -138,9 +214,19 @@ export interface State {
     turning: boolean;
     /** Whether the polytope turns, or an element is on its way to +w. */
     moving: boolean;
+    /** Present if the surfaces of a field are coarser than usual; a finer picture of the same revision follows. */
+    draft?: true;
     shown: Parts;
     camera: Orbit;
     color: Coloring;
+    /** The values at which the surfaces of a field are shown, and the side that is inside; absent for other objects. */
+    levels?: number[];
+    inside?: Inside;
+    /** The transfer function of fog: no points, or 2 to 8 in the order of their values; for fields only. */
+    fog?: FogPoint[];
+    caps?: Caps;
+    /** For fields only. */
+    field?: FieldDefinition;
     projection: Projection;
     /** The w of the 4-D eye, in circumradii. */
     eye: number;
@@ -261,6 +347,10 @@ export interface SceneDescription {
         axes: [number, number, number, number];
         cells: Uint32Array;
     };
+    /** How the surfaces of a field are drawn, from the innermost level to the outermost; absent for other objects. */
+    surfaces?: SurfaceLevel[];
+    /** How fog is drawn: for each value of Fog.values, 0xAARRGGBB; absent without fog. */
+    fog?: { table: Integers };
     // All lengths below are fractions of the viewport's height.
 
     /** The axes in the upper left corner: the distances of their center from the left and top edges; their length. */
@@ -277,8 +367,10 @@ export interface SceneDescription {
         line_width: number;
         amplitude: number;
         named: boolean;
-        /** The number of columns of the density strip; 0 if lines are drawn. */
+        /** The number of columns of `density`; 0 if lines are drawn. */
         columns: number;
+        /** The width of each of the four panels of a field's histogram; 0 if none is drawn. */
+        panel: number;
     };
     /** The height of labels. */
     text: number;
@@ -293,6 +385,44 @@ export interface Fill {
     triangles: Uint32Array;
     tints: Uint32Array;
     seen?: Uint32Array;
+}
+
+/** The surfaces of a field in one slice. The arrays are flat. */
+export interface Surface {
+    /** The color of the surfaces in place of those of the levels; present only if the color is "w". */
+    color?: number;
+    points: Float32Array;
+    /** The unit normal of the level set at each point, outward. Caps are flat. */
+    normals: Float32Array;
+    /** Triples of points, counterclockwise as seen from outside. */
+    triangles: Integers;
+    /** For each triangle: the index of its level, and 1 if it belongs to a cap. */
+    level: Uint8Array;
+    cap: Uint8Array;
+    /** The color of each point, 0xRRGGBB; present only if the color is "growth" or "value". */
+    colors?: Uint32Array;
+    /** The color of each point as the corner of a cap; present only if the caps are colored by value. */
+    cap_colors?: Uint32Array;
+}
+
+/** The values of a field on a lattice in one slice: at min + step · (i, j, k). */
+export interface Fog {
+    /** The number of points along x, y and z. */
+    size: Vector;
+    min: Vector;
+    step: number;
+    /** Planes n · p ≤ d at which the fog ends, as nx, ny, nz, d. */
+    walls: Float32Array;
+    /** For each point, x fastest: 0 where the field has no value, else an entry of the scene's table. */
+    values: Uint8Array;
+}
+
+/** How the surface of one level of a field is drawn. */
+export interface SurfaceLevel {
+    level: number;
+    color: number;
+    opacity: number;
+    caps: boolean;
 }
 
 /** The elements of a slice, or of a part of the projection. The arrays are flat, whichever encoding the message has. */
@@ -318,6 +448,10 @@ export interface Slice extends Elements {
     w: number;
     /** What to draw instead of the faces, with a depth buffer; present only if the faces may cross. */
     fill?: Fill;
+    /** The surfaces of a field; absent if the hyperplane meets none, and for other objects. */
+    surface?: Surface;
+    /** The fog of a field; absent if there is none. */
+    fog?: Fog;
     /** The world position of the slice's origin: a vertex p is drawn at position + scene.scale · p. */
     position: Vector;
     label: string;
@@ -405,15 +539,29 @@ export interface SectionMatrix {
     sections: PlanarSection[];
 }
 
+/** The scales of the histogram of a field. */
+export interface Histogram {
+    /** How far the panels of x, y, z and w reach on both sides of their middles, in the object's units. */
+    reach: [number, number, number, number];
+    /** The values at the lower and the upper edge. */
+    range: [number, number];
+    /** The levels that are drawn as lines. */
+    levels: { value: number; color: number }[];
+}
+
 export interface Slices {
     type: "slices";
     id?: number;
     revision: number;
+    /** Present if the surfaces of a field are coarser than usual; a finer picture of the same revision follows. */
+    draft?: true;
     scene: SceneDescription;
-    /** x, y, z, w of each vertex of the rotated polytope; empty if the parallel coordinates are not shown. */
+    /** x, y, z, w of each vertex of the rotated polytope; empty if they are not shown, and for fields. */
     coordinates: Float32Array;
-    /** The density of the lines (0 … 255), row by row from the top; empty unless a density strip is drawn. */
+    /** The density of the lines (0 … 255), row by row from the top, or the histogram of a field; else empty. */
     density: Uint8Array;
+    /** The scales of the histogram of a field; absent if none is drawn. */
+    histogram?: Histogram;
     /** The names of the focus slice; see State. */
     section: { name: string; vertices: string };
     /** What shows the highlighted element; absent if there is none. */
@@ -443,4 +591,29 @@ export interface At {
     name?: string;
 }
 
-export type Message = Welcome | State | At | Done | ErrorMessage | Catalogue | Keymap | Slices;
+/** A w at which the section of the object changes its type. */
+export interface CriticalSection {
+    w: number;
+    change: "vertices" | "appears" | "vanishes" | "merge" | "split" | "handle" | "cavity";
+    /** Of a polytope or a point cloud: how many vertices lie there. */
+    vertices?: number;
+    /** Of a field: the index of the level, and the topology of its body below and above w. */
+    level?: number;
+    components?: [number, number];
+    cavities?: [number, number];
+    euler?: [number, number];
+}
+
+/** All critical w of the object in its orientation, in ascending order. */
+export interface Critical {
+    type: "critical";
+    id?: number;
+    revision: number;
+    least_w: number;
+    most_w: number;
+    tolerance: number;
+    resolution: number;
+    sections: CriticalSection[];
+}
+
+export type Message = Welcome | State | At | Critical | Done | ErrorMessage | Catalogue | Keymap | Slices;

@@ -12,7 +12,7 @@ namespace oval4d {
 
 namespace {
 
-const exports::Format& formatOf(const ExportOptions& options) {
+const exports::Format& formatOf(const ExportOutputOptions& options) {
     std::string name = options.format;
     if (name.empty()) name = std::filesystem::path(options.output).extension().string();
     if (name.starts_with('.')) name.erase(0, 1);
@@ -24,8 +24,8 @@ const exports::Format& formatOf(const ExportOptions& options) {
 }
 
 /// Limits far above those of the server, because the user decides how much time and memory to spend on this machine.
-exports::Limits commandLineLimits() {
-    exports::Limits limits;
+exports::ExportLimits commandLineLimits() {
+    exports::ExportLimits limits;
     limits.triangles = 50'000'000;
     limits.bytes = std::numeric_limits<std::size_t>::max();
     limits.time = std::chrono::hours(1);
@@ -34,7 +34,7 @@ exports::Limits commandLineLimits() {
 
 }  // namespace
 
-void addExportOptions(CLI::App& app, ExportOptions& options) {
+void addExportOptions(CLI::App& app, ExportOutputOptions& options) {
     app.add_option("-o,--output", options.output, "The file to write, - for standard output")->capture_default_str();
     app.add_option("--format", options.format,
                    text::commaSeparated(exports::formatNames()) + "; default: from the output's extension");
@@ -45,9 +45,9 @@ void addExportOptions(CLI::App& app, ExportOptions& options) {
                kStateHelp);
 }
 
-void exportFile(const CLI::App& app, const ExportOptions& options) {
-    session::Query query = queryOf(app.remaining());
-    const auto request = valueOrThrow(pipeline::takeExportRequest(query, formatOf(options)));
+void exportFile(const CLI::App& app, const ExportOutputOptions& options) {
+    session::QueryParameters query = queryOf(app.remaining());
+    const auto request = valueOrThrow(pipeline::extractExportRequest(query, formatOf(options)));
     const auto state = stateOf(query);
     writeOutput(options.output, valueOrThrow(pipeline::exportState(state, request, commandLineLimits())));
 }

@@ -10,16 +10,16 @@ class App;
 namespace oval4d {
 
 /// The options of `oval4d export` that do not describe the state or the content of the file.
-struct ExportOptions {
+struct ExportOutputOptions {
     std::string output = "slice.stl";  ///< "-" for standard output
     std::string format;                ///< name of the file format; if empty, the extension of `output` determines it
 };
 
 /// Adds these options to `app`, the parser of the subcommand. After parsing, `app.remaining()` contains the options
 /// that describe the state and the content of the file.
-void addExportOptions(CLI::App& app, ExportOptions& options);
+void addExportOptions(CLI::App& app, ExportOutputOptions& options);
 
 /// Writes the file that the parsed command line describes. Throws std::runtime_error with a message for the user.
-void exportFile(const CLI::App& app, const ExportOptions& options);
+void exportFile(const CLI::App& app, const ExportOutputOptions& options);
 
 }  // namespace oval4d

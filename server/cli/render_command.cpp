@@ -24,7 +24,8 @@ void renderPicture(const CLI::App& app, const RenderOptions& options, parallel::
     const auto state = stateOf(queryOf(app.remaining()));
     pipeline::Pipeline pipeline(std::make_unique<raster::LocalRasterizer>(&forkJoin), &forkJoin);
     std::vector<std::uint8_t> png;
-    pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport, png);
+    pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport,
+                     slicing::Quality::full, png);
     writeOutput(options.output, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 

@@ -6,14 +6,19 @@
 #include <iostream>
 #include <iterator>
 #include <optional>
+#include <string_view>
+#include <utility>
 
+#include "fields/readers/field_reader.hpp"
 #include "session/load.hpp"
 #include "session/object_loader.hpp"
+#include "session/settings.hpp"
+#include "wire/parse.hpp"
 
 namespace oval4d {
 
-session::Query queryOf(const std::vector<std::string>& words) {
-    session::Query query;
+session::QueryParameters queryOf(const std::vector<std::string>& words) {
+    session::QueryParameters query;
     for (auto word = words.begin(); word != words.end(); ++word) {
         if (!word->starts_with("--"))
             throw std::runtime_error("'" + *word + "' is not an option; options begin with --");
@@ -30,24 +35,86 @@ session::Query queryOf(const std::vector<std::string>& words) {
     return query;
 }
 
-session::State stateOf(session::Query query) {
-    std::optional<slicing::Object> object;
-    const auto load = std::find_if(query.begin(), query.end(), [](const auto& pair) { return pair.first == "load"; });
-    if (load != query.end()) {
-        const std::string path = load->second;
-        query.erase(load);
-        std::ifstream file(path, std::ios::binary);
-        const std::string text{std::istreambuf_iterator<char>(file), {}};
-        if (!file) throw std::runtime_error("cannot read " + path);
-        const auto reading = session::readObject(session::detectFormat(text), text,
-                                                 std::filesystem::path(path).filename().string(), session::Limits{});
-        if (!reading) throw std::runtime_error(path + ": " + reading.error().message);
-        for (const std::string& warning : reading->warnings) std::cerr << "oval4d: " << path << ": " << warning << '\n';
-        object = reading->object;
+namespace {
+
+/// Removes an entry from a query, and returns its value; nothing if there is no such entry.
+std::optional<std::string> take(session::QueryParameters& query, std::string_view name) {
+    const auto found = std::ranges::find(query, name, &session::QueryParameters::value_type::first);
+    if (found == query.end()) return {};
+    std::string value = std::move(found->second);
+    query.erase(found);
+    return value;
+}
+
+bool isArray(const fields::FileContents& file) {
+    return fields::formatOfFile(file.bytes.first(std::min(file.bytes.size(), fields::kRecognizedBytes))) != nullptr;
+}
+
+/// Reads the object in a file. An array may be larger than the main memory. Removes the options of arrays from the
+/// query.
+Result<session::LoadedObject> readFile(const std::string& path, session::QueryParameters& query) {
+    const std::string name = std::filesystem::path(path).filename().string();
+    const bool isFolder = std::filesystem::is_directory(path);
+    const auto mapped = fields::FileContents::map(std::filesystem::path(path));
+    if (isFolder || (mapped && isArray(*mapped))) {
+        fields::ReadOptions options{take(query, "axes").value_or(""), {}, take(query, "variable").value_or("")};
+        if (const auto text = take(query, "box")) options.box = valueOrThrow(session::parseBox(*text));
+        const session::SecondSource second{take(query, "values").value_or(""),
+                                           take(query, "values_variable").value_or("")};
+        if (!second.formula.empty() && !second.variable.empty())
+            throw std::runtime_error("give either --values or --values_variable, not both");
+        if (!isFolder) return session::readArray(*mapped, name, options, second);
+        const auto open = [&](const std::string& inside) -> Result<std::optional<fields::FileContents>> {
+            if (!std::filesystem::exists(path + '/' + inside)) return std::optional<fields::FileContents>();
+            auto file = fields::FileContents::map(std::filesystem::path(path) / inside);
+            if (!file) return file.error();
+            return std::optional(std::move(*file));
+        };
+        return session::readZarr(open, name, options, second);
     }
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file) throw std::runtime_error("cannot read " + path);
+    return session::readObject({name, std::string(session::detectFormat(text)), text}, session::Limits{});
+}
+
+/// Returns the state in a picture that oval4d has made, or in a JSON file; nothing if the file is of another kind.
+std::optional<session::State> readState(const std::string& path, session::ObjectLoader& loader) {
+    if (std::filesystem::is_directory(path)) return {};
+    const auto file = fields::FileContents::map(std::filesystem::path(path));
+    if (!file) return {};
+    const std::string_view bytes(reinterpret_cast<const char*>(file->bytes.data()), file->bytes.size());
+    if (!wire::mayContainState(bytes)) return {};
+    const auto fault = [&](const Error& error) { return std::runtime_error(path + ": " + error.message); };
+    const auto set = wire::setFromFile(bytes);
+    if (!set) throw fault(set.error());
+    session::Session session;
+    if (const auto done = session::apply(session, *set, session::Limits{}, loader); !done) throw fault(done.error());
+    return session.current;
+}
+
+/// Returns the state in a file or, if the file contains an object, the initial state with this object. Prints warnings
+/// about the object to standard error. Throws std::runtime_error with a message for the user.
+session::State stateFromFile(const std::string& path, session::QueryParameters& query, session::ObjectLoader& loader) {
+    if (const auto state = readState(path, loader)) return *state;
+    if (std::ranges::find(query, session::kFormula, &session::QueryParameters::value_type::first) != query.end())
+        throw std::runtime_error("a formula and another object cannot be shown at the same time");
+    const auto reading = readFile(path, query);
+    if (!reading) throw std::runtime_error(path + ": " + reading.error().message);
+    for (const std::string& warning : reading->warnings) std::cerr << "oval4d: " << path << ": " << warning << '\n';
+    session::State state = session::initialState();
+    valueOrThrow(session::replaceObject(state, reading->object, loader));
+    return state;
+}
+
+}  // namespace
+
+session::State stateOf(session::QueryParameters query) {
     polytopes::PolytopeCache cache;
     session::ObjectLoader loader(session::Limits{}, cache);
-    return valueOrThrow(session::stateFromQuery(query, session::Limits{}, loader, std::move(object)));
+    session::State state = session::initialState();
+    if (const auto path = take(query, "load")) state = stateFromFile(*path, query, loader);
+    return valueOrThrow(session::stateFromQuery(query, session::Limits{}, loader, std::move(state)));
 }
 
 void writeOutput(const std::string& path, std::string_view bytes) {

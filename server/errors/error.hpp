@@ -13,22 +13,24 @@ namespace oval4d {
 enum class ErrorCode {
     bad_json,            ///< the text is not JSON, nests too deeply or holds too many values
     bad_message,         ///< the JSON does not match the message's schema
-    unknown_type,        ///< no message has this type
-    unknown_key,         ///< no action is bound to this key
-    unknown_polytope,    ///< no polytope has this name
+    unknown_type,        ///< the type of the message is unknown
+    unknown_key,         ///< the key is not bound to an action
+    unknown_polytope,    ///< the name of the polytope is unknown
     unknown_command,     ///< the ':' line names an unknown command or setting
     bad_expression,      ///< a number or angle on the ':' line or in a query cannot be parsed
     out_of_range,        ///< a value is outside the allowed range
     not_a_rotation,      ///< an orientation matrix is not orthogonal with determinant 1
     bad_polytope,        ///< a loaded polytope is invalid
+    bad_field,           ///< a loaded field (an array or a formula) is invalid
     unsupported_format,  ///< a loaded file has a format that the server does not read
     no_body,             ///< a slice to export is empty or flat, or too small for its label
     nothing_to_undo,     ///< there is nothing to undo, redo, repeat or keep turning
     hello_first,         ///< a message was sent before hello
-    not_found,           ///< no such session or resource
+    not_found,           ///< the session or resource does not exist
     bad_token,           ///< the token does not open this session
     too_many,            ///< a limit on sessions, connections or requests is reached
     too_large,           ///< a message, frame, file or polytope is over its limit
+    canceled,            ///< a search was no longer needed before it was done
     internal,            ///< an internal error of the server; the session is unchanged
 };
 
@@ -41,8 +43,8 @@ struct Error {
     std::string message;
 };
 
-/// Holds a value, or the error that explains why there is none. Converts to true if it holds a value. Reading the value
-/// or the error that it does not hold throws std::bad_variant_access.
+/// Holds a value, or the error that explains why there is none. Converts to true if it holds a value. Accessing the
+/// value when it holds an error, or the error when it holds a value, throws std::bad_variant_access.
 template <typename T>
 class [[nodiscard]] Result {
   public:

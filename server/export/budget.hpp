@@ -12,42 +12,42 @@
 namespace oval4d::exports {
 
 /// The limits of one export.
-struct Limits {
+struct ExportLimits {
     std::size_t triangles = 5'000'000;       ///< of all bodies together
     std::size_t bytes = 512U << 20U;         ///< of the file
-    std::chrono::duration<double> time{20};  ///< from the construction of the Budget
-    /// Called with the number of bytes that the export needs in total, each time this number is estimated anew. Returns
-    /// false to refuse the memory. If null, memory is not limited.
+    std::chrono::duration<double> time{20};  ///< from the construction of the Budget to the end of the export
+    /// Called on the exporting thread each time the export estimates the bytes that it needs; the argument is the new
+    /// total, not an increment. Returns false to refuse the memory. If null, memory is not limited.
     std::function<bool(std::size_t)> reserve = nullptr;
 };
 
-/// The reason why an export gives no file. `message` is a sentence for the user.
+/// The reason why an export produces no file. `message` is its text for the user.
 struct ExportError {
     enum class Cause : std::uint8_t {
-        no_body,    ///< the slice is empty or flat, or the label does not fit
-        too_large,  ///< the file would exceed Limits::triangles or Limits::bytes
-        too_long,   ///< the export exceeds Limits::time, or a stop was requested
-        no_room,    ///< Limits::reserve returned false
+        no_body,    ///< the slice is empty or flat, the label does not fit, or the format cannot contain what is asked
+        too_large,  ///< the file would exceed ExportLimits::triangles or ExportLimits::bytes
+        too_long,   ///< the export exceeds ExportLimits::time, or a stop was requested
+        no_room,    ///< ExportLimits::reserve returned false
     };
     Cause cause;
     std::string message;
 };
 
-/// The exception that functions in this folder throw to refuse an export. `exportScene` catches it and returns `error`.
+/// The exception by which functions in this folder refuse an export. exportScene() catches it and returns `error`.
 struct ExportRefused {
     ExportError error;
 };
 
-/// Checks one export against its limits. The time counts from the construction of the budget.
+/// Checks one export against its limits. Its construction starts the time of the export.
 class Budget {
   public:
-    Budget(const Limits& limits, std::stop_token stop)
+    Budget(const ExportLimits& limits, std::stop_token stop)
         : limits_(limits), stop_(std::move(stop)), start_(std::chrono::steady_clock::now()) {}
 
     /// Returns whether the time limit is exceeded or a stop is requested.
     bool mustStop() const { return stop_.stop_requested() || std::chrono::steady_clock::now() - start_ > limits_.time; }
-    /// Throws ExportRefused if the time limit is exceeded or a stop is requested. Long computations must call it often,
-    /// because they cannot be interrupted otherwise.
+    /// Throws ExportRefused if the time limit is exceeded or a stop is requested. Long computations must call this
+    /// function often; nothing else interrupts them.
     void checkTime() const {
         if (stop_.stop_requested())
             throw ExportRefused{
@@ -59,7 +59,8 @@ class Budget {
                                                    " s; export only the focus slice, or a solid body"}};
         }
     }
-    /// Throws ExportRefused if `count` triangles exceed Limits::triangles, or if Limits::reserve refuses their memory.
+    /// Throws ExportRefused if `count`, the triangles of all bodies together, exceeds ExportLimits::triangles, or if
+    /// ExportLimits::reserve refuses their memory.
     void checkTriangles(std::size_t count) const {
         if (count > limits_.triangles) {
             throw ExportRefused{
@@ -69,7 +70,8 @@ class Budget {
         }
         checkRoom(kBytesOfTriangle * count);
     }
-    /// Throws ExportRefused if `count` bytes exceed Limits::bytes, or if Limits::reserve refuses them.
+    /// Throws ExportRefused if `count`, the size of the file, exceeds ExportLimits::bytes, or if ExportLimits::reserve
+    /// refuses this number.
     void checkBytes(std::size_t count) const {
         if (count > limits_.bytes) {
             throw ExportRefused{{ExportError::Cause::too_large,
@@ -77,7 +79,7 @@ class Budget {
         }
         checkRoom(count);
     }
-    /// Returns Limits::triangles.
+    /// Returns ExportLimits::triangles.
     std::size_t triangles() const { return limits_.triangles; }
 
   private:
@@ -88,7 +90,7 @@ class Budget {
             throw ExportRefused{{ExportError::Cause::no_room, "the memory limit leaves no room for the file"}};
     }
 
-    const Limits limits_;
+    const ExportLimits limits_;
     const std::stop_token stop_;
     const std::chrono::steady_clock::time_point start_;
 };

@@ -13,6 +13,7 @@
 #include "export/drawing/projection_drawing.hpp"
 #include "export/formats/text.hpp"
 #include "export/label/label.hpp"
+#include "export/mesh/field_body.hpp"
 #include "export/mesh/skeleton.hpp"
 #include "export/mesh/solid.hpp"
 
@@ -28,17 +29,19 @@ constexpr double kTargetTriangles = 600'000;
 
 class Exporter {
   public:
-    Exporter(const scene::Scene& scene, const slicing::Object& object, const ExportRequest& request,
-             const Budget& budget)
+    Exporter(const scene::Scene& scene, const slicing::Object& object, const geometry::Rotation& orientation,
+             const ExportRequest& request, const Budget& budget)
         : scene_(scene),
           slices_(*scene.slices),
           object_(object),
+          orientation_(orientation),
           request_(request),
           budget_(budget),
           scale_(request.size / 2 / scene.circumradius),
           grid_(request.size, request.extent == Extent::oval ? coordinateBound(slices_.planes.count, request.size)
                                                              : 2 * request.size) {
         if (request.extent == Extent::projection) request_.body = Body::skeleton;
+        hasSurfaces_ = slicing::fieldIn(object) != nullptr && request_.body == Body::solid;
     }
 
     std::string run() {
@@ -54,7 +57,9 @@ class Exporter {
                                                                   format.name +
                                                                   " files do not contain; choose svg or pdf"}};
         }
-        if (format.writeScene != nullptr) return format.writeScene({scene_, object_});
+        refuseOtherObjects();
+        if (format.writeScene != nullptr)
+            return format.writeScene({scene_, object_, orientation_, request_.extent, budget_});
         const std::vector<NamedMesh> solids = bodies();
         return format.writeBodies({solids, scene_.cellColors, scene_.title, budget_});
     }
@@ -63,7 +68,7 @@ class Exporter {
     Drawing drawing() const {
         if (request_.extent == Extent::projection) return drawProjection(scene_);
         if (request_.extent == Extent::matrix) return drawMatrix(scene_);
-        return drawCoordinates(scene_);
+        return drawCoordinates(scene_, object_, orientation_);
     }
 
     std::vector<NamedMesh> bodies() {
@@ -73,12 +78,19 @@ class Exporter {
         if (request_.body == Body::skeleton) prepareSkeleton();
         for (int i = 0; i < slices_.planes.count; ++i) {
             budget_.checkTime();
-            Mesh mesh = request_.body == Body::skeleton ? skeletonOf(slices_, i, scale_, radii_, cube_, grid_, budget_)
-                                                        : solidOf(slices_, i, scale_, grid_, budget_);
-            if (mesh.triangles.empty()) continue;
-            triangles += mesh.triangles.size();
+            std::vector<NamedMesh> solids;
+            if (hasSurfaces_) {
+                solids = surfaceBodies(i);
+            } else {
+                Mesh mesh = request_.body == Body::skeleton
+                                ? skeletonOf(slices_, i, scale_, radii_, cube_, grid_, budget_)
+                                : solidOf(slices_, i, scale_, grid_, budget_);
+                if (!mesh.triangles.empty()) solids.push_back({nameOf(i), std::move(mesh), color, glm::dvec3(0)});
+            }
+            if (solids.empty()) continue;
+            for (const NamedMesh& solid : solids) triangles += solid.mesh.triangles.size();
             budget_.checkTriangles(triangles);
-            groups.push_back({i, {{nameOf(i), std::move(mesh), color, glm::dvec3(0)}}});
+            groups.push_back({i, std::move(solids)});
         }
         if (groups.empty()) refuseEmpty();
         if (request_.label != Label::none) label(groups);
@@ -92,7 +104,28 @@ class Exporter {
         return solids;
     }
 
+    /// Returns the bodies of one slice of a field, from the outermost level to the innermost. A printer gets only the
+    /// outermost, which contains the others.
+    std::vector<NamedMesh> surfaceBodies(int i) const {
+        const auto& levels = scene_.surfaces.levels;
+        const bool single = request_.format->arrangement == Format::Arrangement::plate;
+        std::vector<NamedMesh> solids;
+        for (std::size_t level = levels.size(); level-- > 0;) {
+            std::string name = nameOf(i);
+            if (levels.size() > 1) append(name += ", level ", scene_.look.field.levels[levels[level].index]);
+            Mesh mesh = fieldBodyOf(scene_, i, level, scale_, grid_, budget_);
+            if (!mesh.triangles.empty())
+                solids.push_back({std::move(name), std::move(mesh), levels[level].color, glm::dvec3(0)});
+            if (single) break;
+        }
+        return solids;
+    }
+
     void label(std::vector<SliceBodies>& groups) const {
+        if (hasSurfaces_ && request_.label == Label::engraved) {
+            throw ExportRefused{{ExportError::Cause::no_body,
+                                 "the surface of a field has no face to engrave; choose a separate label"}};
+        }
         std::size_t done = 0;
         for (SliceBodies& group : groups) {
             budget_.checkTime();
@@ -132,6 +165,21 @@ class Exporter {
                                                      : labelOfW(slices_.planes.w(i), slices_.planes.spacing);
     }
 
+    void refuseOtherObjects() const {
+        const Format& format = *request_.format;
+        const bool isField = slicing::fieldIn(object_) != nullptr;
+        if (isField && format.objects == Format::Objects::polytopes) {
+            throw ExportRefused{{ExportError::Cause::no_body, format.name +
+                                                                  " files contain polytopes or points, and a field has "
+                                                                  "none; choose another format, such as stl or vtp"}};
+        }
+        if (!isField && format.objects == Format::Objects::fields) {
+            throw ExportRefused{
+                {ExportError::Cause::no_body, format.name + " files contain the values of a field; choose another "
+                                                            "format, such as stl or vtp"}};
+        }
+    }
+
     [[noreturn]] void refuseEmpty() const {
         double least = 1e300;
         double most = -1e300;
@@ -144,34 +192,40 @@ class Exporter {
         reach += " to ";
         append(reach, most);
         const bool many = slices_.planes.count > 1;
+        const bool isField = slicing::fieldIn(object_) != nullptr;
         std::string message = many ? "no slice has a volume" : "the slice at ";
         if (!many) {
             message += wOf(0);
             message += slices_.vertices.empty() ? " is empty" : " has no volume";
         }
-        throw ExportRefused{{ExportError::Cause::no_body, message + ": the polytope extends from w = " + reach +
-                                                              "; move the focus or turn the polytope"}};
+        throw ExportRefused{
+            {ExportError::Cause::no_body, message + ": the " + (isField ? "box of the field" : "polytope") +
+                                              " extends from w = " + reach + "; " +
+                                              (isField ? "change the levels, move the focus or turn the field"
+                                                       : "move the focus or turn the polytope")}};
     }
 
     const scene::Scene& scene_;
     const slicing::SliceSet& slices_;
     const slicing::Object& object_;
+    const geometry::Rotation& orientation_;
     ExportRequest request_;
     const Budget& budget_;
     const double scale_;  // millimeters per unit of the object
     const Grid grid_;
     SkeletonRadii radii_;
     double cube_ = 0;
+    bool hasSurfaces_ = false;  // whether the bodies are those inside the surfaces of a field
 };
 
 }  // namespace
 
 std::variant<std::string, ExportError> exportScene(const scene::Scene& scene, const slicing::Object& object,
-                                                   const ExportRequest& request, const Limits& limits,
-                                                   std::stop_token stop) {
+                                                   const geometry::Rotation& orientation, const ExportRequest& request,
+                                                   const ExportLimits& limits, std::stop_token stop) {
     const Budget budget(limits, std::move(stop));
     try {
-        std::string bytes = Exporter(scene, object, request, budget).run();
+        std::string bytes = Exporter(scene, object, orientation, request, budget).run();
         budget.checkBytes(bytes.size());
         return bytes;
     } catch (ExportRefused& refused) {

@@ -13,8 +13,8 @@ namespace oval4d::exports {
 /// The shape of a slice's body: the filled slice, or its balls and bars merged into one body. A projection is always
 /// exported as balls and bars.
 enum class Body : std::uint8_t { solid, skeleton };
-/// How a body is labeled with the object's name and the slice's w: `none`: without a label; `engraved`: in a face of
-/// the body; `separate`: on a plate next to the body.
+/// Where the object's name and the slice's w are written. `none`: nowhere; `engraved`: in a face of the body;
+/// `separate`: on a plate next to the body.
 enum class Label : std::uint8_t { none, engraved, separate };
 
 inline constexpr auto kBodies = std::to_array<text::Choice<Body>>(

@@ -8,7 +8,8 @@
 namespace oval4d::exports {
 
 /// What to export: only the focus slice, all slices, the projection of the whole object, or the matrix of planar
-/// sections. Formats with bodies have no matrix; figures show the parallel coordinates in place of slices.
+/// sections. Only the figure formats (SVG, PDF) accept `matrix`. For `focus` and `oval`, a figure shows the parallel
+/// coordinates or, for a field, the histogram.
 enum class Extent : std::uint8_t { focus, oval, projection, matrix };
 
 inline constexpr auto kExtents = std::to_array<text::Choice<Extent>>(

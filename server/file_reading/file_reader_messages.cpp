@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fields/array/array_function.hpp"
+#include "fields/field.hpp"
 #include "serialization/byte_archive.hpp"
 #include "slicing/object_bytes.hpp"
 #include "text/message_text.hpp"
@@ -17,14 +19,28 @@ using serialization::ByteWriter;
 
 namespace {
 
-// Limits on the errors and warnings of a reader process. The errors and warnings of session::readObject stay below
-// them.
+// Limits on the errors and warnings from a reader process. Those of session::readObject() stay below these limits.
 constexpr std::size_t kMaxText = 2000;  // bytes
 constexpr std::size_t kMaxWarnings = 100;
 
-enum class Kind : std::uint8_t { object, invalid, too_large };
-constexpr auto kErrors = std::to_array<std::pair<Kind, ErrorCode>>(
-    {{Kind::invalid, ErrorCode::bad_polytope}, {Kind::too_large, ErrorCode::too_large}});
+enum class Kind : std::uint8_t {
+    object,
+    bad_polytope,
+    bad_field,
+    unsupported_format,
+    too_large,
+    out_of_range,
+    not_found,
+    bad_expression
+};
+constexpr auto kErrors =
+    std::to_array<std::pair<Kind, ErrorCode>>({{Kind::bad_polytope, ErrorCode::bad_polytope},
+                                               {Kind::bad_field, ErrorCode::bad_field},
+                                               {Kind::unsupported_format, ErrorCode::unsupported_format},
+                                               {Kind::too_large, ErrorCode::too_large},
+                                               {Kind::out_of_range, ErrorCode::out_of_range},
+                                               {Kind::not_found, ErrorCode::not_found},
+                                               {Kind::bad_expression, ErrorCode::bad_expression}});
 
 [[noreturn]] void reject(const std::string& what) { throw std::runtime_error("a reader process sent " + what); }
 
@@ -34,37 +50,64 @@ std::string textFrom(ByteReader& archive) {
     return text::printable(text, kMaxText);
 }
 
+/// Returns the size of the samples that are written themselves.
+std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) {
+    const fields::Field* const field = slicing::fieldIn(object);
+    std::size_t bytes = 0;
+    for (const auto* array : {field == nullptr ? nullptr : field->array.get(),
+                              field == nullptr || !field->second ? nullptr : field->second->array.get()}) {
+        if (array != nullptr && array->samples().size() <= maxInMemory) bytes += array->samples().size_bytes();
+    }
+    return bytes;
+}
+
+// Reading and writing share this code, so that they always agree.
+template <typename Archive, typename Load, typename Limits>
+void visitReadRequest(Archive& archive, Load& load, Limits& limits) {
+    archive(load.format), archive(load.name), archive(load.axes), archive(load.variable), archive(load.data);
+    archive(load.values), archive(load.valuesVariable);
+    archive(limits.maxVertices), archive(limits.maxHullCells), archive(limits.maxFieldBytes);
+}
+
 }  // namespace
 
-void encodeFile(std::string_view format, std::string_view text, const std::string& name, const session::Limits& limits,
-                std::string& out) {
+void encodeReadRequest(const session::LoadObject& load, const session::Limits& limits, bool mayMap, std::string& out) {
     out.clear();
     ByteWriter archive(out);
-    archive(format), archive(name), archive(limits.maxVertices), archive(limits.maxHullCells), archive(text);
+    visitReadRequest(archive, load, limits);
+    archive(load.box.has_value()), archive(load.box.value_or(fields::Box{})), archive(load.series.size());
+    archive(load.folder != nullptr), archive(mayMap);
 }
 
-void decodeFile(std::string_view bytes, File& out) {
+void decodeReadRequest(std::string_view bytes, ReadRequest& out) {
     ByteReader archive(bytes);
-    archive(out.format), archive(out.name), archive(out.limits.maxVertices), archive(out.limits.maxHullCells);
-    archive(out.text);
+    visitReadRequest(archive, out.load, out.limits);
+    bool hasBox = false;
+    fields::Box box;
+    archive(hasBox), archive(box), archive(out.series), archive(out.isFolder), archive(out.mayMap);
+    if (hasBox) out.load.box = box;
 }
 
-void encodeOutcome(const Result<session::LoadedObject>& outcome, std::string& out) {
+void encodeOutcome(const Result<session::LoadedObject>& outcome, std::string& out, slicing::MappedFiles files,
+                   std::size_t maxInMemory) {
     out.clear();
     ByteWriter archive(out);
     if (!outcome) {
         const auto& [code, message] = outcome.error();
-        archive(code == ErrorCode::too_large ? Kind::too_large : Kind::invalid), archive(message);
+        const auto error = std::ranges::find(kErrors, code, &std::pair<Kind, ErrorCode>::second);
+        archive(error == kErrors.end() ? Kind::bad_polytope : error->first), archive(message);
         return;
     }
+    out.reserve(
+        sampleBytes(outcome->object, maxInMemory));  // a large array would not fit into memory while it is copied
     archive(Kind::object);
     archive(outcome->warnings.size());
     for (const std::string& warning : outcome->warnings) archive(warning);
-    slicing::writeParts(outcome->object, archive);
+    slicing::writeParts(outcome->object, archive, files, maxInMemory);
 }
 
 Result<session::LoadedObject> decodeOutcome(std::string_view bytes, const std::string& name,
-                                            const session::Limits& limits) {
+                                            const session::Limits& limits, const slicing::MappedFiles& files) {
     ByteReader archive(bytes);
     Kind kind{};
     archive(kind);
@@ -78,17 +121,18 @@ Result<session::LoadedObject> decodeOutcome(std::string_view bytes, const std::s
     std::vector<std::string> warnings;
     while (warnings.size() < count) warnings.push_back(textFrom(archive));
     try {
-        return session::LoadedObject{slicing::readParts(archive, name, limits.maxVertices), std::move(warnings)};
+        return session::LoadedObject{slicing::readParts(archive, name, limits.maxVertices, files), std::move(warnings)};
     } catch (const std::runtime_error& fault) {
         reject(fault.what());
     }
 }
 
-std::size_t maxOutcomeBytes(std::size_t textBytes, const session::Limits& limits) {
-    // A number takes at least two bytes in the text, with the blank after it, and four bytes as an index in the
-    // outcome. A cell of a convex hull, with its 2-faces, takes less than kPerCell bytes.
+std::size_t maxOutcomeBytes(const session::LoadObject& load, const session::Limits& limits) {
+    // In the text of a file, a number takes at least two bytes, including the blank after it. In the outcome, an index
+    // takes four bytes, and a cell of a convex hull with its 2-faces takes less than kPerCell bytes.
     constexpr std::size_t kPerTextByte = 16, kPerCell = 512, kBase = 1U << 20U;
-    return kBase + kPerTextByte * textBytes + kPerCell * limits.maxHullCells;
+    if (load.isFile() || session::isArrayFormat(load.format)) return kBase + limits.maxFieldBytes;
+    return kBase + kPerTextByte * load.data.size() + kPerCell * limits.maxHullCells;
 }
 
 }  // namespace oval4d::file_reading

@@ -1,5 +1,5 @@
 #pragma once
-// Messages between the server and its reader processes.
+// Messages between the server and its file reader processes.
 
 #include <cstddef>
 #include <string>
@@ -8,32 +8,36 @@
 #include "errors/error.hpp"
 #include "session/load.hpp"
 #include "session/session.hpp"
+#include "slicing/object_bytes.hpp"
 
 namespace oval4d::file_reading {
 
-/// A file to read: its format (see session::readObject), the name for the object in it, and its text.
-struct File {
-    std::string format, name, text;
-    session::Limits limits;  ///< only maxVertices and maxHullCells are sent
+/// What a file reader process must read.
+struct ReadRequest {
+    session::LoadObject load;  ///< its open files and folder, `path`, `continues` and `append` are not sent
+    std::size_t series = 0;    ///< the number of files of a series, whose descriptors follow in further messages
+    bool isFolder = false;     ///< whether it is a Zarr folder, whose files the reader process asks for
+    bool mayMap = false;       ///< whether the samples of large arrays may stay in the file or go to a new one
+    session::Limits limits;    ///< only maxVertices, maxHullCells and maxFieldBytes are sent
 };
 
-/// Encodes a file and the limits to read it with. Overwrites `out`.
-void encodeFile(std::string_view format, std::string_view text, const std::string& name, const session::Limits& limits,
-                std::string& out);
-/// Decodes the bytes of `encodeFile` into `out`. Throws std::runtime_error if bytes are missing.
-void decodeFile(std::string_view bytes, File& out);
+/// Encodes a request to read the file of `load` within `limits`. Overwrites `out`.
+void encodeReadRequest(const session::LoadObject& load, const session::Limits& limits, bool mayMap, std::string& out);
+/// Decodes the bytes of encodeReadRequest() into `out`. Throws std::runtime_error if bytes are missing.
+void decodeReadRequest(std::string_view bytes, ReadRequest& out);
 
 /// Encodes the result of reading a file. This is an error, or else the warnings and the data from which the object can
-/// be rebuilt (see slicing::writeParts). Overwrites `out`.
-void encodeOutcome(const Result<session::LoadedObject>& outcome, std::string& out);
+/// be rebuilt (see slicing::writeParts(), also for `files` and `maxInMemory`). Overwrites `out`.
+void encodeOutcome(const Result<session::LoadedObject>& outcome, std::string& out, slicing::MappedFiles files = {},
+                   std::size_t maxInMemory = fields::kMaxSamples);
 
-/// Decodes the bytes of `encodeOutcome`. They need not be trusted: a malicious file may control the process that sent
-/// them. Returns a valid object called `name` with a bounded number of printable warnings, or an error about the file
-/// that can be sent to the client. Throws std::runtime_error if the bytes are invalid.
+/// Decodes the result of encodeOutcome(). The bytes need not be trusted: a malicious file may control the process that
+/// sent them. Returns a valid object called `name` with a bounded number of printable warnings, or an error about the
+/// file that can be sent to the client. Throws std::runtime_error if the bytes are invalid.
 Result<session::LoadedObject> decodeOutcome(std::string_view bytes, const std::string& name,
-                                            const session::Limits& limits);
+                                            const session::Limits& limits, const slicing::MappedFiles& files = {});
 
-/// Returns the maximum size in bytes of the encoded outcome of reading a text of `textBytes` bytes.
-std::size_t maxOutcomeBytes(std::size_t textBytes, const session::Limits& limits);
+/// Returns the maximum size in bytes of the encoded outcome of reading this file.
+std::size_t maxOutcomeBytes(const session::LoadObject& load, const session::Limits& limits);
 
 }  // namespace oval4d::file_reading

@@ -2,11 +2,14 @@
 
 #include <spdlog/spdlog.h>
 
+#include <cstring>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "file_reading/file_reader_messages.hpp"
 #include "file_reading/file_reader_service.hpp"
+#include "file_reading/folder_access.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::file_reading {
@@ -88,37 +91,112 @@ void FileReaderPool::replaceUsed(const std::stop_token& stop) {
     }
 }
 
-Result<session::LoadedObject> FileReaderPool::read(std::string_view format, std::string_view text,
-                                                   const std::string& name, const session::Limits& limits,
-                                                   const std::stop_token& stop) {
-    std::string file, outcome;
-    encodeFile(format, text, name, limits, file);
-    const std::size_t maxBytes = maxOutcomeBytes(text.size(), limits);
-    struct Lease {
-        FileReaderPool& readers;
-        Process process;
-        ~Lease() { readers.retire(std::move(process)); }
-    } const lease{*this, acquire()};
-    try {
-        lease.process->converse(
-            [&](const Channel& channel, const Deadline& deadline) {
-                const TransferResult sent = channel.send(MessageType::file, file, Channel::kNoFile, deadline);
-                if (sent != TransferResult::complete) return sent;
-                MessageType answer{};
-                const TransferResult received = channel.receive(answer, outcome, nullptr, deadline, maxBytes);
-                if (received == TransferResult::complete && answer != MessageType::outcome)
-                    throw std::runtime_error("a reader process sent an unexpected message");
-                return received;
-            },
-            stop);
-    } catch (const process::ProcessLost& lost) {
-        if (!lost.hung()) throw;
-        return Error{ErrorCode::too_large, "reading this file takes longer than " +
-                                               text::shortestDecimal(options_.timeout.count()) +
-                                               " s, the time allowed"};
+namespace {
+
+// The conversation about one file with a reader process. The process may be controlled by whoever made the file.
+class Conversation {
+  public:
+    Conversation(const session::LoadObject& load, const FileAllocator& allocate) : load_(load), allocate_(allocate) {}
+
+    TransferResult hold(const Channel& channel, const std::string& file, std::size_t maxBytes, Deadline deadline) {
+        TransferResult transfer = channel.send(MessageType::file, file, descriptorOf(load_.file), deadline);
+        for (const auto& part : load_.series) {
+            if (transfer != TransferResult::complete) return transfer;
+            transfer = channel.send(MessageType::file_part, {}, part->descriptor(), deadline);
+        }
+        while (transfer == TransferResult::complete) {
+            MessageType answer{};
+            transfer = channel.receive(answer, outcome, nullptr, deadline, maxBytes);
+            if (transfer != TransferResult::complete || answer == MessageType::outcome) break;
+            if (answer == MessageType::open_file && load_.folder) {
+                const fields::FileHandle part(openBelow(load_.folder->descriptor(), outcome));
+                const int descriptor = part.descriptor() < 0 ? Channel::kNoFile : part.descriptor();
+                transfer = channel.send(MessageType::file_part, {}, descriptor, deadline);
+                continue;
+            }
+            if (answer != MessageType::new_file)
+                throw std::runtime_error("a reader process sent an unexpected message");
+            const int descriptor = makeFile(deadline);
+            if (refused) break;  // the process is not used again
+            transfer = channel.send(MessageType::file_part, {}, descriptor, deadline);
+        }
+        return transfer;
     }
-    file = {};
-    return decodeOutcome(outcome, name, limits);
+
+    // Maps the files to which the outcome refers.
+    Result<slicing::MappedFiles> map() const {
+        slicing::MappedFiles mapped;
+        if (!allocate_) return mapped;
+        std::vector<std::shared_ptr<const fields::FileHandle>> all = made_;
+        if (load_.file) all.insert(all.begin(), load_.file);
+        for (const auto& each : all) {
+            auto file = fields::MappedFile::map(each);
+            if (!file) return file.error();
+            mapped.push_back(std::move(*file));
+        }
+        return mapped;
+    }
+
+    std::string outcome;
+    std::optional<Error> refused;  // why there was no new file
+
+  private:
+    static int descriptorOf(const std::shared_ptr<const fields::FileHandle>& file) {
+        return file ? file->descriptor() : Channel::kNoFile;
+    }
+
+    int makeFile(Deadline& deadline) {
+        constexpr std::size_t kMaxFiles = 4;  // of two arrays, each decompressed and converted
+        std::size_t bytes = 0;
+        if (!allocate_ || outcome.size() != sizeof bytes || made_.size() == kMaxFiles)
+            throw std::runtime_error("a reader process asked for a file that it does not need");
+        std::memcpy(&bytes, outcome.data(), sizeof bytes);
+        auto file = allocate_(bytes);
+        if (!file) {
+            refused = file.error();
+            return Channel::kNoFile;
+        }
+        deadline.until += std::chrono::seconds(bytes / FileReaderPool::kBytesPerSecond);
+        made_.push_back(*file);
+        return (*file)->descriptor();
+    }
+
+    const session::LoadObject& load_;
+    const FileAllocator& allocate_;
+    std::vector<std::shared_ptr<const fields::FileHandle>> made_;
+};
+
+}  // namespace
+
+Result<session::LoadedObject> FileReaderPool::read(const session::LoadObject& load, const session::Limits& limits,
+                                                   const std::stop_token& stop, const FileAllocator& allocate) {
+    std::string file;
+    encodeReadRequest(load, limits, static_cast<bool>(allocate), file);
+    const std::size_t maxBytes = maxOutcomeBytes(load, limits);
+    std::optional<Conversation> conversation;
+    {
+        struct Lease {
+            FileReaderPool& readers;
+            Process process;
+            ~Lease() { readers.retire(std::move(process)); }
+        } const lease{*this, acquire()};
+        try {
+            lease.process->converse(
+                [&](const Channel& channel, const Deadline& deadline) {
+                    return conversation.emplace(load, allocate).hold(channel, file, maxBytes, deadline);
+                },
+                stop);
+        } catch (const process::ProcessLost& lost) {
+            if (!lost.hung()) throw;
+            return Error{ErrorCode::too_large, "reading this file takes longer than " +
+                                                   text::shortestDecimal(options_.timeout.count()) +
+                                                   " s, the time allowed"};
+        }
+    }
+    if (conversation->refused) return *conversation->refused;
+    const auto mapped = conversation->map();
+    if (!mapped) return mapped.error();
+    return decodeOutcome(conversation->outcome, load.name, limits, *mapped);
 }
 
 }  // namespace oval4d::file_reading

@@ -29,9 +29,13 @@ struct FileReaderOptions {
     std::size_t waiting;                                      ///< the maximum number of processes that wait for a file
 };
 
+/// Makes a new file of this size in bytes, with its space reserved on the disk, to which a reader process may write
+/// samples. Called on the thread that reads. Errors: `too_large` and `too_many` if there is no room for it.
+using FileAllocator = std::function<Result<std::shared_ptr<const fields::FileHandle>>(std::size_t bytes)>;
+
 /// A pool of processes that read files. Each process reads a single file and ends, so that a malicious file cannot
-/// affect the next one. Then another process is started in advance and waits for a file. A waiting process ends if no
-/// file comes within FileReaderOptions::idle. Thread-safe.
+/// affect the next one. It is replaced in advance by a process that waits for the next file. A waiting process ends if
+/// no file comes within FileReaderOptions::idle. Thread-safe.
 class FileReaderPool {
   public:
     explicit FileReaderPool(FileReaderOptions options);
@@ -39,19 +43,23 @@ class FileReaderPool {
     FileReaderPool(const FileReaderPool&) = delete;
     FileReaderPool& operator=(const FileReaderPool&) = delete;
 
-    /// Reads a file as session::readObject does, but in another process. Also returns the error `too_large` if reading
-    /// takes longer than the timeout, or more memory than a process may use. Blocks the calling thread. Throws
+    /// Reads a file as session::readObject() does, but in another process. With `allocate`, arrays of more than
+    /// Limits::maxFieldBytes are allowed: their samples are in the file, which is mapped, or in a new one. Also returns
+    /// the error `too_large` if the process needs more memory than it may use, or more time than the timeout, which is
+    /// extended by one second for each kBytesPerSecond of a new file. Blocks the calling thread. Throws
     /// process::Canceled if `stop` is requested. Throws std::runtime_error if the process dies and a second process
     /// that reads the same file dies, too; if no process can be started; or if the answer of the process is invalid.
-    Result<session::LoadedObject> read(std::string_view format, std::string_view text, const std::string& name,
-                                       const session::Limits& limits, const std::stop_token& stop);
+    Result<session::LoadedObject> read(const session::LoadObject& load, const session::Limits& limits,
+                                       const std::stop_token& stop, const FileAllocator& allocate = {});
+
+    static constexpr std::size_t kBytesPerSecond = std::size_t{16} << 20U;
 
   private:
     using Clock = std::chrono::steady_clock;
     using Process = std::unique_ptr<process::ChildProcess>;
 
     Process acquire();
-    void retire(Process used);  // a process reads one file; another thread replaces it
+    void retire(Process used);  // passes a process that has read its file to the thread that replaces it
     void replaceUsed(const std::stop_token& stop);
 
     const FileReaderOptions options_;

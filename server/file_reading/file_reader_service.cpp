@@ -1,9 +1,14 @@
 #include "file_reading/file_reader_service.hpp"
 
+#include <algorithm>
 #include <exception>
+#include <memory>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "file_reading/file_reader_messages.hpp"
 #include "process/channel.hpp"
@@ -20,12 +25,102 @@ namespace {
 
 const Error kNoMemory{ErrorCode::too_large, "reading this file takes more memory than is allowed"};
 
-void outcomeOf(std::string& body) {
+int receiveDescriptor(const Channel& channel) {
+    MessageType type{};
+    std::string body;
+    int descriptor = Channel::kNoFile;
+    if (channel.receive(type, body, &descriptor) != TransferResult::complete) throw std::runtime_error("no file");
+    return descriptor;
+}
+
+// Receives and maps the files of a series. They are closed at once, since a process may open only a few files.
+Result<std::vector<fields::FileContents>> receiveSeries(const Channel& channel, std::size_t count) {
+    std::vector<fields::FileContents> files;
+    std::optional<Error> fault;  // the other files must be received, too
+    while (count-- > 0) {
+        const fields::FileHandle part(receiveDescriptor(channel));
+        auto file = fields::FileContents::map(part.descriptor());
+        if (file) files.push_back(std::move(*file));
+        if (!file && !fault) fault = file.error();
+    }
+    if (fault) return std::move(*fault);
+    return files;
+}
+
+const Error kLost{ErrorCode::bad_field, "the file was shortened, or cannot be read any more, while it was being read"};
+
+// The reading of one file: what it came with, and the files that it gets from the server.
+class Reading {
+  public:
+    Reading(const Channel& channel, ReadRequest request) : channel_(channel), request_(std::move(request)) {}
+
+    // Writes the outcome to `body`.
+    void run(std::string& body) {
+        auto outcome = object();
+        if (outcome && std::ranges::any_of(sources_, [](const auto& each) { return each.file && each.file->isLost(); }))
+            outcome = kLost;
+        encodeOutcome(outcome, body, mapped_,
+                      request_.mayMap ? request_.limits.maxFieldBytes / sizeof(float) : fields::kMaxSamples);
+    }
+
+  private:
+    Result<session::LoadedObject> object() {
+        const session::LoadObject& load = request_.load;
+        if (request_.series == 0 && !load.file && !request_.isFolder) return session::readObject(load, request_.limits);
+        fields::NewFile newFile;
+        if (request_.mayMap) newFile = [this](std::size_t bytes) { return requestFile(bytes); };
+        const fields::ReadOptions options = session::optionsForReading(load, request_.limits, std::move(newFile));
+        if (request_.isFolder) {
+            const auto open = [this](const std::string& path) { return openFile(path); };
+            return session::readZarr(open, load.name, options, {load.values, load.valuesVariable});
+        }
+        if (request_.series > 0) {
+            auto files = receiveSeries(channel_, request_.series);
+            if (!files) return files.error();
+            sources_ = std::move(*files);
+            return session::readSeries(sources_, load, options);
+        }
+        auto contents = fields::FileContents::map(load.file->descriptor());
+        if (!contents) return contents.error();
+        sources_.push_back(*contents);
+        mapped_.push_back(contents->file);
+        return session::readArray(*contents, load.name, options, {load.values, load.valuesVariable});
+    }
+
+    // Gets a new file from the server. If there is no room, the server kills this process instead.
+    Result<std::shared_ptr<fields::MappedFile>> requestFile(std::size_t bytes) {
+        channel_.send(MessageType::new_file, {reinterpret_cast<const char*>(&bytes), sizeof bytes});
+        auto file =
+            fields::MappedFile::mapToWrite(std::make_shared<const fields::FileHandle>(receiveDescriptor(channel_)));
+        if (file) mapped_.push_back(*file);
+        return file;
+    }
+
+    // Gets a file of the folder from the server; nothing if there is none.
+    Result<std::optional<fields::FileContents>> openFile(const std::string& path) {
+        channel_.send(MessageType::open_file, path);
+        const fields::FileHandle file(receiveDescriptor(channel_));
+        if (file.descriptor() < 0) return std::optional<fields::FileContents>();
+        auto contents = fields::FileContents::map(file.descriptor());
+        if (!contents) return Error{contents.error().code, path + ": " + contents.error().message};
+        return std::optional(std::move(*contents));
+    }
+
+    const Channel& channel_;
+    const ReadRequest request_;
+    std::vector<fields::FileContents> sources_;
+    slicing::MappedFiles mapped_;  // in the order in which the server knows them
+};
+
+// Replaces `body`, the `file` message, with the body of the `outcome` message. `descriptor`: the open file that came
+// with the message, or kNoFile.
+void outcomeOf(const Channel& channel, std::string& body, int descriptor) {
     try {
-        File file;
-        decodeFile(body, file);
+        ReadRequest request;
+        decodeReadRequest(body, request);
         body = {};
-        encodeOutcome(session::readObject(file.format, file.text, file.name, file.limits), body);
+        if (descriptor != Channel::kNoFile) request.load.file = std::make_shared<const fields::FileHandle>(descriptor);
+        Reading(channel, std::move(request)).run(body);
         return;
     } catch (const std::bad_alloc&) {
     } catch (const std::length_error&) {
@@ -47,8 +142,9 @@ void serveFileReader(int socket, const process::Confinement& confinement) {
     channel.send(MessageType::ready);
     MessageType type{};
     std::string body;
-    if (channel.receive(type, body) != TransferResult::complete) return;
-    outcomeOf(body);
+    int descriptor = Channel::kNoFile;
+    if (channel.receive(type, body, &descriptor) != TransferResult::complete) return;
+    outcomeOf(channel, body, descriptor);
     channel.send(MessageType::outcome, body);
 }
 

@@ -2,11 +2,11 @@
 
 namespace oval4d::geometry {
 
-/// A set of parallel hyperplanes of 4-D space: w = offset + n · spacing for the integers n = first … first + count − 1.
+/// Parallel hyperplanes of 4-D space: w = offset + n · spacing for the integers n = first … first + count − 1.
 struct Hyperplanes {
     int first = -10;
     int count = 21;
-    double spacing = 0.1;  ///< in the units of the object
+    double spacing = 0.1;  ///< greater than 0, in the units of the object
     double offset = 0;     ///< w of the hyperplane n = 0, in the units of the object
 
     /// Returns the w coordinate of the hyperplane with the index i, from 0 to count − 1. Its n is first + i.

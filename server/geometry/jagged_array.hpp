@@ -15,11 +15,11 @@ struct JaggedArray {
 
     /// Returns the number of rows.
     std::size_t size() const { return begin.size() - 1; }
-    /// Returns row i, which is valid until the array changes.
+    /// Returns row i. The span is valid until the array changes.
     std::span<const std::uint32_t> operator[](std::size_t i) const {
         return {items.data() + begin[i], begin[i + 1] - begin[i]};
     }
-    /// Appends a row.
+    /// Appends a row, which must not refer to `items` of this array.
     void add(std::span<const std::uint32_t> row) {
         items.insert(items.end(), row.begin(), row.end());
         begin.push_back(static_cast<std::uint32_t>(items.size()));

@@ -9,19 +9,19 @@ namespace oval4d::geometry {
 /// A type of cells of a polytope, for example its truncated tetrahedra. The user shows, fades or hides all cells of a
 /// type together.
 struct CellType {
-    std::string name;         ///< "truncated tetrahedron"
+    std::string name;         ///< such as "truncated tetrahedron"
     std::uint32_t cells = 0;  ///< the number of cells of this type
     bool operator==(const CellType&) const = default;
 };
 
-/// The properties that 4-D objects of all kinds (polytopes and point clouds) have.
+/// The properties that 4-D objects of all kinds (polytopes, point clouds and fields) have.
 struct ObjectInfo {
     std::string name;
-    std::uint64_t serial = 0;          ///< unique among the objects built in this process; caches use it as their key
+    std::uint64_t serial = 0;          ///< unique among the objects in this process; the key of an object in caches
     double circumradius = 0;           ///< the largest distance of a vertex (or point) from the origin
-    bool convex = true;                ///< false for a polytope that is not the boundary of a convex body: faces of its
-                                       ///< slices may cross each other; true for every point cloud
-    bool rebuildableFromName = false;  ///< whether the name alone determines the object, so that storing it is enough
+    bool convex = true;                ///< false for a polytope that is not the boundary of a convex body: the faces of
+                                       ///< its slices may cross each other; true for every point cloud and field
+    bool rebuildableFromName = false;  ///< whether the name determines the object; the name is then all that is stored
     std::vector<CellType> cellTypes;   ///< empty for an object without cells
 };
 

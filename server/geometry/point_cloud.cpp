@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
 
 namespace oval4d::geometry {
 
@@ -26,6 +27,14 @@ PointCloud makePointCloud(std::string name, std::vector<glm::dvec4> points, std:
     cloud.points = std::move(points);
     cloud.radii = std::move(radii);
     return cloud;
+}
+
+PointCloud imageOf(const PointCloud& cloud, const ReferenceFrame& frame, std::uint64_t serial) {
+    PointCloud image = cloud;
+    image.serial = serial;
+    image.rebuildableFromName = false;
+    image.circumradius = mapPoints(frame.matrix(), image.points);
+    return image;
 }
 
 }  // namespace oval4d::geometry

@@ -6,18 +6,24 @@
 #include <glm/vec4.hpp>
 
 #include "geometry/object_info.hpp"
+#include "geometry/reference_frame.hpp"
 
 namespace oval4d::geometry {
 
-/// A finite set of points in R⁴, each drawn as a ball. Made by makePointCloud; not changed afterward.
+/// A finite set of points in R⁴, each drawn as a ball. Made by makePointCloud() or imageOf(), and not changed
+/// afterward.
 struct PointCloud : ObjectInfo {
     std::vector<glm::dvec4> points;
-    std::vector<double> radii;  ///< the radius of each point's ball, in the units of the points; 0 means the default
+    std::vector<double> radii;  ///< of each point's ball, in the units of the points; 0: the default radius
 };
 
 /// Makes a cloud from points and the radius of each point's ball (see PointCloud::radii). Throws std::invalid_argument
-/// with the reason if `radii` and `points` differ in size, if a coordinate or a radius is not finite, if a radius is
-/// negative, or if no point differs from the origin.
+/// with the reason if `radii` and `points` differ in size, if a point's distance from the origin or a radius is not
+/// finite, if a radius is negative, or if no point differs from the origin.
 PointCloud makePointCloud(std::string name, std::vector<glm::dvec4> points, std::vector<double> radii);
+
+/// Returns the cloud in the coordinates of `frame`, with the serial number `serial`. The radii of the balls do not
+/// change.
+PointCloud imageOf(const PointCloud& cloud, const ReferenceFrame& frame, std::uint64_t serial);
 
 }  // namespace oval4d::geometry

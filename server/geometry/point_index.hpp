@@ -1,5 +1,5 @@
 #pragma once
-// Spatial hash for finding coinciding points.
+// A spatial hash that finds coinciding points.
 
 #include <cmath>
 #include <cstdint>
@@ -12,17 +12,18 @@
 
 namespace oval4d::geometry {
 
-/// A spatial hash that recognizes equal points despite rounding errors: two points that are less than `grid` / 4 apart
-/// count as equal. `grid` is the edge length of the hash's grid cells. A lookup checks all grid cells that may contain
-/// an equal point. The hash stores only the first point of each grid cell. Points that are not equal should therefore
-/// be more than 2 · `grid`, the diagonal of a grid cell, apart; if two share a grid cell, later lookups of the second
-/// do not find it.
+/// Finds equal points despite rounding errors. Points count as equal if they are less than `grid` / 4 apart, where
+/// `grid` is the edge length of the cells of a spatial hash.
+///
+/// The hash stores only the first point of each cell. Therefore points that are not equal should be more than 2 ·
+/// `grid`, the diagonal of a cell, apart. If two of them lie in one cell, later lookups of the second one fail, and
+/// append it again.
 class PointIndex {
   public:
     explicit PointIndex(double grid) : grid_(grid) {}
 
-    /// Finds p in `points`, or appends it. Returns its index, and true if it was appended. All calls must pass the same
-    /// vector `points`.
+    /// Finds a point that equals p in `points`; if there is none, appends p. Returns the index of the point, and true
+    /// if p was appended. All calls must pass the same vector `points`.
     std::pair<std::uint32_t, bool> add(const glm::dvec4& p, std::vector<glm::dvec4>& points) {
         for (unsigned corner = 0; corner < 16; ++corner) {
             const auto known = cells_.find(key(p, corner));
@@ -36,8 +37,9 @@ class PointIndex {
     }
 
   private:
-    // Returns the hash of a grid cell. If corner = 0xff, this is the cell that contains p; else it is the cell that
-    // contains p moved by grid / 4 along every axis, forward along axis i if bit i of `corner` is set, else backward.
+    // Returns the hash of a cell. If corner = 0xff, this is the cell that contains p. Otherwise it is the cell that
+    // contains p moved by grid / 4 along every axis: forward along axis i if bit i of `corner` is set, else backward.
+    // The cells of the corners 0 … 15 include all that may contain a point equal to p.
     std::uint64_t key(const glm::dvec4& p, unsigned corner) const {
         std::uint64_t hash = 0;
         for (int i = 0; i < 4; ++i) {
@@ -50,7 +52,7 @@ class PointIndex {
     }
 
     double grid_;
-    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  // hash of a grid cell to the index of its first point
+    std::unordered_map<std::uint64_t, std::uint32_t> cells_;  // from the hash of a cell to the index of its first point
 };
 
 }  // namespace oval4d::geometry

@@ -12,13 +12,13 @@
 
 namespace oval4d::geometry {
 
-/// A coordinate plane of 4-D space. The rotation R_ab in the plane ab turns the +a axis toward the +b axis. The planes
-/// are in the order of the number keys 2 … 7, which select them.
+/// A coordinate plane of 4-D space. The rotation R_ab in the plane ab turns the +a axis toward the +b axis. The
+/// enumerators are in the order of the number keys 2 … 7 that select the planes.
 enum class Plane : std::uint8_t { xy, xz, xw, yz, yw, zw };
 
 inline constexpr std::array<Plane, 6> kPlanes{Plane::xy, Plane::xz, Plane::xw, Plane::yz, Plane::yw, Plane::zw};
 
-/// Returns the plane spanned by the two other axes. The pairs are xy and zw, xz and yw, xw and yz.
+/// Returns the plane of the other two axes. The pairs are xy and zw, xz and yw, xw and yz.
 constexpr Plane perpendicular(Plane plane) { return static_cast<Plane>(5 - static_cast<int>(plane)); }
 
 /// Returns "xy" … "zw".
@@ -27,8 +27,8 @@ std::string_view name(Plane plane);
 /// Returns the plane with this name ("xy" … "zw"), or std::nullopt if there is none.
 std::optional<Plane> planeNamed(std::string_view text);
 
-/// The rotation that one key press or one `rotate` message requests: the simple rotation R_plane(alpha), or, if beta is
-/// given, the double rotation R_plane(alpha) · R_perpendicular(beta). Angles are in radians.
+/// A rotation that a key press or a `rotate` message requests: the simple rotation R_plane(alpha) or, if beta is given,
+/// the double rotation R_plane(alpha) · R_perpendicular(beta). Angles are in radians.
 struct Turn {
     Plane plane = Plane::xy;
     double alpha = 0;
@@ -41,39 +41,39 @@ struct Turn {
     bool operator==(const Turn&) const = default;
 };
 
-/// An element of SO(4): v ↦ l·v·r, where v = x i + y j + z k + w and l, r are unit quaternions
-/// (Conway and Smith, On Quaternions and Octonions, ch. 4). Composition takes two quaternion products; normalizing l
-/// and r suffices to keep the map orthogonal.
+/// A rotation of 4-D space, stored as two unit quaternions l and r: it maps v to l·v·r, where the vector v is the
+/// quaternion x i + y j + z k + w (Conway and Smith, On Quaternions and Octonions, ch. 4). The composition of two
+/// rotations takes two quaternion products. Normalizing l and r keeps the map orthogonal in spite of rounding errors.
 class Rotation {
   public:
     /// The identity.
     Rotation() = default;
-    /// The map v ↦ l·v·r. Normalizes both quaternions, which must not be 0.
+    /// The rotation v ↦ left·v·right. Normalizes both quaternions, which must not be 0.
     Rotation(const glm::dquat& left, const glm::dquat& right);
     /// The rotation that `turn` requests.
     explicit Rotation(const Turn& turn);
 
-    /// Returns the rotation with the matrix M (v' = M v). Returns std::nullopt if M is not a rotation matrix: if an
-    /// entry of M differs by more than `tolerance` from the same entry of the rotation that was computed from M.
+    /// Returns the rotation with the matrix M (v' = M v), or std::nullopt if M is not a rotation matrix. M counts as
+    /// one if each of its entries differs by at most `tolerance` from that of the rotation that is computed from M.
     static std::optional<Rotation> fromMatrix(const glm::dmat4& matrix, double tolerance = 1e-6);
 
-    /// Returns the rotation with exactly these quaternions, without normalizing them again, so that a stored rotation
-    /// is restored bit by bit. Returns std::nullopt if their lengths differ from 1 by 1e-10 or more.
+    /// Returns the rotation with exactly these quaternions. Does not normalize them again, so that a stored rotation is
+    /// restored bit by bit. Returns std::nullopt if the length of one of them differs from 1 by 1e-10 or more.
     static std::optional<Rotation> fromQuaternions(const glm::dquat& left, const glm::dquat& right);
 
-    /// Returns the rotation by the smallest angle that takes the direction of `from` to the direction of `to`: a simple
-    /// rotation in the plane that they span. If the directions are opposite, the plane contains `from` and one other
-    /// direction, which is not unique. Neither vector may be 0.
+    /// Returns the simple rotation by the smallest angle that takes the direction of `from` to the direction of `to`.
+    /// If the directions are opposite, many rotations do; returns one of them. Neither vector may be 0.
     static Rotation between(const glm::dvec4& from, const glm::dvec4& to);
 
     /// Returns the rotation that undoes this one.
     Rotation inverse() const;
     /// Returns this rotation with both of its angles multiplied by `fraction`: 0 gives the identity, and 1 this
-    /// rotation. Of the two ways from the identity to this rotation, takes the shorter one.
+    /// rotation. Of the possible pairs of angles, uses the one with the smallest angles, which are from −π to π.
+    /// Returns the rotation v ↦ −v, whose planes are not determined, unchanged for every `fraction`.
     Rotation power(double fraction) const;
     /// Returns the larger of the two rotation angles, in radians from 0 to π.
     double angle() const;
-    /// Returns v rotated.
+    /// Returns the image of v.
     glm::dvec4 operator()(const glm::dvec4& v) const;
     /// Returns the matrix M with v' = M v.
     glm::dmat4 matrix() const;
@@ -82,8 +82,8 @@ class Rotation {
     const glm::dquat& right() const { return right_; }
     bool operator==(const Rotation& other) const = default;
 
-    /// Returns the composition that rotates by `first`, then by `second`. Normalizes the result, so that rounding
-    /// errors do not accumulate over many products.
+    /// Returns the composition: rotates by `first`, then by `second`. Normalizes the quaternions of the result, so that
+    /// rounding errors do not accumulate over many products.
     friend Rotation operator*(const Rotation& second, const Rotation& first);
 
   private:

@@ -10,18 +10,19 @@
 
 namespace oval4d::image {
 
-/// An image in RGBA with 8 bits per channel. The bottom row comes first, as in OpenGL. Rows have no padding.
+/// An RGBA image with 8 bits per channel: 4 · width · height bytes. The bottom row comes first, as in OpenGL. Rows have
+/// no padding.
 struct Image {
     int width = 0, height = 0;
     std::vector<std::uint8_t> pixels;
 };
 
-/// Returns the number of bytes of the pixels of an image of this size.
+/// Returns the size, in bytes, of the pixels of an image that has the size of `viewport`.
 inline std::size_t byteCount(scene::Viewport viewport) {
     return 4 * static_cast<std::size_t>(viewport.width) * static_cast<std::size_t>(viewport.height);
 }
 
-/// A view of an image in the format of Image. The view does not own the pixels.
+/// A reference to an image with the layout of Image. Does not own the pixels.
 struct ImageView {
     int width = 0, height = 0;
     std::span<const std::uint8_t> pixels;

@@ -11,29 +11,29 @@
 
 namespace oval4d::image {
 
-/// Encodes images as 8-bit RGB PNG files. Not thread-safe: one thread at a time may use an encoder.
+/// Encodes images as 8-bit RGB PNG files. Only one thread at a time may use an encoder.
 class PngEncoder {
   public:
-    /// Encodes large images on two cores if `forkJoin` is not null. `forkJoin` must outlive this object.
+    /// If `forkJoin` is not null, encodes large images on two cores. `forkJoin` must outlive this object.
     explicit PngEncoder(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin) {}
 
-    /// Encodes `image`, without alpha, as a PNG file. Overwrites `out` and reuses its memory. The file also contains
-    /// the UTF-8 text `state`: after IHDR, in an uncompressed iTXt chunk with the keyword "oval4d". Throws
+    /// Encodes `image` as a PNG file without alpha. Overwrites `out` and reuses its memory. Before the image data, the
+    /// file contains the UTF-8 text `state` in an uncompressed iTXt chunk with the keyword "oval4d". Throws
     /// std::invalid_argument if the image is empty, if the size of `pixels` is not 4 · width · height bytes, or if the
-    /// image is larger than 2 GiB.
+    /// uncompressed RGB data exceeds 2 GiB; throws std::runtime_error if compression fails.
     void encode(const ImageView& image, std::string_view state, std::vector<std::uint8_t>& out);
     void encode(const Image& image, std::string_view state, std::vector<std::uint8_t>& out) {
         encode(ImageView{image.width, image.height, image.pixels}, state, out);
     }
 
   private:
-    /// The upper or lower part of an image: its filtered rows, a work buffer of the compressor, and the IDAT chunk of
-    /// this part.
+    // The upper or the lower part of an image, or a whole small image: its filtered rows, a work buffer of the
+    // compressor, and the IDAT chunk that encodes the rows.
     struct Band {
         std::vector<std::uint8_t> filtered, levelBuffer, chunk;
         std::uint32_t checksum = 0;  // Adler-32 of `filtered`
     };
-    /// Encodes the rows with the indices in [from, to), counted from the top.
+    // Encodes the rows `from` … `to` − 1, counted from the top of the image.
     static void encode(const ImageView& image, int from, int to, Band& band);
 
     parallel::ForkJoin* forkJoin_;

@@ -35,7 +35,7 @@ void subtractPaethScalar(const std::uint8_t* row, const std::uint8_t* above, std
 
 using Block = std::uint8_t __attribute__((vector_size(32)));
 
-// Like subtractPaethScalar, but processes eight pixels at a time, in 8-bit arithmetic. x is the pixel, and a, b and c
+// Like subtractPaethScalar(), but processes eight pixels at a time, in 8-bit arithmetic. x is the pixel, and a, b and c
 // are its left, upper and upper-left neighbors. If a and b are both greater or both less than c, then c is the farthest
 // of the three from a + b − c. In this case, its exact distance, which may not fit into a byte, does not matter. Each
 // store writes eight bytes too many, which the next store overwrites; the scalar loop processes the last pixels of a

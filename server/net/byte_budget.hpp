@@ -9,9 +9,9 @@
 namespace oval4d::net {
 
 /// Counts and limits the bytes that the server holds for clients: files, pictures and messages that clients have not
-/// yet read, long messages being received, objects loaded or built by name, and undo histories. One budget covers all
-/// clients together; each client has an account in it. Bytes are reserved before they are used. Every function may be
-/// called from any thread.
+/// yet read, long messages and uploads being received, objects loaded or built by name, and undo histories. One budget
+/// covers all clients together; each client has an account in it. Bytes are reserved before they are used. Every
+/// function may be called from any thread.
 class ByteBudget {
   public:
     class Account;
@@ -28,8 +28,8 @@ class ByteBudget {
         /// Changes the size to `bytes` without checking the limits, because the bytes are already in use. Does nothing
         /// to a default-constructed or moved-from reservation.
         void resize(std::size_t bytes);
-        /// Enlarges the reservation to `bytes`, at least size(). Returns false, and changes nothing, if that would
-        /// exceed a limit.
+        /// Enlarges the reservation to `bytes`, which must be at least size(). Returns false, and changes nothing, if
+        /// that would exceed a limit. Must not be called on a default-constructed or moved-from reservation.
         [[nodiscard]] bool growTo(std::size_t bytes);
 
       private:

@@ -45,7 +45,7 @@ Client::Client(std::string name, const ClientLimits& limits, ByteBudget& budget,
       requests_(limits.requests, limits.requests, now),
       messageBytes_(static_cast<double>(limits.messageBytes), static_cast<double>(limits.messageBytes), now) {}
 
-bool Client::tryOpenSession(Clock::time_point now) {
+bool Client::admitNewSession(Clock::time_point now) {
     const std::lock_guard lock(mutex_);
     if (newSessions_.level(now) < 1) return false;
     newSessions_.take(1, now);
@@ -67,6 +67,12 @@ std::chrono::duration<double> Client::countMessage(std::size_t bytes, Clock::tim
     requests_.take(1, now);
     messageBytes_.take(static_cast<double>(bytes), now);
     return std::max(requests_.timeUntilRepaid(now), messageBytes_.timeUntilRepaid(now));
+}
+
+std::chrono::duration<double> Client::countBytes(std::size_t bytes, Clock::time_point now) {
+    const std::lock_guard lock(mutex_);
+    messageBytes_.take(static_cast<double>(bytes), now);
+    return messageBytes_.timeUntilRepaid(now);
 }
 
 bool Client::idle(Clock::time_point now) const {

@@ -1,5 +1,5 @@
 #pragma once
-// The clients of the server, which are identified by their IP addresses, and the limits on each.
+// The clients of the server, identified by IP address, and the limits on each client.
 
 #include <boost/asio/ip/address.hpp>
 #include <chrono>
@@ -17,20 +17,20 @@
 
 namespace oval4d::net {
 
-/// The limits of one client, all of which are maximum values. Options has the limits of all clients together.
+/// Maximum values for one client. The limits for all clients together are in Options.
 struct ClientLimits {
     std::size_t connections = 2048;         ///< open connections
     std::size_t sessions = 2500;            ///< open sessions, and closed ones that have not expired
-    double newSessions = 2000;              ///< new sessions per minute; a burst may have as many
-    double wrongTokens = 20;                ///< wrong tokens per minute; a burst may have as many
+    double newSessions = 2000;              ///< new sessions per minute, which may all come at once
+    double wrongTokens = 20;                ///< wrong tokens per minute, which may all come at once
     double requests = 20'000;               ///< messages and HTTP requests per second; excess ones are delayed
     std::size_t messageBytes = 16U << 20U;  ///< bytes of messages per second; excess messages are delayed
     std::size_t bytes = 1U << 30U;          ///< bytes held for the client (ByteBudget)
 };
 
-/// A client: everybody at one IPv4 address or in one IPv6 /64 network, which is what providers assign to one customer.
-/// Holds the rate limits of the client, its byte account, and its lanes in the worker pools. Every function may be
-/// called from any thread.
+/// A client: everybody at one IPv4 address, or in one IPv6 /64 network (the size that providers assign to one
+/// customer). Holds the client's rate limits, its byte account, and its lanes in the worker pools. Every function may
+/// be called from any thread.
 class Client {
   public:
     using Clock = TokenBucket::Clock;
@@ -41,7 +41,7 @@ class Client {
     const std::string& name() const { return name_; }
 
     /// Counts a new session against the rate limit. Returns false, and counts nothing, if the limit is reached.
-    bool tryOpenSession(Clock::time_point now);
+    bool admitNewSession(Clock::time_point now);
 
     /// Counts a wrong token against the rate limit.
     void countWrongToken(Clock::time_point now);
@@ -52,35 +52,38 @@ class Client {
     /// Counts a message or an HTTP request against the rate limits, and returns how long to delay it.
     std::chrono::duration<double> countMessage(std::size_t bytes, Clock::time_point now);
 
+    /// Counts one part of a request body against the rate limit of bytes, and returns how long to wait before reading
+    /// the next part.
+    std::chrono::duration<double> countBytes(std::size_t bytes, Clock::time_point now);
+
     /// Returns the account that counts the bytes held for this client.
     ByteBudget::Account& byteAccount() { return *bytes_; }
 
-    /// These functions return this client's identity in the schedulers of the worker pools: pictureShare() in the pool
-    /// of picture workers, exportShare() in the pool of export workers. Each session creates lanes for its jobs from
-    /// them.
-    const parallel::WorkerPool::ClientSharePtr& pictureShare() const { return pictureShare_; }
-    const parallel::WorkerPool::ClientSharePtr& exportShare() const { return exportShare_; }
-    /// These functions return the client's lanes for jobs that belong to no session: pictureLane() in the pool of
+    /// These functions return the client's share of a worker pool: pictureFlow() of the picture workers, exportFlow()
+    /// of the export workers. A session creates its lanes for the client's jobs from these shares.
+    const parallel::WorkerPool::ClientFlowPtr& pictureFlow() const { return pictureFlow_; }
+    const parallel::WorkerPool::ClientFlowPtr& exportFlow() const { return exportFlow_; }
+    /// These functions return the client's lane for jobs that belong to no session: pictureLane() in the pool of
     /// picture workers, exportLane() in the pool of export workers.
     const parallel::WorkerPool::LanePtr& pictureLane() const { return pictureLane_; }
     const parallel::WorkerPool::LanePtr& exportLane() const { return exportLane_; }
-    /// Returns the client's lane in the pool of load workers, which read the files that clients upload.
+    /// Returns the client's lane in the pool of load workers (see Services::loadWorkers).
     const parallel::WorkerPool::LanePtr& loadLane() const { return loadLane_; }
 
-    /// Returns whether all rate limits have fully recovered. A client for which this is true can be deleted and created
-    /// again without effect.
+    /// Returns whether all rate limits have fully recovered. Deleting the client and creating it again would then
+    /// change nothing.
     bool idle(Clock::time_point now) const;
 
   private:
     const std::string name_;
     const std::shared_ptr<ByteBudget::Account> bytes_;
-    const parallel::WorkerPool::ClientSharePtr pictureShare_ = std::make_shared<parallel::WorkerPool::ClientShare>();
-    const parallel::WorkerPool::LanePtr pictureLane_ = std::make_shared<parallel::WorkerPool::Lane>(pictureShare_);
-    const parallel::WorkerPool::ClientSharePtr exportShare_ =
-        std::make_shared<parallel::WorkerPool::ClientShare>();  // in the pool of export workers
-    const parallel::WorkerPool::LanePtr exportLane_ = std::make_shared<parallel::WorkerPool::Lane>(exportShare_);
+    const parallel::WorkerPool::ClientFlowPtr pictureFlow_ = std::make_shared<parallel::WorkerPool::ClientFlow>();
+    const parallel::WorkerPool::LanePtr pictureLane_ = std::make_shared<parallel::WorkerPool::Lane>(pictureFlow_);
+    const parallel::WorkerPool::ClientFlowPtr exportFlow_ =
+        std::make_shared<parallel::WorkerPool::ClientFlow>();  // in the pool of export workers
+    const parallel::WorkerPool::LanePtr exportLane_ = std::make_shared<parallel::WorkerPool::Lane>(exportFlow_);
     const parallel::WorkerPool::LanePtr loadLane_ = std::make_shared<parallel::WorkerPool::Lane>(
-        std::make_shared<parallel::WorkerPool::ClientShare>());  // in the pool of load workers
+        std::make_shared<parallel::WorkerPool::ClientFlow>());  // in the pool of load workers
     mutable std::mutex mutex_;
     TokenBucket newSessions_, wrongTokens_, requests_, messageBytes_;  // guarded by mutex_
 };
@@ -89,7 +92,7 @@ using ClientPtr = std::shared_ptr<Client>;
 /// An IP network in CIDR notation such as "10.0.0.0/8", or a single address such as "::1".
 class Network {
   public:
-    /// Parses an address with an optional prefix length. Throws std::invalid_argument if the text is anything else.
+    /// Parses an address with an optional prefix length. Throws std::invalid_argument if `text` is anything else.
     explicit Network(const std::string& text);
     /// Returns whether the network contains the address. IPv4-mapped IPv6 addresses count as IPv4 addresses.
     bool contains(const boost::asio::ip::address& any) const;
@@ -130,7 +133,7 @@ class Clients {
     ByteBudget budget_;
     mutable std::mutex mutex_;
     std::map<std::string, ClientPtr, std::less<>> clients_;  // guarded by mutex_
-    std::size_t sweepAt_;  // number of clients at which idle ones are removed next; guarded by mutex_
+    std::size_t sweepAt_;  // remove idle clients when there are this many; guarded by mutex_
 };
 
 }  // namespace oval4d::net

@@ -10,13 +10,13 @@ using process::SandboxMode;
 // received over the channel, and those that libraries keep open.
 constexpr std::size_t kOwnFiles = 16;
 
-/// Returns an upper bound of the memory that a rasterizer process needs for pictures within the limits, in bytes of
-/// address space. Most of that memory is never touched.
+/// Returns an upper bound of the memory that a rasterizer process needs for pictures within the limits, in bytes. Most
+/// of that memory is never touched.
 std::size_t drawMemory(const Options& options) {
     if (options.drawMemory > 0) return options.drawMemory;
     // kOwn: bytes of llvmpipe and the C library, with a heap for each thread. kEachPixel: sixteen buffers of four bytes
-    // per pixel. The other constants bound the memory for the slices of the largest polytope, of which a few
-    // hyperplanes cut each edge: kCuts is the number of cuts per vertex, kEachCut the bytes of one cut.
+    // per pixel. kEachCut and kCuts bound the memory for the slices of the largest polytope: bytes per cut of an edge
+    // by a hyperplane, and cuts per vertex.
     constexpr std::size_t kOwn = std::size_t{3} << 30U, kEachPixel = 64, kEachCut = 1024, kCuts = 16;
     const auto pixels = static_cast<std::size_t>(options.frame.maxPixels);
     return kOwn + kEachPixel * pixels + kEachCut * kCuts * options.session.maxVertices + options.polytopeCache;

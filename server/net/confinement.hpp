@@ -12,14 +12,14 @@ namespace oval4d::net {
 
 /// Returns the environment variables through which the server passes its options to child processes
 /// (process::ChildOptions::environment). `workers`: the number of picture workers. Unless the options turn the sandbox
-/// off, checks whether the system can sandbox these processes. If it cannot, sets `warning` to a text for the log;
-/// throws std::runtime_error if the options require a sandbox.
+/// off, checks whether the system can sandbox these processes. If it cannot, sets `warning` to a message for the log,
+/// or throws std::runtime_error if the options require a sandbox.
 std::vector<std::string> childEnvironment(const Options& options, std::size_t workers, std::string& warning);
 
-/// Returns the confinement that a rasterizer process applies to itself. `options`: read from the variables of
+/// Returns the confinement that a rasterizer process applies to itself. `options` must come from the variables of
 /// childEnvironment().
 process::Confinement rasterizerConfinement(const Options& options);
-/// Returns the confinement that a file reader process applies to itself. `options`: read from the variables of
+/// Returns the confinement that a file reader process applies to itself. `options` must come from the variables of
 /// childEnvironment().
 process::Confinement fileReaderConfinement(const Options& options);
 

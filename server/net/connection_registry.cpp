@@ -80,10 +80,11 @@ ConnectionRegistry::EndHandler ConnectionRegistry::evictIdle(const Client* clien
     return end;
 }
 
-ConnectionRegistry::Admission ConnectionRegistry::admit(const Client& client, std::size_t registered, bool isProxy) {
-    Admission admission = Admission::admitted;
+ConnectionRegistry::AdmissionDecision ConnectionRegistry::admit(const Client& client, std::size_t registered,
+                                                                bool isProxy) {
+    AdmissionDecision admission = AdmissionDecision::admitted;
     std::vector<EndHandler> ends;
-    const auto evict = [&](const Client* from, Admission otherwise) {
+    const auto evict = [&](const Client* from, AdmissionDecision otherwise) {
         if (EndHandler end = evictIdle(from)) {
             ends.push_back(std::move(end));
         } else {
@@ -93,12 +94,12 @@ ConnectionRegistry::Admission ConnectionRegistry::admit(const Client& client, st
     {
         const std::lock_guard lock(mutex_);
         // Connections that were refused stay registered until they have ended, so more than one may be beyond a limit.
-        while (admission == Admission::admitted) {
+        while (admission == AdmissionDecision::admitted) {
             if (!isProxy && countOf(&client) - registered >= maxPerClient_) {
-                evict(&client, Admission::client_full);
+                evict(&client, AdmissionDecision::client_full);
             } else if (entries_.size() - registered >= maxConnections_) {
                 const auto most = std::ranges::max_element(counts_, {}, &decltype(counts_)::value_type::second);
-                evict(most->first, Admission::server_full);
+                evict(most->first, AdmissionDecision::server_full);
             } else {
                 break;
             }

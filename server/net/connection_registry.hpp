@@ -47,13 +47,13 @@ class ConnectionRegistry {
     };
 
     /// The decision on a new connection: admitted, or the limit that is reached.
-    enum class Admission { admitted, server_full, client_full };
-    /// Decides whether one more connection of this client is admitted. At a limit, evicts idle connections until
-    /// there is room for the new one: the oldest ones of this client if the client is at its limit, else the oldest
-    /// ones of the client with the most connections. `registered`: the number of registrations that the new connection
-    /// already has, which are not counted: 0 or 1. `isProxy`: whether the client is a trusted proxy, to which the limit
+    enum class AdmissionDecision { admitted, server_full, client_full };
+    /// Decides whether to admit one more connection of this client. At a limit, evicts idle connections, the oldest
+    /// first, until there is room for the new one: those of this client if the client is at its limit, else those of
+    /// the client with the most connections. `registered`: the number of registrations that the new connection itself
+    /// already has (0 or 1); they are not counted. `isProxy`: whether the client is a trusted proxy, to which the limit
     /// per client does not apply.
-    Admission admit(const Client& client, std::size_t registered = 0, bool isProxy = false);
+    AdmissionDecision admit(const Client& client, std::size_t registered = 0, bool isProxy = false);
 
     /// Returns the number of registered connections.
     std::size_t size() const;

@@ -14,7 +14,7 @@
 
 namespace oval4d::net {
 
-/// A completion token with which an awaited operation returns a tuple that begins with its error code, instead of
+/// A completion token that makes an awaited operation return a tuple beginning with the error code, instead of
 /// throwing.
 inline constexpr auto kAsTuple = boost::asio::as_tuple(boost::asio::use_awaitable);
 
@@ -26,8 +26,8 @@ auto toSteadyDuration(Duration duration) {
 
 /// Calls `start` with a callback, suspends the coroutine until that callback is called, and returns the value that was
 /// passed to the callback. The callback must be called exactly once, from any thread; the coroutine resumes on its own
-/// executor. Create `start` in an ordinary function: GCC 12 destroys the captures of a lambda twice if it is created in
-/// a coroutine.
+/// executor. Create `start` in an ordinary function: if a lambda is created in a coroutine, GCC 12 destroys its
+/// captures twice.
 template <typename Value>
 boost::asio::awaitable<Value> awaitCallback(std::function<void(std::function<void(Value)>)> start) {
     namespace asio = boost::asio;

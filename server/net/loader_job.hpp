@@ -2,18 +2,19 @@
 
 #include <functional>
 #include <memory>
+#include <stop_token>
+#include <utility>
 #include <variant>
 
 #include "session/object_loader.hpp"
 
 namespace oval4d::net {
 
-/// Returns a job for a worker pool. The job builds or reads the loader's pending object (see
-/// ObjectLoader::loadPendingObject).
-inline std::function<std::monostate(std::size_t worker)> loaderJob(
-    const std::shared_ptr<session::ObjectLoader>& loader) {
-    return [loader](std::size_t /*worker*/) {
-        loader->loadPendingObject();
+/// Returns a job for a worker pool that calls ObjectLoader::loadPendingObject() of `loader`.
+inline std::function<std::monostate(std::size_t worker)> loaderJob(const std::shared_ptr<session::ObjectLoader>& loader,
+                                                                   std::stop_token stop = {}) {
+    return [loader, stop = std::move(stop)](std::size_t /*worker*/) {
+        loader->loadPendingObject(stop);
         return std::monostate{};
     };
 }

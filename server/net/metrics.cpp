@@ -54,14 +54,19 @@ Metrics::Metrics()
       fileTime(histograms(registry_, "oval4d_file_seconds", "Time to make a file").Add({}, kFileBuckets)),
       memory(gauge(registry_, "process_resident_memory_bytes", "Resident memory of this process")),
       polytopes(gauge(registry_, "oval4d_polytope_cache_bytes", "Memory used by cached polytopes")),
+      dataFields(gauge(registry_, "oval4d_data_cache_bytes", "Memory used by fields from the data folder")),
+      fieldFiles(gauge(registry_, "oval4d_field_cache_bytes", "Disk space used by fields from the data folder")),
+      critical(
+          gauge(registry_, "oval4d_critical_cache_bytes", "Memory used by cached results of searches for critical w")),
       bytesHeld(gauge(registry_, "oval4d_client_bytes",
                       "Bytes held for clients: unread files and messages, and their own polytopes")),
       clients(gauge(registry_, "oval4d_clients", "Known client addresses")),
       messagesReceived(
           counters(registry_, "oval4d_messages_received_total", "Messages received over WebSockets").Add({})),
       bytesSent(counters(registry_, "oval4d_bytes_sent_total", "Bytes of messages sent over WebSockets").Add({})),
-      slowReaders(
-          counters(registry_, "oval4d_slow_readers_total", "Clients dropped because they read too slowly").Add({})),
+      slowReaders(counters(registry_, "oval4d_slow_readers_total",
+                           "Clients dropped because they read, or send a body, too slowly")
+                      .Add({})),
       sessionsTaken(
           counters(registry_, "oval4d_sessions_taken_total", "Sessions taken over by another server").Add({})),
       storeUp(gauge(registry_, "oval4d_store_up", "1 if the session store is available, else 0")),

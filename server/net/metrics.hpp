@@ -34,11 +34,14 @@ class Metrics {
     prometheus::Histogram& fileTime;        ///< seconds to make an exported file
     prometheus::Gauge& memory;              ///< resident bytes of this process
     prometheus::Gauge& polytopes;           ///< bytes of cached polytopes
+    prometheus::Gauge& dataFields;          ///< bytes in memory of fields from the data folder
+    prometheus::Gauge& fieldFiles;          ///< bytes on the disk of fields from the data folder
+    prometheus::Gauge& critical;            ///< bytes of cached results of searches for critical w
     prometheus::Gauge& bytesHeld;           ///< bytes held for clients (ByteBudget)
-    prometheus::Gauge& clients;             ///< known clients (Clients::size)
+    prometheus::Gauge& clients;             ///< known clients (Clients::size())
     prometheus::Counter& messagesReceived;  ///< messages received over WebSockets
     prometheus::Counter& bytesSent;         ///< bytes of messages sent over WebSockets
-    prometheus::Counter& slowReaders;       ///< clients dropped because they read too slowly
+    prometheus::Counter& slowReaders;       ///< clients dropped because they read, or send a body, too slowly
     prometheus::Counter& sessionsTaken;     ///< sessions taken over by other servers
     prometheus::Gauge& storeUp;             ///< 1 if the store is available, else 0
     prometheus::Gauge& unsaved;             ///< sessions with changes not yet written to the store

@@ -11,8 +11,8 @@
 
 namespace oval4d::net {
 
-/// A timer that calls a function of its owner, the object of which the timer is a member. Not thread-safe: use the
-/// timer only on the strand given to the constructor. It calls the owner on the same strand.
+/// Calls a function of its owner, which is the object that has the timer as a member. Not thread-safe: use the timer
+/// only on the strand given to the constructor. It calls the owner on the same strand.
 class OneShotTimer {
   public:
     using Clock = std::chrono::steady_clock;
@@ -20,8 +20,8 @@ class OneShotTimer {
     template <typename Strand>
     explicit OneShotTimer(const Strand& strand) : timer_(strand) {}
 
-    /// Schedules one call of `expired` with a reference to the owner, at the time `when`. The timer does not call it if
-    /// the owner has been destroyed by then. Does nothing if an earlier call is still due. `expired` is a member
+    /// Schedules one call of `expired` with a reference to the owner, at the time `when`. Does nothing if a call is
+    /// already scheduled. The timer skips the call if the owner has been destroyed by then. `expired`: a member
     /// function of the owner, or a function object.
     template <typename Owner, std::invocable<Owner&> Expired>
     void start(std::weak_ptr<Owner> owner, Clock::time_point when, Expired expired) {

@@ -102,7 +102,22 @@ void addStore(CLI::App& app, Options& options) {
                "Redis counts as failed if it does not answer within this time");
 }
 
-void addFileLimits(CLI::App& app, exports::Limits& limits) {
+void addData(CLI::App& app, Options& options) {
+    add(app, "--data", options.data,
+        "Folder of arrays (npy, netcdf, hdf5, nifti, zarr) that all clients may open; a folder in it is a series with "
+        "one "
+        "moment in each file");
+    addBytes(app, "--data-cache", options.dataCache,
+             "Memory for fields from the data folder, which sessions share; beyond it, those unused for the longest "
+             "time are dropped, and a client must wait if sessions use all of it");
+    addBytes(app, "--field-cache", options.fieldCache,
+             "Disk space for fields from the data folder that are larger than --max-field-bytes and must be converted; "
+             "beyond it, those unused for the longest time are dropped");
+    add(app, "--field-cache-folder", options.fieldCacheFolder,
+        "Folder for these fields, on a disk; if empty, /var/tmp is used");
+}
+
+void addFileLimits(CLI::App& app, exports::ExportLimits& limits) {
     add(app, "--max-file-triangles", limits.triangles, "Maximum number of triangles in a file")
         ->check(CLI::Range(1, 1'000'000'000));
     addBytes(app, "--max-file-bytes", limits.bytes, "Maximum size of a file");
@@ -130,7 +145,7 @@ void addClientLimits(CLI::App& app, Options& options) {
              "Maximum bytes held for all clients: unread files and messages, and their own polytopes");
     addBytes(app, "--max-client-bytes", client.bytes, "Maximum bytes held for one address");
     addBytes(app, "--min-read-rate", options.minReadRate,
-             "Bytes per second that a client must read at least; a slower one is dropped");
+             "Bytes per second that a client must read, or send of an upload, at least; a slower one is dropped");
     add(app, "--spool", options.spool,
         "Folder for responses that clients have not yet received; if empty, the system's temporary folder is used");
 }
@@ -160,6 +175,9 @@ void addLimits(CLI::App& app, Options& options) {
              "Maximum size of a `load` message; a larger one closes the connection with code 1009");
     addBytes(app, "--max-request-bytes", options.maxRequestBytes,
              "Maximum size of any other message, and of any message before hello");
+    addBytes(app, "--max-upload", options.maxUpload, "Maximum size of an uploaded file; 0 to refuse uploads");
+    addBytes(app, "--max-field-bytes", options.session.maxFieldBytes,
+             "Maximum size of the samples of a field that is read from a file, four bytes each");
     add(app, "--max-depth", options.maxDepth, "Maximum nesting depth of the JSON of a message")->check(atLeastOne);
     addBytes(app, "--max-unsent", options.maxUnsent,
              "Unsent bytes of replies at which the server stops reading from a client");
@@ -201,6 +219,9 @@ void addLimits(CLI::App& app, Options& options) {
         "list");
     addBytes(app, "--polytope-cache", options.polytopeCache,
              "Memory for cached polytopes, from the catalogue or built from names");
+    addBytes(app, "--critical-cache", options.criticalCache,
+             "Memory for cached results of searches for critical w; beyond it, those unused for the longest time are "
+             "dropped");
     add(app, "--max-hull-cells", options.session.maxHullCells,
         "Maximum number of cells of the convex hull of loaded points");
 }
@@ -232,15 +253,18 @@ void addOptions(CLI::App& app, Options& options) {
     addServing(app, options);
     addAccess(app, options);
     addStore(app, options);
+    addData(app, options);
     addSandbox(app, options);
     addLimits(app, options);
     addClientLimits(app, options);
     addTimes(app, options);
 }
 
-std::string limitsText(const Options& options) {
+std::string limitsJson(const Options& options) {
     return nlohmann::json{{"message", options.maxMessage},
                           {"request_bytes", options.maxRequestBytes},
+                          {"upload", options.maxUpload},
+                          {"field_bytes", options.session.maxFieldBytes},
                           {"depth", options.maxDepth},
                           {"requests_per_second", options.maxRequests},
                           {"min_side", options.frame.minSide},

@@ -1,5 +1,5 @@
 #pragma once
-// The options of the server, which the command line and environment variables set.
+// The options of the server, which are set on the command line or by environment variables.
 
 #include <chrono>
 #include <cstddef>
@@ -31,36 +31,42 @@ struct Options {
     std::string webRoot;                                 ///< folder of the built web client
     int workers = 0;                                     ///< threads that slice and draw; 0: one per processor
     int exportWorkers = 1;                               ///< threads that make exported files
-    int loadWorkers = 2;                                 ///< processes that read uploaded files concurrently
+    int loadWorkers = 2;                                 ///< threads that wait for files (see Services::loadWorkers)
     int ioThreads = 1;                                   ///< threads that read and write sockets
-    std::string logLevel = "info";                       ///< least severe level that is logged; a name of spdlog
+    std::string logLevel = "info";                       ///< least severe level to log, by its name in spdlog
 
-    /// Host names that clients may use for the server, origins of foreign pages that may connect (both: see
-    /// AccessControl), and networks of proxies whose X-Forwarded-For is trusted (see Network).
+    /// In this order: host names that clients may use for the server; origins of foreign pages that may connect (for
+    /// both, see AccessControl); networks of proxies whose X-Forwarded-For is trusted (see Network).
     std::vector<std::string> allowedHosts, allowedOrigins, trustedProxies;
     std::string token;  ///< secret that clients must send; empty: a random one, or none on loopback addresses
     bool open = false;  ///< require no token, even on addresses other than loopback
 
     std::size_t maxMessage = 8U << 20U;        ///< maximum size of a `load` message
     std::size_t maxRequestBytes = 64U << 10U;  ///< maximum size of any other message
+    std::size_t maxUpload = 256U << 20U;       ///< maximum size of an uploaded file
     int maxDepth = 32;                         ///< maximum nesting depth of the JSON of a message
     std::size_t maxUnsent = 1U << 20U;         ///< unsent bytes at which the server stops reading from a client
     std::size_t maxSessions = 10'000;          ///< maximum number of stored sessions
     std::size_t maxConnections = 4096;         ///< maximum number of open connections
     ClientLimits client;                       ///< limits of each client
     std::size_t maxBytes = 2U << 30U;          ///< maximum bytes held for all clients together (ByteBudget)
-    std::size_t minReadRate = 32U << 10U;      ///< minimum bytes per second that a client must read
+    std::size_t minReadRate = 32U << 10U;      ///< minimum bytes per second that a client must read or upload
     std::string spool;                         ///< folder for unread exports; empty: the system's temporary folder
     int maxRequests = 2000;                    ///< messages per second from one connection
     parallel::FairQueue::Limits jobs;          ///< maximum numbers of waiting jobs in each pool of workers
     pipeline::FrameLimits frame;               ///< limits on the size of pictures
     std::size_t maxFill = pipeline::Pipeline::kFillSteps;  ///< maximum number of steps to fill faces in one picture
-    exports::Limits file;                                  ///< limits on the files that clients request
+    exports::ExportLimits file;                            ///< limits on the files that clients request
     session::Limits session;                               ///< limits of each session
     std::string store = "memory";                          ///< location of the sessions: see store::StoreOptions::url
-    std::size_t storeQuota = store::kDefaultQuota;  ///< maximum total bytes of the sessions in a file or in memory
-    std::size_t keptUndo = 100;                     ///< maximum number of undo steps stored with a session
-    std::size_t polytopeCache = 64U << 20U;         ///< maximum total size of cached polytopes not in use
+    std::size_t storeQuota = store::kDefaultQuota;    ///< maximum total bytes of the sessions in a file or in memory
+    std::size_t keptUndo = 100;                       ///< maximum number of undo steps stored with a session
+    std::string data;                                 ///< folder of arrays that clients may open; empty: none
+    std::size_t dataCache = 1024U << 20U;             ///< maximum total size of the fields from this folder
+    std::string fieldCacheFolder;                     ///< folder of files of samples; empty: /var/tmp
+    std::size_t fieldCache = std::size_t{16} << 30U;  ///< maximum total size of these files
+    std::size_t polytopeCache = 64U << 20U;           ///< maximum total size of cached polytopes not in use
+    std::size_t criticalCache = 4U << 20U;  ///< maximum total size of cached results of searches for critical w
 
     process::SandboxMode sandbox = process::SandboxMode::automatic;
     std::size_t drawMemory = 0;             ///< memory limit of a rasterizer process; 0: derived from other limits
@@ -70,7 +76,7 @@ struct Options {
     Seconds storeTimeout{1};      ///< maximum time to wait for a reply of Redis
     Seconds drawTimeout{60};      ///< maximum time to draw a picture; a slower rasterizer process is killed
     Seconds loadTimeout{20};      ///< maximum time to read a file; a slower file reader process is killed
-    Seconds shownTimeout{1};      ///< time after which a sent picture counts as shown without an acknowledgment
+    Seconds shownTimeout{1};      ///< time after which a picture that was written to the socket counts as shown
     Seconds writeTimeout{10};     ///< time after which a client that reads nothing is dropped
     Seconds helloTimeout{10};     ///< time after which a new connection is closed if no request or hello arrives
     Seconds idleTimeout{30};      ///< time after which an HTTP connection is closed if no further request arrives
@@ -78,11 +84,11 @@ struct Options {
     Seconds stopTimeout{4};       ///< time that clients have to disconnect after a signal to stop
 };
 
-/// Adds the options of the server to `app`. When `app` parses a command line, it writes the values to `options`. Each
+/// Adds the options of the server to `app`. Parsing a command line with `app` then writes the values to `options`. Each
 /// option can also be set by an environment variable OVAL4D_….
 void addOptions(CLI::App& app, Options& options);
 
-/// Returns the limits that clients need to know, as the text of a JSON object for the `welcome` message.
-std::string limitsText(const Options& options);
+/// Returns a JSON object with the limits that clients need to know, for the `welcome` message.
+std::string limitsJson(const Options& options);
 
 }  // namespace oval4d::net

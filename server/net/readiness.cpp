@@ -12,7 +12,7 @@ void Readiness::warmUp(pipeline::Pipeline& pipeline) {
         const session::State state = session::initialState();
         std::vector<std::uint8_t> png;
         pipeline.warmUp();
-        pipeline.drawPng(state, "", {}, png);
+        pipeline.drawPng(state, "", {}, slicing::Quality::full, png);
         (void)polytopes::findEntry("");  // the first call builds the tables of names
         if (--missing_ == 0) spdlog::info("ready");
     } catch (const std::exception& fault) {

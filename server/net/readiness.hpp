@@ -8,8 +8,8 @@
 
 namespace oval4d::net {
 
-/// Tracks whether the server is ready. It is ready when every picture worker has drawn a first picture: shaders are
-/// then compiled, and the initial polytope is built. Every function may be called from any thread.
+/// Tracks whether the server is ready: from the time when every picture worker has drawn a first picture, so that its
+/// shaders are compiled and the initial polytope is built, until the server begins to stop. Thread-safe.
 class Readiness {
   public:
     explicit Readiness(std::size_t workers) : missing_(workers) {}
@@ -19,12 +19,12 @@ class Readiness {
     /// still serves geometry.
     void warmUp(pipeline::Pipeline& pipeline);
 
-    /// Returns whether every worker has drawn its first picture.
-    bool ready() const { return missing_ == 0; }
+    /// Returns whether every worker has drawn its first picture and the server is not stopping.
+    bool ready() const { return missing_ == 0 && !stopping_; }
     /// Marks the server as stopping. /readyz then tells load balancers to send no new clients.
     void markStopping() { stopping_ = true; }
     bool stopping() const { return stopping_; }
-    /// Returns whether a worker could not draw its first picture, so that the server will never be ready.
+    /// Returns whether a worker failed to draw its first picture. The server then never becomes ready.
     bool broken() const { return broken_; }
 
   private:

@@ -127,6 +127,7 @@ class Server {
 
     Options options_;
     Clients clients_;
+    FieldCache fieldCache_;           // outlives all fields, which handlers of io_ may hold
     ConnectionRegistry connections_;  // declared before io_, whose coroutines hold registrations
     asio::io_context io_;
     std::vector<tcp::acceptor> acceptors_;
@@ -139,6 +140,8 @@ class Server {
     raster::SharedRasterizerProcess sharedRasterizer_;
     file_reading::FileReaderPool readers_;
     polytopes::PolytopeCache polytopes_;
+    DataFolder data_;
+    slicing::CriticalCache critical_;
     pipeline::PipelinePool pictureWorkers_;
     parallel::WorkerPool exportWorkers_, loadWorkers_;
     Services services_;
@@ -151,6 +154,7 @@ class Server {
 Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap)
     : options_(std::move(options)),
       clients_(options_.client, options_.trustedProxies, options_.maxBytes),
+      fieldCache_(options_.fieldCacheFolder, options_.fieldCache),
       connections_(options_.maxConnections, options_.client.connections),
       acceptors_(bindAcceptors(io_, options_)),
       files_(options_.webRoot),
@@ -167,6 +171,8 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
                 [this](const process::ProcessLoss& loss) { onReaderLost(loss); }, childEnvironment_,
                 static_cast<std::size_t>(options_.loadWorkers)}),
       polytopes_(options_.polytopeCache),
+      data_(options_.data, options_.dataCache, fieldCache_),
+      critical_(options_.criticalCache),
       pictureWorkers_({.threads = workers_,
                        .limits = options_.jobs,
                        .fillSteps = options_.maxFill,
@@ -182,7 +188,8 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::Heap& hea
       loadWorkers_({.threads = static_cast<std::size_t>(options_.loadWorkers),
                     .limits = options_.jobs,
                     .whenIdle = [&heap](std::size_t /*worker*/) { heap.returnFreeMemory(); }}),
-      services_{options_, io_, pictureWorkers_, exportWorkers_, metrics_, clients_, loadWorkers_, readers_, polytopes_},
+      services_{options_,     io_,      pictureWorkers_, exportWorkers_, metrics_,    clients_,
+                loadWorkers_, readers_, polytopes_,      data_,          fieldCache_, critical_},
       sessions_(std::make_shared<SessionManager>(services_, store::openStore(storeOptions(options_)))),
       token_(requiredToken()),
       access_(options_.allowedHosts, options_.allowedOrigins, token_, onLoopback()),

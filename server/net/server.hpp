@@ -8,7 +8,7 @@
 namespace oval4d::net {
 
 /// Listens and serves clients until SIGINT, SIGTERM or SIGHUP. Then writes the sessions to the store, closes all
-/// connections, and returns. It closes WebSockets with code 1012, after which clients reconnect at once, to this or
+/// connections, and returns. WebSockets are closed with code 1012, so that clients reconnect at once, to this or
 /// another server. Throws an exception derived from std::exception if the server cannot start, for example because it
 /// cannot listen.
 void runServer(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap);

@@ -6,11 +6,14 @@
 #include "errors/error.hpp"
 #include "file_reading/file_reader_pool.hpp"
 #include "net/clients.hpp"
+#include "net/data_folder.hpp"
+#include "net/field_cache.hpp"
 #include "net/metrics.hpp"
 #include "net/options.hpp"
 #include "parallel/worker_pool.hpp"
 #include "pipeline/pipeline_pool.hpp"
 #include "polytopes/catalogue/polytope_cache.hpp"
+#include "slicing/critical/critical_cache.hpp"
 
 namespace oval4d::net {
 
@@ -34,12 +37,17 @@ struct Services {
     const Options& options;
     boost::asio::io_context& io;
     pipeline::PipelinePool& pictureWorkers;  ///< threads that slice and draw pictures
-    parallel::WorkerPool& exportWorkers;     ///< threads that make exported files, which takes longer than pictures
+    parallel::WorkerPool& exportWorkers;     ///< threads that make exported files (slower than pictures)
     Metrics& metrics;
     Clients& clients;
-    parallel::WorkerPool& loadWorkers;      ///< threads that wait for file reader processes to read clients' files
+    /// Threads for work that waits for files: uploads, arrays of the data folder, its listing, and stored sessions that
+    /// refer to such files.
+    parallel::WorkerPool& loadWorkers;
     file_reading::FileReaderPool& readers;  ///< the file reader processes
     polytopes::PolytopeCache& polytopes;    ///< polytopes that were built from their names
+    DataFolder& data;                       ///< the arrays that the server offers
+    const FieldCache& fieldCache;           ///< files of samples of these arrays
+    slicing::CriticalCache& critical;       ///< the critical w of fields
 };
 
 }  // namespace oval4d::net

@@ -44,7 +44,7 @@ Seconds FairQueue::classCost(JobLength length, Seconds cost) const {
 }
 
 bool FairQueue::push(Job job, const LanePtr& lane, Seconds estimate, Clock::time_point now) {
-    ClientShare& client = *lane->client_;
+    ClientFlow& client = *lane->client_;
     if (waiting_ >= limits_.total || client.waiting_ >= limits_.perClient) return false;
     ++waiting_;
     ++client.waiting_;
@@ -62,7 +62,7 @@ std::optional<FairQueue::StartedJob> FairQueue::pop(Clock::time_point now) {
     const JobLength length = longJobsMustWait(now) ? short_job : scheduler_.next();
     Class& schedulers = classes_[length];
     if (schedulers.clients.empty()) return std::nullopt;
-    const ClientSharePtr client = schedulers.clients.next();
+    const ClientFlowPtr client = schedulers.clients.next();
     const LanePtr lane = client->lanes_[length].next();
     QueuedJob first = std::move(lane->jobs_.front());
     lane->jobs_.pop_front();
@@ -80,7 +80,7 @@ std::optional<FairQueue::StartedJob> FairQueue::pop(Clock::time_point now) {
 
 void FairQueue::finished(const StartedJob& started, Seconds took) {
     Lane& lane = *started.lane;
-    ClientShare& client = *lane.client_;
+    ClientFlow& client = *lane.client_;
     const JobLength length = started.length;
     if (length == long_job) --longRunning_;
     for (Correction* each : {&lane.correction_, &client.correction_, &correction_})
@@ -96,7 +96,7 @@ void FairQueue::finished(const StartedJob& started, Seconds took) {
     }
 }
 
-Seconds FairQueue::nextCost(const ClientShare& client, JobLength length) {
+Seconds FairQueue::nextCost(const ClientFlow& client, JobLength length) {
     return client.lanes_[length].next()->jobs_.front().cost;
 }
 
@@ -109,7 +109,7 @@ void FairQueue::scheduleLane(const LanePtr& lane) {
 
 /// Updates the queue entries of a client and of the class of this length, after a change of the client's next job of
 /// this length.
-void FairQueue::scheduleClient(const ClientSharePtr& client, JobLength length) {
+void FairQueue::scheduleClient(const ClientFlowPtr& client, JobLength length) {
     Class& schedulers = classes_[length];
     if (client->lanes_[length].empty()) {
         schedulers.clients.remove(client->states_[length]);
@@ -148,7 +148,7 @@ void FairQueue::forgetInactive(Clock::time_point now) {
 bool FairQueue::longJobsMustWait(Clock::time_point now) {
     if (longRunning_ < maxLongRunning_) return false;
     forgetInactive(now);
-    const FairScheduler<ClientSharePtr>& clients = classes_[long_job].clients;
+    const FairScheduler<ClientFlowPtr>& clients = classes_[long_job].clients;
     return !active_.empty() || (!clients.empty() && nextCost(*clients.next(), long_job) > kVeryLongJob);
 }
 
@@ -160,7 +160,7 @@ std::deque<FairQueue::Job> FairQueue::clear() {
     std::deque<Job> dropped;
     while (!scheduler_.empty()) {
         const JobLength length = scheduler_.next();
-        const ClientSharePtr client = classes_[length].clients.next();
+        const ClientFlowPtr client = classes_[length].clients.next();
         const LanePtr lane = client->lanes_[length].next();
         client->waiting_ -= lane->jobs_.size();
         waiting_ -= lane->jobs_.size();

@@ -74,8 +74,8 @@ class FairScheduler {
         maxFinish_ = std::max(maxFinish_, state.finish);
         ++state.running;
     }
-    /// Records that a job of the flow ended and took `excess` longer than its cost (less if negative). If the flow is
-    /// queued, the caller must then call `enqueue` again, because F has changed.
+    /// Records that a job of the flow ended. `excess`: the measured running time minus the cost of the job. If the flow
+    /// is queued, the caller must then call `enqueue` again, because F has changed.
     void end(FlowState& state, Seconds excess) {
         state.finish += excess;
         maxFinish_ = std::max(maxFinish_, state.finish);
@@ -96,9 +96,9 @@ class FairScheduler {
 /// also correct the estimates of later jobs: in the same lane, in new lanes of the same client, and of new clients.
 ///
 /// Jobs are not preempted, so long jobs could occupy all threads while short jobs wait. Therefore some threads are
-/// reserved: a quarter of them, rounded down, but at least one. A single thread is not reserved. Reserved threads start
-/// no very long jobs (see kVeryLongJob), and no long jobs (see kLongJob) while a lane with short jobs is active (see
-/// kActive).
+/// reserved: a quarter of them, rounded down, but at least one. If there is only one thread, it is not reserved. A
+/// reserved thread never starts a very long job (see kVeryLongJob). While a lane with short jobs is active (see
+/// kActive), it does not start a long job (see kLongJob) either.
 ///
 /// Short jobs and long jobs are two classes. Within each class, clients are scheduled fairly. The two classes share the
 /// time of the threads in proportion to the numbers of their active clients.
@@ -109,12 +109,12 @@ class FairQueue {
     using Job = std::function<void(std::size_t worker)>;
     using Seconds = std::chrono::duration<double>;
     using Clock = std::chrono::steady_clock;
-    class ClientShare;
+    class ClientFlow;
     class Lane;
     enum JobLength : std::size_t { short_job, long_job };
     template <typename T>
     using PerClass = std::array<T, 2>;  // indexed by JobLength
-    using ClientSharePtr = std::shared_ptr<ClientShare>;
+    using ClientFlowPtr = std::shared_ptr<ClientFlow>;
     using LanePtr = std::shared_ptr<Lane>;
 
     /// The maximum numbers of waiting jobs, of all clients together and of one client.
@@ -132,7 +132,7 @@ class FairQueue {
     /// The jobs that a lane queues within this time after one of its long jobs do not make it active.
     static constexpr std::chrono::seconds kActive{10};
 
-    /// A job that the caller must run now and whose end it must report with finished().
+    /// A job that pop() returned. The caller must run it at once and then call finished().
     struct StartedJob {
         Job job;
         LanePtr lane;
@@ -166,11 +166,11 @@ class FairQueue {
     bool hasStartableJob(Clock::time_point now);
 
   private:
-    /// Learns the ratio of measured to estimated times, weighted toward recent jobs.
+    // Learns the ratio of measured to estimated times, weighted toward recent jobs.
     class Correction {
       public:
-        /// Returns the factor by which to multiply estimates. `general`: the prior, which is the factor learned from a
-        /// larger group of jobs; it dominates while few jobs have been measured.
+        // Returns the factor by which to multiply estimates. `general`: the prior, which is the factor learned from a
+        // larger group of jobs; it dominates while few jobs have been measured.
         double factor(double general) const;
         void learn(Seconds estimate, Seconds took);
 
@@ -184,10 +184,10 @@ class FairQueue {
         JobLength length;
     };
 
-    /// The class of all short jobs, or of all long jobs: the scheduler of its clients, and the state of the class as a
-    /// flow of `scheduler_`.
+    // The class of all short jobs, or of all long jobs: the scheduler of its clients, and the state of the class as a
+    // flow of `scheduler_`.
     struct Class {
-        FairScheduler<ClientSharePtr> clients;
+        FairScheduler<ClientFlowPtr> clients;
         FairScheduler<JobLength>::FlowState state;
     };
 
@@ -195,9 +195,9 @@ class FairQueue {
 
     Seconds correctedCost(const Lane& lane, Seconds estimate) const;
     Seconds classCost(JobLength length, Seconds cost) const;
-    static Seconds nextCost(const ClientShare& client, JobLength length);
+    static Seconds nextCost(const ClientFlow& client, JobLength length);
     void scheduleLane(const LanePtr& lane);
-    void scheduleClient(const ClientSharePtr& client, JobLength length);
+    void scheduleClient(const ClientFlowPtr& client, JobLength length);
     void recordActivity(const LanePtr& lane, JobLength length, Clock::time_point now);
     bool longJobsMustWait(Clock::time_point now);
     void forgetInactive(Clock::time_point now);
@@ -212,9 +212,9 @@ class FairQueue {
 };
 
 /// The share of one client, such as all connections from one address. All of its jobs must be in the same queue.
-class FairQueue::ClientShare {
+class FairQueue::ClientFlow {
     friend FairQueue;
-    PerClass<FairScheduler<ClientSharePtr>::FlowState> states_;
+    PerClass<FairScheduler<ClientFlowPtr>::FlowState> states_;
     PerClass<FairScheduler<LanePtr>> lanes_;
     std::size_t waiting_ = 0;
     Correction correction_;
@@ -223,11 +223,11 @@ class FairQueue::ClientShare {
 /// A first-in, first-out queue of a client's jobs, such as those for one session.
 class FairQueue::Lane {
   public:
-    explicit Lane(ClientSharePtr client) : client_(std::move(client)) {}
+    explicit Lane(ClientFlowPtr client) : client_(std::move(client)) {}
 
   private:
     friend FairQueue;
-    const ClientSharePtr client_;
+    const ClientFlowPtr client_;
     PerClass<FairScheduler<LanePtr>::FlowState> states_;
     std::deque<QueuedJob> jobs_;
     Correction correction_;

@@ -26,16 +26,16 @@ class ThreadOwned {
 
 /// Checks that an object is used by at most one thread at a time, which may be any thread. A copy of it starts as not
 /// in use.
-class OneAtATime {
+class ExclusiveUse {
   public:
     /// Marks the object as in use as long as this Use exists. The constructor asserts that no other Use of the same
     /// object exists.
     class Use {
       public:
 #ifdef NDEBUG
-        explicit Use(OneAtATime& /*used*/) {}
+        explicit Use(ExclusiveUse& /*used*/) {}
 #else
-        explicit Use(OneAtATime& used) : used_(used) {
+        explicit Use(ExclusiveUse& used) : used_(used) {
             const bool alone = !used_.inUse_.exchange(true);
             assert(alone && "used by two threads at once");
             (void)alone;
@@ -45,14 +45,14 @@ class OneAtATime {
         Use& operator=(const Use&) = delete;
 
       private:
-        OneAtATime& used_;
+        ExclusiveUse& used_;
 #endif
     };
 
 #ifndef NDEBUG
-    OneAtATime() = default;
-    OneAtATime(const OneAtATime& /*other*/) {}
-    OneAtATime& operator=(const OneAtATime& /*other*/) { return *this; }
+    ExclusiveUse() = default;
+    ExclusiveUse(const ExclusiveUse& /*other*/) {}
+    ExclusiveUse& operator=(const ExclusiveUse& /*other*/) { return *this; }
 
   private:
     std::atomic<bool> inUse_ = false;

@@ -22,15 +22,16 @@ class QueueFull : public std::runtime_error {
 };
 
 /// A pool of worker threads that run jobs in the order of a FairQueue. Each job receives the index of its worker, from
-/// 0 to size() − 1, so that it can use data that belongs to the worker. Thread-safe.
+/// 0 to Options::threads − 1, so that it can use data that belongs to the worker. Thread-safe, but size() and a second
+/// stop() may not run at the same time as stop().
 class WorkerPool {
   public:
     using Argument = std::size_t;  ///< the type of a job's argument: the index of the worker
-    using Job = FairQueue::Job;
+    using Job = FairQueue::Job;    ///< called with the index of the worker
     using Seconds = FairQueue::Seconds;
-    using ClientShare = FairQueue::ClientShare;
+    using ClientFlow = FairQueue::ClientFlow;
     using Lane = FairQueue::Lane;
-    using ClientSharePtr = FairQueue::ClientSharePtr;
+    using ClientFlowPtr = FairQueue::ClientFlowPtr;
     using LanePtr = FairQueue::LanePtr;
     using Limits = FairQueue::Limits;
 
@@ -78,14 +79,14 @@ class WorkerPool {
     void wait(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker);
 
     const Options options_;
-    const LanePtr common_ = std::make_shared<Lane>(std::make_shared<ClientShare>());  // for jobs without a lane
+    const LanePtr common_ = std::make_shared<Lane>(std::make_shared<ClientFlow>());  // for jobs without a lane
     std::stop_source stopSource_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     // The next four members are guarded by mutex_, and so are the contents of lanes and clients.
     FairQueue queue_;
     Seconds busyTime_{0};
-    bool cleanUp_ = false;  // see cleanUpWhenIdle
+    bool cleanUp_ = false;  // see cleanUpWhenIdle()
     bool stopping_ = false;
     std::vector<std::thread> threads_;  // changed only by the constructor and stop()
 };

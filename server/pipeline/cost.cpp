@@ -3,6 +3,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "fields/field.hpp"
+#include "scene/surface_look.hpp"
+
 namespace oval4d::pipeline {
 
 namespace {
@@ -16,23 +19,60 @@ double elements(const slicing::Object& object) {
 /// boundary, and the hyperplane cuts it in two dimensions: hence the exponent 2/3.
 double met(double n) { return std::pow(n, 2.0 / 3); }
 
+/// Returns the estimated time to extract the surfaces of a field, and to draw or write them; 0 for other objects.
+/// `slices`: number of slices. `cubes`: number of lattice cubes across the field's diameter.
+double surfaces(const session::State& state, double slices, double cubes, slicing::Quality quality) {
+    const fields::Field* field = slicing::fieldIn(state.object);
+    if (field == nullptr || !state.look.parts.faces) return 0;
+    const slicing::SurfaceLimits limits = slicing::surfaceLimits(quality);
+    const fields::EvaluationCost cost = field->function->cost();
+    // A surface crosses a few times as many lattice cubes as a plane, and the blocks that it crosses are sampled.
+    const double points = 1.5 * slices * cubes * cubes * static_cast<double>(state.look.field.levels.size());
+    const bool isColored = field->second != nullptr && scene::colorsByValue(state.look);
+    const double coloring = isColored ? field->second->function->cost().value : 0;
+    const double extraction = points * (3 * cost.value + 2 * cost.gradient + 60 + cost.bounds / 16 + coloring);
+    return 1e-9 * std::min(limits.time, extraction) + 1.5e-7 * std::min(points, static_cast<double>(limits.points));
+}
+
+/// Returns the estimated time to sample the fog of a field, and to draw it in this many pixels or to write it; 0
+/// without fog. `slices`: number of slices. `cubes`: number of lattice cubes across the field's diameter.
+double fog(const session::State& state, double slices, double cubes, double pixels, slicing::Quality quality) {
+    const fields::Field* field = slicing::fieldIn(state.object);
+    if (field == nullptr || state.look.field.fog.empty()) return 0;
+    // A box fills a third of its circumscribed sphere.
+    const double points = std::min(slices * std::pow(cubes, 3) / 3, static_cast<double>(maxFogPoints(quality)));
+    const double sampling = std::min(points * (field->function->cost().value + 3), surfaceLimits(quality).time);
+    return 1e-9 * sampling + 5e-9 * points + 5e-9 * pixels * std::min(cubes, std::cbrt(points / slices));
+}
+
 }  // namespace
 
-EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport) {
+EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport, slicing::Quality quality) {
     const double n = elements(state.object);
     const double pixels = static_cast<double>(viewport.width) * viewport.height;
     const double bodies = state.slices.count * (2e-5 + 1.2e-6 * met(n));
     const double layers = 1 + 0.4 * std::log2(1 + n / 25);  // the number of faces blended over each other at a pixel
-    return EstimatedSeconds(5e-4 + bodies + 6e-9 * pixels * layers);
+    // The focus slice takes up to half the picture's height. The others of the oval are smaller, and together have a
+    // few times as many pixels.
+    constexpr double kSlices = 4;
+    const double cubes = state.look.orbit.zoom * viewport.height / 2 / slicing::pixelsPerCube(quality);
+    const double field =
+        surfaces(state, kSlices, cubes, quality) + fog(state, kSlices, cubes, pixels / kSlices, quality);
+    return EstimatedSeconds(5e-4 + bodies + 6e-9 * pixels * layers + field);
 }
 
-EstimatedSeconds geometryCost(const session::State& state) {
+EstimatedSeconds geometryCost(const session::State& state, slicing::Quality quality) {
     const double n = elements(state.object);
-    return EstimatedSeconds(1e-4 + 1e-7 * n + 1e-7 * state.slices.count * met(n));
+    const double cubes = slicing::cubesAcross(quality);
+    const double field =
+        surfaces(state, state.slices.count, cubes, quality) + fog(state, state.slices.count, 2 * cubes, 0, quality);
+    return EstimatedSeconds(1e-4 + 1e-7 * n + 1e-7 * state.slices.count * met(n) + field);
 }
 
 EstimatedSeconds exportCost(const session::State& state) {
-    return EstimatedSeconds(0.02 + 5e-6 * state.slices.count * met(elements(state.object)));
+    constexpr slicing::Quality kQuality = slicing::Quality::file;
+    const double field = surfaces(state, state.slices.count, slicing::cubesAcross(kQuality), kQuality);
+    return EstimatedSeconds(0.02 + 5e-6 * state.slices.count * met(elements(state.object)) + field);
 }
 
 }  // namespace oval4d::pipeline

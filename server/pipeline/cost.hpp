@@ -8,17 +8,18 @@
 
 namespace oval4d::pipeline {
 
-/// An estimated time in seconds, correct within a factor of three on one core of a processor of 2020. It depends only
-/// on the number of elements of the object, the number of slices and the size of the picture.
+/// An estimated time in seconds, correct within a factor of three on one core of a processor of 2020. Depends on the
+/// number of elements of the object (for a field, on the cost of its function), the number of slices, the size of the
+/// picture and the quality.
 using EstimatedSeconds = std::chrono::duration<double>;
 
-/// Returns the estimated time of Pipeline::drawPng.
-EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport);
+/// Returns the estimated time of Pipeline::drawPng().
+EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport, slicing::Quality quality);
 
-/// Returns the estimated time of Pipeline::slice and Pipeline::writeSlices together.
-EstimatedSeconds geometryCost(const session::State& state);
+/// Returns the estimated time of Pipeline::slice() and Pipeline::writeSlices() together.
+EstimatedSeconds geometryCost(const session::State& state, slicing::Quality quality);
 
-/// Returns the estimated time of exportState.
+/// Returns the estimated time of exportState().
 EstimatedSeconds exportCost(const session::State& state);
 
 }  // namespace oval4d::pipeline

@@ -6,6 +6,7 @@
 #include "scene/composer.hpp"
 #include "slicing/projector.hpp"
 #include "slicing/slicer.hpp"
+#include "text/ascii.hpp"
 #include "text/choice.hpp"
 #include "text/message_text.hpp"
 
@@ -36,8 +37,8 @@ Result<std::monostate> takeSize(const std::string& text, double& size) {
     return std::monostate{};
 }
 
-// Returns the projection of the whole object as a slice, which takes the place of the focus slice. Without a projection
-// in the picture, the perspective one.
+// Returns the projection of the whole object as a slice, which takes the place of the focus slice. Uses the perspective
+// projection if the picture shows none.
 slicing::SliceSet projectionOf(const session::State& state, const slicing::SliceSet& slices) {
     const scene::ProjectionSettings& settings = state.look.projection;
     const bool parallel = settings.kind == scene::ProjectionKind::orthogonal;
@@ -53,15 +54,28 @@ slicing::SliceSet projectionOf(const session::State& state, const slicing::Slice
     return projected;
 }
 
+// Returns whether the file contains the surfaces of a field.
+bool needsSurfaces(const exports::ExportRequest& request) {
+    if (request.extent == exports::Extent::projection || request.extent == exports::Extent::matrix) return false;
+    return request.format->writeBodies != nullptr ? request.body == exports::Body::solid
+                                                  : request.format->takesSurfaces;
+}
+
 }  // namespace
 
 Result<std::string> exportState(const session::State& state, const exports::ExportRequest& request,
-                                const exports::Limits& limits, std::stop_token stop) {
+                                const exports::ExportLimits& limits, std::stop_token stop) {
     auto planes = state.hyperplanes();
     if (request.extent != exports::Extent::oval) planes = {state.slices.focus, 1, planes.spacing, planes.offset};
-    slicing::SliceSet slices;
-    slicing::Slicer().slice(state.object, state.orientation, planes, slices);
     const bool drawing = request.format->writeDrawing != nullptr;
+    const bool isField = slicing::fieldIn(state.object) != nullptr;
+    slicing::SliceSet slices;
+    slicing::SurfaceDetail detail;
+    if (isField && needsSurfaces(request)) {
+        slicing::setEvenDetail(slicing::infoOf(state.object).circumradius, planes, slicing::Quality::file, detail);
+        detail.secondValues = true;
+    }
+    slicing::Slicer().slice(state.object, state.orientation, planes, state.look.field, detail, slices);
     if (request.extent == exports::Extent::projection && !drawing) slices = projectionOf(state, slices);
     scene::Look look;
     if (drawing) {
@@ -71,12 +85,13 @@ Result<std::string> exportState(const session::State& state, const exports::Expo
             look.projection.kind = scene::ProjectionKind::perspective;
     }
     look.coloring = state.look.coloring;
-    look.parts.coordinates = false;          // drawings have their own layout of the coordinates
-    if (!drawing) look.parts.faces = false;  // formats with bodies fill faces themselves
+    look.parts.coordinates = false;  // drawings have their own layout of the coordinates
+    look.field = state.look.field;
+    if (!drawing) look.parts.faces = isField;  // formats with bodies fill the faces of polytopes themselves
     scene::Scene scene;
     scene::Composer composer;
     composer.compose(state.object, state.orientation, slices, state.slices.focus, look, {}, scene);
-    auto made = exports::exportScene(scene, state.object, request, limits, std::move(stop));
+    auto made = exports::exportScene(scene, state.object, state.orientation, request, limits, std::move(stop));
     if (auto* error = std::get_if<exports::ExportError>(&made)) {
         using Cause = exports::ExportError::Cause;
         const ErrorCode code = error->cause == Cause::no_body   ? ErrorCode::no_body
@@ -87,10 +102,10 @@ Result<std::string> exportState(const session::State& state, const exports::Expo
     return std::get<std::string>(std::move(made));
 }
 
-Result<exports::ExportRequest> takeExportRequest(session::Query& query, const exports::Format& format) {
+Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format) {
     exports::ExportRequest request;
     request.format = &format;
-    session::Query rest;
+    session::QueryParameters rest;
     for (auto& [name, value] : query) {
         Result<std::monostate> done = std::monostate{};
         if (name == "of") {
@@ -113,7 +128,7 @@ Result<exports::ExportRequest> takeExportRequest(session::Query& query, const ex
 std::string fileName(const session::State& state, const exports::ExportRequest& request) {
     std::string name;
     for (const char c : slicing::infoOf(state.object).name) {
-        const bool plain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-';
+        const bool plain = text::isDigit(c) || text::isLetter(c) || c == '-';
         name += plain ? c : '_';
     }
     return name + "." + request.format->name;

@@ -7,12 +7,12 @@
 
 namespace oval4d::pipeline {
 
-/// Names the section of a state's focus hyperplane, which `state` messages contain. Reuses its memory. May be used by
-/// one thread at a time.
+/// Names the section in which a state's focus hyperplane cuts the object, for `state` messages. Reuses memory between
+/// calls. May be used by one thread at a time.
 class FocusSectionNamer {
   public:
-    /// Slices the object at the focus and names the slice. The names are valid until the process ends. Takes about as
-    /// long as one slice of a picture.
+    /// Slices the object at the focus and names the slice. The names are valid until the process ends. Takes at most
+    /// about as long as one slice of a picture.
     slicing::SectionNames names(const session::State& state);
 
   private:

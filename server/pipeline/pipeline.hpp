@@ -21,8 +21,8 @@
 
 namespace oval4d::pipeline {
 
-/// The seconds that each step of a picture took; 0 for a step that was not run. In addition to the steps of
-/// raster::DrawTimes, these are writing a `slices` message, and encoding a PNG file.
+/// The seconds that each step of a picture took; 0 for a step that was not run. Adds two steps to those of
+/// raster::DrawTimes: `write` for a `slices` message, and `encode` for a PNG file.
 struct PictureTimes : raster::DrawTimes {
     double write = 0, encode = 0;
 };
@@ -35,9 +35,9 @@ class Pipeline {
     /// The default of the parameter `fillSteps` of the constructor.
     static constexpr std::size_t kFillSteps = 20'000'000;
 
-    /// `rasterizer` draws the frames. `forkJoin` processes large objects and pictures on two cores; if it is null, they
-    /// are processed on one. `fillSteps` limits the time for filling self-intersecting faces in messages (see
-    /// slicing::Filler::fill).
+    /// `rasterizer` draws the frames. `forkJoin` lets large objects and pictures be processed on two cores; if it is
+    /// null, one core is used. `fillSteps` limits the time for filling self-intersecting faces in messages (see
+    /// slicing::Filler::fill()).
     Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin,
              std::size_t fillSteps = kFillSteps);
 
@@ -45,15 +45,16 @@ class Pipeline {
     slicing::SectionNames nameFocusSection(const session::State& state);
 
     /// Slices the state's object. Overwrites `out` and reuses its memory.
-    void slice(const session::State& state, slicing::SliceSet& out);
+    void slice(const session::State& state, slicing::Quality quality, slicing::SliceSet& out);
 
-    /// Writes the `slices` message of `slices`, which must have been cut from this state. `id` is the id of the request
-    /// that the message answers; empty if there is none. Overwrites `out`.
+    /// Writes the `slices` message of `slices`, which must have been cut from this state in this quality. `id` is the
+    /// id of the request that the message answers; empty if there is none. Overwrites `out`.
     void writeSlices(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
-                     std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding, std::string& out);
+                     std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding, std::string& out,
+                     slicing::Quality quality = slicing::Quality::full);
 
-    /// Returns the `at` message: what the picture of `slices`, which must have been cut from this state, shows at a
-    /// point (see scene::pickElement).
+    /// Returns the `at` message, which says what the picture shows at `point` (see scene::pickElement()). `slices` must
+    /// have been cut from this state.
     std::string describePoint(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
                               std::optional<double> id, scene::Viewport viewport, glm::dvec2 point);
 
@@ -61,9 +62,9 @@ class Pipeline {
     /// chunk. Overwrites `out`. Calls `drawn`, if given, between drawing and encoding. Throws std::runtime_error if the
     /// picture cannot be drawn, most likely because no GL context can be created.
     void drawPng(const session::State& state, std::string_view stateText, scene::Viewport viewport,
-                 std::vector<std::uint8_t>& out, const std::function<void()>& drawn = {});
+                 slicing::Quality quality, std::vector<std::uint8_t>& out, const std::function<void()>& drawn = {});
 
-    /// Prepares for drawing, so that the first frame takes no longer than later ones (see Rasterizer::warmUp).
+    /// Prepares for drawing, so that the first frame takes no longer than later ones (see Rasterizer::warmUp()).
     void warmUp() { rasterizer_->warmUp(); }
 
     /// Frees cached memory, which otherwise keeps the size that the largest picture needed. Call this when the pipeline
@@ -75,10 +76,11 @@ class Pipeline {
     const PictureTimes& times() const { return times_; }
 
   private:
-    /// Memory that the next call reuses.
+    // Memory that the next call reuses.
     struct Memory {
         explicit Memory(parallel::ForkJoin* forkJoin) : slicer(forkJoin), encoder(forkJoin) {}
         slicing::Slicer slicer;
+        slicing::SurfaceDetail detail;
         FocusSectionNamer sectionNamer;
         scene::Composer composer;
         scene::Scene scene;
@@ -91,7 +93,7 @@ class Pipeline {
     const std::size_t fillSteps_;
     Memory memory_;
     PictureTimes times_;
-    parallel::OneAtATime inUse_;
+    parallel::ExclusiveUse inUse_;
 };
 
 }  // namespace oval4d::pipeline

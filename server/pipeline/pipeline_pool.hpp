@@ -20,18 +20,18 @@ class PipelinePool {
 
     struct Options {
         std::size_t threads = 1;                       ///< number of workers
-        parallel::WorkerPool::Limits limits = {};      ///< on the numbers of waiting jobs
+        parallel::WorkerPool::Limits limits = {};      ///< maximum numbers of waiting jobs
         std::size_t fillSteps = Pipeline::kFillSteps;  ///< see the constructor of Pipeline
-        /// Called once by each worker, to make the rasterizer of its pipeline. `stop`: see WorkerPool::stopToken.
+        /// Called once by each worker, to make the rasterizer of its pipeline. `stop`: see WorkerPool::stopToken().
         std::function<std::unique_ptr<raster::Rasterizer>(std::stop_token stop)> makeRasterizer;
         Job onThreadStart = [](Pipeline&) {};  ///< run once by each worker before any other job
     };
 
-    /// The pipelines use `forkJoin`. Idle workers free their memory, and return it to the system with `heap`. Both must
-    /// outlive the pool.
+    /// The pipelines use `forkJoin`. Idle workers free their memory, and return it to the system with `heap`.
+    /// `forkJoin` and `heap` must outlive the pool.
     PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::Heap& heap);
 
-    /// See WorkerPool::post.
+    /// See WorkerPool::post().
     [[nodiscard]] bool post(Job job, parallel::WorkerPool::LanePtr lane, parallel::WorkerPool::Seconds cost);
 
     const parallel::WorkerPool& workers() const { return workers_; }

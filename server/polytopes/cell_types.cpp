@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "polytopes/cell_shapes.hpp"
 #include "polytopes/construction/polyhedra.hpp"
 
 namespace oval4d::polytopes {
@@ -193,6 +194,7 @@ std::string nameOfCell(const Polytope& p, std::uint32_t cell) {
         for (const std::uint32_t f : faces) ++shape.faces[polygonOf(p, p.faces[f])];
         if (std::string name = nameOf(shape, kRegularityTolerance); !name.empty()) return name;
     }
+    if (std::string name = nameOfIrregularCell(p, cell); !name.empty()) return name;
     return "cell of " + std::to_string(faces.size()) + " faces";
 }
 

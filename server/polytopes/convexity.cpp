@@ -90,8 +90,8 @@ class ConvexityTest {
         return foot;
     }
 
-    // Applies the test of isConvex to each cell within its hyperplane: no edge may be reentrant, and the 2-faces around
-    // each vertex must make one full turn, seen from the mean of the cell's corners.
+    // Applies the test of isConvex() to each cell within its hyperplane: no edge may be reentrant, and the 2-faces
+    // around each vertex must make one full turn, seen from the mean of the cell's corners.
     bool cellsAreConvex() {
         std::vector<glm::dvec4> feet(p_.faces.size()), centers(p_.faces.size());
         std::vector<std::uint32_t> first(p_.edges.size());

@@ -6,8 +6,8 @@
 namespace oval4d::polytopes {
 
 /// Returns whether `polytope` is the boundary of a convex body. Neighboring cells may lie in the same hyperplane. The
-/// test has three parts: all 2-faces and cells must be convex; no 2-face may be reentrant (have an inner dihedral angle
-/// of more than 180°); and the cells, seen from the mean of the vertices, must cover the sphere of directions exactly
+/// boundary must be connected; all 2-faces and cells must be convex; the inner dihedral angle at each 2-face must be at
+/// most 180°; and the central projection of the cells from the mean of the vertices must cover the unit sphere exactly
 /// once. Takes time linear in the number of incidences (pairs of a cell and a 2-face, and of a 2-face and an edge).
 bool isConvex(const Polytope& polytope);
 

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "geometry/index.hpp"
 #include "polytopes/cell_types.hpp"
 #include "polytopes/convexity.hpp"
 
@@ -18,7 +19,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffU;
+using geometry::kNone;
 
 using Part = InvalidPolytope::Part;
 
@@ -79,7 +80,7 @@ class Orienter {
     }
 
   private:
-    // An edge of a 2-face of the current cell, with the direction (see directionOf) of the 2-face's loop along it.
+    // An edge of a 2-face of the current cell, with the direction (see directionOf()) of the 2-face's loop along it.
     struct Side {
         std::uint32_t edge, incidence;
         int direction;
@@ -312,6 +313,14 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, geomet
     numberCellTypes(p, typeOfCell.empty() ? cellTypesByShape(p) : std::move(typeOfCell));
     p.convex = isConvex(p);
     return p;
+}
+
+Polytope imageOf(const Polytope& polytope, const geometry::ReferenceFrame& frame, std::uint64_t serial) {
+    Polytope image = polytope;
+    image.serial = serial;
+    image.rebuildableFromName = false;
+    image.circumradius = geometry::mapPoints(frame.matrix(), image.vertices);
+    return image;
 }
 
 std::size_t memoryOf(const Polytope& p) {

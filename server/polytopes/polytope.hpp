@@ -13,29 +13,33 @@
 
 #include "geometry/jagged_array.hpp"
 #include "geometry/object_info.hpp"
+#include "geometry/reference_frame.hpp"
 
 namespace oval4d::polytopes {
 
 using geometry::CellType;
 
-/// A 4-D polytope: its vertices, edges, 2-faces and cells. Made by makePolytope, and not changed once it is in use.
-/// Indices are 0-based and have 32 bits.
+/// A 4-D polytope: its vertices, edges, 2-faces and cells. makePolytope() builds it. Threads and sessions share it as a
+/// const object. Indices are 0-based and have 32 bits.
 struct Polytope : geometry::ObjectInfo {
-    std::vector<glm::dvec4> vertices;                 ///< polytopes built from names are centered at the origin
+    std::vector<glm::dvec4> vertices;                 ///< in arbitrary units; if the polytope was built from a name,
+                                                      ///< its center is the origin
     std::vector<std::array<std::uint32_t, 2>> edges;  ///< pairs of vertices, the smaller index first
     geometry::JaggedArray faces;                      ///< the vertex loop of each 2-face
     geometry::JaggedArray faceEdges;                  ///< the edges of each 2-face; edge i joins the vertices
                                                       ///< i and i + 1 of its loop
-    geometry::JaggedArray edgeFaces;                  ///< the 2-faces around each edge, in cyclic order: 2-face f is
+    geometry::JaggedArray edgeFaces;                  ///< the 2-faces around each edge, in cyclic order (several
+                                                      ///< cycles are stored one after another): 2-face f is
                                                       ///< stored as 2 f + 1 if its vertex loop traverses the edge
                                                       ///< from the edge's first vertex to its second, else as 2 f.
-                                                      ///< The cell between an entry s and the next entry is
-                                                      ///< faceCells[s / 2][1 − s mod 2]
+                                                      ///< The cell between an entry s and the next entry of its
+                                                      ///< cycle is faceCells[s / 2][1 − s mod 2]
     geometry::JaggedArray cells;                      ///< the 2-faces of each cell
     std::vector<std::int8_t> cellSigns;               ///< parallel to cells.items: +1 if the vertex loop of the 2-face
                                                       ///< is counterclockwise seen from outside the cell, else −1;
                                                       ///< a 2-face has opposite signs in its two cells
-    std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face; its sign is −1 in the first
+    std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face: first the cell in which the
+                                                          ///< sign of the 2-face is −1
     std::vector<std::uint32_t> typeOfCell;                ///< the type of each cell, an index into `cellTypes`
     bool convexFaces = true;                              ///< whether every 2-face is a convex polygon
 
@@ -46,30 +50,38 @@ struct Polytope : geometry::ObjectInfo {
 /// of the position of the polytope.
 double extentOf(const Polytope& polytope);
 
-/// Thrown by makePolytope for elements that do not form a valid polytope; identifies the invalid element.
+/// Thrown by makePolytope() for elements that do not form a valid polytope; identifies the invalid element.
 class InvalidPolytope : public std::invalid_argument {
   public:
     enum class Part : std::uint8_t { whole, face, cell };
 
-    /// `fault` completes a sentence that begins with the element, such as "does not lie in two cells"; what() returns
-    /// the sentence.
+    /// `number` is the index of the 2-face or cell; 0 for the whole polytope. `fault` says what is wrong and does not
+    /// name the element: "does not lie in two cells". what() returns "2-face 7 does not lie in two cells".
     InvalidPolytope(Part element, std::size_t number, const std::string& fault);
 
     Part part;
-    std::size_t index;   ///< of the 2-face or cell; 0 for the whole polytope
-    std::string detail;  ///< `fault`, without the element's name
+    std::size_t index;   ///< the constructor's `number`
+    std::string detail;  ///< the constructor's `fault`
 };
 
-/// Builds a polytope with its edges, incidences and orientation from vertices, 2-faces (vertex loops) and cells (lists
-/// of 2-faces). Throws InvalidPolytope if a cell is not a closed orientable surface, if a 2-face does not lie in
-/// exactly two cells, or if the boundary is not orientable. Also throws it if an index is out of range, if a coordinate
-/// is not finite, or if all vertices are at the origin. `typeOfCell` holds an arbitrary number for each cell; cells of
-/// the same type have the same number. If it is empty, cells of the same shape have the same type. numberCellTypes
-/// numbers the types of the result.
+/// Builds a polytope from vertices, 2-faces (vertex loops) and cells (lists of 2-faces); computes its edges, incidences
+/// and orientation. `typeOfCell` holds an arbitrary number for each cell; cells of the same type have the same number.
+/// If it is empty, cells of the same shape have the same type. The types of the result are numbered by
+/// numberCellTypes().
+///
+/// Throws InvalidPolytope if a cell is not a connected closed orientable surface, if a 2-face does not lie in exactly
+/// two cells, or if the boundary is not orientable. Also throws it if there are no cells, if a 2-face has fewer than 3
+/// vertices or a cell fewer than 4 2-faces, if two neighboring vertices of a loop are equal, if an index is out of
+/// range, if a coordinate is not finite, or if all vertices are at the origin.
 Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, geometry::JaggedArray faces,
                       geometry::JaggedArray cells, std::vector<std::uint32_t> typeOfCell = {});
 
-/// Returns the memory used by a polytope in bytes, not counting names.
+/// Returns the image of the polytope under the linear map of `frame`, with the serial number `serial`. The map changes
+/// neither the incidences nor convexity, and preserves the orientation because its determinant is positive. The image
+/// has the name and the cell types of `polytope`.
+Polytope imageOf(const Polytope& polytope, const geometry::ReferenceFrame& frame, std::uint64_t serial);
+
+/// Returns the memory that the polytope occupies, in bytes, without its names.
 std::size_t memoryOf(const Polytope& polytope);
 
 }  // namespace oval4d::polytopes

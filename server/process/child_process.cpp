@@ -55,8 +55,8 @@ class Environment {
     throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(error));
 }
 
-// The time that a process has to exit after its channel was closed; after that, it is killed. Also the longest wait for
-// the end of a killed process, which a debugger, for example, may delay.
+// The time that a process has to exit after its channel was closed; after that, it is killed. Also the maximum time to
+// wait for the end of a killed process, which may be delayed, for example by a debugger.
 constexpr auto kExitTimeout = 1s;
 
 /// Waits for a process to exit; returns false after kExitTimeout.

@@ -31,7 +31,7 @@ struct ProcessLoss {
 struct ChildOptions {
     std::string command;                    ///< the subcommand of this program that the child runs
     std::vector<std::string> environment;   ///< "NAME=value"; a variable that the child inherits takes precedence
-    std::chrono::duration<double> timeout;  ///< the child has hung if its start or a conversation takes longer
+    std::chrono::duration<double> timeout;  ///< a child that takes longer to start or to converse has hung
     bool repeatAfterHang = true;  ///< whether a conversation in which the child hung is repeated with a new child
     std::function<void(const ProcessLoss&)> onLoss;  ///< called when a child is lost, on any thread
     int niceness = 0;                                ///< nice value of the child: 0 (normal) to 19 (lowest priority)

@@ -164,11 +164,12 @@ void limit(decltype(RLIMIT_AS) resource, rlim_t most) {
     setrlimit(resource, &now);
 }
 
-/// Returns the address space in use, in bytes.
-std::size_t addressSpace() {
-    std::size_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+/// Returns the private writable memory in use, in bytes: what RLIMIT_DATA limits, and the stack.
+std::size_t dataInUse() {
+    std::array<std::size_t, 6> pages{};  // size, resident, shared, text, lib, data
+    std::ifstream statm("/proc/self/statm");
+    for (std::size_t& each : pages) statm >> each;
+    return pages.back() * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
 /// Returns whether a filter can be set on this system; if not, sets `why` to the reason.
@@ -204,15 +205,20 @@ void filterSystemCalls(Role role) {
     // A filter cannot inspect the arguments of clone3, because they are in memory. After ENOSYS, the C library uses
     // clone instead.
     filter.add(SCMP_ACT_ERRNO(ENOSYS), "clone3", {});
+    // Shared memory without a file would not count as memory of the process.
+    constexpr auto kNotTogether = std::to_array<std::uint64_t>({MAP_SHARED, MAP_ANONYMOUS});
     if (role == Role::draw) {
-        for (const char* name : {"mmap", "mprotect", "mremap"}) filter.add(SCMP_ACT_ALLOW, name, {});
+        for (const char* name : {"mprotect", "mremap"}) filter.add(SCMP_ACT_ALLOW, name, {});
+        for (const std::uint64_t flag : kNotTogether) filter.add(SCMP_ACT_ALLOW, "mmap", {hasNone(3, flag)});
         filter.add(SCMP_ACT_ALLOW, kThreadCalls);
         constexpr std::uint64_t kThread = CLONE_VM | CLONE_SIGHAND | CLONE_THREAD;
         filter.add(SCMP_ACT_ALLOW, "clone", {hasAll(0, kThread)});
         filter.add(SCMP_ACT_ALLOW, "prctl", {is(0, PR_SET_NAME)});
     } else {
         filter.add(SCMP_ACT_ALLOW, "mremap", {});
-        for (const char* name : {"mmap", "mprotect"}) filter.add(SCMP_ACT_ALLOW, name, {hasNone(2, PROT_EXEC)});
+        filter.add(SCMP_ACT_ALLOW, "mprotect", {hasNone(2, PROT_EXEC)});
+        for (const std::uint64_t flag : kNotTogether)
+            filter.add(SCMP_ACT_ALLOW, "mmap", {hasNone(2, PROT_EXEC), hasNone(3, flag)});
     }
     filter.add(SCMP_ACT_KILL_PROCESS, kIntruderCalls);
     filter.load();
@@ -222,7 +228,8 @@ void filterSystemCalls(Role role) {
 void limitResources(const Confinement& limits) {
     limit(RLIMIT_CORE, 0);
     if (kSanitized) return;
-    if (limits.memory > 0) limit(RLIMIT_AS, addressSpace() + limits.memory);
+    // Mapped files do not count, because they may be larger than the memory.
+    if (limits.memory > 0) limit(RLIMIT_DATA, dataInUse() + limits.memory);
     if (limits.files > 0) limit(RLIMIT_NOFILE, limits.files);
 }
 

@@ -27,14 +27,15 @@ bool shouldSandbox(SandboxMode wanted, std::string& why);
 /// memory, read the clock, wait, write to standard error (the log), use its channel (kChildSocket), and exit. No child
 /// may open, create, find or change files, use the network, start programs, or access other processes.
 enum class Role : std::uint8_t {
-    draw,  ///< draws pictures; may also start threads, and execute code that the process has compiled
+    draw,  ///< draws pictures; may also start threads, and execute code that it compiles at run time
     read,  ///< parses files that it receives over its channel; may do nothing more
 };
 
 /// The restrictions that a child process applies to itself.
 struct Confinement {
     bool filtered = false;  ///< whether to allow only the system calls that the role needs
-    /// Maximum bytes of address space beyond those already in use; 0: no limit. Ignored in builds with a sanitizer.
+    /// Maximum bytes of private memory beyond those already in use, touched or not; 0: no limit. Mapped files do not
+    /// count. Ignored in builds with a sanitizer.
     std::size_t memory = 0;
     /// Maximum number of open file descriptors, including those already open; 0: no limit. Ignored in builds with a
     /// sanitizer.

@@ -1,6 +1,6 @@
 #pragma once
-// The data files of protocol/ (keymap.json, errors.json, export_formats.json, schema/*.json), compiled into the
-// program.
+// The data files of protocol/ (keymap.json, errors.json, fields.json, export_formats.json, schema/*.json), compiled
+// into the program.
 
 #include <string_view>
 

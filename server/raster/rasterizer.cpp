@@ -3,23 +3,27 @@
 namespace oval4d::raster {
 
 void LocalRasterizer::warmUp() {
-    if (!renderer_) renderer_.emplace();
+    if (!renderer_) renderer_.emplace(render::fontFile(), render::ShapeDrawing::fastest, forkJoin_);
 }
 
 std::span<const std::uint8_t> LocalRasterizer::draw(const session::State& state, scene::Viewport viewport,
-                                                    DrawTimes& times) {
+                                                    slicing::Quality quality, DrawTimes& times) {
     memory_.pixels.resize(image::byteCount(viewport));
-    draw(state, viewport, memory_.pixels, times);
+    draw(state, viewport, quality, memory_.pixels, times);
     return memory_.pixels;
 }
 
-void LocalRasterizer::draw(const session::State& state, scene::Viewport viewport, std::span<std::uint8_t> pixels,
-                           DrawTimes& times) {
+void LocalRasterizer::draw(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
+                           std::span<std::uint8_t> pixels, DrawTimes& times) {
     warmUp();
     Memory& m = memory_;
     m.composer.limitFill(fillSteps_);
-    times.slice =
-        measureSeconds([&] { m.slicer.slice(state.object, state.orientation, state.hyperplanes(), m.slices); });
+    times.slice = measureSeconds([&] {
+        const geometry::Hyperplanes planes = state.hyperplanes();
+        m.composer.chooseDetail(state.object, planes, state.slices.focus, state.look, viewport, quality, m.scene,
+                                m.detail);
+        m.slicer.slice(state.object, state.orientation, planes, state.look.field, m.detail, m.slices);
+    });
     times.compose = measureSeconds([&] {
         m.composer.compose(state.object, state.orientation, m.slices, state.slices.focus, state.look, viewport,
                            m.scene);

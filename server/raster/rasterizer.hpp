@@ -15,54 +15,58 @@
 
 namespace oval4d::raster {
 
-/// The seconds that each step of drawing one picture took: slicing the object, composing the scene, and rendering it.
+/// The seconds that each step of drawing a picture took: slicing the object, composing the scene, and rendering it.
 struct DrawTimes {
     double slice = 0, compose = 0, draw = 0;
 };
 
-/// Draws pictures of session states, in this process or in another one. A rasterizer may be used by one thread at a
-/// time.
+/// Draws pictures of session states, in this process or in another one. Only one thread at a time may use a rasterizer.
 class Rasterizer {
   public:
     virtual ~Rasterizer() = default;
 
-    /// Prepares for drawing, so that the first picture takes no longer than later ones. Returns when all is ready.
-    /// Throws std::runtime_error if pictures cannot be drawn.
+    /// Prepares for drawing, so that the first picture takes no longer than later ones. Returns when everything is
+    /// ready. Throws std::runtime_error if pictures cannot be drawn.
     virtual void warmUp() = 0;
 
-    /// Draws the picture of `state`, sets `times`, and returns the pixels in the format of image::Image, which are
-    /// valid until the next call. Throws std::runtime_error if drawing fails.
+    /// Draws the picture of `state` and sets `times`. Returns the pixels, with the layout of image::Image, which are
+    /// valid until the next call of draw() or freeMemory(). Throws std::runtime_error if drawing fails.
     virtual std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport,
-                                               DrawTimes& times) = 0;
+                                               slicing::Quality quality, DrawTimes& times) = 0;
 
-    /// Frees cached memory.
+    /// Frees the memory that is kept for the next picture.
     virtual void freeMemory() = 0;
 };
 
-/// A rasterizer that draws in this process. The first call of warmUp() or draw() creates the GL context, which is bound
-/// to the calling thread.
+/// A rasterizer that draws in this process. The first call of warmUp() or draw() creates the GL context. From then on,
+/// only the thread that made this call may use and destroy the rasterizer.
 class LocalRasterizer : public Rasterizer {
   public:
+    /// If `forkJoin` is not null, slices and draws on two cores. `forkJoin` must outlive this object.
     explicit LocalRasterizer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), memory_(forkJoin) {}
 
-    /// Limits the time for filling self-intersecting faces in one picture. `steps`: see slicing::Filler::fill.
+    /// Limits the time for filling self-intersecting faces in each picture to `steps` steps (see
+    /// slicing::Filler::fill()).
     void limitFill(std::size_t steps) { fillSteps_ = steps; }
 
     void warmUp() override;
-    std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport,
+    std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
                                        DrawTimes& times) override;
-    /// Frees the memory that is reused from picture to picture. Keeps the GL context, the shader programs, and the font
+    /// Frees the memory that is kept for the next picture, except the GL context, the shader programs, and the font
     /// with its glyphs.
     void freeMemory() override;
 
-    /// Draws into `pixels`, whose size must match the viewport.
-    void draw(const session::State& state, scene::Viewport viewport, std::span<std::uint8_t> pixels, DrawTimes& times);
+    /// Draws into `pixels`. Throws std::invalid_argument if `pixels` does not have the size of the viewport (see
+    /// image::byteCount()).
+    void draw(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
+              std::span<std::uint8_t> pixels, DrawTimes& times);
 
   private:
-    /// Memory that the next picture reuses.
+    // The memory that is kept for the next picture.
     struct Memory {
         explicit Memory(parallel::ForkJoin* forkJoin) : slicer(forkJoin) {}
         slicing::Slicer slicer;
+        slicing::SurfaceDetail detail;
         slicing::SliceSet slices;
         scene::Composer composer;
         scene::Scene scene;
@@ -75,7 +79,7 @@ class LocalRasterizer : public Rasterizer {
     Memory memory_;
 };
 
-/// Runs `work` and returns the seconds that it took. This is a template because a std::function would allocate memory.
+/// Runs `work` and returns how many seconds it took. A template, because a std::function would allocate memory.
 template <typename Work>
 double measureSeconds(Work&& work) {
     const auto start = std::chrono::steady_clock::now();

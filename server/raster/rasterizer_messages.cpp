@@ -13,29 +13,32 @@ namespace {
 // added to Look but not here.
 template <typename Archive, typename Look>
 void visitLook(Archive& archive, Look& look) {
-    auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint] = look;
+    auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint, field, caps] = look;
     auto& [hidden, faded] = cellTypes;
     archive(view), archive(parts), archive(orbit), archive(coloring), archive(hidden), archive(faded);
     archive(projection), archive(highlight), archive(focusPoint);
+    auto& [levels, inside, fog] = field;
+    archive(levels), archive(inside), archive(fog), archive(caps);
 }
 
 }  // namespace
 
-void encodeRequest(const session::State& state, scene::Viewport viewport, const RasterizerLimits& limits,
-                   std::string& out) {
+void encodeRequest(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
+                   const RasterizerLimits& limits, std::string& out) {
     out.clear();
     serialization::ByteWriter archive(out);
-    archive(slicing::infoOf(state.object).serial), archive(state.orientation.left());
-    archive(state.orientation.right()), archive(state.slices), visitLook(archive, state.look);
-    archive(viewport), archive(limits);
+    archive(slicing::infoOf(state.source).serial), archive(slicing::infoOf(state.object).serial);
+    archive(state.referenceFrame), archive(state.orientation.left()), archive(state.orientation.right());
+    archive(state.slices), visitLook(archive, state.look);
+    archive(viewport), archive(quality), archive(limits);
 }
 
 void decodeRequest(std::string_view bytes, DrawRequest& out) {
     serialization::ByteReader archive(bytes);
     glm::dquat left, right;
-    archive(out.object), archive(left), archive(right);
+    archive(out.source), archive(out.object), archive(out.state.referenceFrame), archive(left), archive(right);
     archive(out.state.slices), visitLook(archive, out.state.look);
-    archive(out.viewport), archive(out.limits);
+    archive(out.viewport), archive(out.quality), archive(out.limits);
     const auto orientation = geometry::Rotation::fromQuaternions(left, right);
     if (!orientation) throw std::runtime_error("a draw request contains an invalid rotation");
     out.state.orientation = *orientation;

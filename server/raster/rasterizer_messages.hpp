@@ -8,27 +8,35 @@
 
 #include "scene/scene.hpp"
 #include "session/session.hpp"
+#include "slicing/surface_detail.hpp"
 
 namespace oval4d::raster {
 
 /// Limits on the work and memory of a rasterizer process.
 struct RasterizerLimits {
-    std::size_t fillSteps = 0;    ///< maximum number of steps in one picture: see slicing::Filler::fill
-    std::size_t objectBytes = 0;  ///< maximum size of the object cache; the last object is always cached
+    std::size_t fillSteps = 0;    ///< the maximum number of steps in one picture; see slicing::Filler::fill()
+    std::size_t objectBytes = 0;  ///< the maximum size of the object cache; the latest object is always kept
 };
 
 /// The request for one picture.
 struct DrawRequest {
-    std::uint64_t object = 0;  ///< serial number of the object, which is sent only if the process lacks it
-    session::State state;      ///< only the members that affect pictures are sent, and not the object
+    /// The serial number of State::source. The object itself is sent in another message, and only if the process does
+    /// not have it.
+    std::uint64_t source = 0;
+    /// The serial number of State::object, which the process derives from the source and the frame of reference.
+    std::uint64_t object = 0;
+    /// Of its members, only those that affect pictures are sent. The objects are not part of the message.
+    session::State state;
     scene::Viewport viewport;
+    slicing::Quality quality = slicing::Quality::full;
     RasterizerLimits limits;
 };
 
 /// Encodes a draw request. Overwrites `out`.
-void encodeRequest(const session::State& state, scene::Viewport viewport, const RasterizerLimits& limits,
-                   std::string& out);
-/// Decodes a draw request into `out`. Throws std::runtime_error if bytes are missing or the orientation is invalid.
+void encodeRequest(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
+                   const RasterizerLimits& limits, std::string& out);
+/// Decodes a draw request. Overwrites the members of `out` that are sent. Throws std::runtime_error if bytes are
+/// missing or damaged, or if the orientation is not a rotation.
 void decodeRequest(std::string_view bytes, DrawRequest& out);
 
 }  // namespace oval4d::raster

@@ -44,7 +44,12 @@ TransferResult RasterizerProcess::receiveAnswer(const session::State& state, con
         if (answer_ != MessageType::object_missing || sent)
             throw std::runtime_error("a rasterizer process sent an unexpected message");
         std::string object;  // not a member that keeps its memory, because it is large and rarely needed
-        slicing::encodeObject(state.object, object);
+        slicing::MappedFiles files;
+        slicing::encodeObject(state.source, object, files);
+        for (const auto& file : files) {
+            transfer = channel.send(MessageType::file_part, {}, file->descriptor(), deadline);
+            if (transfer != TransferResult::complete) return transfer;
+        }
         transfer = channel.send(MessageType::object, object, Channel::kNoFile, deadline);
         if (transfer != TransferResult::complete) return transfer;
     }
@@ -55,9 +60,9 @@ void RasterizerProcess::warmUp(const std::stop_token& stop) {
 }
 
 std::span<const std::uint8_t> RasterizerProcess::draw(const session::State& state, scene::Viewport viewport,
-                                                      SharedPixels& pixels, DrawTimes& times,
+                                                      slicing::Quality quality, SharedPixels& pixels, DrawTimes& times,
                                                       const std::stop_token& stop) {
-    encodeRequest(state, viewport, limits_, request_);
+    encodeRequest(state, viewport, quality, limits_, request_);
     const auto drawn = pixels.resize(image::byteCount(viewport));
     process_.converse(
         [&](const Channel& channel, const Deadline& deadline) {

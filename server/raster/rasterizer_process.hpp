@@ -16,35 +16,40 @@
 
 namespace oval4d::raster {
 
-/// Options of rasterizer processes.
+/// The options of rasterizer processes.
 struct RasterizerOptions {
     RasterizerLimits limits;
-    /// The time allowed for starting the process, and for drawing a picture. A process that takes longer counts as
-    /// hung.
+    /// The maximum time for starting a process, and for drawing a picture. A process that takes longer is killed and
+    /// counts as lost.
     std::chrono::duration<double> timeout;
-    std::function<void(const process::ProcessLoss&)> onLoss;  ///< called on any thread
-    std::vector<std::string> environment;                     ///< see process::ChildOptions
+    /// Called when a process is lost, by the thread that waits for it.
+    std::function<void(const process::ProcessLoss&)> onLoss;
+    std::vector<std::string> environment;  ///< "NAME=value"; see process::ChildOptions
 };
 
-/// A child process that draws pictures for the server. There are two reasons for separate processes. The server
-/// survives a crash of the OpenGL driver. Each process has its own threads of the software rasterizer llvmpipe; all GL
-/// contexts in one process would share them. May be used by one thread at a time. Functions that wait throw the same
-/// exceptions as process::ChildProcess::converse.
+/// A child process that draws pictures for the server. A separate process has two advantages: the server survives a
+/// crash of the OpenGL driver, and the process has its own threads of the software rasterizer llvmpipe, which all GL
+/// contexts of one process share. If the process dies or hangs, a new one replaces it and repeats the task.
+///
+/// Only one thread at a time may use an object. warmUp() and draw() throw process::Canceled if a stop is requested
+/// through `stop`, process::ProcessLost if the replacement is lost, too, and std::runtime_error if a process cannot be
+/// started or reports an error.
 class RasterizerProcess {
   public:
-    /// `threads` is the number of llvmpipe's threads; 0: the main thread of the process does all the drawing.
+    /// `threads` is the number of threads of llvmpipe. If it is 0, the main thread of the process does all the drawing.
     RasterizerProcess(int threads, const RasterizerOptions& options);
 
-    /// Starts the process if it is not running, without waiting until it is ready. Throws std::runtime_error if it
-    /// cannot be started.
+    /// Starts the process if it is not running. Does not wait until it is ready. Throws std::runtime_error if it cannot
+    /// be started.
     void start() { process_.start(); }
 
-    /// Starts the process if it is not running, and waits until it is ready to draw, with its shaders compiled.
+    /// Starts the process if it is not running, and waits until it is ready to draw and has compiled its shaders.
     void warmUp(const std::stop_token& stop);
 
-    /// Like Rasterizer::draw, but draws into the memory of `pixels`, which is resized if necessary.
-    std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, SharedPixels& pixels,
-                                       DrawTimes& times, const std::stop_token& stop);
+    /// Like Rasterizer::draw(), but draws into `pixels`, which is resized if necessary. The result is valid until
+    /// `pixels` is resized again.
+    std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
+                                       SharedPixels& pixels, DrawTimes& times, const std::stop_token& stop);
 
   private:
     // Receives the answer to a request. Sends the object first if the process asks for it.

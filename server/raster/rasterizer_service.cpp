@@ -24,28 +24,37 @@ using process::TransferResult;
 
 namespace {
 
-/// A cache of the most recently drawn objects, the latest first.
+/// A cache of the most recently drawn objects, the latest first, each with its image in the frame of reference in which
+/// it was drawn last.
 class RecentObjects {
   public:
-    const slicing::Object* find(std::uint64_t serial) {
-        const auto found =
-            std::ranges::find(kept_, serial, [](const Kept& kept) { return slicing::infoOf(kept.object).serial; });
+    /// Returns the image that the request describes; null if its source is not in the cache.
+    const slicing::Object* find(const DrawRequest& request) {
+        const auto found = std::ranges::find(kept_, request.source,
+                                             [](const Kept& kept) { return slicing::infoOf(kept.source).serial; });
         if (found == kept_.end()) return nullptr;
         kept_.splice(kept_.begin(), kept_, found);
-        return &found->object;
+        if (slicing::infoOf(found->image).serial != request.object) {
+            found->image = slicing::imageOf(found->source, request.state.referenceFrame, request.object);
+            const std::size_t bytes = found->image == found->source ? 0 : slicing::memoryOf(found->image);
+            bytes_ += bytes - std::exchange(found->imageBytes, bytes);
+            shrink(request.limits.objectBytes);
+        }
+        return &found->image;
     }
-    void add(slicing::Object object, std::size_t bytes) {
-        kept_.push_front({std::move(object), bytes});
+    void add(const slicing::Object& source, std::size_t bytes) {
+        kept_.push_front({source, source, bytes});
         bytes_ += bytes;
     }
     void shrink(std::size_t bytes) {
-        for (; bytes_ > bytes && kept_.size() > 1; kept_.pop_back()) bytes_ -= kept_.back().bytes;
+        for (; bytes_ > bytes && kept_.size() > 1; kept_.pop_back())
+            bytes_ -= kept_.back().bytes + kept_.back().imageBytes;
     }
 
   private:
     struct Kept {
-        slicing::Object object;
-        std::size_t bytes;
+        slicing::Object source, image;
+        std::size_t bytes, imageBytes = 0;
     };
     std::list<Kept> kept_;
     std::size_t bytes_ = 0;
@@ -65,8 +74,9 @@ class Service {
         channel_.send(MessageType::ready);
         for (MessageType type{}; next(type);) {
             if (type == MessageType::draw) decodeRequest(body_, request_);
-            if (type == MessageType::object) takeObject();
-            if (const slicing::Object* object = recent_.find(request_.object)) {
+            if (type == MessageType::file_part) continue;  // the object that refers to it follows
+            if (type == MessageType::object && !attempt([this] { takeObject(); })) continue;
+            if (const slicing::Object* object = recent_.find(request_)) {
                 request_.state.object = *object;
                 attempt([this] { draw(); });
             } else {
@@ -85,8 +95,9 @@ class Service {
         }
         int file = Channel::kNoFile;
         if (channel_.receive(type, body_, &file) != TransferResult::complete) return false;
+        if (type == MessageType::file_part) takeFile(file);
         if (type != MessageType::draw) return true;
-        // The kernel drops a file descriptor if the process has too many open.
+        // The descriptor is missing if this process has too many files open, because the kernel then drops it.
         if (file == Channel::kNoFile)
             throw std::runtime_error("a draw request arrived without the memory to draw into");
         auto pixels = std::make_unique<SharedPixels>(file);
@@ -95,16 +106,23 @@ class Service {
         return true;
     }
 
+    void takeFile(int descriptor) {
+        const fields::FileHandle file(descriptor);  // not needed once it is mapped
+        auto mapped = fields::MappedFile::map(file.descriptor());
+        mapped_.push_back(mapped ? std::move(*mapped) : nullptr);  // it may have become empty
+    }
+
     void takeObject() {
         const std::string bytes = std::exchange(body_, {});
-        recent_.add(slicing::decodeObject(bytes), bytes.size());
+        const slicing::Object object = slicing::decodeObject(bytes, std::exchange(mapped_, {}));
+        recent_.add(object, std::max(bytes.size(), slicing::memoryOf(object)));
         recent_.shrink(request_.limits.objectBytes);
     }
 
     void draw() {
         rasterizer_.limitFill(request_.limits.fillSteps);
         DrawTimes times;
-        rasterizer_.draw(request_.state, request_.viewport,
+        rasterizer_.draw(request_.state, request_.viewport, request_.quality,
                          pixelFiles_.at(currentFile_)->remap(image::byteCount(request_.viewport)), times);
         channel_.send(MessageType::drawn, {reinterpret_cast<const char*>(&times), sizeof times});
     }
@@ -127,6 +145,7 @@ class Service {
     DrawRequest request_;
     std::map<std::uint64_t, std::unique_ptr<SharedPixels>> pixelFiles_;  // by inode; one for each worker of the server
     std::uint64_t currentFile_ = 0;                                      // the inode of the file to draw into
+    slicing::MappedFiles mapped_;                                        // to which the next object refers
     std::string body_;
 };
 

@@ -6,11 +6,13 @@
 
 namespace oval4d::raster {
 
-/// The subcommand of this program that runs it as a rasterizer process.
+/// The subcommand with which this program runs as a rasterizer process.
 inline constexpr const char* kRasterizerCommand = "draw";
 
-/// The main function of a rasterizer process: draws the pictures that are requested over `socket` until the other end
-/// closes it. Confines the process to a sandbox as soon as everything that drawing needs is loaded.
+/// The main function of a rasterizer process. Loads everything that drawing needs, confines the process to a sandbox,
+/// and draws the pictures that are requested over `socket` until the other end closes it. If drawing fails, sends the
+/// reason to the other end. If no request comes for a while, frees memory and returns it to the operating system
+/// through `heap`. Throws std::runtime_error if a draw request is damaged.
 void serveRasterizer(int socket, const process::Confinement& confinement, parallel::ForkJoin& forkJoin,
                      process::Heap& heap);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Memory for the pixels of a picture, shared by two processes.
+// The memory of the pixels of a picture, shared by two processes.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,25 +7,27 @@
 
 namespace oval4d::raster {
 
-/// A memory file (memfd_create(2)) and its mapping into this process. Another process that receives the file descriptor
+/// A memory file (memfd_create(2)) and its mapping into this process. A process to which the file descriptor is sent
 /// over a socket can map the same memory.
 class SharedPixels {
   public:
-    /// Creates an empty file. Throws std::system_error.
+    /// Creates an empty file. Throws std::system_error if that fails.
     SharedPixels();
     /// Takes ownership of `file`, the descriptor of a memory file that another process has created. Throws
-    /// std::system_error.
+    /// std::system_error if the descriptor is invalid.
     explicit SharedPixels(int file);
     ~SharedPixels();
     SharedPixels(const SharedPixels&) = delete;
     SharedPixels& operator=(const SharedPixels&) = delete;
 
-    /// Returns the first `size` bytes, which are valid until the next call of resize() or remap(). Grows the file if it
-    /// is smaller, and shrinks it to `size` if it is more than 4 times larger. Throws std::system_error.
+    /// Makes the file large enough for `size` bytes; shrinks it if it is more than 4 times as large. Returns the first
+    /// `size` bytes, which are valid until the next call of resize() or remap(). Throws std::system_error if the file
+    /// cannot be resized or mapped.
     std::span<std::uint8_t> resize(std::size_t size);
 
-    /// Maps the whole file again if the other process has resized it. Returns the first `size` bytes, which are valid
-    /// until the next call of resize() or remap(). Throws std::system_error, also if the file is smaller than `size`.
+    /// Maps the file again if the other process has resized it. Returns the first `size` bytes, which are valid until
+    /// the next call of resize() or remap(). Throws std::system_error if the file cannot be mapped or is smaller than
+    /// `size`.
     std::span<std::uint8_t> remap(std::size_t size);
 
     /// Returns the file descriptor.

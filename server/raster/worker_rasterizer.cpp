@@ -11,7 +11,7 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// After concurrent pictures, more concurrent pictures are expected during this time.
+// For this time after concurrent pictures, the next pictures are expected to be concurrent, too.
 constexpr auto kCrowded = 100ms;
 // The next picture is expected to be large if the last one took longer than this to draw, in seconds.
 constexpr double kLarge = 0.004;
@@ -37,8 +37,8 @@ void WorkerRasterizer::warmUp() {
 }
 
 std::span<const std::uint8_t> WorkerRasterizer::draw(const session::State& state, scene::Viewport viewport,
-                                                     DrawTimes& times) {
-    const auto drawn = drawBest(state, viewport, times);
+                                                     slicing::Quality quality, DrawTimes& times) {
+    const auto drawn = drawBest(state, viewport, quality, times);
     shared_.lastDrawSeconds_ = times.draw;
     return drawn;
 }
@@ -48,7 +48,7 @@ void WorkerRasterizer::freeMemory() {
 }
 
 std::span<const std::uint8_t> WorkerRasterizer::drawBest(const session::State& state, scene::Viewport viewport,
-                                                         DrawTimes& times) {
+                                                         slicing::Quality quality, DrawTimes& times) {
     struct Counted {
         std::atomic<int>& drawing;
         const bool alone = drawing++ == 0;
@@ -61,9 +61,9 @@ std::span<const std::uint8_t> WorkerRasterizer::drawBest(const session::State& s
     } else if (now - shared_.lastQueued_.load() > kCrowded && shared_.lastDrawSeconds_ > kLarge) {
         const std::unique_lock lock(shared_.multithreadedInUse_, std::try_to_lock);
         if (lock && shared_.multithreaded_)
-            return shared_.multithreaded_->draw(state, viewport, *pixels_, times, stop_);
+            return shared_.multithreaded_->draw(state, viewport, quality, *pixels_, times, stop_);
     }
-    return own_.draw(state, viewport, *pixels_, times, stop_);
+    return own_.draw(state, viewport, quality, *pixels_, times, stop_);
 }
 
 }  // namespace oval4d::raster

@@ -13,43 +13,45 @@
 
 namespace oval4d::raster {
 
-/// Holds a multithreaded rasterizer process that the rasterizers of all workers share. This process has one thread per
-/// core, but at most 8, so it draws a large picture with the lowest latency. It draws the large pictures that are not
-/// concurrent with others. Concurrent pictures are drawn by single-threaded processes, one for each worker: their
-/// throughput is higher than if the pictures competed for threads. Small pictures are also drawn by single-threaded
-/// processes, because drawing them takes less time than waking threads. Thread-safe.
+/// Holds the rasterizer process that all workers of the server share. It draws with one thread per core, at most 8, and
+/// therefore draws a single large picture fastest. A worker uses it only if the previous picture was large, that is,
+/// took more than 4 ms to draw, and if no other picture is being drawn or queued, now or in the last 100 ms. Otherwise
+/// the worker uses its own single-threaded process: concurrent pictures are drawn with a higher throughput if they do
+/// not compete for threads, and for a small picture, waking threads would take longer than drawing. Thread-safe.
 class SharedRasterizerProcess {
   public:
-    /// `morePicturesQueued` returns whether more pictures are queued; it must be callable on any thread. Throws
-    /// std::runtime_error if the multithreaded process cannot be started.
+    /// `cores` is the number of processor cores; if it is 1, there is no shared process. `morePicturesQueued` returns
+    /// whether more pictures are queued; any thread may call it. Throws std::runtime_error if the shared process cannot
+    /// be started.
     SharedRasterizerProcess(std::size_t cores, RasterizerOptions options, std::function<bool()> morePicturesQueued);
 
   private:
     friend class WorkerRasterizer;
     const RasterizerOptions options_;
     const std::function<bool()> morePicturesQueued_;
-    std::atomic<int> drawing_ = 0;                                   // the number of rasterizers that are drawing
-    std::atomic<std::chrono::steady_clock::duration> lastQueued_{};  // clock time of the last concurrent pictures
-    std::atomic<double> lastDrawSeconds_ = 0;                        // drawing time of the last picture in seconds
+    std::atomic<int> drawing_ = 0;                                   // the number of workers that are drawing
+    std::atomic<std::chrono::steady_clock::duration> lastQueued_{};  // when pictures were last concurrent
+    std::atomic<double> lastDrawSeconds_ = 0;                        // the drawing time of the last picture
     std::mutex multithreadedInUse_;
     std::optional<RasterizerProcess> multithreaded_;  // guarded by multithreadedInUse_; empty on a single core
 };
 
-/// The rasterizer of one worker: draws in its own single-threaded process, or in the multithreaded process that all
-/// workers share.
+/// The rasterizer of one worker. Draws in its own single-threaded process, or in the multithreaded process that all
+/// workers share (see SharedRasterizerProcess).
 class WorkerRasterizer : public Rasterizer {
   public:
-    /// `shared` must outlive this object. Functions that wait for a process throw process::Canceled once `stop` has
-    /// been requested.
+    /// `shared` must outlive this object. If a stop is requested through `stop`, warmUp() and draw() throw
+    /// process::Canceled.
     WorkerRasterizer(SharedRasterizerProcess& shared, std::stop_token stop);
 
     void warmUp() override;
-    std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport,
+    std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
                                        DrawTimes& times) override;
     void freeMemory() override;
 
   private:
-    std::span<const std::uint8_t> drawBest(const session::State& state, scene::Viewport viewport, DrawTimes& times);
+    std::span<const std::uint8_t> drawBest(const session::State& state, scene::Viewport viewport,
+                                           slicing::Quality quality, DrawTimes& times);
 
     SharedRasterizerProcess& shared_;
     const std::stop_token stop_;

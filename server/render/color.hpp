@@ -9,8 +9,8 @@
 
 namespace oval4d::render {
 
-/// Returns a color as the bytes R, G, B, A, in this order in the memory of a little-endian machine. `alpha` is clamped
-/// to 0 … 1.
+/// Returns a color with the opacity `alpha`, clamped to 0 … 1, as a number whose bytes in the memory of a little-endian
+/// machine are R, G, B and A, in this order. R, G and B are not multiplied by alpha.
 inline std::uint32_t rgba(scene::Color color, float alpha) {
     const auto a = static_cast<std::uint32_t>(std::lround(std::clamp(alpha, 0.0f, 1.0f) * 255));
     return (color >> 16 & 255) | (color & 0xff00) | (color & 255) << 16 | a << 24;

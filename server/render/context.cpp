@@ -35,13 +35,13 @@ Context::Context() : native_(std::make_unique<Native>()) {
     native_->context = OSMesaCreateContextAttribs(attributes, nullptr);
     if (native_->context == nullptr) throw std::runtime_error("OSMesa cannot create an OpenGL 3.3 core context");
     makeCurrent();
-    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &maxSize_);
-    glGenRenderbuffers(1, &native_->color);
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &maxSize_);
+    glGenTextures(1, &native_->color);
     glGenRenderbuffers(1, &native_->depth);
     glGenFramebuffers(1, &native_->framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, native_->framebuffer);
     resize(1, 1);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, native_->color);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, native_->color, 0);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, native_->depth);
 }
 
@@ -55,8 +55,8 @@ void Context::makeCurrent() {
 void Context::resize(int width, int height) {
     width_ = width;
     height_ = height;
-    glBindRenderbuffer(GL_RENDERBUFFER, native_->color);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glBindTexture(GL_TEXTURE_2D, native_->color);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
     glBindRenderbuffer(GL_RENDERBUFFER, native_->depth);
     // 16 bits suffice for a few hundred slices behind one another.
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT16, width, height);
@@ -76,6 +76,12 @@ void Context::begin(int width, int height, std::uint8_t* pixels) {
     }
     pixels_ = pixels;
     glViewport(0, 0, width, height);
+}
+
+void Context::load(const std::uint8_t* pixels) {
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, native_->color);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
 }
 
 // Creating a fence flushes the commands without waiting.

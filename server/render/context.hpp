@@ -6,25 +6,28 @@
 
 namespace oval4d::render {
 
-/// An OpenGL 3.3 core context that draws into memory. It may be used only by the thread that created it. No other class
-/// uses OSMesa; the rest of the renderer is plain OpenGL.
+/// An OpenGL 3.3 core context that draws into memory. Only the thread that created it may use it. Only this class uses
+/// OSMesa; the rest of the renderer uses plain OpenGL.
 class Context {
   public:
-    /// Throws std::runtime_error if no context can be created.
+    /// Creates the context and makes it current. Throws std::runtime_error if this is not possible.
     Context();
     ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
     /// Makes the context current and starts a picture of width × height pixels. finish() writes the picture to
-    /// `pixels`, which must remain valid until then: RGBA, 8 bits per channel, rows from the bottom up. Throws
+    /// `pixels`, which must remain valid until then: RGBA with 8 bits per channel, the bottom row first. Throws
     /// std::runtime_error if the driver does not support pictures of this size.
     void begin(int width, int height, std::uint8_t* pixels);
 
-    /// Makes the driver's threads begin to rasterize what was drawn so far, and returns without waiting for them.
+    /// Replaces the current picture by `pixels`, which have the layout in which finish() writes it.
+    void load(const std::uint8_t* pixels);
+
+    /// Lets the threads of the driver begin to rasterize everything drawn so far. Does not wait for them.
     void flush();
 
-    /// Waits until the picture is drawn, and copies it.
+    /// Waits until the picture is drawn, and copies it to the pixels given to begin().
     void finish();
 
     /// Returns the maximum width and height of a picture in pixels.

@@ -1,5 +1,5 @@
 #pragma once
-// The projection of the scene's camera in single precision.
+// The projection of a scene's camera in single precision.
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -9,11 +9,12 @@
 
 namespace oval4d::render {
 
-/// Projects view coordinates (the eye at the origin, x to the right, y up, z toward the viewer) to the picture.
+/// Projects points from view coordinates to the picture. In view coordinates, the eye is at the origin, and x points to
+/// the right, y up, and z toward the viewer.
 struct Projection {
-    float width = 1, height = 1;   ///< size of the picture in pixels
+    float width = 1, height = 1;   ///< the size of the picture in pixels
     float scaleX = 1, scaleY = 1;  ///< cotangents of half the horizontal and half the vertical field of view
-    float shiftX = 0, shiftY = 0;  ///< the point where the view axis meets the picture: −1 … 1, 0 is the center
+    float shiftX = 0, shiftY = 0;  ///< where the view axis meets the picture: −1 … 1; 0 is the center
 
     static Projection of(const scene::Camera& camera, scene::Viewport viewport) {
         const auto projection = glm::mat4(camera.projection(static_cast<double>(viewport.width) / viewport.height));
@@ -25,19 +26,19 @@ struct Projection {
                 -projection[2][1]};
     }
 
-    /// Returns the clip coordinates (x, y, w) of a point, without z.
+    /// Returns the clip coordinates x, y and w of a point.
     glm::vec3 clip(const glm::vec3& v) const {
         return {scaleX * v.x - shiftX * v.z, scaleY * v.y - shiftY * v.z, -v.z};
     }
 
-    /// Returns the pixel coordinates of a point, from the lower left corner.
+    /// Returns the pixel coordinates of a point in front of the eye, from the lower left corner of the picture.
     glm::vec2 pixel(const glm::vec3& v) const {
         const glm::vec3 c = clip(v);
         return {(c.x / c.z * 0.5f + 0.5f) * width, (c.y / c.z * 0.5f + 0.5f) * height};
     }
 
-    /// Returns the focal length in pixels: a length perpendicular to the view axis, at distance d, is drawn with
-    /// focalLength() / d pixels per unit.
+    /// Returns the focal length in pixels: a length L perpendicular to the view axis, at distance d from the eye, is
+    /// drawn with L · focalLength() / d pixels.
     float focalLength() const { return 0.5f * scaleY * height; }
 };
 

@@ -1,8 +1,12 @@
 #include "render/renderer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
+#include <functional>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <stdexcept>
 
 #include <glm/common.hpp>
@@ -17,9 +21,13 @@
 #include "render/overlay/overlay.hpp"
 #include "render/projection.hpp"
 #include "render/slices/convex_slices.hpp"
+#include "render/slices/fog_painter.hpp"
 #include "render/slices/nonconvex_slices.hpp"
 #include "render/slices/projection_painter.hpp"
 #include "render/slices/shape_batch.hpp"
+#include "render/slices/shape_rasterizer.hpp"
+#include "render/slices/surface_batch.hpp"
+#include "render/slices/surface_rasterizer.hpp"
 
 namespace oval4d::render {
 
@@ -30,9 +38,9 @@ std::string fontFile() {
 
 namespace {
 
-// The minimum number of indices of a batch. While the driver's threads rasterize one batch, this thread prepares the
+// The minimum number of patches of a batch. While the driver's threads rasterize one batch, this thread prepares the
 // next one.
-constexpr std::size_t kBatchIndices = 12'000;
+constexpr std::size_t kBatchPatches = 2'000;
 
 /// Returns a lock that every use of Mesa must hold, because all contexts of a process share state. A context that draws
 /// reads the llvmpipe scenes of the other contexts (llvmpipe_is_resource_referenced), which in Mesa 22.3 another thread
@@ -42,22 +50,35 @@ std::unique_lock<std::mutex> lockDriver() {
     return std::unique_lock(driver);
 }
 
-/// Clears the depth buffer where the projection of the whole object is drawn. To clear all of it would take longer than
-/// to draw the projection.
-void clearDepthBehindProjection(const scene::Scene& scene) {
+/// Returns whether a picture may be drawn with several threads: LP_NUM_THREADS, which tells llvmpipe so, is valid for
+/// all drawing.
+bool mayUseThreads() {
+    const char* threads = std::getenv("LP_NUM_THREADS");
+    return threads == nullptr || std::atoi(threads) > 1;
+}
+
+/// Returns whether only OpenGL can draw the slices: those with fog, and those with the faces of an object that need not
+/// be convex.
+bool needsOpenGl(const scene::Scene& scene) { return scene.crossing && (!scene.fog.empty() || scene.surfaces.empty()); }
+
+/// Returns the part of the picture that contains the projection of the whole object.
+PixelArea areaOfProjection(const scene::Scene& scene) {
+    const glm::ivec2 size(scene.viewport.width, scene.viewport.height);
     const auto& [shown, position, radius] = scene.projectionPlacement;
     const glm::dvec3 center(scene.camera.view() * glm::dvec4(position, 1));
     const double nearest = -center.z - radius;  // the distance of the nearest point from the eye, along the view axis
-    if (nearest > 0) {
-        const Projection projection = Projection::of(scene.camera, scene.viewport);
-        const glm::vec2 middle = projection.pixel(center);
-        const float reach = projection.focalLength() * static_cast<float>(radius / nearest) + 1;
-        const glm::vec2 size(scene.viewport.width, scene.viewport.height);
-        const glm::ivec2 from(glm::clamp(glm::floor(middle - reach), glm::vec2(0), size));
-        const glm::ivec2 to(glm::clamp(glm::ceil(middle + reach), glm::vec2(0), size));
-        glEnable(GL_SCISSOR_TEST);
-        glScissor(from.x, from.y, to.x - from.x, to.y - from.y);
-    }
+    if (nearest <= 0) return {{0, 0}, size};
+    const Projection projection = Projection::of(scene.camera, scene.viewport);
+    const glm::vec2 middle = projection.pixel(center);
+    const float reach = projection.focalLength() * static_cast<float>(radius / nearest) + 1;
+    return {glm::ivec2(glm::clamp(glm::floor(middle - reach), glm::vec2(0), glm::vec2(size))),
+            glm::ivec2(glm::clamp(glm::ceil(middle + reach), glm::vec2(0), glm::vec2(size)))};
+}
+
+/// Clears a part of the depth buffer of OpenGL.
+void clearDepth(const PixelArea& area) {
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(area.from.x, area.from.y, area.to.x - area.from.x, area.to.y - area.from.y);
     glClear(GL_DEPTH_BUFFER_BIT);
     glDisable(GL_SCISSOR_TEST);
 }
@@ -65,18 +86,37 @@ void clearDepthBehindProjection(const scene::Scene& scene) {
 }  // namespace
 
 struct Renderer::Impl {
-    explicit Impl(const std::string& font)
-        : patchDepthProgram(scene::style(), ShapeProgram::DepthSource::patch),
+    Impl(const std::string& font, ShapeDrawing drawing, parallel::ForkJoin* forkJoinOrNull)
+        : shapesInMemory(drawing == ShapeDrawing::fastest && ShapeRasterizer::isSupported()),
+          forkJoin(mayUseThreads() ? forkJoinOrNull : nullptr),
+          patchDepthProgram(scene::style(), ShapeProgram::DepthSource::patch),
           surfaceDepthProgram(scene::style(), ShapeProgram::DepthSource::surface),
+          surfaceProgram(scene::style()),
           overlay(font) {}
 
     void flushShapes();
+    void drawConvexSlices(const scene::Scene& scene);
+    std::size_t addConvexSlices(const scene::Scene& scene);
+    void addSurfaces(const scene::Scene& scene);
     void drawLayers(const scene::Scene& scene);
     void drawProjection(DepthRange depths);
+    void prepareFog(const scene::Scene& scene, DepthRange depths);
+    void drawFogBehindFrame(const scene::Scene& scene);
+    void drawFog(const scene::Scene& scene, DepthRange depths);
+
+    /// Some of the surfaces that are drawn to the picture in memory.
+    struct SurfacePart {
+        SurfaceBatch batch;
+        SurfaceRasterizer rasterizer;
+    };
 
     parallel::ThreadOwned owner;
     Context context;  // before the members that need a current context
+    const bool shapesInMemory;
+    parallel::ForkJoin* const forkJoin;  // null if pictures are drawn with one thread
+    ShapeRasterizer shapeRasterizer;
     ShapeProgram patchDepthProgram, surfaceDepthProgram;
+    SurfaceProgram surfaceProgram;
     DensityStrip densityStrip;
     Overlay overlay;
     ShapeBatch shapes;
@@ -85,6 +125,9 @@ struct Renderer::Impl {
     NonconvexSlicePainter::Layers layers;
     ProjectionPainter projectionPainter;
     ProjectionPainter::Layers projectionLayers;
+    SurfaceBatch surfaces;                    // those that OpenGL draws
+    std::array<SurfacePart, 2> surfaceParts;  // the nearer and the farther slices
+    std::optional<FogPainter> fogPainter;     // made for the first picture with fog
 };
 
 void Renderer::Impl::flushShapes() {
@@ -93,9 +136,89 @@ void Renderer::Impl::flushShapes() {
     shapes.clear();
 }
 
-// Draws slices that need not be convex, with the projection of the whole object if it is shown.
+// Draws convex slices and the projection of the whole object with OpenGL.
+void Renderer::Impl::drawConvexSlices(const scene::Scene& scene) {
+    const auto painted = [this] {
+        if (shapes.patches().size() >= kBatchPatches) flushShapes();
+    };
+    const auto paintProjection = [this, &scene] {
+        flushShapes();
+        projectionPainter.paint(scene, projectionLayers);
+        glEnable(GL_DEPTH_TEST);
+        // To clear all of the depth buffer would take longer than to draw the projection.
+        clearDepth(areaOfProjection(scene));
+        drawProjection(projectionLayers.depths);
+        glDisable(GL_DEPTH_TEST);
+    };
+    convexPainter.paint(scene, shapes, painted, paintProjection);
+}
+
+// Prepares convex slices and the projection of the whole object to be drawn to the picture in memory. Leaves shapes
+// that are nearer than the projection in `shapes`, from the returned index on.
+std::size_t Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
+    using Depth = ShapeRasterizer::Depth;
+    std::size_t nearer = 0;
+    const auto paintSlices = [&] {
+        convexPainter.paint(scene, shapes, [] {}, [&] { nearer = shapes.patches().size(); });
+    };
+    if (!scene.projectionPlacement.shown) {
+        paintSlices();
+        return 0;
+    }
+    const auto paintProjection = [&] { projectionPainter.paint(scene, projectionLayers); };
+    parallel::invoke(forkJoin, std::ref(paintSlices), std::ref(paintProjection));
+    shapeRasterizer.setDepthArea(areaOfProjection(scene));
+    shapeRasterizer.add(shapes, 0, nearer, Depth::unused);
+    const auto& [solid, translucent, depths] = projectionLayers;
+    shapeRasterizer.add(solid, 0, solid.patches().size(), Depth::written);
+    shapeRasterizer.add(translucent, 0, translucent.patches().size(), Depth::tested);
+    return nearer;
+}
+
+// Prepares surfaces and the projection of the whole object to be drawn to the picture in memory, in the order of
+// drawLayers().
+void Renderer::Impl::addSurfaces(const scene::Scene& scene) {
+    using Depth = ShapeRasterizer::Depth;
+    using Blending = SurfaceRasterizer::Blending;
+    auto& [near, far] = surfaceParts;
+    const auto prepare = [&](SurfacePart& surfacePart, SurfaceBatch::Part part) {
+        DepthRange depths;  // not needed here
+        surfacePart.batch.collect(scene, depths, part);
+        surfacePart.rasterizer.prepare(scene.viewport, scene::style(), surfacePart.batch);
+    };
+    const auto prepareNear = [&] {
+        prepare(near, SurfaceBatch::Part::near);
+        crossingPainter.paint(scene, layers);
+    };
+    const auto prepareFar = [&] {
+        prepare(far, SurfaceBatch::Part::far);
+        if (scene.projectionPlacement.shown) projectionPainter.paint(scene, projectionLayers);
+    };
+    parallel::invoke(forkJoin, std::ref(prepareNear), std::ref(prepareFar));
+
+    shapeRasterizer.setDepthArea({{0, 0}, {scene.viewport.width, scene.viewport.height}});
+    const auto opaque = [](const SurfacePart& part) { return std::span(part.batch.opaque()); };
+    const auto add = [this](const ShapeBatch& batch, Depth depth) {
+        shapeRasterizer.add(batch, 0, batch.patches().size(), depth);
+    };
+    for (const SurfacePart* part : {&near, &far})
+        shapeRasterizer.add(part->rasterizer, opaque(*part).first(part->batch.fringesBegin()), Blending::none);
+    for (const SurfacePart* part : {&near, &far})
+        shapeRasterizer.add(part->rasterizer, opaque(*part).subspan(part->batch.fringesBegin()), Blending::alpha);
+    add(layers.skeleton, Depth::written);
+    if (scene.projectionPlacement.shown) {
+        add(projectionLayers.solid, Depth::written);
+        add(projectionLayers.translucent, Depth::tested);
+    }
+    for (const SurfacePart* part : {&far, &near})
+        shapeRasterizer.add(part->rasterizer, part->batch.translucent(), Blending::alpha);
+    add(layers.faded, Depth::tested);
+}
+
+// Draws slices that need not be convex, and surfaces, with the projection of the whole object if it is shown.
 void Renderer::Impl::drawLayers(const scene::Scene& scene) {
     DepthRange depths = layers.depths;
+    surfaces.collect(scene, depths);
     if (scene.projectionPlacement.shown) {
         projectionPainter.paint(scene, projectionLayers);
         const DepthRange more = projectionLayers.depths;
@@ -103,16 +226,59 @@ void Renderer::Impl::drawLayers(const scene::Scene& scene) {
     }
     glEnable(GL_DEPTH_TEST);
     glClear(GL_DEPTH_BUFFER_BIT);
+    const bool hasFog = !scene.fog.empty();
+    if (hasFog) prepareFog(scene, depths);
     glDisable(GL_BLEND);
     patchDepthProgram.drawWithDepth(depths, layers.faces);
+    surfaceProgram.load(depths, surfaces, surfaces.opaque());
+    surfaceProgram.drawPart(0, surfaces.fringesBegin());
     context.flush();
     glEnable(GL_BLEND);
+    glDepthMask(GL_FALSE);
+    surfaceProgram.drawPart(surfaces.fringesBegin(), surfaces.opaque().size());
+    glDepthMask(GL_TRUE);
+    if (hasFog) drawFogBehindFrame(scene);
     surfaceDepthProgram.drawWithDepth(depths, layers.skeleton);
     if (scene.projectionPlacement.shown) drawProjection(depths);
     glDepthMask(GL_FALSE);
+    if (hasFog) {
+        drawFog(scene, depths);
+    } else {
+        surfaceProgram.draw(depths, surfaces, surfaces.translucent());
+    }
     surfaceDepthProgram.drawWithDepth(depths, layers.faded);
     glDepthMask(GL_TRUE);
     glDisable(GL_DEPTH_TEST);
+}
+
+// Finds the depths of balls and bars. Leaves the depth buffer cleared.
+void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
+    if (!fogPainter) fogPainter.emplace();
+    fogPainter->begin(scene, depths);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    surfaceDepthProgram.drawWithDepth(depths, layers.skeleton);
+    if (scene.projectionPlacement.shown) surfaceDepthProgram.drawWithDepth(depths, projectionLayers.solid);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    fogPainter->copyDepths(scene.viewport, FogPainter::Solids::frame);
+    glClear(GL_DEPTH_BUFFER_BIT);
+}
+
+// Draws the fog behind balls and bars. Must be called when only surfaces have been drawn.
+void Renderer::Impl::drawFogBehindFrame(const scene::Scene& scene) {
+    fogPainter->copyDepths(scene.viewport, FogPainter::Solids::surfaces);
+    for (const std::uint32_t slice : surfaces.order()) fogPainter->draw(scene, slice, FogPainter::Part::behind);
+}
+
+// Draws, slice by slice from far to near, first the slice's translucent surfaces and then its fog.
+void Renderer::Impl::drawFog(const scene::Scene& scene, DepthRange depths) {
+    surfaceProgram.load(depths, surfaces, surfaces.translucent());
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < surfaces.order().size(); ++i) {
+        const std::size_t end = surfaces.translucentEnds()[i];
+        surfaceProgram.drawPart(begin, end);
+        fogPainter->draw(scene, surfaces.order()[i], FogPainter::Part::before);
+        begin = end;
+    }
 }
 
 // Draws the prepared projection of the whole object. The depth test must be enabled.
@@ -124,10 +290,10 @@ void Renderer::Impl::drawProjection(DepthRange depths) {
     glDepthMask(GL_TRUE);
 }
 
-Renderer::Renderer(const std::string& font) {
+Renderer::Renderer(const std::string& font, ShapeDrawing drawing, parallel::ForkJoin* forkJoin) {
     {
         const auto lock = lockDriver();
-        impl_ = std::make_unique<Impl>(font);
+        impl_ = std::make_unique<Impl>(font, drawing, forkJoin);
     }
     // Mesa compiles a shader at its first draw call, so draw an empty scene now.
     image::Image image;
@@ -144,11 +310,15 @@ Renderer::~Renderer() {
 
 void Renderer::freeMemory() {
     impl_->shapes = {};
+    impl_->shapeRasterizer.freeMemory();
     impl_->convexPainter = {};
     impl_->crossingPainter = {};
     impl_->layers = {};
     impl_->projectionPainter = {};
     impl_->projectionLayers = {};
+    impl_->surfaces = {};
+    impl_->surfaceParts = {};
+    if (impl_->fogPainter) impl_->fogPainter->freeMemory();
 }
 
 void Renderer::draw(const scene::Scene& scene, image::Image& out) {
@@ -167,38 +337,44 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     const auto lock = lockDriver();
     impl_->context.begin(scene.viewport.width, scene.viewport.height, pixels.data());
 
-    const scene::Color background = scene::style().background;
-    const auto channel = [&](int shift) { return static_cast<float>(background >> shift & 255) / 255; };
-    glClearColor(channel(16), channel(8), channel(0), 1);
-    glClear(GL_COLOR_BUFFER_BIT);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // premultiplied alpha, for which blending is cheaper
-
     shapes.begin(scene::style());
     overlay.begin(scene.viewport);
-    if (!scene.crossing) {
-        const auto painted = [this] {
-            if (impl_->shapes.indices().size() >= kBatchIndices) impl_->flushShapes();
-        };
-        const auto paintProjection = [this, &scene] {
-            impl_->flushShapes();
-            impl_->projectionPainter.paint(scene, impl_->projectionLayers);
-            glEnable(GL_DEPTH_TEST);
-            clearDepthBehindProjection(scene);
-            impl_->drawProjection(impl_->projectionLayers.depths);
-            glDisable(GL_DEPTH_TEST);
-        };
-        impl_->convexPainter.paint(scene, shapes, painted, paintProjection);
+    const bool inMemory =
+        impl_->shapesInMemory && !needsOpenGl(scene) && scene.viewport.width >= ShapeRasterizer::kMinWidth;
+    std::size_t notAdded = 0;  // the first of the shapes that are yet to be added to the rasterizer
+    if (inMemory) {
+        impl_->shapeRasterizer.begin(scene.viewport, scene::style(), pixels);
+        if (scene.crossing) {
+            impl_->addSurfaces(scene);
+        } else {
+            notAdded = impl_->addConvexSlices(scene);
+        }
     } else {
+        const scene::Color background = scene::style().background;
+        const auto channel = [&](int shift) { return static_cast<float>(background >> shift & 255) / 255; };
+        glClearColor(channel(16), channel(8), channel(0), 1);
+        glClear(GL_COLOR_BUFFER_BIT);
+    }
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // premultiplied alpha, for which blending is cheaper
+    if (scene.crossing && !inMemory) {
         impl_->crossingPainter.paint(scene, impl_->layers);
         impl_->drawLayers(scene);
+    } else if (!inMemory) {
+        impl_->drawConvexSlices(scene);
     }
     paintAxes(scene, shapes, overlay);
     paintCoordinates(scene, overlay);
     paintLabels(scene, overlay);
     paintMatrix(scene, overlay);
 
-    impl_->patchDepthProgram.draw(shapes);
+    if (inMemory) {
+        impl_->shapeRasterizer.add(shapes, notAdded, shapes.patches().size(), ShapeRasterizer::Depth::unused);
+        impl_->shapeRasterizer.finish(impl_->forkJoin);
+        impl_->context.load(pixels.data());
+    } else {
+        impl_->patchDepthProgram.draw(shapes);
+    }
     impl_->densityStrip.draw(scene);
     overlay.draw();
     impl_->context.finish();

@@ -1,5 +1,6 @@
 #pragma once
-// Draws a scene with OSMesa.
+// Draws scenes. Convex slices, surfaces, and the projection of the whole object are drawn without OpenGL if the
+// processor supports it; everything else is drawn with OSMesa.
 
 #include <cstdint>
 #include <memory>
@@ -7,34 +8,46 @@
 #include <string>
 
 #include "image/image.hpp"
+#include "parallel/fork_join.hpp"
 #include "scene/scene.hpp"
 
 namespace oval4d::render {
 
-/// Returns the path of the default font file for labels: the value of the environment variable OVAL4D_FONT or, if that
-/// is unset or empty, the path set at build time.
+/// Returns the path of the default font file: the value of the environment variable OVAL4D_FONT or, if that is unset or
+/// empty, the path set at build time.
 std::string fontFile();
 
-/// Draws scenes in its own GL context. A renderer may be used only by the thread that created it. Several renderers may
-/// exist in one process, each on its own thread; they draw one at a time.
+/// How convex slices, surfaces, and the projection of the whole object that is shown with them are drawn.
+enum class ShapeDrawing : std::uint8_t {
+    fastest,  ///< by a ShapeRasterizer if this processor has AVX2 and FMA, else with OpenGL
+    open_gl,
+};
+
+/// Draws scenes with its own GL context. Only the thread that created a renderer may use and destroy it. Several
+/// renderers may exist in one process, each on its own thread, but only one of them draws at a time; the others wait.
 class Renderer {
   public:
-    /// Compiles all shaders. `font` is the path of a font file in any format that FreeType reads. Throws
-    /// std::runtime_error if no context can be created or the font cannot be read.
-    explicit Renderer(const std::string& font = fontFile());
+    /// Creates the context and compiles all shaders. `font` is the path of a font file in any format that FreeType
+    /// reads. If `forkJoin` is not null, draws with two threads, unless the environment variable LP_NUM_THREADS, which
+    /// sets the number of threads of llvmpipe, is 0 or 1. `forkJoin` must outlive this object. Throws
+    /// std::runtime_error if no context can be created, a shader does not compile, or the font cannot be read.
+    explicit Renderer(const std::string& font = fontFile(), ShapeDrawing drawing = ShapeDrawing::fastest,
+                      parallel::ForkJoin* forkJoin = nullptr);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Draws the scene and overwrites `pixels`, which have the layout of image::Image. Throws std::invalid_argument if
-    /// `pixels` does not have the size of the scene's viewport, and std::runtime_error if the driver does not support
-    /// pictures of this size.
+    /// Draws the scene. Overwrites `pixels`, which have the layout of image::Image. Throws std::invalid_argument if
+    /// `pixels` does not have the size of the viewport of the scene, and std::runtime_error if the driver does not
+    /// support pictures of this size.
     void draw(const scene::Scene& scene, std::span<std::uint8_t> pixels);
 
-    /// Draws the scene into `out`, which is resized to the viewport.
+    /// Draws the scene to `out`, which is resized to the viewport. Throws std::runtime_error if the driver does not
+    /// support pictures of this size.
     void draw(const scene::Scene& scene, image::Image& out);
 
-    /// Frees the memory that is reused from picture to picture, but not the context and the shader programs.
+    /// Frees the memory that is kept for the next picture, except the context, the shader programs, the glyphs and the
+    /// textures.
     void freeMemory();
 
   private:

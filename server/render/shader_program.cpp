@@ -73,13 +73,24 @@ void ShaderProgram::upload(GLenum target, std::size_t& capacity, const void* dat
 }
 
 void ShaderProgram::draw(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices) {
+    load(vertices, vertexCount, indices);
+    drawPart(0, indices.size());
+}
+
+void ShaderProgram::load(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices) {
     if (indices.empty()) return;
-    glUseProgram(program_);
     glBindVertexArray(array_);
     glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
     upload(GL_ARRAY_BUFFER, vertexCapacity_, vertices, vertexCount * vertexSize_);
     upload(GL_ELEMENT_ARRAY_BUFFER, indexCapacity_, indices.data(), indices.size_bytes());
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices.size()), GL_UNSIGNED_INT, nullptr);
+}
+
+void ShaderProgram::drawPart(std::size_t begin, std::size_t end) {
+    if (begin == end) return;
+    glUseProgram(program_);
+    glBindVertexArray(array_);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(end - begin), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(begin * sizeof(std::uint32_t)));
 }
 
 }  // namespace oval4d::render

@@ -1,5 +1,5 @@
 #pragma once
-// A shader program and the buffers of the triangles that it draws.
+// A shader program, and the buffers for the triangles that it draws.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,33 +10,39 @@
 
 namespace oval4d::render {
 
-/// A vertex attribute, as for glVertexAttribPointer. Bytes are color channels: 0 … 255 becomes 0 … 1 in the shader.
+/// A vertex attribute; see glVertexAttribPointer(3G). Bytes are color channels: 0 … 255 becomes 0 … 1 in the shader.
 struct Attribute {
     int components;
     GLenum type;         ///< GL_FLOAT or GL_UNSIGNED_BYTE
-    std::size_t offset;  ///< offset in the vertex structure, in bytes
+    std::size_t offset;  ///< in the vertex structure, in bytes
 };
 
 /// A linked program with its own vertex buffer and index buffer, which grow as needed. Requires a current GL context
 /// throughout its lifetime.
 class ShaderProgram {
   public:
-    /// Compiles and links the program. The sources have no #version line. `vertexSize` is in bytes. Attribute i has
-    /// location i in the vertex shader. Throws std::runtime_error, with the compiler's message, if a shader does not
-    /// compile, or if the program does not link.
+    /// Compiles and links the program. The sources must not contain a #version line, because the program adds one.
+    /// `vertexSize` is in bytes. Attribute i has location i in the vertex shader. Throws std::runtime_error if a shader
+    /// does not compile (with the message of the compiler) or the program does not link.
     ShaderProgram(std::string_view vertexSource, std::string_view fragmentSource, std::size_t vertexSize,
                   std::span<const Attribute> attributes);
     ~ShaderProgram();
     ShaderProgram(const ShaderProgram&) = delete;
     ShaderProgram& operator=(const ShaderProgram&) = delete;
 
-    /// Returns the location of a uniform variable.
+    /// Returns the location of a uniform variable, or −1 if there is none with this name.
     GLint uniform(const char* name) const { return glGetUniformLocation(program_, name); }
     void use() const { glUseProgram(program_); }
 
-    /// Draws indexed triangles in the given order. `vertices` has `vertexCount` vertices of the size given to the
-    /// constructor. Copies all data, so it need not remain valid.
+    /// Draws triangles, each given by three indices of vertices, in this order. `vertices` points to `vertexCount`
+    /// vertices of the size given to the constructor. The arguments are copied.
     void draw(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices);
+
+    /// Copies vertices and indices, as for draw(), for later calls of drawPart().
+    void load(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices);
+    /// Draws the triangles given by the entries `begin` … `end` − 1 of the indices that were loaded last. Both numbers
+    /// must be multiples of 3.
+    void drawPart(std::size_t begin, std::size_t end);
 
   private:
     void upload(GLenum target, std::size_t& capacity, const void* data, std::size_t size);

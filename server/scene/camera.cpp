@@ -6,6 +6,8 @@
 
 namespace oval4d::scene {
 
+double Camera::magnification() const { return 0.5 / std::tan(fieldOfView / 2); }
+
 glm::dmat4 Camera::view() const { return glm::lookAt(eye, target, up); }
 
 glm::dmat4 Camera::projection(double aspect) const {

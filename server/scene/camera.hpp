@@ -12,17 +12,20 @@ struct Viewport {
     bool operator==(const Viewport&) const = default;
 };
 
-/// A perspective camera in a right-handed coordinate system. `shiftX` and `shiftY` move the picture right and up by
-/// these fractions of the viewport's width and height, so that the slices do not overlap the parallel coordinates.
+/// A perspective camera in a right-handed coordinate system. `shiftX` and `shiftY` move the image of the slices right
+/// and up by these fractions of the viewport's width and height, to leave room for the parallel coordinates.
 struct Camera {
     glm::dvec3 eye{0, 0, 1}, target{0}, up{0, 1, 0};  ///< the camera looks from `eye` to `target`
     double fieldOfView = 0.7;                         ///< vertical, radians
     double near = 0.1, far = 100;                     ///< distances of the clipping planes from the eye
     double shiftX = 0, shiftY = 0;
 
+    /// Returns the apparent size, in viewport heights, of a length of 1 at depth 1 in front of the eye.
+    double magnification() const;
     /// Returns the matrix from world space to view space.
     glm::dmat4 view() const;
-    /// Returns the matrix from view space to OpenGL clip space, with the shift; `aspect` is width / height.
+    /// Returns the matrix from view space to OpenGL clip space, including the shift. `aspect` is the viewport's width
+    /// divided by its height.
     glm::dmat4 projection(double aspect) const;
     bool operator==(const Camera&) const = default;
 };

@@ -73,13 +73,13 @@ void paintByType(const slicing::Object& object, std::vector<Color>& out) {
 }
 
 // A diverging color scale for values from −1 to 1: blue, gray at 0, amber.
-constexpr int kSteps = 255;
-using Scale = std::array<Color, kSteps>;
+constexpr int kScaleSteps = 255;
+using Scale = std::array<Color, kScaleSteps>;
 Scale divergingScale() {
     constexpr double kBlue = 4.5, kAmber = 1.25;  // hues in radians
     Scale scale{};
-    for (int i = 0; i < kSteps; ++i) {
-        const double t = 2.0 * i / (kSteps - 1) - 1;
+    for (int i = 0; i < kScaleSteps; ++i) {
+        const double t = 2.0 * i / (kScaleSteps - 1) - 1;
         scale.at(static_cast<std::size_t>(i)) = oklch(0.74 - 0.06 * std::abs(t) * (t < 0 ? 1.5 : -0.5),
                                                       0.01 + 0.17 * std::pow(std::abs(t), 0.8), t < 0 ? kBlue : kAmber);
     }
@@ -95,23 +95,57 @@ const glm::dvec4 kLight = glm::normalize(glm::dvec4(-0.35, 0.65, 0.5, 0.6));
 Scale lightScale() {
     constexpr double kHue = 4.2, kDark = 0.3, kRange = 0.58;
     Scale scale{};
-    for (int i = 0; i < kSteps; ++i) {
-        const double t = static_cast<double>(i) / (kSteps - 1);
+    for (int i = 0; i < kScaleSteps; ++i) {
+        const double t = static_cast<double>(i) / (kScaleSteps - 1);
         scale.at(static_cast<std::size_t>(i)) = oklch(kDark + kRange * std::pow(t, 1.3), 0.09, kHue);
     }
     return scale;
 }
 
+// A scale whose lightness grows evenly while the hue turns from blue through green to yellow.
+Scale sequentialScale() {
+    constexpr double kDarkest = 0.4, kLightest = 0.92, kBlue = 4.8, kYellow = 1.8;
+    Scale scale{};
+    for (int i = 0; i < kScaleSteps; ++i) {
+        const double t = static_cast<double>(i) / (kScaleSteps - 1);
+        scale.at(static_cast<std::size_t>(i)) =
+            oklch(kDarkest + (kLightest - kDarkest) * t, 0.14, kBlue + (kYellow - kBlue) * t);
+    }
+    return scale;
+}
+
 Color colorAt(const Scale& scale, double value) {
-    return scale.at(static_cast<std::size_t>(std::lround((std::clamp(value, -1.0, 1.0) + 1) / 2 * (kSteps - 1))));
+    return scale.at(static_cast<std::size_t>(std::lround((std::clamp(value, -1.0, 1.0) + 1) / 2 * (kScaleSteps - 1))));
 }
 
 }  // namespace
 
 Color cellTypeColor(std::size_t type, std::size_t count) { return distinct(type, count); }
 
-void CellColors::paint(const slicing::Object& object, Coloring coloring, const geometry::Rotation& orientation,
-                       std::vector<Color>& out) {
+Color levelColor(std::size_t i, std::size_t count) { return distinct(i, std::max<std::size_t>(count, 3)); }
+
+Color plainColor() {
+    static const Color kPlain = oklch(0.72, 0.1, 4.2);
+    return kPlain;
+}
+
+Color divergingColor(double value) {
+    static const Scale kScale = divergingScale();
+    return colorAt(kScale, std::isnan(value) ? 0 : value);
+}
+
+Color sequentialColor(double value) {
+    static const Scale kScale = sequentialScale();
+    return colorAt(kScale, 2 * value - 1);
+}
+
+Color noValueColor() {
+    static const Color kGray = oklch(0.55, 0.01, 0);
+    return kGray;
+}
+
+void CellPainter::paint(const slicing::Object& object, Coloring coloring, const geometry::Rotation& orientation,
+                        std::vector<Color>& out) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     const std::size_t cells = slicing::elementCounts(object)[3];
     const bool changed = paintedFor_ != info.serial || coloring_ != coloring || out.size() != cells;
@@ -120,7 +154,8 @@ void CellColors::paint(const slicing::Object& object, Coloring coloring, const g
     out.resize(cells);
     if (changed && coloring == Coloring::cell) paintByCell(object, out);
     if (changed && coloring == Coloring::cell_type) paintByType(object, out);
-    if (changed && coloring == Coloring::plain) std::fill(out.begin(), out.end(), oklch(0.72, 0.1, 4.2));
+    if (changed && (coloring == Coloring::plain || coloring == Coloring::growth || coloring == Coloring::value))
+        std::fill(out.begin(), out.end(), plainColor());
     if (coloring == Coloring::w) {
         if (changed) findCenters(object);
         static const Scale kScale = divergingScale();
@@ -133,7 +168,7 @@ void CellColors::paint(const slicing::Object& object, Coloring coloring, const g
 }
 
 // Sets directions_ to the cells' centers, scaled so that the farthest one has length 1.
-void CellColors::findCenters(const slicing::Object& object) {
+void CellPainter::findCenters(const slicing::Object& object) {
     slicing::findCellCenters(object, directions_);
     double farthest = 0;
     for (const glm::dvec4& center : directions_) farthest = std::max(farthest, glm::length(center));
@@ -143,7 +178,7 @@ void CellColors::findCenters(const slicing::Object& object) {
 }
 
 // Sets directions_ to the cells' unit normals, or 0 for cells that enclose no volume.
-void CellColors::findNormals(const slicing::Object& object) {
+void CellPainter::findNormals(const slicing::Object& object) {
     std::vector<double> offsets;
     slicing::findCellHyperplanes(object, directions_, offsets);
     for (glm::dvec4& normal : directions_) {
@@ -152,8 +187,8 @@ void CellColors::findNormals(const slicing::Object& object) {
     }
 }
 
-// Colors each cell by the product of its direction and `axis`, a unit vector before the rotation of the object.
-void CellColors::paintBy(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const {
+// Colors each cell by the dot product of its direction and `axis`, a unit vector in coordinates before the rotation.
+void CellPainter::paintBy(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const {
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = colorAt(scale, glm::dot(axis, directions_[c]));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The colors of cells.
+// The colors of cells, levels and values.
 
 #include <array>
 #include <cstddef>
@@ -17,20 +17,41 @@ namespace oval4d::scene {
 /// An sRGB color: 0xRRGGBB.
 using Color = std::uint32_t;
 
-/// Returns the color that Coloring::cell_type gives to the cells of type `type`, if the object has `count` cell types.
+/// Returns the color that Coloring::cell_type gives to the cells of type `type`, an index less than `count`, the number
+/// of the object's cell types.
 Color cellTypeColor(std::size_t type, std::size_t count);
 
-/// Computes the colors of an object's cells. Keeps everything that does not depend on the orientation for the next
-/// call.
-class CellColors {
+/// Returns the color that Coloring::cell gives to level i of a field with `count` levels.
+Color levelColor(std::size_t i, std::size_t count);
+
+/// Returns the color of cells and surfaces whose color has no meaning, as with Coloring::plain.
+Color plainColor();
+
+/// Returns the color of a value on a diverging scale: blue at −1, gray at 0, amber at 1. Values outside this range have
+/// the color of the nearer end; NaN has the gray of 0.
+Color divergingColor(double value);
+
+/// Returns the color of a value on a sequential scale, from dark blue at 0 through green to light yellow at 1. Values
+/// outside this range have the color of the nearer end.
+Color sequentialColor(double value);
+
+/// Returns the color of points without a value: a gray.
+Color noValueColor();
+
+/// Computes the colors of an object's cells. Caches whatever does not depend on the orientation.
+class CellPainter {
   public:
-    /// Writes one color per cell to `out`. The caller must pass `out` unchanged to the next call, because colors that
-    /// stay the same are not written again. The same arguments always give the same colors. With Coloring::cell, up to
-    /// 24 cells all have different colors; of more than 24, the cells along one Hopf fiber (a great circle) share a
-    /// color. With Coloring::w, the color depends on the w of the cell's center after the rotation, divided by the
-    /// greatest distance of any center from the origin: blue at −1, gray at 0, amber at 1. With Coloring::light, the
-    /// lightness of a single hue depends on the angle between the cell's outward normal after the rotation and the
-    /// direction toward a light in four dimensions.
+    /// Writes one color per cell to `out`. Every call must get the vector that the previous call wrote: colors that
+    /// stay the same are not written again. The colors depend only on `object`, `coloring` and `orientation`.
+    ///
+    /// - Coloring::cell: up to 24 cells all have different colors; with more than 24 cells, those along one Hopf fiber
+    ///   (a great circle) share a color.
+    /// - Coloring::cell_type: cellTypeColor().
+    /// - Coloring::w: the divergingColor() of the w of the cell's center after the rotation, divided by the greatest
+    ///   distance of any center from the origin.
+    /// - Coloring::light: one hue, whose lightness depends on the angle between the cell's outward normal after the
+    ///   rotation and the direction toward a light in four dimensions.
+    /// - Other values: plainColor().
     void paint(const slicing::Object& object, Coloring coloring, const geometry::Rotation& orientation,
                std::vector<Color>& out);
 
@@ -41,7 +62,8 @@ class CellColors {
 
     std::uint64_t paintedFor_ = 0;  // the serial number of the object whose cells were last colored
     Coloring coloring_ = Coloring::cell;
-    std::vector<glm::dvec4> directions_;  // per cell, before the rotation: for w and light, what determines its color
+    std::vector<glm::dvec4> directions_;  // per cell, before the rotation: with Coloring::w, its center divided by the
+                                          // greatest distance of a center; with Coloring::light, its unit normal
 };
 
 }  // namespace oval4d::scene

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
+
+#include <glm/geometric.hpp>
 
 namespace oval4d::scene {
 
@@ -24,26 +27,64 @@ void findCells(const Object& object, const slicing::Visibilities& visibilities, 
 
 }  // namespace
 
-void Composer::compose(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int focus,
-                       const Look& look, Viewport viewport, Scene& out) {
+// Sets the members of `out` that depend on neither the orientation nor the slices.
+void Composer::setObject(const Object& object, const Look& look, Viewport viewport, Scene& out) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
-    const bool objectChanged = object_ != info.serial;
+    objectChanged_ = objectChanged_ || object_ != info.serial;
     object_ = info.serial;
-    if (objectChanged) ballRadius_ = slicing::ballRadius(object);
-    if (objectChanged || filter_ != look.cellTypes) setFilter(object, look.cellTypes);
-
-    out.slices = &slices;
+    if (objectChanged_) ballRadius_ = slicing::ballRadius(object);
     out.title = info.name;
     out.circumradius = info.circumradius;
     out.look = look;
     out.viewport = viewport;
-    out.crossing = !info.convex;
-    out.faceOpacity = info.convex ? style().faceOpacity : 1;
+}
+
+void Composer::chooseDetail(const Object& object, const geometry::Hyperplanes& planes, int focus, const Look& look,
+                            Viewport viewport, slicing::Quality quality, Scene& scene, slicing::SurfaceDetail& out) {
+    out.steps.clear();
+    out.fogSteps.clear();
+    out.quality = quality;
+    out.secondValues = colorsByValue(look);
+    const bool hasFog = !look.field.fog.empty();
+    if (slicing::fieldIn(object) == nullptr || (!look.parts.faces && !hasFog)) return;
+    setObject(object, look, viewport, scene);
+    layoutInput_.focusName.clear();
+    layOutIfChanged(object, planes, focus, scene);
+    const glm::dvec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
+    // The size in pixels of one unit of the object at distance 1 from the eye.
+    const double unit = scene.camera.magnification() * viewport.height * scene.sliceRadius / scene.circumradius;
+    for (const SlicePlacement& placement : scene.placements) {
+        const double depth = glm::dot(forward, placement.position - scene.camera.eye);
+        const bool visible = placement.drawn && depth > -scene.sliceRadius;
+        const double distance = std::max(depth, scene.sliceRadius);
+        out.steps.push_back(visible ? slicing::pixelsPerCube(quality) * distance / unit : 0);
+    }
+    if (hasFog) out.fogSteps = out.steps;
+    if (!look.parts.faces) out.steps.clear();
+}
+
+void Composer::compose(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int focus,
+                       const Look& look, Viewport viewport, Scene& out) {
+    const geometry::ObjectInfo& info = slicing::infoOf(object);
+    setObject(object, look, viewport, out);
+    const bool objectChanged = std::exchange(objectChanged_, false);
+    if (objectChanged || filter_ != look.cellTypes) setFilter(object, look.cellTypes);
+
+    out.slices = &slices;
+    const fields::Field* const field = slicing::fieldIn(object);
+    const bool isField = field != nullptr;
+    out.crossing = isField || !info.convex;
+    out.faceOpacity = out.crossing ? 1 : style().faceOpacity;
+    out.surfaces.clear();
+    if (isField && look.parts.faces) chooseSurfaceLook(*field, look, slices.planes, out.surfaces);
+    out.fog.clear();
+    if (isField && !slices.fogs.empty()) makeFogTable(look.field.fog, out.fog);
     out.visibilities = visibilities_;
-    colors_.paint(object, look.coloring, orientation, out.cellColors);
+    removeHighlightColor(out);
+    cellPainter_.paint(object, look.coloring, orientation, out.cellColors);
     highlight(object, objectChanged, out);
     nameSection(object, focus, out);
-    layOutIfChanged(focus, out);
+    layOutIfChanged(object, slices.planes, focus, out);
     out.scale = out.sliceRadius / info.circumradius;
     out.ballRadius = ballRadius_ * out.sliceRadius;
     out.barRadius = 0.4 * out.ballRadius;
@@ -53,14 +94,15 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
 
     findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
     out.fill.clear();
-    if (out.crossing && look.parts.faces) filler_.fill(slices, info.circumradius, out.fill, fillSteps_);
+    if (out.crossing && !isField && look.parts.faces) filler_.fill(slices, info.circumradius, out.fill, fillSteps_);
     out.patchCells.clear();
     for (const slicing::Fill::Patch& patch : out.fill.patches)
         out.patchCells.push_back(slicing::coloringCell(object, out.visibilities, patch.source));
     if (out.showsDensity()) measureDensity(orientation, out);
+    if (out.showsHistogram()) measureValues(object, orientation, out);
 }
 
-// Finds what shows the highlighted element, and gives a highlighted cell its color.
+// Finds the slice elements that show the highlighted element. Gives a highlighted cell the highlight color.
 void Composer::highlight(const Object& object, bool objectChanged, Scene& out) {
     const std::optional<slicing::Element>& element = out.look.highlight;
     if (objectChanged || highlight_ != element) {
@@ -70,11 +112,22 @@ void Composer::highlight(const Object& object, bool objectChanged, Scene& out) {
             slicing::findSourcesShowing(object, *element, highlightSources_);
     }
     out.highlight = highlightSources_;
-    if (!out.highlight.empty() && element->kind == slicing::ElementKind::cell)
-        out.cellColors[element->index] = style().highlight;
+    if (!out.highlight.empty() && element->kind == slicing::ElementKind::cell) {
+        Color& color = out.cellColors[element->index];
+        replacedColor_ = {element->index, color};
+        color = style().highlight;
+    }
 }
 
-// Names the section of the focus hyperplane. In its label, the vertices' hull stands in for a slice without a name.
+// Restores the color that highlight() replaced, because the cell painter expects its own colors.
+void Composer::removeHighlightColor(Scene& out) {
+    if (!replacedColor_) return;
+    const auto [cell, color] = *std::exchange(replacedColor_, {});
+    if (cell < out.cellColors.size()) out.cellColors[cell] = color;
+}
+
+// Names the section of the focus hyperplane. If the slice has no name, its label shows the name of the hull of the
+// polytope's vertices in the hyperplane, provided that it is a solid.
 void Composer::nameSection(const Object& object, int focus, Scene& out) {
     const SliceSet& slices = *out.slices;
     const int slice = focus - slices.planes.first;
@@ -82,7 +135,7 @@ void Composer::nameSection(const Object& object, int focus, Scene& out) {
     std::string& focusName = layoutInput_.focusName;
     focusName.clear();
     const std::size_t edges = slicing::elementCounts(object)[1];
-    if (edges == 0 || slice < 0 || slice >= slices.planes.count) return;
+    if (edges == 0 || slicing::fieldIn(object) != nullptr || slice < 0 || slice >= slices.planes.count) return;
     out.sectionNames = {sectionNamer_.nameOfSlice(slices, slice), sectionNamer_.nameOfVertices(slices, slice, edges)};
     const auto& [name, vertices] = out.sectionNames;
     if (!name.empty()) {
@@ -92,16 +145,16 @@ void Composer::nameSection(const Object& object, int focus, Scene& out) {
     }
 }
 
-void Composer::layOutIfChanged(int focus, Scene& out) {
+void Composer::layOutIfChanged(const Object& object, const geometry::Hyperplanes& planes, int focus, Scene& out) {
     LayoutInput& input = layoutInput_;
-    input.planes = out.slices->planes;
+    input.planes = planes;
     input.focus = focus;
-    input.vertices = out.slices->rotatedVertices.size();
+    input.content = {slicing::elementCounts(object)[0], slicing::fieldIn(object) != nullptr};
     input.ballRadius = ballRadius_;
     input.look = out.look;
     input.viewport = out.viewport;
     if (laidOutIn_ == &out && laidOut_ == input) return;
-    layOut(input.planes, focus, input.vertices, ballRadius_, out.look, out.viewport, input.focusName, out);
+    layOut(input.planes, focus, input.content, ballRadius_, out.look, out.viewport, input.focusName, out);
     laidOut_ = input;
     laidOutIn_ = &out;
 }
@@ -159,7 +212,7 @@ void Composer::cutMatrix(const Object& object, const geometry::Rotation& orienta
             styles.edges.push_back(out.visibilities.face(source));
         }
         for (const std::uint32_t source : matrix.sections[i].pointSource) {
-            // Beyond the numbers of the 2-faces and edges are those of the vertices; a cloud has vertices only.
+            // Source numbers count 2-faces first, then edges, then vertices; a point cloud has only vertices.
             const bool isVertex = source >= faces + edges;
             styles.points.push_back(isVertex ? out.visibilities.vertex(source - faces) : out.visibilities.edge(source));
             styles.highlighted.push_back(isVertex ? out.highlight.hasVertex(source - faces)
@@ -190,6 +243,29 @@ void Composer::measureDensity(const geometry::Rotation& orientation, Scene& out)
     }
     const auto tones = density_.tones();
     out.density.assign(tones.begin(), tones.end());
+}
+
+void Composer::measureValues(const Object& object, const geometry::Rotation& orientation, Scene& out) {
+    const slicing::FieldSettings& settings = out.look.field;
+    if (densityObject_ != object_ || densityTurn_ != orientation || histogramLevels_ != settings.levels ||
+        out.density.empty()) {
+        histogram_.measure(*slicing::fieldIn(object), orientation, settings.levels);
+        densityObject_ = object_;
+        densityTurn_ = orientation;
+        histogramLevels_ = settings.levels;
+    }
+    const auto tones = histogram_.tones();
+    out.density.assign(tones.begin(), tones.end());
+    const auto& [least, greatest] = histogram_.range();
+    out.histogram.reach = histogram_.reach();
+    out.histogram.least = least;
+    out.histogram.greatest = greatest;
+    out.histogram.levels.clear();
+    for (std::size_t i = 0; i < settings.levels.size(); ++i) {
+        const double level = settings.levels[i];
+        if (level < least || level > greatest) continue;
+        out.histogram.levels.push_back({level, surfaceColor(i, settings.levels.size(), out.look.coloring)});
+    }
 }
 
 }  // namespace oval4d::scene

@@ -5,38 +5,50 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "geometry/rotation.hpp"
 #include "scene/density_plot.hpp"
 #include "scene/scene.hpp"
+#include "slicing/coordinate_histograms.hpp"
 #include "slicing/object.hpp"
 #include "slicing/planar_sections.hpp"
 #include "slicing/projector.hpp"
 #include "slicing/section_name.hpp"
+#include "slicing/surface_detail.hpp"
 
 namespace oval4d::scene {
 
-/// Composes scenes. Keeps data that stay the same from one scene to the next, and working memory. A composer may be
-/// used by one thread at a time. The caller must always pass the same Scene to compose(), because that Scene holds some
-/// of the kept data.
+/// Composes scenes. Reuses its working memory, and caches data that stay the same from one scene to the next. All calls
+/// must pass the same Scene object, because it holds part of the cached data. Only one thread at a time may use a
+/// composer.
 class Composer {
   public:
-    /// Limits the time for filling faces that cross each other: `steps` is passed to slicing::Filler::fill.
+    /// Limits the work of filling faces that cross each other: compose() passes `steps` to slicing::Filler::fill(). By
+    /// default, there is no limit.
     void limitFill(std::size_t steps) { fillSteps_ = steps; }
 
     /// Composes the scene of `slices`, which must have been cut from `object` rotated by `orientation`. `focus` is the
-    /// index n of the focus slice. Overwrites `out` and reuses its memory. `out` refers to `slices`, so `slices` must
-    /// outlive `out`.
+    /// index n of the focus slice (see SlicePlacement::index). Overwrites `out` and reuses its memory. `out` keeps a
+    /// pointer to `slices`; `slices` must outlive `out`.
     void compose(const slicing::Object& object, const geometry::Rotation& orientation, const slicing::SliceSet& slices,
                  int focus, const Look& look, Viewport viewport, Scene& out);
 
+    /// Chooses the lattices on which a field is sliced, such that their cubes have about the same size in pixels in all
+    /// slices of the picture. Overwrites `out`: SurfaceDetail::steps is empty if the surfaces are hidden,
+    /// SurfaceDetail::fogSteps is empty if there is no fog, and both are empty if `object` is not a field. The steps
+    /// are 0 for slices that are not drawn or lie behind the eye. If there are any steps, also lays out `scene`, which
+    /// must be the Scene that compose() gets next.
+    void chooseDetail(const slicing::Object& object, const geometry::Hyperplanes& planes, int focus, const Look& look,
+                      Viewport viewport, slicing::Quality quality, Scene& scene, slicing::SurfaceDetail& out);
+
   private:
-    /// Everything on which the layout depends. It does not depend on the orientation, so it stays the same while the
-    /// object turns.
+    // All inputs of the layout. While the object turns, only `focusName` can change, so that most frames reuse the
+    // layout.
     struct LayoutInput {
         geometry::Hyperplanes planes;
         int focus = 0;
-        std::size_t vertices = 0;
+        CoordinatesContent content;
         double ballRadius = 0;
         Look look;
         Viewport viewport;
@@ -48,29 +60,37 @@ class Composer {
     void projectObject(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
     void cutMatrix(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
     void nameSection(const slicing::Object& object, int focus, Scene& out);
-    void layOutIfChanged(int focus, Scene& out);
+    void setObject(const slicing::Object& object, const Look& look, Viewport viewport, Scene& out);
+    void layOutIfChanged(const slicing::Object& object, const geometry::Hyperplanes& planes, int focus, Scene& out);
     void highlight(const slicing::Object& object, bool objectChanged, Scene& out);
+    void removeHighlightColor(Scene& out);
     void measureDensity(const geometry::Rotation& orientation, Scene& out);
+    void measureValues(const slicing::Object& object, const geometry::Rotation& orientation, Scene& out);
 
     std::size_t fillSteps_ = slicing::Filler::kNoLimit;
-    CellColors colors_;
+    CellPainter cellPainter_;
     slicing::Filler filler_;
-    std::uint64_t object_ = 0;  // the serial number of the object for which the next three members were computed
-    double ballRadius_ = 0;     // as a fraction of the slice radius
+    std::uint64_t object_ = 0;    // the serial number of the object of the last call
+    bool objectChanged_ = false;  // whether the object has changed since the last call of compose()
+    double ballRadius_ = 0;       // the ball radius of this object, as a fraction of the slice radius
     slicing::Visibilities visibilities_;
     slicing::Projector projector_;
     slicing::PlanarSlicer planarSlicer_;
     CellTypeFilter filter_;
     slicing::SectionNamer sectionNamer_;
-    LayoutInput layoutInput_;           // of the next composition
-    LayoutInput laidOut_;               // of the layout in the scene
-    const Scene* laidOutIn_ = nullptr;  // the scene; null before the first composition
+    LayoutInput layoutInput_;           // the input of the next layout; a member to reuse its memory
+    LayoutInput laidOut_;               // the input of the layout that the scene has
+    const Scene* laidOutIn_ = nullptr;  // the scene that has this layout; null before the first layout
     std::optional<slicing::Element> highlight_;
-    slicing::ElementSources highlightSources_;  // of highlight_
+    slicing::ElementSources highlightSources_;  // the vertices and edges of slices that show highlight_
+    // A cell that has the highlight color in the scene, and the color that this cell has otherwise.
+    std::optional<std::pair<std::size_t, Color>> replacedColor_;
 
     DensityPlot density_;
-    std::uint64_t densityObject_ = 0;  // the serial number of the object of which the density was measured
-    geometry::Rotation densityTurn_;
+    slicing::CoordinateHistograms histogram_;
+    std::uint64_t densityObject_ = 0;  // the serial number of the object whose density or histogram was measured last
+    geometry::Rotation densityTurn_;   // the orientation in this measurement
+    std::vector<double> histogramLevels_;  // the levels in this measurement
 };
 
 }  // namespace oval4d::scene

@@ -9,26 +9,27 @@ namespace oval4d::scene {
 
 namespace {
 
-constexpr int kReach =
+constexpr int kMaxLevel =
     static_cast<int>(DensityPlot::kLine) * (DensityPlot::kRows - 1) / 2;  // steps from 0 to the circumradius
-constexpr int kSteps = 2 * kReach + 1;
+constexpr int kLevels = 2 * kMaxLevel + 1;
 
 // Adding this number to a float rounds the float to an integer, because the last bit of the sum has the value 1. Halves
 // are rounded to the even integer, so opposite values remain opposite.
 constexpr float kRounder = 12582912.0F;  // 1.5 · 2²³
 
 std::uint32_t stepOf(float level) {
-    return std::bit_cast<std::uint32_t>(level + kRounder) - (std::bit_cast<std::uint32_t>(kRounder) - kReach);
+    return std::bit_cast<std::uint32_t>(level + kRounder) - (std::bit_cast<std::uint32_t>(kRounder) - kMaxLevel);
 }
 
 }  // namespace
 
 void DensityPlot::measure(std::span<const glm::dvec4> vertices, const glm::dmat4& turn, double circumradius) {
-    const glm::dmat4 toSteps = turn * (kReach / circumradius);
+    const glm::dmat4 toSteps = turn * (kMaxLevel / circumradius);
     for (std::vector<float>& levels : levels_) levels.resize(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const glm::dvec4 at = toSteps * vertices[i];
-        for (int k = 0; k < 4; ++k) levels_[k][i] = static_cast<float>(std::clamp<double>(at[k], -kReach, kReach));
+        for (int k = 0; k < 4; ++k)
+            levels_[k][i] = static_cast<float>(std::clamp<double>(at[k], -kMaxLevel, kMaxLevel));
     }
     weights_.assign(static_cast<std::size_t>(kRows) * kColumns, 0);
     for (int column = 0; column < kColumns; ++column) countColumn(column);
@@ -50,7 +51,7 @@ void DensityPlot::countColumn(int column) {
     // Consecutive vertices often have the same step. Counting them in different tables keeps each increment independent
     // of the previous one.
     constexpr std::size_t kTables = 4, kBatch = 256;
-    std::array<std::array<std::uint32_t, kSteps>, kTables> tables{};
+    std::array<std::array<std::uint32_t, kLevels>, kTables> tables{};
     std::array<std::uint32_t, kBatch> steps;
     for (std::size_t begin = 0; begin < count; begin += kBatch) {
         const std::size_t size = std::min(kBatch, count - begin);
@@ -62,7 +63,7 @@ void DensityPlot::countColumn(int column) {
     const auto add = [&](int rowFromBelow, std::uint32_t weight) {
         weights_[index(kRows - 1 - rowFromBelow, column)] += weight;
     };
-    for (std::uint32_t step = 0; step < kSteps; ++step) {
+    for (std::uint32_t step = 0; step < kLevels; ++step) {
         std::uint32_t lines = 0;
         for (const auto& table : tables) lines += table[step];
         if (lines == 0) continue;

@@ -1,7 +1,7 @@
 #pragma once
-// Parallel coordinates of very many vertices as a density plot, which shows the number of lines through each point
-// instead of the lines (Inselberg, Parallel Coordinates, ch. 2; Artero et al., Uncovering Clusters in Crowded Parallel
-// Coordinates).
+// Density plots, which replace the parallel coordinates of very many vertices: instead of the lines, a density plot
+// shows the number of lines through each point (Inselberg, Parallel Coordinates, ch. 2; Artero et al., Uncovering
+// Clusters in Crowded Parallel Coordinates).
 
 #include <array>
 #include <cstddef>
@@ -14,29 +14,29 @@
 
 namespace oval4d::scene {
 
-/// A density plot of kRows × kColumns weights. The axes x, y, z and w are the columns 0, kGap, 2 kGap and 3 kGap. Each
-/// vertex is a line from its value on one axis to its value on the next axis. Row 0 is at +circumradius, the last row
-/// at −circumradius. Reuses its memory between measurements.
+/// A density plot of kRows × kColumns weights. The axes x, y, z and w are at the columns 0, kGap, 2 kGap and 3 kGap.
+/// The line of a vertex joins its values on neighboring axes. Row 0 is at +circumradius, the last row at −circumradius.
+/// Reuses its memory between measurements.
 class DensityPlot {
   public:
     static constexpr int kGap = 64;  ///< columns from one axis to the next
     static constexpr int kColumns = 3 * kGap + 1;
     static constexpr int kRows = 65;
-    /// The weight that a line adds to each column, shared by the two rows between which it passes.
+    /// The weight that each line adds to each column; the two rows between which the line passes share it.
     static constexpr std::uint32_t kLine = 4;
 
-    /// Computes the density plot of the vertices, multiplied by the matrix `turn`. Coordinates are clamped to
+    /// Computes the density plot of the points turn · v for all v in `vertices`. Coordinates are clamped to
     /// ±circumradius.
     void measure(std::span<const glm::dvec4> vertices, const glm::dmat4& turn, double circumradius);
 
     /// Returns the weights, row by row. The sum of each column is kLine times the number of vertices.
     std::span<const std::uint32_t> weights() const { return weights_; }
 
-    /// Returns the square roots of the weights, row by row, scaled so that the largest is 255. The square root keeps
+    /// Returns the square roots of the weights, row by row, scaled such that the largest is 255. The square root keeps
     /// small weights visible beside large ones.
     std::span<const std::uint8_t> tones() const { return tones_; }
 
-    /// Returns the index of a row and column in weights() and tones().
+    /// Returns the index in weights() and tones() of the entry in this row and column.
     static constexpr std::size_t index(int row, int column) {
         return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column);
     }

@@ -58,16 +58,32 @@ struct Rect {
 // Returns the width available between the margins, at least half the viewport's width.
 double availableWidth(double aspect) { return std::max(aspect - 4 * kMargin, aspect / 2); }
 
+constexpr double kMaxAxisStep = 0.42;                            // between neighboring axes of a strip or histogram
+constexpr double kStripAmplitude = 0.056, kStripNameRoom = 1.1;  // the room in heights of text
+
 void layOutStrip(std::size_t vertices, double aspect, CoordinatesLayout& out) {
-    constexpr double kMaxStep = 0.42, kAmplitude = 0.056, kNameRoom = 1.1;
-    out = {.rows = 1, .perRow = static_cast<int>(vertices), .lineWidth = 0.0022, .amplitude = kAmplitude};
+    out = {.rows = 1, .perRow = static_cast<int>(vertices), .lineWidth = 0.0022, .amplitude = kStripAmplitude};
     out.density = true;
-    out.lineStep = std::clamp((availableWidth(aspect) - out.lineWidth) / 3, 0.0, kMaxStep);
+    out.lineStep = std::clamp((availableWidth(aspect) - out.lineWidth) / 3, 0.0, kMaxAxisStep);
     out.left = (aspect - 3 * out.lineStep - out.lineWidth) / 2;
-    out.zero = kMargin + kNameRoom * style().textHeight + kAmplitude;
+    out.zero = kMargin + kStripNameRoom * style().textHeight + kStripAmplitude;
 }
 
-void layOutCoordinates(std::size_t vertices, double aspect, CoordinatesLayout& out) {
+void layOutHistogram(double aspect, CoordinatesLayout& out) {
+    constexpr double kGap = 0.08;  // between two panels, as a fraction of the distance from one to the next
+    out = {.lineWidth = 0.0022, .amplitude = kStripAmplitude};
+    out.lineStep = std::clamp(availableWidth(aspect) / (4 - kGap), 0.0, kMaxAxisStep);
+    out.panel = (1 - kGap) * out.lineStep;
+    out.left = (aspect - 3 * out.lineStep - out.panel) / 2;
+    out.zero = kMargin + kStripNameRoom * style().textHeight + kStripAmplitude;
+}
+
+void layOutCoordinates(const CoordinatesContent& content, double aspect, CoordinatesLayout& out) {
+    if (content.isField) {
+        layOutHistogram(aspect, out);
+        return;
+    }
+    const std::size_t vertices = content.vertices;
     constexpr double kMinColumn = 0.0095;
     constexpr double kMaxColumn = 0.15;
     if (vertices > kMaxVerticesAsLines) {
@@ -76,6 +92,7 @@ void layOutCoordinates(std::size_t vertices, double aspect, CoordinatesLayout& o
     }
     const double width = availableWidth(aspect);
     out.density = false;
+    out.panel = 0;
     const auto count = static_cast<double>(std::max<std::size_t>(vertices, 1));
     out.rows = std::clamp(static_cast<int>(std::ceil(count * kMinColumn / width)), 1, 6);
     out.perRow = static_cast<int>(std::ceil(count / out.rows));
@@ -166,8 +183,8 @@ ProjectionPlacement insideOval(const std::vector<SlicePlacement>& placements, co
         }
         return room;
     };
-    // The room grows with the distance from the focus slice and shrinks with that from the upper end of the oval. So it
-    // has one maximum, which a golden-section search finds.
+    // Along the axis, the room first grows with the distance from the focus slice, and then shrinks toward the upper
+    // end of the oval. So it has one maximum, which a golden-section search finds.
     constexpr double kGolden = std::numbers::phi - 1;
     constexpr int kSteps = 24;
     double from = 0, to = oval.depth;
@@ -278,7 +295,7 @@ class Labels {
         const glm::dmat4 view = camera.view();
         const glm::dvec3 right(view[0][0], view[1][0], view[2][0]);
         const glm::dvec3 up(view[0][1], view[1][1], view[2][1]);
-        const double pixels = pixelsOf(camera);
+        const double pixels = camera.magnification();
         for (std::size_t i = 0; i < placements_.size(); ++i) {
             SlicePlacement& placement = placements_[i];
             const double depth = -(view * glm::dvec4(placement.position, 1)).z;
@@ -306,7 +323,7 @@ class Labels {
     void thin(const Camera& camera, double aspect) {
         const auto count = static_cast<std::ptrdiff_t>(placements_.size());
         const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus) - placements_.begin();
-        const std::ptrdiff_t step = smallestStep(focus, pixelsOf(camera));
+        const std::ptrdiff_t step = smallestStep(focus, camera.magnification());
         const glm::dmat4 toView = camera.view();
         const auto boxOf = [&](std::ptrdiff_t i) { return boxSeenBy(camera, toView, aspect, placements_[i]); };
         const auto keeps = [&](std::ptrdiff_t i, std::ptrdiff_t distance) {
@@ -333,9 +350,6 @@ class Labels {
 
   private:
     static double fontSize(const SlicePlacement& placement) { return style().textHeight * placement.labelSize; }
-
-    // Viewport heights per world unit at distance 1.
-    static double pixelsOf(const Camera& camera) { return 0.5 / std::tan(camera.fieldOfView / 2); }
 
     glm::dvec2 halfText(const SlicePlacement& placement) const {
         return fontSize(placement) * glm::dvec2(width_ + (placement.focus ? kFocusPrefixWidth : 0), kDigitHeight) / 2.0;
@@ -377,8 +391,8 @@ class Labels {
     Box boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
                   const SlicePlacement& placement) const {
         const glm::dvec3 p(toView * glm::dvec4(placement.labelAt, 1));
-        const glm::dvec2 top =
-            glm::dvec2(p) * (pixelsOf(camera) / -p.z) + glm::dvec2((0.5 + camera.shiftX) * aspect, 0.5 + camera.shiftY);
+        const glm::dvec2 top = glm::dvec2(p) * (camera.magnification() / -p.z) +
+                               glm::dvec2((0.5 + camera.shiftX) * aspect, 0.5 + camera.shiftY);
         const double name = placement.focus ? fontSize(placement) * nameWidth_ / 2 : 0;
         return {top - glm::dvec2(0, kDigitHeight / 2 * fontSize(placement)),
                 halfPlate(placement) + glm::dvec2(name, 0)};
@@ -409,8 +423,8 @@ class Labels {
     std::vector<SlicePlacement>& placements_;
 };
 
-// Returns the room for the slices inside `room`: what is left when their labels also have room, but at least half of
-// the width and height.
+// Returns the part of `room` that is left for the slices if their labels also have room, but at least half of its width
+// and height.
 Rect roomInside(const Rect& room, const Rect& bounds, const Labels& labels) {
     const double maxX = (room.right - room.left) / 4, maxY = (room.top - room.bottom) / 4;
     Rect inside = room;
@@ -423,8 +437,7 @@ Rect roomInside(const Rect& room, const Rect& bounds, const Labels& labels) {
     return inside;
 }
 
-// Places the matrix at the right of `room`, or at its lower end if the room is tall, and removes its place from the
-// room.
+// Places the matrix at the right of `room`, or at its lower end if the room is tall, and shrinks the room accordingly.
 MatrixLayout placeMatrix(Rect& room, double ballRadius) {
     constexpr double kShare = 0.64, kGap = 0.03, kPanelGap = 0.06;
     const double width = room.right - room.left, height = room.top - room.bottom;
@@ -434,7 +447,7 @@ MatrixLayout placeMatrix(Rect& room, double ballRadius) {
     matrix.shown = true;
     matrix.step = side / (4 - kPanelGap);
     matrix.panel = (1 - kPanelGap) * matrix.step;
-    // Sections of an object with many elements have many points.
+    // Sections of objects with many elements have many points, so these shrink with the balls.
     matrix.pointRadius = std::min(ballRadius * matrix.panel, 0.0042);
     matrix.lineWidth = std::clamp(1.5 * matrix.pointRadius, 0.0022, 0.0042);
     if (wide) {
@@ -462,10 +475,10 @@ std::optional<MatrixLayout::Panel> MatrixLayout::panelAt(glm::dvec2 position) co
     return found;
 }
 
-void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices, double ballRadius, const Look& look,
-            Viewport viewport, std::string_view focusName, Layout& out) {
+void layOut(const geometry::Hyperplanes& planes, int focus, const CoordinatesContent& content, double ballRadius,
+            const Look& look, Viewport viewport, std::string_view focusName, Layout& out) {
     const double aspect = static_cast<double>(viewport.width) / viewport.height;
-    layOutCoordinates(vertices, aspect, out.coordinates);
+    layOutCoordinates(content, aspect, out.coordinates);
     out.axes = {0.06, 0.075, 0.045};
     Rect room{kMargin, aspect - kMargin, kMargin, 1 - kMargin};
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;

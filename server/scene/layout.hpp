@@ -21,32 +21,39 @@ struct SlicePlacement {
     int index = 0;           ///< the index n of the hyperplane
     double w = 0;            ///< the w of the hyperplane, in the object's units
     glm::dvec3 position{0};  ///< the position of the slice's origin
-    /// "w = −0.25" for the focus slice, followed by the name of the section if there is one; "−0.25" for others; empty
-    /// if it is not shown.
+    /// The text of the label: "−0.25"; for the focus slice, "w = −0.25", followed by a comma and the name of the
+    /// section if it has a name for which there is room. Empty if the label is not shown.
     std::string label;
     glm::dvec3 labelAt{0};  ///< the center of the label's top edge
-    double labelSize = 1;   ///< the height of the label, as a fraction of Style::textHeight
+    double labelSize = 1;   ///< the font size of the label, as a multiple of Style::textHeight
     bool focus = false;     ///< whether this is the focus slice
-    bool drawn = true;      ///< false in the single view for all slices but the focus slice
+    bool drawn = true;      ///< whether the slice is drawn: true in the oval view, else only for the focus slice
     bool operator==(const SlicePlacement&) const = default;
 };
 
-/// The layout of the parallel coordinates. Vertex i is in row i / perRow and column i % perRow. The vertex has four
-/// vertical lines, for its x, y, z and w. Each line extends from the row's zero line up or down; a line of length
-/// `amplitude` represents the circumradius. All lengths are fractions of the viewport's height; positions are measured
-/// from the viewport's lower left corner. If there are more than kMaxVerticesAsLines vertices, a density strip is drawn
-/// instead: a single column, whose four lines are axes from −circumradius to +circumradius.
+/// The layout of the parallel coordinates. All lengths are fractions of the viewport's height; positions are measured
+/// from the viewport's lower left corner. There are three forms:
+/// - Lines: vertex i is in row i / perRow and column i % perRow, and has four vertical lines, for its x, y, z and w.
+///   Each line extends up or down from the row's zero line; a line of length `amplitude` represents the circumradius.
+/// - A density strip, for more than kMaxVerticesAsLines vertices. It has four vertical axes, at `left` + k · `lineStep`
+///   for axis k (0 … 3), from −circumradius at `zero` − `amplitude` to +circumradius at `zero` + `amplitude`.
+/// - A histogram, for a field: the panel of axis k (0 … 3) extends from `left` + k · `lineStep` to the right by
+///   `panel`, and from `zero` − `amplitude` up to `zero` + `amplitude`.
 struct CoordinatesLayout {
     int rows = 1, perRow = 1;
     double left = 0;        ///< the left edge of the first column
     double zero = 0;        ///< the height of the top row's zero line above the bottom of the viewport
     double rowStep = 0;     ///< the distance from a row's zero line down to that of the next row
-    double columnStep = 0;  ///< the distance from one vertex to the next
-    double lineStep = 0;    ///< the distance from one of the four lines of a vertex to the next
+    double columnStep = 0;  ///< lines: the distance from one vertex to the next in its row
+    double lineStep = 0;    ///< the distance from one of the four lines, axes or panels to the next
     double lineWidth = 0;
     double amplitude = 0;  ///< the length of a line whose value is the circumradius
-    bool named = true;     ///< whether the columns have labels P0, P1, … below them, or the strip's axes x, y, z, w
+    bool named = true;     ///< whether there are labels: P0, P1, … below the vertices, or x, y, z, w below the axes
     bool density = false;  ///< whether a density strip is drawn
+    double panel = 0;      ///< the width of the panels of a field's histogram; 0 if none is drawn
+
+    /// Returns whether each vertex has lines of its own.
+    bool hasLines() const { return !density && panel == 0; }
     bool operator==(const CoordinatesLayout&) const = default;
 };
 
@@ -54,45 +61,46 @@ struct CoordinatesLayout {
 /// drawn.
 inline constexpr std::size_t kMaxVerticesAsLines = 300;
 
-/// The layout of the axes in the upper left corner: the distances of their center from the left and top edges, and the
-/// length of each axis. All are fractions of the viewport's height.
+/// The layout of the symbol in the upper left corner that shows the directions of the axes: the distances of its center
+/// from the left (`x`) and top (`y`) edges, and the length of each axis. All are fractions of the viewport's height.
 struct AxesLayout {
     double x = 0, y = 0, length = 0;
     bool operator==(const AxesLayout&) const = default;
 };
 
-/// The place of the projection of the whole object.
+/// The placement of the projection of the whole object.
 struct ProjectionPlacement {
     bool shown = false;
-    glm::dvec3 position{0};  ///< the position of its center, in world space
-    double radius = 1;       ///< of the sphere that contains it, in world units
+    glm::dvec3 position{0};  ///< the center of the projection, in world space
+    double radius = 1;       ///< the radius of a sphere that contains the projection, in world units
     bool operator==(const ProjectionPlacement&) const = default;
 };
 
 /// The layout of the matrix of planar sections. The panel in row i and column j, from the upper left, shows the section
-/// by the plane of the axes i and j (0 … 3 for x, y, z, w): axis j to the right, axis i upward. The panels on the
-/// diagonal name the axes. All lengths are fractions of the viewport's height; positions are measured from its lower
-/// left corner.
+/// by the plane of the axes i and j (0 … 3 for x, y, z, w), with axis j to the right and axis i upward. The panels on
+/// the diagonal show the names of the axes. All lengths are fractions of the viewport's height; positions are measured
+/// from the viewport's lower left corner.
 struct MatrixLayout {
     bool shown = false;
     double left = 0, bottom = 0;            ///< the lower left corner of the matrix
     double panel = 0;                       ///< the side of a panel
     double step = 0;                        ///< the distance from a panel to the next
-    double lineWidth = 0, pointRadius = 0;  ///< of the edges and points of sections
-    /// From the center of a panel, which is the object's origin, to the panel's sides, in circumradii.
+    double lineWidth = 0, pointRadius = 0;  ///< the width of the edges and the radius of the points of sections
+    /// The distance, in circumradii, from the center of a panel, which shows the object's origin, to its sides.
     static constexpr double kReach = 1.08;
 
-    /// Returns the center of a panel.
+    /// Returns the center of the panel in this row and column (0 … 3).
     glm::dvec2 center(int row, int column) const {
         return {left + column * step + panel / 2, bottom + (3 - row) * step + panel / 2};
     }
-    /// Returns the length that represents one unit of an object with this circumradius.
+    /// Returns the length in a panel that represents one unit of an object with this circumradius.
     double scale(double circumradius) const { return panel / 2 / (kReach * circumradius); }
-    /// A panel that shows a section: its row and column are the axes upward and to the right.
+    /// The row and column (0 … 3) of a panel that shows a section; `row` is also the axis that points upward, `column`
+    /// the axis that points to the right.
     struct Panel {
         int row, column;
     };
-    /// Returns the panel at a position; nothing outside the panels and on the diagonal.
+    /// Returns the panel at a position; an empty optional outside the panels and on the diagonal.
     std::optional<Panel> panelAt(glm::dvec2 position) const;
     bool operator==(const MatrixLayout&) const = default;
 };
@@ -108,10 +116,17 @@ struct Layout {
     MatrixLayout matrix;
 };
 
-/// Lays out the slices of an object with `vertices` vertices. `focus` is the index n of the focus slice; `ballRadius`
-/// is the radius of balls as a fraction of the slice radius; `focusName` is what the focus slice's label says after w.
-/// Overwrites `out` and reuses its memory.
-void layOut(const geometry::Hyperplanes& planes, int focus, std::size_t vertices, double ballRadius, const Look& look,
-            Viewport viewport, std::string_view focusName, Layout& out);
+/// The properties of an object that determine the layout of its parallel coordinates.
+struct CoordinatesContent {
+    std::size_t vertices = 0;
+    bool isField = false;
+    bool operator==(const CoordinatesContent&) const = default;
+};
+
+/// Lays out a picture. `planes` are the hyperplanes of the slices, and `focus` is the index n of the focus slice;
+/// `ballRadius` is the radius of balls as a fraction of the slice radius; `focusName` is the text that follows w in the
+/// focus slice's label, if there is room for it. Overwrites `out` and reuses its memory.
+void layOut(const geometry::Hyperplanes& planes, int focus, const CoordinatesContent& content, double ballRadius,
+            const Look& look, Viewport viewport, std::string_view focusName, Layout& out);
 
 }  // namespace oval4d::scene

@@ -10,30 +10,48 @@
 
 #include "scene/parts.hpp"
 #include "slicing/element.hpp"
+#include "slicing/field_settings.hpp"
 #include "text/choice.hpp"
 
 namespace oval4d::scene {
 
-/// What is shown: all slices on the oval, only the focus slice, or the focus slice and the matrix of planar sections.
+/// Which slices are shown: all slices on the oval; only the focus slice; or the focus slice beside the matrix of planar
+/// sections.
 enum class View : std::uint8_t { oval, single, matrix };
 inline constexpr auto kViews =
     std::to_array<text::Choice<View>>({{"oval", View::oval}, {"single", View::single}, {"matrix", View::matrix}});
 
-/// The property of a cell that determines the color of the faces that are cut from the cell.
+/// The property that determines the colors of cells or, for fields, of surfaces. Each face of a slice has the color of
+/// the cell from which it was cut.
 enum class Coloring : std::uint8_t {
-    cell,       ///< the cell itself
-    cell_type,  ///< the type of the cell, which messages call a kind
-    w,          ///< the w of the cell's center after the rotation
-    plain,      ///< none: all cells have the same color
-    light,      ///< how the cell faces a light in four dimensions
+    cell,       ///< the cell itself; for fields: the level
+    cell_type,  ///< the type of the cell; called "kind" in messages
+    w,          ///< the w of the cell's center after the rotation; for fields: the w of the slice
+    plain,      ///< none: everything has the same color
+    light,      ///< the angle between the cell's normal and the direction toward a light in four dimensions
+    growth,     ///< for fields: how fast the surface moves outward as w increases
+    value,      ///< for fields: the value of the second function or, without one, of the function itself
 };
 inline constexpr auto kColorings = std::to_array<text::Choice<Coloring>>({{"cell", Coloring::cell},
                                                                           {"kind", Coloring::cell_type},
                                                                           {"w", Coloring::w},
                                                                           {"plain", Coloring::plain},
-                                                                          {"light", Coloring::light}});
+                                                                          {"light", Coloring::light},
+                                                                          {"growth", Coloring::growth},
+                                                                          {"value", Coloring::value}});
 
-/// The projection of the whole object that is shown in the middle of the oval.
+/// How the caps of a field's surfaces are drawn. A cap is a part of the boundary of the field's domain; it closes the
+/// body inside a surface where the domain ends.
+enum class CapStyle : std::uint8_t {
+    plain,  ///< in the color of the level or of the slice
+    value,  ///< colored as with Coloring::value
+    open,   ///< no caps: the surfaces are open at the domain's boundary
+};
+inline constexpr auto kCapStyles = std::to_array<text::Choice<CapStyle>>(
+    {{"plain", CapStyle::plain}, {"value", CapStyle::value}, {"open", CapStyle::open}});
+
+/// The kinds of projection of the whole object to three dimensions. The projection is shown in the middle of the oval
+/// or, if only the focus slice is drawn, beside it.
 enum class ProjectionKind : std::uint8_t {
     off,
     perspective,  ///< from an eye on the positive w axis
@@ -51,21 +69,21 @@ struct ProjectionSettings {
     bool operator==(const ProjectionSettings&) const = default;
 };
 
-/// The cell types that are not fully visible, as indices into ObjectInfo::cellTypes. Each list is sorted. No cell type
-/// occurs twice in a list, and none occurs in both lists.
+/// The cell types that are hidden or translucent, as indices into ObjectInfo::cellTypes. Each list is sorted and has no
+/// duplicates; no cell type is in both lists.
 struct CellTypeFilter {
     std::vector<std::uint32_t> hidden, faded;
     bool operator==(const CellTypeFilter&) const = default;
 };
 
-/// The viewer's changes to the camera: its rotation about its target in radians, and a factor of magnification. The
-/// defaults mean no change.
+/// The user's changes to the camera: `azimuth` and `elevation` rotate the camera about its target, in radians; `zoom`
+/// multiplies the magnification. The defaults mean no change.
 struct CameraOrbit {
     double azimuth = 0, elevation = 0, zoom = 1;
     bool operator==(const CameraOrbit&) const = default;
 };
 
-/// All of the user's choices of how the object is displayed.
+/// All choices of the user about the display of an object.
 struct Look {
     View view = View::oval;
     Parts parts;
@@ -75,8 +93,10 @@ struct Look {
     ProjectionSettings projection = {};
     std::optional<slicing::Element> highlight = {};  ///< the element that is drawn in another color
     /// The x, y and z of the focus point, in the object's units; its w is that of the focus slice. The planes of the
-    /// matrix view pass through it.
+    /// matrix view pass through this point.
     glm::dvec3 focusPoint{0};
+    slicing::FieldSettings field = {};  ///< for a field: the surfaces and the fog that are shown
+    CapStyle caps = CapStyle::plain;
     bool operator==(const Look&) const = default;
 };
 

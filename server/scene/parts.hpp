@@ -9,20 +9,20 @@ namespace oval4d::scene {
 /// Whether each part of a picture is shown.
 struct Parts {
     bool faces = true, bars = true, balls = true, coordinates = true, labels = true;
-    bool cells = false;     ///< in the projection of the whole object: the 2-faces, which bound its cells
-    bool back = true;       ///< in the projection: what the 4-D eye cannot see because cells hide it
-    bool sections = false;  ///< in the projection: the sections of all hyperplanes, not only that of the focus
+    bool cells = false;     ///< in the projection of the whole object: the 2-faces, which bound the projected cells
+    bool back = true;       ///< in the projection: the elements that cells hide from the 4-D eye
+    bool sections = false;  ///< in the projection: the sections of all slices, not only of the focus slice
     bool operator==(const Parts&) const = default;
 };
 
-/// A part of the picture. Its name is used in messages, queries, stored sessions and on the ':' line. The action of the
-/// key that toggles the part (protocol/keymap.json) has the same name.
+/// A part of the picture and its name, which is used in messages, queries, stored sessions and on the ':' command line.
+/// The action of the key that shows or hides the part (protocol/keymap.json) has the same name.
 struct PartRow {
     std::string_view name;
     bool Parts::* flag;
 };
 
-/// All parts. Stored sessions contain the flags in this order, so a new row must be added at the end.
+/// All parts. Stored sessions contain the flags in this order; therefore a new row must be the last one.
 inline constexpr auto kParts = std::to_array<PartRow>({{"faces", &Parts::faces},
                                                        {"bars", &Parts::bars},
                                                        {"balls", &Parts::balls},

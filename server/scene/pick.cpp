@@ -17,10 +17,10 @@ using slicing::ElementKind;
 using slicing::SliceSet;
 using slicing::Visibility;
 
-constexpr double kReach = 3;  // pixels: the least radius within which a ball or a bar is hit
+constexpr double kHitRadius = 3;  // pixels: the least radius within which a ball or a bar is hit
 
-// The source of a slice element (see SliceSet): an element of this dimension, or one of the next lower dimension, whose
-// numbers begin at `count`.
+// Returns the element with this source number (see SliceSet): an element of the kind `cut` or, for numbers from `count`
+// up, an element of the kind `contained`.
 Element elementOf(std::uint32_t source, ElementKind cut, std::size_t count, ElementKind contained) {
     if (source < count) return {cut, source};
     return {contained, source - count};
@@ -80,7 +80,7 @@ class Picker {
             const glm::dvec2& p = section->points[i];
             return center + scale * (row < column ? glm::dvec2(p.y, p.x) : p);
         };
-        double nearest = std::max(scene_.matrix.pointRadius * size_.y, kReach);
+        double nearest = std::max(scene_.matrix.pointRadius * size_.y, kHitRadius);
         const bool balls = scene_.look.parts.balls || !section->ballScale.empty();
         for (std::size_t i = 0; balls && i < section->points.size(); ++i) {
             const double distance = glm::distance(pixelAt(i), pixel_);
@@ -89,7 +89,7 @@ class Picker {
             picked_ = {elementOfPoint(section->pointSource[i]), PictureArea::matrix, 0};
         }
         if (picked_) return;
-        nearest = std::max(scene_.matrix.lineWidth / 2 * size_.y, kReach);
+        nearest = std::max(scene_.matrix.lineWidth / 2 * size_.y, kHitRadius);
         for (std::size_t e = 0; scene_.look.parts.bars && e < section->edges.size(); ++e) {
             const double distance = distanceFromLine(pixelAt(section->edges[e][0]), pixelAt(section->edges[e][1]));
             if (distance > nearest || styles.edges[e] == Visibility::hidden) continue;
@@ -101,7 +101,7 @@ class Picker {
 
     void pickCoordinates() {
         const CoordinatesLayout& layout = scene_.coordinates;
-        if (!scene_.look.parts.coordinates || layout.density) return;
+        if (!scene_.look.parts.coordinates || !layout.hasLines()) return;
         const glm::dvec2 at = pixel_ / size_.y;
         const double first = layout.left - layout.lineStep / 2;
         const double column = std::floor((at.x - first) / layout.columnStep);
@@ -122,7 +122,7 @@ class Picker {
         bool faces;
     };
 
-    // The source of a point of a planar section; see PlanarSection.
+    // Returns the element with this source number of a point of a planar section (see PlanarSection).
     Element elementOfPoint(std::uint32_t source) const {
         if (source < counts_[2]) return {ElementKind::face, source};
         return elementOf(source - static_cast<std::uint32_t>(counts_[2]), ElementKind::edge, counts_[1],
@@ -137,7 +137,8 @@ class Picker {
         return glm::distance(from + t * along, pixel_);
     }
 
-    // Tests the elements of slice or part `i`; `where` has what to report with an element that is found.
+    // Tests the elements of slice or part `i`; `where` has the area and the slice to report for an element that is
+    // found.
     void pick(const SliceSet& set, std::size_t i, const glm::dvec3& position, double scale, const Sizes& sizes,
               const PickedElement& where) {
         const std::uint32_t v0 = set.vertexBegin[i], e0 = set.edgeBegin[i];
@@ -178,7 +179,7 @@ class Picker {
 
     // Returns whether a distance in pixels is within a radius in world units at this depth.
     bool isWithin(double pixels, double radius, double depth) const {
-        return depth > 0 && pixels <= std::max(radius * focalLength_ / depth, kReach);
+        return depth > 0 && pixels <= std::max(radius * focalLength_ / depth, kHitRadius);
     }
 
     glm::dvec2 pixelOf(const glm::dvec3& point) const {

@@ -1,5 +1,5 @@
 #pragma once
-// Finds what a picture shows at a point.
+// Finds the element or the point of the object that a picture shows at a pixel.
 
 #include <cstdint>
 #include <optional>
@@ -20,22 +20,23 @@ inline constexpr auto kPictureAreas =
                                               {"coordinates", PictureArea::coordinates},
                                               {"matrix", PictureArea::matrix}});
 
-/// An element that a picture shows at a point.
+/// An element of the object that a picture shows at a pixel.
 struct PickedElement {
     slicing::Element element;
     PictureArea area = PictureArea::slice;
-    std::size_t slice = 0;  ///< PictureArea::slice: the index of the slice in SliceSet
+    std::size_t slice = 0;  ///< for PictureArea::slice: the index of the slice in the SliceSet
 };
 
-/// Returns the element of `object` that is shown at the point (x, y), in pixels from the upper left corner, and is
-/// nearest to the viewer: the vertex, edge, 2-face or cell to which a ball, bar or face belongs, or the vertex of a
-/// column of the parallel coordinates, or the element that a panel of the matrix shows. Balls and bars are hit up to a
-/// few pixels beyond their edges. Returns an empty optional if there is none. Takes time linear in the size of the
-/// slices.
+/// Returns the element of `object` that the picture shows at the point (x, y), in pixels from the upper left corner; an
+/// empty optional if there is none. In slices and in the projection, the result is the element whose ball, bar or face
+/// is nearest to the viewer; in the lines of the parallel coordinates, the vertex of the column; in a panel of the
+/// matrix, the element from which the point or edge of the section was cut. Balls, bars, points and edges are hit
+/// within at least 3 pixels of their centers. Takes time linear in the size of the slices.
 std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Object& object, glm::dvec2 point);
 
-/// Returns the point of the object's space, in its units, that a panel of the matrix shows at the point (x, y), in
-/// pixels from the upper left corner; nothing outside the panels.
+/// Returns the 4-D point that a panel of the matrix shows at the point (x, y), in pixels from the upper left corner; an
+/// empty optional outside the panels and on the diagonal. The result is in the object's units and in the coordinates
+/// after the rotation, like SectionMatrix::point.
 std::optional<glm::dvec4> matrixPointAt(const Scene& scene, glm::dvec2 point);
 
 }  // namespace oval4d::scene

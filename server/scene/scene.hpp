@@ -1,6 +1,6 @@
 #pragma once
-// The complete description of a picture. Renderers, message writers and exporters use no other data. Therefore the
-// picture that a page draws and a frame from the server can be overlaid exactly.
+// The complete description of a picture. The renderers and the code that writes `slices` messages use no other data.
+// Therefore a picture that a page draws and a picture that the server draws can be overlaid exactly.
 
 #include <array>
 #include <cstdint>
@@ -9,9 +9,11 @@
 
 #include "scene/camera.hpp"
 #include "scene/color.hpp"
+#include "scene/fog_look.hpp"
 #include "scene/layout.hpp"
 #include "scene/look.hpp"
 #include "scene/style.hpp"
+#include "scene/surface_look.hpp"
 #include "slicing/fill.hpp"
 #include "slicing/planar_sections.hpp"
 #include "slicing/section_name.hpp"
@@ -31,7 +33,8 @@ struct ProjectionPart {
 /// The projection of the whole object from four to three dimensions, together with the projected sections of the object
 /// by hyperplanes.
 struct ObjectProjection {
-    slicing::SliceSet elements;            ///< as slicing::Projector writes them: part 0 is the object
+    slicing::SliceSet elements;            ///< the output of slicing::Projector: part 0 is the object, other parts are
+                                           ///< its sections
     std::vector<std::uint32_t> faceCells;  ///< for each face of `elements`, the cell that determines its color
     std::vector<ProjectionPart> parts;     ///< for each part of `elements`
     double scale = 1;                      ///< world units per unit of the object
@@ -39,15 +42,32 @@ struct ObjectProjection {
 
 /// The matrix of planar sections, which the matrix view shows beside the focus slice.
 struct SectionMatrix {
-    glm::dvec4 point{0};  ///< the focus point, through which all planes pass, in the object's units
+    glm::dvec4 point{0};  ///< the focus point, through which all planes pass, in the object's units, after the rotation
     slicing::PlanarSections sections;
-    /// How a section is drawn: for each of its edges, and for each of its points.
+    /// How the edges and points of a section are drawn.
     struct SectionStyle {
-        std::vector<std::uint32_t> edgeCells;  ///< the cell that determines the edge's color
+        std::vector<std::uint32_t> edgeCells;  ///< per edge: the cell that determines its color
         std::vector<slicing::Visibility> edges, points;
-        std::vector<bool> highlighted;  ///< whether the point shows the highlighted element
+        std::vector<bool> highlighted;  ///< per point: whether the point shows the highlighted element
     };
     std::array<SectionStyle, slicing::kPlaneAxes.size()> styles;
+};
+
+/// The axes of the histogram of a field's values: their ranges, and the levels that are drawn as lines.
+struct HistogramAxes {
+    /// For the panel of each axis: the distance from the middle of the panel, which shows the object's origin, to its
+    /// left and right edges, in the object's units.
+    std::array<double, 4> reach{1, 1, 1, 1};
+    double least = 0, greatest = 1;  ///< the values at the lower and the upper edge
+    /// A level of the field that is drawn as a line.
+    struct Level {
+        double value = 0;  ///< from `least` to `greatest`
+        Color color = 0;
+    };
+    std::vector<Level> levels;
+
+    /// Returns the height of a value above the lower edge, as a fraction of the height of the histogram.
+    double height(double value) const { return (value - least) / (greatest - least); }
 };
 
 /// A picture: its layout, its slices, and how they are drawn.
@@ -60,20 +80,27 @@ struct Scene : Layout {
     double scale = 1;                      ///< world units per unit of the object
     double ballRadius = 0, barRadius = 0;  ///< in world units
     std::vector<Color> cellColors;         ///< one per cell
-    /// For each face of `slices`, the cell that determines the face's color. Empty if SliceSet::faceSource has the same
-    /// content.
+    /// For each face of `slices`, the cell that determines the face's color. Empty if the list would be equal to
+    /// SliceSet::faceSource.
     std::vector<std::uint32_t> faceCells;
     slicing::Visibilities visibilities;
-    slicing::ElementSources highlight;         ///< what shows the highlighted element; empty if there is none
+    slicing::ElementSources highlight;         ///< the vertices and edges of slices that show the highlighted element
     slicing::SectionNames sectionNames;        ///< of the focus slice
     ObjectProjection projection;               ///< valid if projectionPlacement.shown
     SectionMatrix sectionMatrix;               ///< valid if matrix.shown
     double faceOpacity = style().faceOpacity;  ///< 0 … 1
-    /// Whether faces may cross each other. If so, they are opaque, and `fill` is drawn instead of their loops.
+    /// Whether faces may cross each other, as those of a star polytope do. Then faces are opaque, and `fill` is drawn
+    /// instead of their loops. Also true for fields, of which no faces are drawn.
     bool crossing = false;
-    slicing::Fill fill;                     ///< the filled faces, if `crossing` is set and faces are shown; else empty
+    slicing::Fill fill;                     ///< the filled faces; empty for a field, if faces are hidden, and if
+                                            ///< `crossing` is false
+    SurfaceLook surfaces;                   ///< how SliceSet::surfaces are drawn; empty for objects other than fields
+    FogTable fog;                           ///< how SliceSet::fogs are drawn; empty if no fog is drawn
     std::vector<std::uint32_t> patchCells;  ///< for each patch of `fill`, the cell that determines its color
-    std::vector<std::uint8_t> density;      ///< DensityPlot::tones() for the density strip; valid if showsDensity()
+    /// DensityPlot::tones() for the density strip, or slicing::CoordinateHistograms::tones() for the histogram of a
+    /// field; valid if showsDensity() or showsHistogram().
+    std::vector<std::uint8_t> density;
+    HistogramAxes histogram;  ///< valid if showsHistogram()
 
     /// Returns the cell that determines the color of a face of `slices`.
     std::uint32_t cellOfFace(std::size_t face) const {
@@ -81,6 +108,8 @@ struct Scene : Layout {
     }
     /// Returns whether the density strip is shown.
     bool showsDensity() const { return look.parts.coordinates && coordinates.density; }
+    /// Returns whether the histogram of a field's values is shown.
+    bool showsHistogram() const { return look.parts.coordinates && coordinates.panel > 0; }
 };
 
 }  // namespace oval4d::scene

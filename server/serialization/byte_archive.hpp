@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -18,7 +19,8 @@ namespace oval4d::serialization {
 template <typename T>
 concept BytewiseCopyable = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
-/// Appends values to a string of bytes. Writes the number of elements before the elements of a string or a vector.
+/// Appends values to a string of bytes. A string or vector is written as its number of elements, followed by the
+/// elements.
 class ByteWriter {
   public:
     explicit ByteWriter(std::string& out) : out_(out) {}
@@ -33,17 +35,21 @@ class ByteWriter {
     }
     void operator()(const std::string& text) { (*this)(std::string_view(text)); }
     template <BytewiseCopyable T>
-    void operator()(const std::vector<T>& list) {
+    void operator()(std::span<const T> list) {
         (*this)(list.size());
-        out_.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T));
+        out_.append(reinterpret_cast<const char*>(list.data()), list.size_bytes());
+    }
+    template <BytewiseCopyable T>
+    void operator()(const std::vector<T>& list) {
+        (*this)(std::span<const T>(list));
     }
 
   private:
     std::string& out_;
 };
 
-/// Reads values, which must be in the order and of the types in which a ByteWriter wrote them. Throws
-/// std::runtime_error if bytes are missing.
+/// Reads values. They must be read in the order and with the types in which a ByteWriter wrote them. Throws
+/// std::runtime_error if bytes are missing, or if a Boolean is neither 0 nor 1.
 class ByteReader {
   public:
     explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
@@ -51,6 +57,11 @@ class ByteReader {
     template <BytewiseCopyable T>
     void operator()(T& value) {
         std::memcpy(&value, take(sizeof value), sizeof value);
+    }
+    void operator()(bool& value) {
+        const char byte = *take(1);
+        if (byte != 0 && byte != 1) throw std::runtime_error("a message between processes is damaged");
+        value = byte == 1;
     }
     void operator()(std::string& text) {
         const std::size_t size = count(1);

@@ -5,7 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "polytopes/construction/solids.hpp"
 #include "text/message_text.hpp"
+#include "text/words.hpp"
 
 namespace oval4d::session {
 
@@ -68,6 +70,16 @@ Result<CellTypeList> findCellTypes(std::string_view text, const geometry::Object
         if (object.cellTypes[type].name == text) named.push_back(type);
     }
     if (!named.empty()) return named;
+    // Another name of the same shape: "7-gonal prism" for "heptagonal prism".
+    if (const auto words = text::wordsOf(text); !words.empty()) {
+        const auto solid = polytopes::solidNamed(words);
+        if (solid && std::holds_alternative<polytopes::Solid>(*solid)) {
+            const std::string name = polytopes::nameOf(std::get<polytopes::Solid>(*solid));
+            if (name != text) {
+                if (auto types = findCellTypes(name, object)) return types;
+            }
+        }
+    }
     const auto numbers = parseCellTypes(text);
     if (!numbers || numbers->empty()) {
         std::vector<std::string_view> known;
@@ -100,7 +112,7 @@ scene::CellTypeFilter reveal(scene::CellTypeFilter filter, const CellTypeList& c
     return filter;
 }
 
-Result<std::monostate> setCellTypeVisibility(State& state, const Set& set) {
+Result<std::monostate> applyCellTypeVisibility(State& state, const Set& set) {
     for (const auto* list : {&set.hidden, &set.faded}) {
         if (!*list) continue;
         if (auto valid = check(**list, slicing::infoOf(state.object)); !valid) return valid;

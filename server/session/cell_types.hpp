@@ -13,7 +13,7 @@ namespace oval4d::session {
 using CellTypeList = std::vector<std::uint32_t>;
 
 /// Parses cell type numbers separated by commas, blanks or tabs, such as "0,2". Returns them sorted and without
-/// duplicates; for an empty text and for "none", returns an empty list. Error: `bad_expression`.
+/// duplicates; for an empty string and for "none", returns an empty list. Error: `bad_expression`.
 Result<CellTypeList> parseCellTypes(std::string_view text);
 
 /// Returns the cell types of `object` that `text` selects: numbers, or one name, such as "hexagonal prism", which
@@ -31,6 +31,6 @@ scene::CellTypeFilter reveal(scene::CellTypeFilter filter, const CellTypeList& c
 /// one list, removes the cell types in this list from the other list of `state`. A cell type that is in both lists of
 /// `set` is hidden. Error: `out_of_range` if the object has no cell type with one of the numbers; `state` is then
 /// unchanged.
-Result<std::monostate> setCellTypeVisibility(State& state, const Set& set);
+Result<std::monostate> applyCellTypeVisibility(State& state, const Set& set);
 
 }  // namespace oval4d::session

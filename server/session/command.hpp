@@ -4,13 +4,16 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
+#include "fields/readers/file_contents.hpp"
 #include "geometry/rotation.hpp"
 #include "scene/scene.hpp"
 #include "slicing/element.hpp"
@@ -30,14 +33,48 @@ struct Rotate {
 /// Turns an element of the object toward +w, by the shortest rotation.
 struct TurnToward {
     slicing::ElementKind kind = slicing::ElementKind::cell;
-    /// The index of the element; if absent, the element closest to +w, or the next one if that is already there.
+    /// The index of the element. If it is absent, the element closest to +w is turned, or the next one if the closest
+    /// is already there.
     std::optional<std::size_t> index;
     bool immediately = false;  ///< whether to jump there instead of moving
 };
+/// Loads an object from the text of a file, or makes a field from a formula, and shows it.
+struct LoadObject {
+    std::string name;        ///< the name to give to the object
+    std::string format;      ///< the name of the file format: "off", "points", "cloud", "formula", "npy" …
+    std::string data;        ///< the text of the file, or the formula
+    bool continues = false;  ///< as in Rotate. If a field replaces a field, also keeps FieldSettings
+                             ///< and, if the circumradius is the same, slices and focus point
+    /// The domain of the field. If it is absent, the domain of a formula is fields::kFormulaBox, and that of an array
+    /// is the box that the file states.
+    std::optional<fields::Box> box = {};
+    std::string axes = {};            ///< for an array: see fields::ReadOptions
+    std::string variable = {};        ///< for an array: see fields::ReadOptions
+    std::string values = {};          ///< the formula of the second function; empty for none
+    std::string valuesVariable = {};  ///< for an array: the variable of the same file that is the second function
+    /// Whether to add the time steps in the file to the loaded array with this name, at the end of w, instead of
+    /// replacing the array. Makes no undo step: the states of the history show the longer array, too.
+    bool append = false;
+    /// The file of an array, instead of `data`. If the format is empty, it is recognized from the first bytes of the
+    /// file.
+    std::shared_ptr<const fields::FileHandle> file = {};
+    /// The files of an array with one time step each, instead of `data`.
+    std::vector<std::shared_ptr<const fields::FileHandle>> series = {};
+    /// A Zarr folder, instead of `data`.
+    std::shared_ptr<const fields::FileHandle> folder = {};
+    std::string path = {};  ///< the name of an array in the server's data folder, instead of `data`
+
+    /// Returns whether the array is in a file, not in `data`; the format may then be empty.
+    bool isFile() const { return file || folder || !series.empty() || !path.empty(); }
+};
 /// Changes the settings that are present; the others keep their values.
 struct Set {
-    bool continues = false;             ///< as in Rotate
-    std::optional<std::string> object;  ///< a name or alias in the catalogue, or the name of a loaded object
+    bool continues = false;                   ///< as in Rotate
+    std::optional<std::string> object;        ///< a name or alias in the catalogue, or the name of a loaded object
+    std::optional<LoadObject> formula;        ///< the formula of the field called `object`: if the session has no such
+                                              ///< field, it is loaded first
+    std::optional<double> pace;               ///< ReferenceFrame::pace
+    std::optional<glm::dvec3> follow, boost;  ///< ReferenceFrame::follow, ReferenceFrame::boost
     std::optional<glm::dmat4> orientation;
     std::optional<double> alpha, beta;  ///< the angles of the rotation keys, in radians
     std::optional<double> step;         ///< the change of alpha or beta by the keys k, j, K and J, in radians
@@ -47,24 +84,23 @@ struct Set {
     std::optional<double> offset;       ///< SliceSettings::offset
     std::optional<double> focusW;       ///< w of the focus slice: sets focus and offset (see moveFocusTo())
     std::optional<scene::View> view;
-    std::optional<glm::dvec4> focusPoint;  ///< Look::focusPoint; and w of the focus slice, as focusW, which
-                                           ///< is ignored if `focus`, `offset` or `focusW` is present
+    std::optional<glm::dvec4> focusPoint;  ///< x, y, z: Look::focusPoint. w: like `focusW`, but ignored if
+                                           ///< `focus`, `offset` or `focusW` is present
     std::optional<bool> turning;           ///< whether the object turns continuously
     std::array<std::optional<bool>, scene::kParts.size()> parts;  ///< per row of scene::kParts: whether it is shown
     std::optional<double> azimuth, elevation, zoom;               ///< the members of scene::CameraOrbit
     std::optional<scene::Coloring> coloring;
+    std::optional<scene::CapStyle> caps;
     std::optional<scene::ProjectionKind> projection;
     std::optional<double> eye;                                ///< ProjectionSettings::eye
+    std::optional<std::vector<double>> levels;                ///< FieldSettings::levels; for fields only
+    std::optional<fields::Inside> inside;                     ///< FieldSettings::inside; for fields only
+    std::optional<std::vector<slicing::FogPoint>> fog;        ///< FieldSettings::fog; for fields only
     std::optional<std::vector<std::uint32_t>> hidden, faded;  ///< indices of cell types, in any order
-    /// The element that is drawn in another color. The outer optional is empty if it stays the same.
+    /// The element that is drawn in another color. The outer optional is empty if the highlight stays the same; the
+    /// inner one is empty if there is to be no highlight.
     std::optional<std::optional<slicing::Element>> highlight;
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
-};
-/// Loads an object from the text of a file and shows it.
-struct Load {
-    std::string name;    ///< the name to give to the object
-    std::string format;  ///< the name of the file format: "off", "points" or "cloud"
-    std::string data;    ///< the text of the file
 };
 struct Undo {};
 struct Redo {};
@@ -74,6 +110,6 @@ struct Reset {};
 struct CommandLine {
     std::string line;  ///< with or without the ':'
 };
-using Command = std::variant<Key, Rotate, TurnToward, Set, Load, Undo, Redo, Reset, CommandLine>;
+using Command = std::variant<Key, Rotate, TurnToward, Set, LoadObject, Undo, Redo, Reset, CommandLine>;
 
 }  // namespace oval4d::session

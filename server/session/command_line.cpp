@@ -10,6 +10,7 @@
 
 #include "session/cell_types.hpp"
 #include "session/expression.hpp"
+#include "session/load.hpp"
 #include "session/session.hpp"
 #include "text/message_text.hpp"
 
@@ -20,17 +21,23 @@ namespace {
 using Words = std::vector<std::string_view>;
 
 // A pointer to a member of Set.
-using Member = std::variant<std::optional<double> Set::*, std::optional<int> Set::*, std::optional<bool> Set::*,
-                            std::optional<std::string> Set::*, std::optional<scene::View> Set::*,
-                            std::optional<scene::Coloring> Set::*, std::optional<scene::ProjectionKind> Set::*,
-                            std::optional<CellTypeList> Set::*, std::optional<std::optional<slicing::Element>> Set::*,
-                            std::optional<glm::dvec4> Set::*>;
+using Member =
+    std::variant<std::optional<double> Set::*, std::optional<int> Set::*, std::optional<bool> Set::*,
+                 std::optional<std::string> Set::*, std::optional<scene::View> Set::*,
+                 std::optional<scene::Coloring> Set::*, std::optional<scene::ProjectionKind> Set::*,
+                 std::optional<CellTypeList> Set::*, std::optional<std::optional<slicing::Element>> Set::*,
+                 std::optional<glm::dvec4> Set::*, std::optional<glm::dvec3> Set::*,
+                 std::optional<std::vector<double>> Set::*, std::optional<fields::Inside> Set::*,
+                 std::optional<scene::CapStyle> Set::*, std::optional<std::vector<slicing::FogPoint>> Set::*>;
 /// One setting: its name, and the member of Set that stores it.
 struct Setting {
     std::string_view name;
     Member member;
 };
 const auto kSettings = std::to_array<Setting>({{"polytope", &Set::object},
+                                               {"pace", &Set::pace},
+                                               {"follow", &Set::follow},
+                                               {"boost", &Set::boost},
                                                {"alpha", &Set::alpha},
                                                {"beta", &Set::beta},
                                                {"step", &Set::step},
@@ -48,6 +55,10 @@ const auto kSettings = std::to_array<Setting>({{"polytope", &Set::object},
                                                {"color", &Set::coloring},
                                                {"projection", &Set::projection},
                                                {"eye", &Set::eye},
+                                               {"levels", &Set::levels},
+                                               {"inside", &Set::inside},
+                                               {"caps", &Set::caps},
+                                               {"fog", &Set::fog},
                                                {"hidden", &Set::hidden},
                                                {"faded", &Set::faded},
                                                {"highlight", &Set::highlight}});
@@ -95,22 +106,24 @@ struct ValueReader {
         return std::monostate{};
     }
     Result<std::monostate> operator()(std::optional<glm::dvec4> Set::* member) const {
-        glm::dvec4 point(0);
-        std::string_view rest = text;
-        for (int axis = 0; axis < 4; ++axis) {
-            const std::size_t comma = rest.find(',');
-            if ((comma == std::string_view::npos) != (axis == 3)) {
-                return bad(ErrorCode::bad_expression, std::string(name) +
-                                                          " must be four numbers x,y,z,w without blanks, such as "
-                                                          "0.1,0,-0.2,0, not " +
-                                                          text::inQuotes(text));
-            }
-            const auto value = evaluate(rest.substr(0, comma));
-            if (!value) return bad(value.error().code, std::string(name) + ": " + value.error().message);
-            point[axis] = *value;
-            rest.remove_prefix(std::min(comma, rest.size() - 1) + 1);
+        return readVector(4, "four numbers x,y,z,w without blanks, such as 0.1,0,-0.2,0", set.*member);
+    }
+    Result<std::monostate> operator()(std::optional<glm::dvec3> Set::* member) const {
+        if (text == "none") {
+            set.*member = glm::dvec3(0);
+            return std::monostate{};
         }
-        set.*member = point;
+        return readVector(3, "none or a velocity x,y,z without blanks, such as 0.3,0,0", set.*member);
+    }
+    template <typename Vector>
+    Result<std::monostate> readVector(std::ptrdiff_t size, std::string_view form, std::optional<Vector>& into) const {
+        if (std::ranges::count(text, ',') != size - 1) {
+            return bad(ErrorCode::bad_expression,
+                       std::string(name) + " must be " + std::string(form) + ", not " + text::inQuotes(text));
+        }
+        const auto list = readNumbers();
+        if (!list) return list.error();
+        for (int axis = 0; axis < size; ++axis) into.emplace(into.value_or(Vector(0)))[axis] = (*list)[axis];
         return std::monostate{};
     }
     Result<std::monostate> operator()(std::optional<std::string> Set::* member) const {
@@ -118,11 +131,72 @@ struct ValueReader {
         set.*member = std::string(text);
         return std::monostate{};
     }
+    Result<std::monostate> operator()(std::optional<std::vector<double>> Set::* member) const {
+        auto list = readNumbers();
+        if (!list) return list.error();
+        set.*member = std::move(*list);
+        return std::monostate{};
+    }
+    Result<std::monostate> operator()(std::optional<std::vector<slicing::FogPoint>> Set::* member) const {
+        std::vector<slicing::FogPoint>& points = (set.*member).emplace();
+        if (text == "off") return std::monostate{};
+        for (std::string_view rest = text;;) {
+            const std::size_t comma = rest.find(',');
+            auto point = readFogPoint(rest.substr(0, comma));
+            if (!point) return point.error();
+            points.push_back(*point);
+            if (comma == std::string_view::npos) return std::monostate{};
+            rest.remove_prefix(comma + 1);
+        }
+    }
+    Result<slicing::FogPoint> readFogPoint(std::string_view word) const {
+        const std::size_t first = word.find(':');
+        const std::size_t second = first == std::string_view::npos ? first : word.find(':', first + 1);
+        const auto malformed = [&] {
+            return bad(ErrorCode::bad_expression,
+                       std::string(name) +
+                           " must be off, or points value:opacity or value:opacity:RRGGBB without blanks, such as "
+                           "0:0.8,1:0.2:ff8800,2:0, not " +
+                           text::inQuotes(text));
+        };
+        if (first == std::string_view::npos) return malformed();
+        slicing::FogPoint point;
+        const std::string_view opacity =
+            word.substr(first + 1, second == std::string_view::npos ? second : second - first - 1);
+        for (const auto& [part, into] : {std::pair(word.substr(0, first), &point.value), {opacity, &point.opacity}}) {
+            const auto value = evaluate(part);
+            if (!value) return bad(value.error().code, std::string(name) + ": " + value.error().message);
+            *into = *value;
+        }
+        if (second == std::string_view::npos) return point;
+        constexpr std::size_t kDigits = 6;
+        const std::string_view color = word.substr(second + 1);
+        const auto [end, error] = std::from_chars(color.data(), color.data() + color.size(), point.color.emplace(), 16);
+        if (error != std::errc{} || end != color.data() + color.size() || color.size() != kDigits) return malformed();
+        return point;
+    }
+    Result<std::vector<double>> readNumbers() const {
+        std::vector<double> list;
+        for (std::string_view rest = text;;) {
+            const std::size_t comma = rest.find(',');
+            const auto value = evaluate(rest.substr(0, comma));
+            if (!value) return bad(value.error().code, std::string(name) + ": " + value.error().message);
+            list.push_back(*value);
+            if (comma == std::string_view::npos) return list;
+            rest.remove_prefix(comma + 1);
+        }
+    }
+    Result<std::monostate> operator()(std::optional<fields::Inside> Set::* member) const {
+        return choose(fields::kInsides, set.*member);
+    }
     Result<std::monostate> operator()(std::optional<scene::View> Set::* member) const {
         return choose(scene::kViews, set.*member);
     }
     Result<std::monostate> operator()(std::optional<scene::Coloring> Set::* member) const {
         return choose(scene::kColorings, set.*member);
+    }
+    Result<std::monostate> operator()(std::optional<scene::CapStyle> Set::* member) const {
+        return choose(scene::kCapStyles, set.*member);
     }
     Result<std::monostate> operator()(std::optional<scene::ProjectionKind> Set::* member) const {
         return choose(scene::kProjectionKinds, set.*member);
@@ -185,6 +259,17 @@ Result<Command> polytopeLine(std::string_view rest, const Words& /*words*/, cons
     return oneSetting("polytope", rest);  // names may contain blanks
 }
 
+Result<Command> formulaLine(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
+    if (rest.empty())
+        return bad(ErrorCode::bad_expression, "formula needs a function of x, y, z and w, such as formula x*y + z*w");
+    // This separator is unambiguous, because a formula never contains two words in a row.
+    constexpr std::string_view kColoredBy = " colored by ";
+    const std::size_t end = rest.find(kColoredBy);
+    LoadObject load{std::string(kFormula), std::string(kFormula), std::string(rest.substr(0, end))};
+    if (end != std::string_view::npos) load.values = rest.substr(end + kColoredBy.size());
+    return Command{std::move(load)};
+}
+
 Result<Command> setLine(std::string_view rest, const Words& words, const State& /*state*/) {
     if (words.empty()) return bad(ErrorCode::unknown_command, "set needs name=value; the names are " + settingNames());
     // A polytope's name may contain blanks. If it is the only setting on the line, the rest of the line is the name.
@@ -214,7 +299,7 @@ Result<Command> rotateLine(std::string_view /*rest*/, const Words& words, const 
         angles.emplace_back(alpha);
         if (words[0].find(',') != std::string_view::npos) angles.emplace_back(beta);
     }
-    const auto turn = makeTurn(words[0], angles);
+    const auto turn = makeTurn(words[0], angles, "xw pi/8 or xw,yz pi/8 pi/5");
     if (!turn) return turn.error();
     for (const std::string_view angle : angles) {
         if (const auto value = evaluateAngle(angle); !value) return value.error();
@@ -253,6 +338,24 @@ Result<Command> keyLine(std::string_view rest, const Words& words, const State& 
 Result<Command> highlightLine(std::string_view rest, const Words& words, const State& /*state*/) {
     if (words.size() != 2) return oneSetting("highlight", rest);
     return oneSetting("highlight", std::string(words[0]) + ':' + std::string(words[1]));
+}
+
+// "boost x 0.6" is short for "set boost=0.6,0,0".
+Result<Command> boostLine(std::string_view rest, const Words& words, const State& /*state*/) {
+    if (words.size() != 2) return oneSetting("boost", rest);
+    const std::size_t axis = words[0].size() == 1 ? std::string_view("xyz").find(words[0]) : std::string_view::npos;
+    if (axis == std::string_view::npos) {
+        return bad(ErrorCode::bad_expression,
+                   "boost needs an axis x, y or z and a velocity, such as boost x 0.6, or none, or a velocity such as "
+                   "boost 0.6,0,0, not " +
+                       text::inQuotes(rest));
+    }
+    std::string velocity;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (i > 0) velocity += ',';
+        velocity += i == axis ? words[1] : "0";
+    }
+    return oneSetting("boost", velocity);
 }
 
 // Parses the arguments of hide, fade and show: cell type numbers, or the name of a cell type.
@@ -296,6 +399,10 @@ constexpr auto kVerbs = std::to_array<Verb>(
      {"hide", cellTypesLine<hide>},
      {"fade", cellTypesLine<fade>},
      {"show", cellTypesLine<reveal>},
+     {"formula", formulaLine},
+     {"fog", [](std::string_view rest, const Words&, const State&) { return oneSetting("fog", rest); }},
+     {"follow", [](std::string_view rest, const Words&, const State&) { return oneSetting("follow", rest); }},
+     {"boost", boostLine},
      {"key", keyLine},
      {"reset", noArguments<Reset>},
      {"undo", noArguments<Undo>},

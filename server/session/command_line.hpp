@@ -19,7 +19,7 @@ Result<slicing::ElementKind> parseElementKind(std::string_view text);
 /// Parses the index of an element. Error: `bad_expression`.
 Result<std::size_t> parseElementIndex(std::string_view text);
 
-/// Returns all names that parseSetting accepts, separated by commas.
+/// Returns all names that parseSetting() accepts, separated by commas.
 std::string settingNames();
 
 }  // namespace oval4d::session

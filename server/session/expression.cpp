@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "text/ascii.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::session {
@@ -33,8 +34,8 @@ constexpr std::string_view kPiLetter = "π", kPhiLetter = "φ", kMinusSign = "�
 constexpr std::size_t kMaxLength = 1000;
 constexpr int kMaxDepth = 64;
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+using text::isDigit;
+using text::isLetter;
 
 // A recursive-descent parser that evaluates the expression while it parses. Throws SyntaxError, which evaluate()
 // catches.
@@ -198,7 +199,8 @@ Result<double> evaluateAngle(std::string_view text) {
     return value;
 }
 
-Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles) {
+Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles,
+                                std::string_view examples) {
     const std::size_t comma = planes.find(',');
     const bool doubled = comma != std::string_view::npos;
     const auto planeAt = [](std::string_view name) -> Result<geometry::Plane> {
@@ -218,7 +220,7 @@ Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::
     }
     if (angles.size() != (doubled ? 2U : 1U)) {
         return bad((doubled ? std::string("two planes need two angles") : std::string("one plane needs one angle")) +
-                   ", not " + std::to_string(angles.size()) + "; write xw pi/8 or xw,yz pi/8 pi/5");
+                   ", not " + std::to_string(angles.size()) + "; write " + std::string(examples));
     }
     geometry::Turn turn{*first, 0, {}};
     const Result<double> alpha = evaluate(angles[0]);
@@ -233,9 +235,10 @@ Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::
 }
 
 Result<geometry::Turn> parseTurn(std::string_view text) {
+    constexpr std::string_view kExamples = "xw:pi/8 or xw,yz:pi/8,pi/5";
     const std::size_t colon = text.find(':');
     if (colon == std::string_view::npos) {
-        return bad(text::inQuotes(text) + " is not a rotation; write xw:pi/8 or xw,yz:pi/8,pi/5");
+        return bad(text::inQuotes(text) + " is not a rotation; write " + std::string(kExamples));
     }
     std::vector<std::string_view> angles;
     std::string_view rest = text.substr(colon + 1);
@@ -245,7 +248,7 @@ Result<geometry::Turn> parseTurn(std::string_view text) {
         if (comma == std::string_view::npos) break;
         rest.remove_prefix(comma + 1);
     }
-    return makeTurn(text.substr(0, colon), angles);
+    return makeTurn(text.substr(0, colon), angles, kExamples);
 }
 
 }  // namespace oval4d::session

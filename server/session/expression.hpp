@@ -20,8 +20,10 @@ Result<double> evaluate(std::string_view text);
 Result<double> evaluateAngle(std::string_view text);
 
 /// Returns a rotation. `planes` names one plane, such as "xw", or two perpendicular planes, such as "xw,yz". `angles`
-/// must have one expression for each plane: the angle in radians. Error: `bad_expression`.
-Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles);
+/// must have one expression for each plane: the angle in radians. `examples`, for error messages, are rotations as the
+/// user writes them. Error: `bad_expression`.
+Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles,
+                                std::string_view examples);
 
 /// Parses a rotation given in a query or a command-line option, such as "xw,yz:pi/8,0.2". Error: `bad_expression`.
 Result<geometry::Turn> parseTurn(std::string_view text);

@@ -22,22 +22,25 @@ std::size_t bytesOfFilter(const State& state) {
 /// Removes the oldest undo steps until the memory that only undo steps use is at most `maxBytes`. This memory consists
 /// of objects that neither the current state nor `loaded` contains, and of the lists of hidden and faded cell types.
 void limitHistoryBytes(Session& session, std::size_t maxBytes) {
-    std::map<const void*, std::size_t> steps;  // the number of steps that use each object
+    std::map<const void*, std::size_t> steps;  // how often the steps use each object
     std::size_t bytes = 0;
     const auto isHeld = [&](const slicing::Object& object) {
-        return object == session.current.object ||
+        return object == session.current.object || object == session.current.source ||
                std::ranges::any_of(session.loaded, [&](const auto& own) { return own.second == object; });
     };
     for (const State& step : session.undoSteps) {
         bytes += bytesOfFilter(step);
-        if (!isHeld(step.object) && ++steps[slicing::identityOf(step.object)] == 1)
-            bytes += slicing::memoryOf(step.object);
+        for (const slicing::Object* object : step.objects()) {
+            if (!isHeld(*object) && ++steps[slicing::identityOf(*object)] == 1) bytes += ownMemory(*object);
+        }
     }
     while (bytes > maxBytes && !session.undoSteps.empty()) {
         const State& oldest = session.undoSteps.front();
         bytes -= bytesOfFilter(oldest);
-        const auto held = steps.find(slicing::identityOf(oldest.object));
-        if (held != steps.end() && --held->second == 0) bytes -= slicing::memoryOf(oldest.object);
+        for (const slicing::Object* object : oldest.objects()) {
+            const auto held = steps.find(slicing::identityOf(*object));
+            if (held != steps.end() && --held->second == 0) bytes -= ownMemory(*object);
+        }
         session.undoSteps.pop_front();
     }
 }

@@ -10,8 +10,8 @@ namespace oval4d::session {
 /// the history is within `limits`. Does nothing if `next` equals the current state.
 void commit(Session& session, State next, const Limits& limits);
 
-/// Like commit(), but `next` becomes a part of the last undo step: undo returns to the state before that step. Adds an
-/// undo step of its own if there is none, or if the last command was an undo.
+/// Like commit(), but `next` becomes a part of the last undo step: undo returns to the state before that step. If there
+/// is no undo step, or if the last command was an undo, adds a new undo step instead.
 void amend(Session& session, State next, const Limits& limits);
 
 /// Removes the older half of the undo steps, to free memory.

@@ -41,10 +41,9 @@ void scaleSpacing(State& state, double factor) {
 }
 
 Done showNeighbor(ActionContext& c, int by) {
-    auto object = neighborOf(c.state.object, by, c.loaded, c.loader);
+    auto object = neighborOf(c.state.source, by, c.loaded, c.loader);
     if (!object) return object.error();
-    replaceObject(c.state, std::move(*object));
-    return std::monostate{};
+    return replaceObject(c.state, std::move(*object), c.loader);
 }
 
 const Error kNoRotationYet{ErrorCode::nothing_to_undo,
@@ -88,8 +87,8 @@ constexpr auto kActions = std::to_array<Action>({
      }>},
     {"focus_first", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).first); }>},
     {"focus_last", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).second); }>},
-    {"vertex_next", always<[](ActionContext& c) { moveFocusToVertex(c.state, true); }>},
-    {"vertex_previous", always<[](ActionContext& c) { moveFocusToVertex(c.state, false); }>},
+    {"vertex_next", [](ActionContext& c) { return moveFocusToCritical(c.state, true, c.loader); }},
+    {"vertex_previous", [](ActionContext& c) { return moveFocusToCritical(c.state, false, c.loader); }},
     {"spacing_smaller", always<[](ActionContext& c) { scaleSpacing(c.state, 1 / kSpacingFactor); }>},
     {"spacing_larger", always<[](ActionContext& c) { scaleSpacing(c.state, kSpacingFactor); }>},
     {"slices_fewer", always<[](ActionContext& c) { setCount(c.state, std::max(c.state.slices.count - 2, 1)); }>},

@@ -28,8 +28,9 @@ struct Action {
     Result<std::monostate> (*onSession)(Session&) = nullptr;
 };
 
-/// Returns all actions that the server performs: those of the table in key_actions.cpp and, for each row of
-/// scene::kParts, one that toggles this part of the picture.
+/// Returns all actions that the server performs: those of the table in key_actions.cpp; for each row of scene::kParts,
+/// one that toggles this part of the picture; and for each row of slicing::kElementKinds, one that turns an element of
+/// this kind toward +w.
 std::span<const Action> keyActions();
 
 }  // namespace oval4d::session

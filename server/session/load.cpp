@@ -6,7 +6,13 @@
 #include <stdexcept>
 #include <utility>
 #include <variant>
+#include <vector>
 
+#include <sodium.h>
+
+#include "fields/array_field.hpp"
+#include "fields/formula_field.hpp"
+#include "fields/readers/field_reader.hpp"
 #include "geometry/point_cloud.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
 #include "polytopes/import/file_tokenizer.hpp"
@@ -21,7 +27,14 @@ constexpr std::size_t kMaxName = 64;  // characters
 
 bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 
-bool isCloudKeyword(std::string_view word) { return text::folded(word) == "cloud"; }
+// Returns the number of characters of a UTF-8 text.
+std::size_t characters(std::string_view text) {
+    constexpr unsigned kContinuation = 0x80, kMask = 0xC0;
+    return static_cast<std::size_t>(
+        std::ranges::count_if(text, [](char c) { return (static_cast<unsigned>(c) & kMask) != kContinuation; }));
+}
+
+bool isCloudKeyword(std::string_view word) { return text::normalizedName(word) == "cloud"; }
 
 Result<LoadedObject> readPolytope(polytopes::FileFormat format, std::string_view text, const std::string& name,
                                   const Limits& limits) {
@@ -35,13 +48,13 @@ Result<LoadedObject> readPolytope(polytopes::FileFormat format, std::string_view
 }
 
 template <polytopes::FileFormat format>
-Result<LoadedObject> readPolytope(std::string_view text, const std::string& name, const Limits& limits) {
-    return readPolytope(format, text, name, limits);
+Result<LoadedObject> readPolytope(const LoadObject& load, const Limits& limits) {
+    return readPolytope(format, load.data, load.name, limits);
 }
 
 // Reads a point cloud: an optional keyword CLOUD, then one point x y z w [radius] per line.
-Result<LoadedObject> readCloud(std::string_view text, const std::string& name, const Limits& limits) {
-    polytopes::FileTokenizer file(text, true);
+Result<LoadedObject> readCloud(const LoadObject& load, const Limits& limits) {
+    polytopes::FileTokenizer file(load.data, true);
     std::vector<glm::dvec4> points;
     std::vector<double> radii;
     try {
@@ -64,7 +77,7 @@ Result<LoadedObject> readCloud(std::string_view text, const std::string& name, c
                 return Error{ErrorCode::too_large,
                              "there are more than " + std::to_string(limits.maxVertices) + " points, the most allowed"};
         }
-        auto cloud = geometry::makePointCloud(name, std::move(points), std::move(radii));
+        auto cloud = geometry::makePointCloud(load.name, std::move(points), std::move(radii));
         return LoadedObject{std::make_shared<const geometry::PointCloud>(std::move(cloud)), {}};
     } catch (const polytopes::ImportError& error) {
         return Error{ErrorCode::bad_polytope, "line " + std::to_string(error.line) + ": " + error.reason};
@@ -73,16 +86,89 @@ Result<LoadedObject> readCloud(std::string_view text, const std::string& name, c
     }
 }
 
+Result<LoadedObject> readFormulaText(const LoadObject& load, const Limits& /*limits*/) { return readFormula(load); }
+
+// Returns the bytes of the file in `load`, which are Base64 unless it is an open file.
+Result<fields::FileContents> contentsOf(const LoadObject& load) {
+    if (load.file) return fields::FileContents::map(load.file->descriptor());
+    const std::string& text = load.data;
+    std::vector<std::byte> bytes(text.size() / 4 * 3 + 3);
+    std::size_t size = 0;
+    const char* end = nullptr;
+    if (sodium_base642bin(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), text.data(), text.size(),
+                          " \t\r\n", &size, &end, sodium_base64_VARIANT_ORIGINAL) != 0 ||
+        end != text.data() + text.size()) {
+        return Error{ErrorCode::bad_field, "the data are not Base64 (RFC 4648, with padding)"};
+    }
+    bytes.resize(size);
+    return fields::FileContents::of(std::move(bytes));
+}
+
+Result<LoadedObject> readArrayFile(const LoadObject& load, const Limits& limits) {
+    const auto file = contentsOf(load);
+    if (!file) return file.error();
+    return readArray(*file, load.name, optionsForReading(load, limits), {load.values, load.valuesVariable});
+}
+
+// Returns an error if the box has no extent along an axis with several samples.
+std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape) {
+    for (int axis = 0; axis < 4; ++axis) {
+        const bool wide = shape.at(static_cast<std::size_t>(axis)) > 1;
+        if (wide ? box.min[axis] < box.max[axis] : box.min[axis] <= box.max[axis]) continue;
+        return Error{ErrorCode::out_of_range, std::string("the box has no extent along ") + "xyzw"[axis]};
+    }
+    return {};
+}
+
+// Makes an object from the array that `read` returns for these options, and sets its second function.
+template <typename Read>
+Result<LoadedObject> objectFrom(const Read& read, const std::string& name, fields::ReadOptions options,
+                                const SecondSource& second) {
+    const Result<fields::ReadField> array = read(options);
+    if (!array) return array.error();
+    if (auto error = options.box ? checkBox(*options.box, array->shape) : std::nullopt) return std::move(*error);
+    auto field = fields::fieldFromArray(name, *array);
+    if (!field) return field.error();
+    std::optional<Error> fault;
+    if (!second.formula.empty()) fault = fields::setSecondFormula(*field, second.formula);
+    if (!second.variable.empty()) {
+        options.variable = second.variable;
+        const std::size_t count = fields::sampleCount(array->shape);
+        if (!options.newFile) options.maxSamples -= std::min(options.maxSamples, count);
+        if (count <= options.maxInMemory) options.maxInMemory -= count;
+        const Result<fields::ReadField> values = read(options);
+        if (!values) return Error{values.error().code, "values: " + values.error().message};
+        fault = fields::setSecondArray(*field, *values, second.variable);
+    }
+    if (fault) return std::move(*fault);
+    std::vector<std::string> warnings = array->warnings;
+    if (!field->array->rangeIsExact())
+        warnings.emplace_back("the array is not read as a whole: its range is that of a selection of the samples");
+    return LoadedObject{std::make_shared<const fields::Field>(std::move(*field)), std::move(warnings)};
+}
+
+// Returns the box of an array whose box is `box`, after its number of time steps has grown from `before` to `after`.
+fields::Box boxWithTimeSteps(fields::Box box, std::size_t before, std::size_t after) {
+    const double step = before > 1 ? (box.max.w - box.min.w) / static_cast<double>(before - 1) : 1;
+    box.max.w = box.min.w + step * static_cast<double>(after - 1);
+    return box;
+}
+
 /// A file format that `load` messages can name, and its reader.
 struct FormatRow {
     std::string_view name, title;  ///< the name in messages, and the name in the texts of errors
-    Result<LoadedObject> (*read)(std::string_view text, const std::string& name, const Limits& limits);
+    Result<LoadedObject> (*read)(const LoadObject& load, const Limits& limits);
     bool buildsHull;
 };
 constexpr auto kFormats = std::to_array<FormatRow>({
     {"off", "off (4OFF)", readPolytope<polytopes::FileFormat::off4>, false},
     {"points", "points", readPolytope<polytopes::FileFormat::points>, true},
     {"cloud", "cloud", readCloud, false},
+    {kFormula, kFormula, readFormulaText, false},
+    {"npy", "npy", readArrayFile, false},
+    {"netcdf", "netcdf", readArrayFile, false},
+    {"hdf5", "hdf5", readArrayFile, false},
+    {"nifti", "nifti", readArrayFile, false},
 });
 
 const FormatRow* formatNamed(std::string_view name) {
@@ -102,10 +188,94 @@ Error unsupported(std::string_view format) {
 
 }  // namespace
 
-Result<LoadedObject> readObject(std::string_view format, std::string_view text, const std::string& name,
-                                const Limits& limits) {
-    const FormatRow* row = formatNamed(format);
-    return row == nullptr ? Result<LoadedObject>(unsupported(format)) : row->read(text, name, limits);
+Result<LoadedObject> readObject(const LoadObject& load, const Limits& limits) {
+    if (load.file && load.format.empty()) return readArrayFile(load, limits);
+    if (!load.series.empty()) {
+        std::vector<fields::FileContents> files;
+        for (const auto& each : load.series) {
+            auto file = fields::FileContents::map(each->descriptor());
+            if (!file) return file.error();
+            files.push_back(std::move(*file));
+        }
+        return readSeries(files, load, optionsForReading(load, limits));
+    }
+    const FormatRow* row = formatNamed(load.format);
+    return row == nullptr ? Result<LoadedObject>(unsupported(load.format)) : row->read(load, limits);
+}
+
+Result<LoadedObject> readFormula(const LoadObject& load) {
+    auto field = fields::fieldFromFormula(load.name, load.data, load.box.value_or(fields::kFormulaBox), load.values);
+    if (!field) return field.error();
+    return LoadedObject{std::make_shared<const fields::Field>(std::move(*field)), {}};
+}
+
+Result<LoadedObject> readArray(const fields::FileContents& file, const std::string& name,
+                               const fields::ReadOptions& options, const SecondSource& second) {
+    return objectFrom([&](const fields::ReadOptions& of) { return fields::readField(file, of); }, name, options,
+                      second);
+}
+
+Result<LoadedObject> readZarr(const fields::FolderReader& folder, const std::string& name,
+                              const fields::ReadOptions& options, const SecondSource& second) {
+    return objectFrom([&](const fields::ReadOptions& of) { return fields::readZarr(folder, of); }, name, options,
+                      second);
+}
+
+fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limits, fields::NewFile newFile) {
+    const std::size_t most = limits.maxFieldBytes / sizeof(float);
+    fields::ReadOptions options{load.axes, load.box, load.variable, most, most};
+    if (newFile) options.maxSamples = fields::kMaxSamples;
+    options.newFile = std::move(newFile);
+    return options;
+}
+
+Result<LoadedObject> readSeries(std::span<const fields::FileContents> files, const LoadObject& load,
+                                const fields::ReadOptions& options) {
+    return objectFrom([&](const fields::ReadOptions& of) { return fields::readSeries(files, of); }, load.name, options,
+                      {load.values, load.valuesVariable});
+}
+
+Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slicing::Object& added,
+                                        const Limits& limits) {
+    const fields::Field* const before = slicing::fieldIn(field);
+    const fields::Field* const appended = slicing::fieldIn(added);
+    if (before == nullptr || !before->array || appended == nullptr || !appended->array)
+        return Error{ErrorCode::bad_field, "moments can be added only to an array, and must be an array"};
+    const fields::Shape &old = before->array->shape(), &more = appended->array->shape();
+    if (!std::equal(old.begin(), old.begin() + 3, more.begin())) {
+        const auto text = [](const fields::Shape& shape) {
+            return std::to_string(shape[0]) + " × " + std::to_string(shape[1]) + " × " + std::to_string(shape[2]);
+        };
+        return Error{ErrorCode::bad_field,
+                     "the moment has " + text(more) + " samples along x, y and z, but the field has " + text(old)};
+    }
+    fields::ReadField grown;
+    grown.shape = old;
+    grown.shape[3] += more[3];
+    const fields::SecondFunction *const second = before->second.get(), *const values = appended->second.get();
+    const bool hasArray = second != nullptr && second->array;
+    if (hasArray && (values == nullptr || !values->array))
+        return Error{ErrorCode::bad_field, "the field is colored by a second array, " +
+                                               text::inQuotes(second->variable) +
+                                               ", so moments need one, too, as values_variable"};
+    const std::size_t arrays = hasArray ? 2 : 1;
+    const std::size_t most = limits.maxFieldBytes / sizeof(float) / arrays, count = fields::sampleCount(grown.shape);
+    if (count == 0 || count > most)
+        return Error{ErrorCode::too_large, "with this moment, the field has more than " + std::to_string(most) +
+                                               " samples, the most allowed"};
+    grown.box = boxWithTimeSteps(before->array->box(), old[3], grown.shape[3]);
+    grown.samples = before->array->storage().followedBy(appended->array->samples());
+    auto made = fields::fieldFromArray(before->name, grown);
+    if (!made) return made.error();
+    std::optional<Error> fault;
+    if (hasArray) {
+        grown.samples = second->array->storage().followedBy(values->array->samples());
+        fault = fields::setSecondArray(*made, grown, second->variable);
+    } else if (second != nullptr) {
+        fault = fields::setSecondFormula(*made, second->formula);
+    }
+    if (fault) return std::move(*fault);
+    return slicing::Object(std::make_shared<const fields::Field>(std::move(*made)));
 }
 
 std::string_view detectFormat(std::string_view text) {
@@ -113,15 +283,37 @@ std::string_view detectFormat(std::string_view text) {
     return isCloudKeyword(polytopes::FileTokenizer(text).next()) ? "cloud" : "points";
 }
 
-std::optional<Error> checkLoad(const Load& load, const Limits& limits) {
-    if (load.name.empty() || load.name.size() > 4 * kMaxName || std::ranges::any_of(load.name, isControl))
+std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {
+    if (load.name.empty() || !text::isUtf8(load.name) || characters(load.name) > kMaxName ||
+        std::ranges::any_of(load.name, isControl)) {
         return Error{ErrorCode::bad_message, "a polytope's name must have 1 to 64 printable characters"};
+    }
     if (std::holds_alternative<polytopes::Design>(polytopes::designNamed(load.name, limits.maxVertices))) {
         return Error{ErrorCode::bad_polytope,
                      text::inQuotes(load.name) + " is a name of the catalogue; choose another"};
     }
-    if (formatNamed(load.format) == nullptr) return unsupported(load.format);
+    const bool detected = load.isFile() && load.format.empty();
+    if (!detected && formatNamed(load.format) == nullptr) return unsupported(load.format);
+    const bool array = detected || isArrayFormat(load.format);
+    const auto refused = [&](const std::string& what) {
+        return Error{ErrorCode::bad_message, what + ", not the format " + text::inQuotes(load.format)};
+    };
+    if (load.isFile() && !array) return Error{ErrorCode::unsupported_format, "this file must be an array"};
+    if (load.box && !array && load.format != kFormula) return refused("only formulas and arrays take a box");
+    if ((!load.axes.empty() || !load.variable.empty()) && !array) return refused("only arrays take axes or a variable");
+    if (!load.values.empty() && !array && load.format != kFormula)
+        return refused("only formulas and arrays take the formula of values");
+    if (!load.valuesVariable.empty() && !array) return refused("only arrays take a variable of values");
+    if (!load.values.empty() && !load.valuesVariable.empty())
+        return Error{ErrorCode::bad_message, "give either the formula of the values or their variable, not both"};
+    if (load.append && !load.values.empty())
+        return Error{ErrorCode::bad_message, "moments have no formula of values: that of the field remains"};
+    if (load.append && !array) return refused("only arrays can be added to a field");
     return {};
+}
+
+bool isArrayFormat(std::string_view format) {
+    return std::ranges::any_of(fields::fieldFormats(), [&](const auto& each) { return each.name == format; });
 }
 
 bool buildsHull(std::string_view format) {

@@ -1,15 +1,22 @@
 #pragma once
 // Reads objects from the text of files.
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "errors/error.hpp"
+#include "fields/readers/file_contents.hpp"
+#include "fields/readers/read_field.hpp"
+#include "fields/readers/zarr.hpp"
 #include "session/command.hpp"
 #include "session/session.hpp"
 
 namespace oval4d::session {
+
+/// The format whose text is a formula rather than a file.
+inline constexpr std::string_view kFormula = "formula";
 
 /// An object that was read from a file, and one warning for each fault that was corrected in the file.
 struct LoadedObject {
@@ -17,20 +24,62 @@ struct LoadedObject {
     std::vector<std::string> warnings;
 };
 
-/// Reads an object from the text of a file, in the calling process (a FileReader of object_loader.hpp may do so in
-/// another process). `format` is "off", "points" or "cloud"; `name` becomes the object's name. Errors:
-/// `unsupported_format`, `bad_polytope` (with the line number, if the fault is in a line), `too_large`.
-Result<LoadedObject> readObject(std::string_view format, std::string_view text, const std::string& name,
-                                const Limits& limits);
+/// Reads the object that `load` specifies, in the calling process (a FileReader of object_loader.hpp may do so in
+/// another process). The format is "off", "points", "cloud", "formula", or one of fields::fieldFormats(), whose files
+/// are given as Base64 or as an open file. Ignores `append`. Errors: `unsupported_format`, `bad_polytope` (with the
+/// line number, if the fault is in a line), `too_large`, and those of readFormula() and readArray(). Arrays may have at
+/// most Limits::maxFieldBytes.
+Result<LoadedObject> readObject(const LoadObject& load, const Limits& limits);
 
-/// Returns the format of a file, which its first word determines: "off" if that ends with OFF, as 4OFF does; "cloud" if
-/// it is CLOUD; otherwise "points".
+/// Makes the field that `load`, whose format is "formula", specifies. Takes less than a millisecond. Errors: those of
+/// fields::fieldFromFormula().
+Result<LoadedObject> readFormula(const LoadObject& load);
+
+/// The source of the second function of an array: a formula, or another variable of its file. Both are empty if there
+/// is no second function.
+struct SecondSource {
+    std::string formula, variable;
+};
+
+/// Reads an array from a file whose format is one of fields::fieldFormats(). Errors: those of fields::readField(),
+/// fields::fieldFromArray(), fields::setSecondArray() and fields::setSecondFormula(); `out_of_range` if the box of the
+/// options has no extent along an axis with several samples.
+Result<LoadedObject> readArray(const fields::FileContents& file, const std::string& name,
+                               const fields::ReadOptions& options = {}, const SecondSource& second = {});
+
+/// Returns the options for reading the array that `load` specifies. If there is `newFile`, arrays of more than
+/// Limits::maxFieldBytes are allowed: their samples are in the file, or in a new one. The limit applies to an array and
+/// its second array together.
+fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limits, fields::NewFile newFile = {});
+
+/// Reads an array from a Zarr folder. Errors: those of fields::readZarr(), and of readArray().
+Result<LoadedObject> readZarr(const fields::FolderReader& folder, const std::string& name,
+                              const fields::ReadOptions& options = {}, const SecondSource& second = {});
+
+/// Reads the files of a series as one array, with the name and the second function of `load`. Errors: those of
+/// fields::readSeries(), and of readArray().
+Result<LoadedObject> readSeries(std::span<const fields::FileContents> files, const LoadObject& load,
+                                const fields::ReadOptions& options);
+
+/// Returns the field of an array, extended at the end of w by the time steps of another array, `added`. The w of the
+/// present time steps stay the same; the added ones are as far apart as these, or 1 apart if there is only one. The
+/// initial level and the initial side that is inside are computed anew. Errors: `bad_field` if one of the objects is
+/// not an array, if the numbers of samples along x, y and z differ, or if `added` lacks the second array that the field
+/// has; `too_large` if the samples exceed `limits.maxFieldBytes`.
+Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slicing::Object& added,
+                                        const Limits& limits);
+
+/// Returns the format of a file, as shown by its first word: "off" if this ends with OFF, as in 4OFF; "cloud" if it is
+/// CLOUD; otherwise "points".
 std::string_view detectFormat(std::string_view text);
 
-/// Checks the name and the format of `load`, but not its data. Returns nothing if they are valid, else an error:
-/// `bad_message` for a malformed name, `bad_polytope` for a name that already denotes a polytope, or
+/// Checks `load`, but not its data. Returns nothing if it is valid, else an error: `bad_message` for a malformed name
+/// or for members that the format does not take, `bad_polytope` for a name that already denotes a polytope, or
 /// `unsupported_format`.
-std::optional<Error> checkLoad(const Load& load, const Limits& limits);
+std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits);
+
+/// Returns whether the files of this format are arrays.
+bool isArrayFormat(std::string_view format);
 
 /// Returns whether reading this format includes computing a convex hull, which takes longer than reading a polytope's
 /// faces and cells from the file.

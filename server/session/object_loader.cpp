@@ -1,25 +1,49 @@
 #include "session/object_loader.hpp"
 
+#include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
+
+#include "polytopes/construction/convex_hull.hpp"
 
 namespace oval4d::session {
 
 namespace {
 
+// The maximum number of elements of a small object. Its image takes less than 0.2 ms and 128 KiB.
+constexpr std::size_t kSmall = 1000;
+
 const Error kLater{ErrorCode::internal, "the object is not available yet"};
 
+std::size_t elementsOf(const slicing::Object& object) {
+    const auto counts = slicing::elementCounts(object);
+    return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+}
+
 }  // namespace
+
+CriticalArguments criticalArguments(const State& state) {
+    CriticalArguments arguments{state.object, state.orientation, {}};
+    if (slicing::fieldIn(state.object) != nullptr) {
+        arguments.settings.levels = state.look.field.levels;
+        arguments.settings.inside = state.look.field.inside;
+    }
+    return arguments;
+}
 
 ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache)
     : ObjectLoader(limits, cache, Mode::immediate, readObject) {}
 
-ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Mode mode, FileReader reader)
-    : limits_(limits), cache_(cache), mode_(mode), reader_(std::move(reader)) {}
+ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Mode mode, FileReader reader,
+                           CriticalSearch search)
+    : limits_(limits), cache_(cache), mode_(mode), reader_(std::move(reader)), search_(search) {}
 
 Result<slicing::Object> ObjectLoader::build(const polytopes::Design& design) {
     try {
         return slicing::Object(cache_.get(design));
+    } catch (const polytopes::TooLarge& fault) {
+        return Error{ErrorCode::too_large, "the " + design.name + " cannot be built: " + fault.what()};
     } catch (const std::invalid_argument& fault) {
         return Error{ErrorCode::unknown_polytope, fault.what()};
     }
@@ -33,23 +57,73 @@ Result<slicing::Object> ObjectLoader::polytopeOf(const polytopes::Design& design
     return kLater;
 }
 
-Result<LoadedObject> ObjectLoader::objectFrom(const Load& load) {
+Result<LoadedObject> ObjectLoader::objectFrom(const LoadObject& load) {
     if (fromFile_) return *fromFile_;
     if (auto error = checkLoad(load, limits_)) return *error;
+    if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // faster than to defer it
     if (mode_ == Mode::deferred) {
         pending_ = &load;
         return kLater;
     }
-    return *(fromFile_ = reader_(load.format, load.data, load.name, limits_));
+    return *(fromFile_ = reader_(load, limits_));
 }
 
-void ObjectLoader::loadPendingObject() {
+Result<slicing::Object> ObjectLoader::fieldWithTimeSteps(const slicing::Object& field, const slicing::Object& added) {
+    if (mode_ == Mode::immediate) return appendTimeSteps(field, added, limits_);
+    if (extended_ && extendedFrom_ == field) return *extended_;
+    pending_ = Extension{field, added};
+    return kLater;
+}
+
+Result<slicing::Object> ObjectLoader::imageOf(const slicing::Object& source, const geometry::ReferenceFrame& frame) {
+    if (mode_ == Mode::immediate || frame == geometry::ReferenceFrame{} || elementsOf(source) <= kSmall)
+        return slicing::imageOf(source, frame);
+    const auto made = std::ranges::find_if(
+        images_, [&](const Image& image) { return image.source == source && image.frame == frame; });
+    if (made != images_.end()) return made->object;
+    pending_ = Image{source, frame};
+    return kLater;
+}
+
+Result<slicing::CriticalPtr> ObjectLoader::search(const CriticalArguments& arguments, std::stop_token stop) {
+    const auto& [object, orientation, settings] = arguments;
+    if (search_.cache != nullptr) {
+        // Another search may have found them while this one waited for a worker.
+        if (auto known = search_.cache->find(object, orientation, settings)) return known;
+    }
+    auto found = slicing::findCriticalSections(object, orientation, settings, {search_.time, std::move(stop)});
+    if (!found) return found.error();
+    auto shared = std::make_shared<const slicing::CriticalSections>(std::move(*found));
+    if (search_.cache != nullptr) search_.cache->add(object, orientation, settings, shared);
+    return slicing::CriticalPtr(std::move(shared));
+}
+
+Result<slicing::CriticalPtr> ObjectLoader::criticalSections(const State& state) {
+    if (critical_ && searched_ == state.object) return *critical_;
+    CriticalArguments arguments = criticalArguments(state);
+    const bool isField = slicing::fieldIn(state.object) != nullptr;
+    if (search_.cache != nullptr) {
+        if (auto known = search_.cache->find(arguments.object, arguments.orientation, arguments.settings)) return known;
+    }
+    if (mode_ == Mode::immediate || (!isField && elementsOf(state.object) <= kSmall)) return search(arguments, {});
+    pending_ = std::move(arguments);
+    return kLater;
+}
+
+void ObjectLoader::loadPendingObject(std::stop_token stop) {
     if (const auto* design = std::get_if<polytopes::Design>(&pending_)) {
         built_ = build(*design);
         builtName_ = design->name;
-    } else if (const auto* load = std::get_if<const Load*>(&pending_)) {
-        const Load& file = **load;
-        fromFile_ = reader_(file.format, file.data, file.name, limits_);
+    } else if (const auto* load = std::get_if<const LoadObject*>(&pending_)) {
+        fromFile_ = reader_(**load, limits_);
+    } else if (const auto* extension = std::get_if<Extension>(&pending_)) {
+        extended_ = appendTimeSteps(extension->field, extension->added, limits_);
+        extendedFrom_ = extension->field;
+    } else if (const auto* image = std::get_if<Image>(&pending_)) {
+        images_.push_back({image->source, image->frame, slicing::imageOf(image->source, image->frame)});
+    } else if (const auto* arguments = std::get_if<CriticalArguments>(&pending_)) {
+        critical_ = search(*arguments, std::move(stop));
+        searched_ = arguments->object;
     }
     pending_ = std::monostate{};
 }
@@ -58,23 +132,57 @@ std::size_t ObjectLoader::bytesNeeded() const {
     constexpr std::size_t kFixed = 64U << 10U;
     constexpr std::size_t kPerTextByte = 16;  // the numbers, a copy of them for repairs, the polytope, its incidences
     constexpr std::size_t kPerElement = 256;  // points, incidences, and temporary data of the construction
-    if (const auto* load = std::get_if<const Load*>(&pending_)) return kFixed + kPerTextByte * (*load)->data.size();
+    if (const auto* load = std::get_if<const LoadObject*>(&pending_)) {
+        // The message with the samples, and a copy of them. Samples of one byte become floats of four bytes.
+        constexpr std::size_t kCopies = 2, kPerFileByte = kCopies * sizeof(float);
+        const std::size_t file = (*load)->file ? (*load)->file->size() : 0;
+        return kFixed + kPerTextByte * (*load)->data.size() +
+               std::min(kPerFileByte * file, kCopies * limits_.maxFieldBytes);
+    }
+    if (const auto* extension = std::get_if<Extension>(&pending_))
+        return kFixed + slicing::memoryOf(extension->field) + slicing::memoryOf(extension->added);
+    // The sections of a field are small; finding them takes as much memory as a picture.
+    if (const auto* arguments = std::get_if<CriticalArguments>(&pending_))
+        return kFixed + sizeof(slicing::CriticalSection) * elementsOf(arguments->object);
+    constexpr std::size_t kPerImageElement = 128;
+    if (const auto* image = std::get_if<Image>(&pending_)) return kPerImageElement * elementsOf(image->source);
     const auto* design = std::get_if<polytopes::Design>(&pending_);
     if (design == nullptr) return 0;
     const polytopes::ElementCounts counts = polytopes::elementCounts(*design);
-    return kFixed + kPerElement * (counts.vertices + counts.edges + counts.faces + counts.cells);
+    constexpr std::size_t kPerHullPoint = 10240;  // simplices, their neighbors, and the perturbed points
+    return kFixed + kPerElement * (counts.vertices + counts.edges + counts.faces + counts.cells) +
+           kPerHullPoint * design->recipe->hullPoints();
+}
+
+std::size_t ObjectLoader::bytesLoaded() const {
+    std::size_t bytes = 0;
+    if (fromFile_ && *fromFile_) bytes += ownMemory((*fromFile_)->object);
+    if (extended_ && *extended_) bytes += ownMemory(**extended_);
+    return bytes;
 }
 
 std::chrono::duration<double> ObjectLoader::estimatedDuration() const {
     // Seconds for each element of a polytope that is built, for each byte of a file that lists elements or the points
-    // of a cloud, and for each byte of a list of points whose convex hull is computed.
-    constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6;
+    // of a cloud, for each byte of a list of points whose convex hull is computed, and for each byte of an array; and
+    // for each point of which a construction computes a hull.
+    constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6, kArrayByte = 5e-9, kImageElement = 4e-8,
+                     kSearch = 1, kHullPoint = 2e-4;
     double seconds = 2e-4;
     if (const auto* design = std::get_if<polytopes::Design>(&pending_)) {
         const auto [vertices, edges, faces, cells] = polytopes::elementCounts(*design);
-        seconds += kElement * static_cast<double>(vertices + edges + faces + cells);
-    } else if (const auto* load = std::get_if<const Load*>(&pending_)) {
-        seconds += (buildsHull((*load)->format) ? kPointByte : kByte) * static_cast<double>((*load)->data.size());
+        seconds += kElement * static_cast<double>(vertices + edges + faces + cells) +
+                   kHullPoint * static_cast<double>(design->recipe->hullPoints());
+    } else if (const auto* load = std::get_if<const LoadObject*>(&pending_)) {
+        const LoadObject& file = **load;
+        const bool array = file.isFile() || isArrayFormat(file.format);
+        const double perByte = array ? kArrayByte : buildsHull(file.format) ? kPointByte : kByte;
+        seconds += perByte * static_cast<double>(file.data.size() + (file.file ? file.file->size() : 0));
+    } else if (const auto* extension = std::get_if<Extension>(&pending_)) {
+        seconds += kArrayByte * static_cast<double>(slicing::memoryOf(extension->field));
+    } else if (const auto* image = std::get_if<Image>(&pending_)) {
+        seconds += kImageElement * static_cast<double>(elementsOf(image->source));
+    } else if (isSearchPending()) {
+        seconds += kSearch;
     }
     return std::chrono::duration<double>(seconds);
 }

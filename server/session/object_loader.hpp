@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -17,62 +18,109 @@
 #include "session/command.hpp"
 #include "session/load.hpp"
 #include "session/session.hpp"
+#include "slicing/critical/critical_cache.hpp"
+#include "slicing/critical/critical_sections.hpp"
 
 namespace oval4d::session {
 
-/// Reads an object from a text in this format. Parameters, result and errors are those of readObject.
-using FileReader = std::function<Result<LoadedObject>(std::string_view format, std::string_view text,
-                                                      const std::string& name, const Limits& limits)>;
+/// Reads the object that a command specifies. Parameters, result and errors are those of readObject().
+using FileReader = std::function<Result<LoadedObject>(const LoadObject& load, const Limits& limits)>;
 
-/// Provides the objects that one command needs. With Mode::immediate, polytopeOf() and objectFrom() build or read the
-/// object before they return. With Mode::deferred, they return an error if the object is not available yet, and the
-/// object becomes pending. The caller then calls loadPendingObject(), on any thread, and applies the command again. The
-/// caller repeats this until nothing is pending.
+/// How a loader searches for the critical w of objects, at which the section changes its type.
+struct CriticalSearch {
+    slicing::CriticalCache* cache = nullptr;  ///< null, or outlives the loader
+    std::chrono::duration<double> time = slicing::CriticalOptions{}.time;
+};
+
+/// What the critical w of a state depend on.
+struct CriticalArguments {
+    slicing::Object object;
+    geometry::Rotation orientation;
+    slicing::FieldSettings settings;  ///< those of a field; the default ones for other objects, and without fog
+    bool operator==(const CriticalArguments&) const = default;
+};
+CriticalArguments criticalArguments(const State& state);
+
+/// Provides the objects that one command needs, and the critical w of an object. With Mode::immediate, polytopeOf(),
+/// objectFrom() and the other functions build or read the object before they return. With Mode::deferred, they return
+/// an error if the object is not available yet, and the object becomes pending. The caller then calls
+/// loadPendingObject(), on any thread, and applies the command again, until nothing is pending.
 class ObjectLoader {
   public:
     enum class Mode : bool { immediate, deferred };
 
     /// Creates a loader with Mode::immediate that reads files in the calling process.
     ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache);
-    ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Mode mode, FileReader reader);
+    ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Mode mode, FileReader reader,
+                 CriticalSearch search = {});
 
-    /// Returns the polytope of this design. Error: `unknown_polytope` if it cannot be built; the message gives only the
-    /// reason, not the name.
+    /// Returns the polytope of this design. Errors: `unknown_polytope` if it cannot be built; `too_large` if its convex
+    /// hulls exceed a limit that the design does not reveal.
     Result<slicing::Object> polytopeOf(const polytopes::Design& design);
 
-    /// Returns the object read from the data of `load`, which must outlive the loader. Errors: those of checkLoad and
-    /// readObject.
-    Result<LoadedObject> objectFrom(const Load& load);
+    /// Returns the object read from the data of `load`, which must outlive the loader. Errors: those of checkLoad() and
+    /// readObject().
+    Result<LoadedObject> objectFrom(const LoadObject& load);
+
+    /// Returns the image of `source` in `frame` (see slicing::imageOf()). Images of small objects are never pending.
+    Result<slicing::Object> imageOf(const slicing::Object& source, const geometry::ReferenceFrame& frame);
+    /// Returns the result of session::appendTimeSteps().
+    Result<slicing::Object> fieldWithTimeSteps(const slicing::Object& field, const slicing::Object& added);
+
+    /// Returns the critical w of the object that the state shows (see slicing::findCriticalSections()). If the search
+    /// was deferred, they are those of the state at the time of the first call, even if the object has turned since.
+    /// For small polytopes, the search is never deferred. Error: `canceled` if the search was stopped.
+    Result<slicing::CriticalPtr> criticalSections(const State& state);
 
     /// Returns whether an object is pending: the command failed only because the object is not available yet.
     bool isPending() const { return !std::holds_alternative<std::monostate>(pending_); }
     /// Returns whether the pending object must be read from a file.
-    bool isFilePending() const { return std::holds_alternative<const Load*>(pending_); }
-    /// Builds or reads the pending object, if there is one.
-    void loadPendingObject();
+    bool pendingNeedsFile() const { return std::holds_alternative<const LoadObject*>(pending_); }
+    /// Returns whether a search for critical w is pending, which takes longer than a picture.
+    bool isSearchPending() const { return std::holds_alternative<CriticalArguments>(pending_); }
+    /// Builds or reads the pending object, or finds the pending critical w, if there is one. `stop` ends a search for
+    /// critical w, which then fails with `canceled`.
+    void loadPendingObject(std::stop_token stop = {});
     /// Returns the estimated duration of loadPendingObject(). For entries of the catalogue, it is accurate to within a
     /// factor of three.
     std::chrono::duration<double> estimatedDuration() const;
 
-    /// Returns the estimated memory in bytes that loadPendingObject() and its result use; 0 if nothing is pending.
+    /// Returns the estimated memory in bytes that loadPendingObject() and its result use; 0 if nothing is pending. The
+    /// result may be larger if it is the array of a compressed file: see bytesLoaded().
     std::size_t bytesNeeded() const;
-    /// Returns whether this loader has read a file, even one with errors, or built a polytope in loadPendingObject().
-    bool hasDoneWork() const { return built_ || fromFile_; }
-
+    /// Returns the memory of the objects that loadPendingObject() has made so far, in bytes.
+    std::size_t bytesLoaded() const;
     /// Returns one warning for each fault that was corrected in the file; empty if no file has been read.
     std::vector<std::string> warnings() const;
 
   private:
+    struct Image {
+        slicing::Object source;
+        geometry::ReferenceFrame frame;
+        slicing::Object object = {};  // null while it is pending
+    };
+
+    Result<slicing::CriticalPtr> search(const CriticalArguments& arguments, std::stop_token stop);
     Result<slicing::Object> build(const polytopes::Design& design);
 
     Limits limits_;
     polytopes::PolytopeCache& cache_;
     Mode mode_;
     FileReader reader_;
-    std::variant<std::monostate, polytopes::Design, const Load*> pending_;
+    CriticalSearch search_;
+    // An array to which time steps are added.
+    struct Extension {
+        slicing::Object field, added;
+    };
+    std::variant<std::monostate, polytopes::Design, const LoadObject*, Image, Extension, CriticalArguments> pending_;
     std::string builtName_;  // the name of the design from which `built_` was built
     std::optional<Result<slicing::Object>> built_;
     std::optional<Result<LoadedObject>> fromFile_;
+    slicing::Object extendedFrom_;  // the array to which time steps were added to make `extended_`
+    std::optional<Result<slicing::Object>> extended_;
+    slicing::Object searched_;  // the object whose critical w are `critical_`
+    std::optional<Result<slicing::CriticalPtr>> critical_;
+    std::vector<Image> images_;  // a command that changes both the object and the frame needs two images
 };
 
 }  // namespace oval4d::session

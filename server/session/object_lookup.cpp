@@ -6,35 +6,46 @@
 #include <vector>
 
 #include "polytopes/catalogue/catalogue.hpp"
+#include "session/example_fields.hpp"
 #include "text/message_text.hpp"
+#include "text/words.hpp"
 
 namespace oval4d::session {
 
 namespace {
 
-// Returns "; did you mean …?" with the most similar names in the catalogue, or with the name of a loaded object if that
-// is at least as similar.
+// Returns "; did you mean …?" with the most similar names in the catalogue, or with the name of an example field
+// or a loaded object if that is at least as similar; empty if nothing is similar.
 std::string suggestion(std::string_view name, const LoadedObjects& loaded) {
     std::vector<std::string_view> near = polytopes::nearestNames(name);
-    std::size_t least = polytopes::editDistance(name, near.front());
-    for (const auto& [own, ignored] : loaded) {
-        if (polytopes::editDistance(name, own) > least) continue;
+    std::size_t least =
+        near.empty() ? text::normalizedName(name).size() / 3 : polytopes::editDistance(name, near.front());
+    const auto consider = [&](std::string_view own) {
+        if (polytopes::editDistance(name, own) > least) return;
         least = polytopes::editDistance(name, own);
         near = {own};
-    }
+    };
+    for (const ExampleField& example : exampleFields()) consider(example.name);
+    for (const auto& [own, ignored] : loaded) consider(own);
     std::string text;
     for (std::size_t i = 0; i < near.size(); ++i) {
         text += i == 0 ? "; did you mean " : i + 1 < near.size() ? ", " : " or ";
         text += text::inQuotes(near[i]);
     }
-    return text + "?";
+    return near.empty() ? "" : text + "?";
 }
 
 }  // namespace
 
+std::optional<slicing::Object> loadedOrExample(std::string_view name, const LoadedObjects& loaded) {
+    if (const auto own = loaded.find(name); own != loaded.end()) return own->second;
+    if (const ExampleField* example = exampleNamed(name)) return slicing::Object(example->field);
+    return {};
+}
+
 Result<slicing::Object> findObject(std::string_view name, const LoadedObjects& loaded, const Limits& limits,
                                    ObjectLoader& loader) {
-    if (const auto own = loaded.find(name); own != loaded.end()) return own->second;
+    if (const auto present = loadedOrExample(name, loaded)) return *present;
     auto named = polytopes::designNamed(name, limits.maxVertices);
     if (const auto* design = std::get_if<polytopes::Design>(&named)) {
         auto built = loader.polytopeOf(*design);
@@ -51,13 +62,17 @@ Result<slicing::Object> findObject(std::string_view name, const LoadedObjects& l
 Result<slicing::Object> neighborOf(const slicing::Object& object, int by, const LoadedObjects& loaded,
                                    ObjectLoader& loader) {
     std::vector<slicing::Object> own;
+    for (const ExampleField& example : exampleFields()) {
+        if (!loaded.contains(example.name)) own.emplace_back(example.field);
+    }
+    const int examples = static_cast<int>(own.size());
     for (const auto& [name, each] : loaded) own.push_back(each);
     const auto entries = polytopes::catalogue();
     const int named = static_cast<int>(entries.size());
     const int all = named + static_cast<int>(own.size());
     const auto at = std::ranges::find(own, object);
     const auto entry = std::ranges::find(entries, slicing::infoOf(object).name, &polytopes::CatalogueEntry::name);
-    int i = by > 0 ? -1 : named;
+    int i = by > 0 ? -1 : named + examples;
     if (at != own.end()) {
         i = named + static_cast<int>(at - own.begin());
     } else if (entry != entries.end()) {

@@ -2,13 +2,16 @@
 
 #include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
+#include "fields/field.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
 #include "polytopes/catalogue/polytope_cache.hpp"
 #include "session/history.hpp"
 #include "session/keymap.hpp"
 #include "session/object_loader.hpp"
+#include "session/object_lookup.hpp"
 #include "session/settings.hpp"
 #include "text/message_text.hpp"
 
@@ -17,6 +20,19 @@ namespace oval4d::session {
 namespace {
 
 using Done = Result<std::monostate>;
+
+// Shows the field `after`, a longer version of `before`, if the state shows `before`; returns whether it does. Keeps
+// all settings, except that spacing and offset keep their ratios to the reach of the slices.
+bool extendField(State& state, const slicing::Object& before, const slicing::Object& after) {
+    if (state.source != before) return false;
+    slicing::Object object = slicing::imageOf(after, state.referenceFrame);
+    const double ratio = slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object);
+    state.slices.spacing *= ratio;
+    state.slices.offset *= ratio;
+    state.source = after;
+    state.object = std::move(object);
+    return true;
+}
 
 // Applies each command to a copy of the state, which becomes the current state only on success.
 class Applier {
@@ -47,21 +63,35 @@ class Applier {
     }
     Done operator()(const Set& command) {
         State next = session_.current;
-        if (Done done = applySet(next, command, session_.loaded, limits_, loader_); !done) return done;
+        std::optional<LoadedObjects> extended;  // the loaded objects with the field of the formula
+        if (command.formula) {
+            extended = session_.loaded;
+            if (Done done = loadFormula(*command.formula, *extended); !done) return done;
+        }
+        const LoadedObjects& loaded = extended ? *extended : session_.loaded;
+        if (Done done = applySet(next, command, loaded, limits_, loader_); !done) return done;
+        if (extended) session_.loaded = std::move(*extended);
         (command.continues ? amend : commit)(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    Done operator()(const Load& command) {
-        if (session_.loaded.size() >= limits_.maxLoaded && !session_.loaded.contains(command.name)) {
-            return Error{ErrorCode::too_many, "a session holds at most " + std::to_string(limits_.maxLoaded) +
-                                                  " loaded polytopes; load under a name that is in use to replace one"};
-        }
+    Done operator()(const LoadObject& command) {
+        if (command.append) return append(command);
+        if (Done room = checkRoom(session_.loaded, command.name); !room) return room;
         const auto reading = loader_.objectFrom(command);
         if (!reading) return reading.error();
         State next = session_.current;
-        replaceObject(next, reading->object);
+        if (Done done = replaceObject(next, reading->object, loader_); !done) return done;
+        const State& before = session_.current;
+        if (command.continues && slicing::fieldIn(before.object) != nullptr &&
+            slicing::fieldIn(next.object) != nullptr) {
+            next.look.field = before.look.field;
+            if (slicing::infoOf(before.object).circumradius == slicing::infoOf(next.object).circumradius) {
+                next.look.focusPoint = before.look.focusPoint;
+                next.slices = before.slices;
+            }
+        }
         session_.loaded.insert_or_assign(command.name, reading->object);
-        commit(session_, std::move(next), limits_);
+        (command.continues ? amend : commit)(session_, std::move(next), limits_);
         return std::monostate{};
     }
     Done operator()(const Undo& /*command*/) { return undo(session_); }
@@ -83,6 +113,45 @@ class Applier {
     }
 
   private:
+    Done checkRoom(const LoadedObjects& loaded, const std::string& name) const {
+        if (loaded.size() < limits_.maxLoaded || loaded.contains(name)) return std::monostate{};
+        return Error{ErrorCode::too_many, "a session holds at most " + std::to_string(limits_.maxLoaded) +
+                                              " loaded polytopes; load under a name that is in use to replace one"};
+    }
+
+    // Adds the field of a formula to `loaded`, unless the field of this name has the same formula.
+    Done loadFormula(const LoadObject& load, LoadedObjects& loaded) {
+        if (const auto present = loadedOrExample(load.name, loaded)) {
+            const fields::Field* const field = slicing::fieldIn(*present);
+            const std::string second = field != nullptr && field->second ? field->second->formula : "";
+            if (field != nullptr && field->formula == load.data && second == load.values && field->box == load.box)
+                return std::monostate{};
+        }
+        if (Done room = checkRoom(loaded, load.name); !room) return room;
+        const auto reading = loader_.objectFrom(load);
+        if (!reading) return reading.error();
+        loaded.insert_or_assign(load.name, reading->object);
+        return std::monostate{};
+    }
+
+    // Adds time steps to a loaded array. Undo does not remove them: the states of the history show the longer array,
+    // too, so that it is kept in memory only once.
+    Done append(const LoadObject& command) {
+        const auto loaded = session_.loaded.find(command.name);
+        if (loaded == session_.loaded.end())
+            return Error{ErrorCode::not_found, "no field called " + text::inQuotes(command.name) + " is loaded"};
+        const auto added = loader_.objectFrom(command);
+        if (!added) return added.error();
+        const slicing::Object before = loaded->second;
+        const auto extended = loader_.fieldWithTimeSteps(before, added->object);
+        if (!extended) return extended.error();
+        for (State& state : session_.undoSteps) extendField(state, before, *extended);
+        for (State& state : session_.redoSteps) extendField(state, before, *extended);
+        if (extendField(session_.current, before, *extended)) ++session_.revision;
+        loaded->second = *extended;
+        return std::monostate{};
+    }
+
     Done press(const Binding& binding) {
         if (binding.action->onSession != nullptr) return binding.action->onSession(session_);
         State next = session_.current;
@@ -107,7 +176,7 @@ geometry::Hyperplanes State::hyperplanes() const {
 State initialState() {
     constexpr double kAngle = std::numbers::pi / 36;
     State state;
-    state.object = polytopes::fiveCell();
+    state.source = state.object = polytopes::fiveCell();
     state.alpha = state.beta = kAngle;
     state.step = std::numbers::pi / 180;
     state.slices.spacing = spanningSpacing(state.object, state.slices.count);
@@ -115,35 +184,41 @@ State initialState() {
 }
 
 double spanningSpacing(const slicing::Object& object, int count) {
-    const double radius = slicing::infoOf(object).circumradius;
-    return count > 1 ? 2 * radius / (count - 1) : radius;
+    const double reach = slicing::initialSliceExtent(object);
+    return count > 1 ? 2 * reach / (count - 1) : reach;
 }
 
 Done apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader) {
     return std::visit(Applier(session, limits, loader), command);
 }
 
-std::size_t historyBytes(const Session& session) {
+std::size_t historyMemory(const Session& session) {
     return sizeof(State) * (session.undoSteps.size() + session.redoSteps.size());
 }
 
-std::size_t objectBytes(const Session& session) {
+std::size_t ownMemory(const slicing::Object& object) {
+    const geometry::ObjectInfo& info = slicing::infoOf(object);
+    const fields::Field* const field = slicing::fieldIn(object);
+    const bool shared =
+        (info.rebuildableFromName && polytopes::findEntry(info.name) != nullptr) || (field != nullptr && field->shared);
+    return shared ? 0 : slicing::memoryOf(object);
+}
+
+std::size_t ownObjectMemory(const Session& session) {
     std::map<const void*, const slicing::Object*> objects;
-    auto add = [&, last = static_cast<const void*>(nullptr)](const slicing::Object& object) mutable {
-        const void* identity = slicing::identityOf(object);
-        if (identity != std::exchange(last, identity))
-            objects.try_emplace(identity, &object);  // skipped if the previous state has the same object, as most do
+    const auto add = [&](const slicing::Object& object) { objects.try_emplace(slicing::identityOf(object), &object); };
+    auto addAll = [&, last = static_cast<const State*>(nullptr)](const State& state) mutable {
+        const State* previous = std::exchange(last, &state);
+        // Skipped if the previous state has the same objects, as most do.
+        if (previous != nullptr && previous->object == state.object && previous->source == state.source) return;
+        for (const slicing::Object* object : state.objects()) add(*object);
     };
-    add(session.current.object);
+    addAll(session.current);
     for (const auto& [name, object] : session.loaded) add(object);
-    for (const State& state : session.undoSteps) add(state.object);
-    for (const State& state : session.redoSteps) add(state.object);
+    for (const State& state : session.undoSteps) addAll(state);
+    for (const State& state : session.redoSteps) addAll(state);
     std::size_t bytes = 0;
-    for (const auto& [identity, object] : objects) {
-        const geometry::ObjectInfo& info = slicing::infoOf(*object);
-        const bool shared = info.rebuildableFromName && polytopes::findEntry(info.name) != nullptr;
-        if (!shared) bytes += slicing::memoryOf(*object);
-    }
+    for (const auto& [identity, object] : objects) bytes += ownMemory(*object);
     return bytes;
 }
 

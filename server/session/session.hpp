@@ -1,6 +1,7 @@
 #pragma once
 // The state of a session, and the functions that apply commands to it.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "errors/error.hpp"
+#include "geometry/reference_frame.hpp"
 #include "geometry/rotation.hpp"
 #include "scene/scene.hpp"
 #include "session/command.hpp"
@@ -40,7 +42,9 @@ struct OngoingTurnToward {
 
 /// Everything that determines a picture except the viewport. Undo restores all members except the camera's orbit.
 struct State {
-    slicing::Object object;  ///< never null
+    slicing::Object source;  ///< the object as it was built or loaded; never null
+    geometry::ReferenceFrame referenceFrame;
+    slicing::Object object;  ///< what is shown: the image of `source` in `referenceFrame` (see slicing::imageOf())
     geometry::Rotation orientation;
     double alpha, beta;  ///< the angles of the rotation keys, in radians
     double step;         ///< the change of alpha or beta by the keys k, j, K and J, in radians
@@ -48,9 +52,12 @@ struct State {
     scene::Look look;
     bool turning = false;                    ///< whether the object turns continuously: advance() repeats `lastTurn`
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
-    /// The turn that calls of advance() continue until it ends; empty if there is none, and while `turning` is true.
+    /// The turn toward an element that is under way; advance() continues it until it ends. Empty if there is none, and
+    /// while `turning` is true.
     std::optional<OngoingTurnToward> ongoingTurnToward;
 
+    /// Returns the objects that the state holds; twice the same one in the default frame of reference.
+    std::array<const slicing::Object*, 2> objects() const { return {&source, &object}; }
     /// Returns the hyperplanes that `slices` describes.
     geometry::Hyperplanes hyperplanes() const;
     /// Returns w of the focus slice.
@@ -63,8 +70,8 @@ struct State {
 /// Returns the initial state of a session: the 5-cell in the position that it has in Kageyama's paper.
 State initialState();
 
-/// Returns the spacing at which `count` slices span the diameter of the object's circumscribed sphere; for one slice,
-/// the circumradius.
+/// Returns the spacing at which `count` slices lie from −r to r for r = slicing::initialSliceExtent(object); r for one
+/// slice.
 double spanningSpacing(const slicing::Object& object, int count);
 
 /// Limits on a session. Each can be set by an option of the server.
@@ -76,7 +83,8 @@ struct Limits {
     /// The vertices of a loaded polytope, the points of a list, or the vertices of a polytope that is built by its name
     /// and is not in the catalogue.
     std::size_t maxVertices = 100'000;
-    std::size_t maxHullCells = 100'000;  ///< cells of the convex hull of a list of points
+    std::size_t maxHullCells = 100'000;       ///< cells of the convex hull of a list of points
+    std::size_t maxFieldBytes = 256U << 20U;  ///< bytes of the samples of an array, as 32-bit floats
 };
 
 /// A session: the current state, its history, and the loaded objects. Sessions can be copied and compared.
@@ -90,12 +98,16 @@ struct Session {
     bool operator==(const Session&) const = default;
 };
 
-/// Returns the memory of a session's objects in bytes. It does not include catalogue polytopes, which all sessions
-/// share.
-std::size_t objectBytes(const Session& session);
+/// Returns the memory of an object in bytes; 0 if all sessions share it: a polytope of the catalogue, an example field,
+/// or a field of the data folder.
+std::size_t ownMemory(const slicing::Object& object);
+
+/// Returns the memory of a session's objects in bytes: the sum of ownMemory() over all objects, each of which counts
+/// once.
+std::size_t ownObjectMemory(const Session& session);
 
 /// Returns the memory of a session's history in bytes, without the objects.
-std::size_t historyBytes(const Session& session);
+std::size_t historyMemory(const Session& session);
 
 class ObjectLoader;
 

@@ -2,10 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "fields/field.hpp"
 #include "session/cell_types.hpp"
 #include "session/object_lookup.hpp"
 #include "text/message_text.hpp"
@@ -36,6 +42,27 @@ Result<std::monostate> put(std::string_view name, std::optional<double> value, B
 
 void put(std::optional<bool> value, bool& into) { into = value.value_or(into); }
 
+// Error: `out_of_range`.
+Result<std::monostate> setReferenceFrame(State& state, const Set& set, ObjectLoader& loader) {
+    geometry::ReferenceFrame frame = state.referenceFrame;
+    if (auto done = put("the pace", set.pace, {kMinPace, kMaxPace, ""}, frame.pace); !done) return done;
+    for (int axis = 0; axis < 3 && set.follow; ++axis) {
+        const std::string name = std::string("the velocity to follow along ") + "xyz"[axis];
+        if (auto done = put(name, (*set.follow)[axis], {-kMaxFollow, kMaxFollow, ""}, frame.follow[axis]); !done)
+            return done;
+    }
+    if (set.boost) {
+        const double speed = glm::length(*set.boost);
+        if (!(speed <= kMaxBoost)) {
+            return Error{ErrorCode::out_of_range,
+                         "the speed of a boost must be from 0 to " + text::shortestDecimal(kMaxBoost) +
+                             ", where 1 is the speed of light, not " + text::shortestDecimal(speed)};
+        }
+        frame.boost = *set.boost;
+    }
+    return changeReferenceFrame(state, frame, loader);
+}
+
 Result<std::monostate> setSlices(State& state, const Set& set, const Limits& limits) {
     if (set.count) {
         if (*set.count < 1 || *set.count > limits.maxSlices || *set.count % 2 == 0) {
@@ -60,7 +87,7 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
         state.slices.focus = *set.focus;
     }
     if (set.focusPoint) {
-        // `focus`, `offset` and `focusW` say more than w of the point, which then may be any number.
+        // If `focus`, `offset` or `focusW` is set, w of the point is ignored and may be any number.
         const bool placed = set.focus || set.offset || set.focusW;
         glm::dvec4 point(0);
         for (int axis = 0; axis < (placed ? 3 : 4); ++axis) {
@@ -82,6 +109,39 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
     return put("the offset", set.offset, {-kMaxOffset * radius, kMaxOffset * radius, ""}, state.slices.offset);
 }
 
+// Errors: `out_of_range`; also if the object is not a field.
+Result<std::monostate> setField(State& state, const Set& set) {
+    if (!set.levels && !set.inside && !set.fog) return std::monostate{};
+    if (slicing::fieldIn(state.object) == nullptr) {
+        return Error{ErrorCode::out_of_range, "the " + slicing::infoOf(state.object).name +
+                                                  " is not a field, so it has no levels, no inside and no fog"};
+    }
+    state.look.field.inside = set.inside.value_or(state.look.field.inside);
+    if (set.fog) {
+        if (!isTransferFunction(*set.fog)) {
+            return Error{ErrorCode::out_of_range,
+                         "the fog must be off, or " + std::to_string(slicing::kMinFogPoints) + " to " +
+                             std::to_string(slicing::kMaxFogPoints) +
+                             " points in the order of their values, which are different numbers from " +
+                             text::shortestDecimal(-kMaxLevel) + " to " + text::shortestDecimal(kMaxLevel) +
+                             ", with opacities from 0 to 1 and, if any, colors from 0 to 16777215"};
+        }
+        state.look.field.fog = *set.fog;
+    }
+    if (!set.levels) return std::monostate{};
+    std::vector<double> sorted = *set.levels;
+    std::ranges::sort(sorted);
+    if (sorted.empty() || sorted.size() > slicing::kMaxLevels ||
+        !std::ranges::all_of(sorted, [](double level) { return std::abs(level) <= kMaxLevel; }) ||
+        std::ranges::adjacent_find(sorted) != sorted.end()) {
+        return Error{ErrorCode::out_of_range, "the levels must be 1 to " + std::to_string(slicing::kMaxLevels) +
+                                                  " different numbers from " + text::shortestDecimal(-kMaxLevel) +
+                                                  " to " + text::shortestDecimal(kMaxLevel)};
+    }
+    state.look.field.levels = *set.levels;
+    return std::monostate{};
+}
+
 // Error: `out_of_range` if the object has no such element.
 Result<std::monostate> checkElement(const slicing::Object& object, const slicing::Element& element) {
     const std::size_t count = slicing::elementCount(object, element.kind);
@@ -96,10 +156,26 @@ Result<std::monostate> checkElement(const slicing::Object& object, const slicing
 
 }  // namespace
 
-void replaceObject(State& state, slicing::Object object) {
-    if (object == state.object) return;
+bool isTransferFunction(std::span<const slicing::FogPoint> points) {
+    constexpr std::uint32_t kWhite = 0xffffff;
+    if (points.empty()) return true;
+    return points.size() >= slicing::kMinFogPoints && points.size() <= slicing::kMaxFogPoints &&
+           std::ranges::all_of(points,
+                               [](const slicing::FogPoint& point) {
+                                   return std::abs(point.value) <= kMaxLevel && point.opacity >= 0 &&
+                                          point.opacity <= 1 && point.color.value_or(0) <= kWhite;
+                               }) &&
+           std::ranges::adjacent_find(points, std::greater_equal<>(), &slicing::FogPoint::value) == points.end();
+}
+
+Result<std::monostate> replaceObject(State& state, slicing::Object source, ObjectLoader& loader) {
+    if (source == state.source) return std::monostate{};
+    auto image = loader.imageOf(source, state.referenceFrame);
+    if (!image) return image.error();
+    slicing::Object object = std::move(*image);
     const double radius = slicing::infoOf(object).circumradius;
-    const double spacing = state.slices.spacing * (radius / slicing::infoOf(state.object).circumradius);
+    const double spacing =
+        state.slices.spacing * (slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object));
     state.slices.spacing =
         std::clamp(spacing, kMinSpacing * radius, kMaxSpacing * radius);  // rounding may exceed the bounds
     state.slices.focus = 0;
@@ -108,7 +184,40 @@ void replaceObject(State& state, slicing::Object object) {
     state.look.cellTypes = {};
     state.look.highlight.reset();
     state.look.focusPoint = glm::dvec3(0);
+    const fields::Field* field = slicing::fieldIn(object);
+    const fields::Field* const before = slicing::fieldIn(state.source);
+    const bool hasSecond = field != nullptr && field->second, hadSecond = before != nullptr && before->second;
+    if (hasSecond && !hadSecond) state.look.coloring = scene::Coloring::value;
+    if (hadSecond && !hasSecond && state.look.coloring == scene::Coloring::value)
+        state.look.coloring = scene::Coloring::cell;
+    state.look.field =
+        field == nullptr ? slicing::FieldSettings{} : slicing::FieldSettings{{field->level}, field->inside};
+    state.source = std::move(source);
     state.object = std::move(object);
+    return std::monostate{};
+}
+
+Result<std::monostate> changeReferenceFrame(State& state, const geometry::ReferenceFrame& frame, ObjectLoader& loader) {
+    if (frame == state.referenceFrame) return std::monostate{};
+    auto image = loader.imageOf(state.source, frame);
+    if (!image) return image.error();
+    constexpr double kSame = 1e-9;
+    const double spanning = spanningSpacing(state.object, state.slices.count);
+    const bool spans = std::abs(state.slices.spacing - spanning) <= kSame * spanning;
+    const double w = state.focusW();
+    state.referenceFrame = frame;
+    state.object = std::move(*image);
+    state.ongoingTurnToward.reset();
+    const double radius = slicing::infoOf(state.object).circumradius, reach = kMaxOffset * radius;
+    state.look.focusPoint = glm::clamp(state.look.focusPoint, glm::dvec3(-reach), glm::dvec3(reach));
+    if (spans) {
+        state.slices.spacing = spanningSpacing(state.object, state.slices.count);
+        moveFocusTo(state, std::clamp(w, -reach, reach));
+    } else {
+        state.slices.spacing = std::clamp(state.slices.spacing, kMinSpacing * radius, kMaxSpacing * radius);
+        state.slices.offset = std::clamp(state.slices.offset, -reach, reach);
+    }
+    return std::monostate{};
 }
 
 void setCount(State& state, int count) {
@@ -125,8 +234,9 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
     if (set.object) {
         auto object = findObject(*set.object, loaded, limits, loader);
         if (!object) return object.error();
-        replaceObject(state, std::move(*object));
+        if (auto done = replaceObject(state, std::move(*object), loader); !done) return done;
     }
+    if (auto done = setReferenceFrame(state, set, loader); !done) return done;
     if (set.orientation && *set.orientation != state.orientation.matrix()) {
         const auto orientation = geometry::Rotation::fromMatrix(*set.orientation);
         if (!orientation) {
@@ -157,7 +267,9 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
     for (std::size_t i = 0; i < scene::kParts.size(); ++i) put(set.parts[i], state.look.parts.*scene::kParts[i].flag);
     state.look.projection.kind = set.projection.value_or(state.look.projection.kind);
     state.look.coloring = set.coloring.value_or(state.look.coloring);
-    if (auto done = setCellTypeVisibility(state, set); !done) return done;
+    state.look.caps = set.caps.value_or(state.look.caps);
+    if (auto done = applyCellTypeVisibility(state, set); !done) return done;
+    if (auto done = setField(state, set); !done) return done;
     if (set.highlight) {
         if (*set.highlight) {
             if (auto valid = checkElement(state.object, **set.highlight); !valid) return valid;
@@ -218,9 +330,18 @@ void moveFocusTo(State& state, double w) {
     state.slices.offset = w - state.slices.focus * spacing;
 }
 
-void moveFocusToVertex(State& state, bool upward) {
-    const auto height = slicing::nextVertexHeight(state.object, state.orientation, state.focusW(), upward);
-    if (height) moveFocusTo(state, *height);
+Result<std::monostate> moveFocusToCritical(State& state, bool upward, ObjectLoader& loader) {
+    std::optional<double> w;
+    if (slicing::fieldIn(state.object) == nullptr) {
+        w = slicing::nextVertexHeight(state.object, state.orientation, state.focusW(), upward);
+    } else {
+        const auto sections = loader.criticalSections(state);
+        if (!sections) return sections.error();
+        const double same = slicing::kOnPlane * slicing::infoOf(state.object).circumradius;
+        w = slicing::nextCriticalW(**sections, state.focusW(), upward, same);
+    }
+    if (w) moveFocusTo(state, *w);
+    return std::monostate{};
 }
 
 }  // namespace oval4d::session

@@ -1,6 +1,8 @@
 #pragma once
 // Changes the settings of a state, and checks their bounds.
 
+#include <span>
+
 #include "session/object_loader.hpp"
 #include "session/session.hpp"
 
@@ -15,19 +17,34 @@ inline constexpr double kMaxOffset = 10;     ///< absolute value of the offset, 
 inline constexpr double kMaxTurnTowardSeconds = 10;  ///< OngoingTurnToward::seconds
 inline constexpr double kMaxOrbitAngle = 1000;       ///< absolute value of azimuth and elevation in radians
 inline constexpr double kMinZoom = 0.05, kMaxZoom = 20;
+inline constexpr double kMaxLevel = 1e30;                ///< absolute value of a level of a field
 inline constexpr double kMinEye = 1.05, kMaxEye = 1000;  ///< in circumradii
+inline constexpr double kMinPace = 1e-3, kMaxPace = 1e3;
+inline constexpr double kMaxFollow = 1000;  ///< absolute value of each component of ReferenceFrame::follow
+inline constexpr double kMaxBoost = 0.999;  ///< length of ReferenceFrame::boost
 
-/// Replaces the object of the state; does nothing if the object is the same. Keeps the orientation, and the ratio of
-/// the spacing to the circumradius. Sets focus, offset and focus point to 0, makes all cell types fully visible,
-/// removes the highlight, and ends a turn toward an element.
-void replaceObject(State& state, slicing::Object object);
+/// Returns whether these control points are valid as FieldSettings::fog. There must be none, or kMinFogPoints …
+/// kMaxFogPoints with increasing values within ±kMaxLevel, opacities of 0 … 1, and colors of 24 bits.
+bool isTransferFunction(std::span<const slicing::FogPoint> points);
+
+/// Replaces the object of the state by `source`; does nothing if it is the same. Keeps the frame of reference, the
+/// orientation, and the ratio of the spacing to slicing::initialSliceExtent(). Sets focus, offset and focus point to 0,
+/// makes all cell types fully visible, removes the highlight, resets FieldSettings to the object's defaults, and ends a
+/// turn toward an element. Error: that of `loader`, if it defers making the image; the state is then unchanged.
+Result<std::monostate> replaceObject(State& state, slicing::Object source, ObjectLoader& loader);
+
+/// Shows the object in another frame of reference, which must be within the bounds; does nothing if it is the same. If
+/// the slices have the spacing spanningSpacing(), as they do initially, they have it afterward, too, and the w of the
+/// focus slice stays the same; otherwise, the slices stay the same. In both cases, spacing, offset and focus point are
+/// clamped to their bounds, which depend on the circumradius. Ends a turn toward an element. Error: as replaceObject().
+Result<std::monostate> changeReferenceFrame(State& state, const geometry::ReferenceFrame& frame, ObjectLoader& loader);
 
 /// Changes the number of slices. If the old and the new count are greater than 1, also changes the spacing, within its
 /// bounds, so that the span (count − 1) · spacing stays the same.
 void setCount(State& state, int count);
 
 /// Applies the settings that are present in `set`. If it returns an error, some of them may be applied already, so
-/// callers must pass a copy of the state. Errors: those of findObject; `not_a_rotation`; `out_of_range`;
+/// callers must pass a copy of the state. Errors: those of findObject(); `not_a_rotation`; `out_of_range`;
 /// `nothing_to_undo` if `set` starts continuous turning, but no rotation has been made that could be repeated.
 Result<std::monostate> applySet(State& state, const Set& set, const LoadedObjects& loaded, const Limits& limits,
                                 ObjectLoader& loader);
@@ -47,8 +64,10 @@ Result<std::monostate> turnToward(State& state, const TurnToward& command);
 /// offset were 0, and the offset to the difference. Requires |w| ≤ kMaxOffset circumradii.
 void moveFocusTo(State& state, double w);
 
-/// Moves the focus to the w of the next vertex above the focus slice or, if `upward` is false, below it: the section
-/// changes its combinatorial type there (see slicing::nextVertexHeight). Does nothing if there is no such vertex.
-void moveFocusToVertex(State& state, bool upward);
+/// Moves the focus upward, or downward if `upward` is false, to the next w at which the section changes its type. For a
+/// field, this is the next critical w (see slicing::findCriticalSections()); for other objects, the w of the next
+/// vertex (see slicing::nextVertexHeight()). Does nothing if there is none. Error: that of `loader`, if it defers the
+/// search.
+Result<std::monostate> moveFocusToCritical(State& state, bool upward, ObjectLoader& loader);
 
 }  // namespace oval4d::session

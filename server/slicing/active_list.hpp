@@ -1,5 +1,5 @@
 #pragma once
-// The active list of a sweep algorithm: the elements that the hyperplane cuts at its current position.
+// The active list of a sweep: the elements of a polytope that the hyperplane cuts at its current position.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,11 +9,13 @@
 
 namespace oval4d::slicing {
 
-/// Lists the active elements of one dimension (edges, 2-faces or cells): those that a rising hyperplane currently cuts.
-/// The hyperplanes have consecutive indices; an element is cut by those with the indices in [from, to). To use the
-/// list, call `clear`, `add` for each element, `sort` once, and then `advance` as the hyperplane rises. The loops do
-/// not branch on whether an element is cut: the CPU cannot predict such a branch, and a misprediction costs more time
-/// than the branch saves. Reuses its memory.
+/// Lists the edges, the 2-faces or the cells of a polytope that a rising hyperplane cuts at its current position. The
+/// hyperplane takes successive positions, which are numbered from 0; an element is cut at the positions [from, to).
+/// Call clear(), then add() for each element, then sort() once, then advance() for the positions in ascending order.
+/// Reuses its memory.
+///
+/// The loops do not branch on whether an element is cut: processors cannot predict such a branch, and mispredictions
+/// take longer than the work that the branch avoids.
 class ActiveList {
   public:
     struct Element {
@@ -21,26 +23,28 @@ class ActiveList {
         std::int32_t to;       ///< the index of the first hyperplane above the element
     };
 
-    /// Removes all elements. Makes room for `elements` new ones, cut by hyperplanes 0 … `planes` − 1.
+    /// Removes all elements. Makes room for up to `elements` new ones, which are cut by some of the hyperplanes 0 …
+    /// `planes` − 1.
     void clear(std::size_t elements, int planes) {
         added_.resize(elements + 1);
         end_.assign(planes + 1, 0);
         count_ = activeCount_ = begun_ = 0;
     }
-    /// Adds an element that the hyperplanes with the indices in [from, to) cut. Requires from ≤ to. Ignores an element
-    /// with from = to.
+    /// Adds an element that is cut by the hyperplanes with the indices in [from, to). Requires from ≤ to. Ignores the
+    /// element if from = to.
     void add(std::uint32_t number, std::int32_t from, std::int32_t to) {
         const std::uint32_t one = from < to ? 1 : 0;
         added_[count_] = {{number, to}, from};
         end_[from] += one;
         count_ += one;
     }
-    /// Sorts the elements by their first hyperplane. Must be called once, after all calls of `add`. `steps` lists
-    /// hyperplanes in ascending order; it must include the first hyperplane of every element.
+    /// Sorts the elements by their first hyperplane. Must be called once, after all calls of add(). `steps` lists the
+    /// indices of the hyperplanes for which advance() will be called, in ascending order. It must include the first
+    /// hyperplane of every element.
     void sort(std::span<const int> steps);
 
-    /// Moves the hyperplane up to `step`. Must be called once for each step that `sort` received, in ascending order.
-    /// Returns the elements that become active, which are those whose first hyperplane is `step`.
+    /// Moves the hyperplane up to the one with the index `step`. Must be called for the steps that were passed to
+    /// sort(), in this order. Returns the elements that become active: those whose first hyperplane is `step`.
     std::span<const Element> advance(int step);
     /// Returns the elements that the current hyperplane cuts.
     std::span<const Element> active() const { return {active_.data(), activeCount_}; }
@@ -54,10 +58,10 @@ class ActiveList {
     };
     std::vector<Added> added_;
     std::vector<Element> sorted_, active_;
-    // Per hyperplane, for the elements of which it is the first one: their number; after `sort`, the end of their range
-    // in sorted_.
+    // Per hyperplane: before sort(), the number of elements for which it is the first one; afterward, the end of the
+    // range of these elements in sorted_.
     std::vector<std::uint32_t> end_;
-    // The number of elements that were added, that are active, and that have become active since `sort`.
+    // The numbers of elements that were added, that are active, and that have become active since sort().
     std::uint32_t count_ = 0, activeCount_ = 0, begun_ = 0;
 };
 

@@ -11,20 +11,21 @@
 
 namespace oval4d::slicing {
 
-/// Returns the default radius of a cloud's balls, as a fraction of the circumradius. The radius decreases as the number
-/// of points grows.
+/// Returns the default radius of a cloud's balls, as a fraction of the circumradius: from 0.06 for few points to 0.015
+/// for many.
 double ballRadius(const geometry::PointCloud& cloud);
 
-/// Returns the opacity of a point whose distance from a hyperplane is this multiple of half the spacing, 0 … 1.
+/// Returns the opacity, 1 … 0.2, of a ball whose center has this distance from the hyperplane. The unit of `distance`
+/// is half the spacing of the hyperplanes; a distance greater than 1 counts as 1.
 inline float opacityAtDistance(double distance) { return static_cast<float>(1 - 0.8 * std::min(distance, 1.0)); }
 
-/// Slices point clouds. A slice shows each point within half a spacing of its hyperplane as a ball, whose opacity falls
-/// linearly with the distance, from 1 in the hyperplane to 0.2 at half a spacing. A point halfway between two
-/// hyperplanes belongs to the one with the larger w. The source number of a slice vertex (see SliceSet) is the index of
-/// its point. A slicer may be used by one thread at a time.
+/// Slices point clouds. Each point belongs to the nearest hyperplane, unless this is more than half a spacing away; a
+/// point halfway between two hyperplanes belongs to the upper one. The slice shows the point as a ball, whose opacity
+/// decreases linearly with the distance, from 1 in the hyperplane to 0.2 at half a spacing. Only one thread at a time
+/// may use a slicer.
 class CloudSlicer {
   public:
-    /// Slices `cloud` rotated by `orientation`. Overwrites `out` and reuses its memory.
+    /// Slices `cloud` rotated by `orientation`. Overwrites `out`, except its surfaces and fogs, and reuses its memory.
     void slice(const geometry::PointCloud& cloud, const geometry::Rotation& orientation,
                const geometry::Hyperplanes& planes, SliceSet& out);
 

@@ -14,17 +14,19 @@
 
 namespace oval4d::slicing {
 
-/// Slices convex polytopes with a sweep. Splits the hyperplanes of a large polytope into a lower and an upper half and
-/// sweeps both halves at the same time, on two cores. Reuses its scratch memory between calls.
+/// Slices convex polytopes with a sweep (see Sweep). If a polytope is large and none of its vertices lies in a
+/// hyperplane, sweeps the lower and the upper half of the hyperplanes in parallel, on two cores. Reuses its memory.
 class ConvexSlicer {
   public:
-    /// `forkJoin` must outlive this object. If it is null, everything runs on the calling thread.
+    /// `forkJoin` must outlive this object. If it is null, all work is done on the calling thread.
     explicit ConvexSlicer(parallel::ForkJoin* forkJoin) : forkJoin_(forkJoin) {}
 
     /// Slices `polytope` and writes the slices to `out`, whose `planes` and `rotatedVertices` must be set. `ranks`
-    /// locates the rotated vertices relative to these hyperplanes. For `touching`, see Sweep::cut. Returns false, and
-    /// leaves `out` unusable, if rounding errors in the vertices make a hyperplane cut a 2-face or a cell twice; the
-    /// caller must then use a method for nonconvex polytopes.
+    /// locates the rotated vertices relative to these hyperplanes. If the polytope touches hyperplanes from one side,
+    /// `touching` must contain the slices in them, as for Sweep::cut(); otherwise it may be empty.
+    ///
+    /// Returns false, and leaves `out` unusable, if rounding errors in the vertices make a hyperplane cut a 2-face in
+    /// several segments or a cell in several polygons. The caller must then use a method for nonconvex polytopes.
     bool cut(const polytopes::Polytope& polytope, VertexRanks ranks, std::span<SliceSet* const> touching,
              SliceSet& out);
 
@@ -32,9 +34,9 @@ class ConvexSlicer {
     // The lower or upper half of the hyperplanes.
     struct Half {
         Sweep sweep;
-        std::vector<std::int32_t> below;  // like VertexRanks::below, but for the hyperplanes of this half only
-        SliceCounts end;                  // the position in `out` at which its next slice begins
-        bool sound = false;               // whether the last call of a function of `sweep` succeeded
+        std::vector<std::int32_t> below;  // like VertexRanks::below, but counts only hyperplanes of this half
+        SliceCounts end;                  // the position in `out` at which the next slice of this half begins
+        bool sound = false;               // what the last call of sweep.begin() or sweep.cut() returned
     };
     bool cutHalves(const polytopes::Polytope& polytope, VertexRanks ranks, SliceSet& out);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Slices in degenerate hyperplanes, which contain vertices of the polytope.
+// Slices in degenerate hyperplanes: those that contain vertices of the polytope.
 
 #include <array>
 #include <cstddef>
@@ -14,20 +14,22 @@
 namespace oval4d::slicing {
 
 /// Computes slices of a convex polytope in hyperplanes that contain vertices. Such a slice is first cut just above the
-/// hyperplane, where no vertices lie. This class then moves the slice down into the hyperplane. A slice vertex that was
-/// cut from an edge with one end in the hyperplane moves onto this end. A slice edge that was cut from a 2-face with an
-/// edge in the hyperplane moves onto this edge, and a slice face that was cut from a cell with a 2-face in the
-/// hyperplane moves onto this 2-face. Slice edges that shrink to points, and slice faces that shrink to edges or
-/// points, are removed. The polytope must have vertices on both sides of the hyperplane; otherwise the slice just above
-/// it would miss elements that lie in the hyperplane. Reuses its memory.
+/// hyperplane, where no vertices lie. This class then moves it down into the hyperplane:
+/// - A slice vertex that was cut from an edge with one end in the hyperplane moves to this end.
+/// - A slice edge that was cut from a 2-face with an edge in the hyperplane moves to this edge.
+/// - A slice face that was cut from a cell with a 2-face in the hyperplane moves to this 2-face.
+/// - Slice edges that shrink to points, and slice faces that shrink to edges or points, are removed.
+///
+/// The polytope must have vertices on both sides of the hyperplane; otherwise the slice just above the hyperplane would
+/// miss elements that lie in it. Reuses its memory.
 class DegeneracyCollapse {
   public:
-    /// Prepares for slices of this polytope. The arrays of `ranks` must outlive the calls of `collapse`.
+    /// Prepares for slices of this polytope. The arrays of `ranks` must stay valid until the last call of collapse().
     void begin(const polytopes::Polytope& polytope, VertexRanks ranks);
 
-    /// Collapses, in place, the slice that begins at position `at` in `out` and has this `size`. It was cut just above
-    /// the hyperplane with the index `plane`: all of its vertices were cut from edges, its edges from 2-faces, and its
-    /// faces from cells. Returns its new size.
+    /// Moves a slice from just above the hyperplane with the index `plane` down into it, in place. The slice begins at
+    /// position `at` in `out` and has this `size`. All of its vertices must have been cut from edges, its edges from
+    /// 2-faces, and its faces from cells. Returns its new size.
     SliceCounts collapse(const polytopes::Polytope& polytope, int plane, SliceCounts at, SliceCounts size,
                          SliceSet& out);
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -140,7 +142,7 @@ std::size_t elementCount(const Object& object, ElementKind kind) {
 }
 
 glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred) {
-    return std::visit([&](const auto& shared) { return directionIn(*shared, element, preferred); }, object);
+    return visitElements([&](const auto& shared) { return directionIn(*shared, element, preferred); }, object);
 }
 
 std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation) {
@@ -169,11 +171,37 @@ void ElementSources::clear() {
 
 void findSourcesShowing(const Object& object, const Element& element, ElementSources& out) {
     out.clear();
-    std::visit([&](const auto& shared) { findSourcesIn(*shared, element, out); }, object);
+    visitElements([&](const auto& shared) { findSourcesIn(*shared, element, out); }, object);
     for (auto* list : {&out.vertices, &out.edges, &out.ownVertices}) {
         std::ranges::sort(*list);
         list->erase(std::unique(list->begin(), list->end()), list->end());
     }
+}
+
+std::vector<VertexHeight> groupHeights(std::vector<double> heights, double same) {
+    std::ranges::sort(heights);
+    std::vector<VertexHeight> groups;
+    for (auto first = heights.begin(); first != heights.end();) {
+        auto last = first + 1;
+        while (last != heights.end() && *last - *(last - 1) <= same) ++last;
+        const auto count = static_cast<std::size_t>(last - first);
+        groups.push_back({std::accumulate(first, last, 0.0) / static_cast<double>(count), count});
+        first = last;
+    }
+    return groups;
+}
+
+std::vector<VertexHeight> vertexHeights(const Object& object, const geometry::Rotation& orientation) {
+    const glm::dvec4 direction = ownDirectionOfW(orientation);
+    std::vector<double> heights;
+    const auto add = [&](const std::vector<glm::dvec4>& vertices) {
+        heights.reserve(vertices.size());
+        for (const glm::dvec4& v : vertices) heights.push_back(glm::dot(direction, v));
+    };
+    visitElements(
+        Visitor{[&](const PolytopePtr& p) { add(p->vertices); }, [&](const CloudPtr& cloud) { add(cloud->points); }},
+        object);
+    return groupHeights(std::move(heights), kOnPlane * infoOf(object).circumradius);
 }
 
 std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
@@ -188,9 +216,9 @@ std::optional<double> nextVertexHeight(const Object& object, const geometry::Rot
             if (beyond && (!next || (upward ? height < *next : height > *next))) next = height;
         }
     };
-    std::visit(Visitor{[&](const PolytopePtr& p) { consider(p->vertices); },
-                       [&](const CloudPtr& cloud) { consider(cloud->points); }},
-               object);
+    visitElements(Visitor{[&](const PolytopePtr& p) { consider(p->vertices); },
+                          [&](const CloudPtr& cloud) { consider(cloud->points); }},
+                  object);
     return next;
 }
 

@@ -16,7 +16,7 @@
 
 namespace oval4d::slicing {
 
-/// The kinds of elements, by dimension: 0 to 3. The points of a point cloud are vertices.
+/// The kinds of elements, ordered by dimension from 0 to 3. The points of a point cloud count as vertices.
 enum class ElementKind : std::uint8_t { vertex, edge, face, cell };
 inline constexpr auto kElementKinds = std::to_array<text::Choice<ElementKind>>({{"vertex", ElementKind::vertex},
                                                                                 {"edge", ElementKind::edge},
@@ -33,16 +33,17 @@ struct Element {
 /// Returns the number of elements of this kind.
 std::size_t elementCount(const Object& object, ElementKind kind);
 
-/// Returns the direction, in the object's own coordinates, that points from the origin to the element: to the point of
-/// its affine span that is closest to the origin. If this direction turns to +w, the whole element lies in one
-/// hyperplane w = const. If the span contains the origin, returns the direction perpendicular to the element that is
-/// closest to `preferred`. The result is never 0; its length is arbitrary. Requires element.index <
-/// elementCount(object, element.kind).
+/// Returns a vector, in the object's own coordinates, in the direction of the element: from the origin to the nearest
+/// point of the element's affine span. A rotation of this direction to +w moves the whole element into one hyperplane w
+/// = const. If the span contains the origin, returns the vector perpendicular to the span whose direction is closest to
+/// `preferred`, or any perpendicular vector if `preferred` lies in the span. The length of the result is arbitrary, but
+/// not 0. Requires element.index < elementCount(object, element.kind), and that `preferred` is not 0.
 glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred);
 
-/// Returns the element of this kind whose direction is closest to +w after rotation by `orientation`. If that element
-/// already points to +w, returns the one with the next index, so that repeated calls visit all elements. Returns an
-/// empty optional if there are no elements of this kind. Takes time linear in the size of the object.
+/// Returns the element of this kind whose direction (see directionOf()) is closest to +w after rotation by
+/// `orientation`. If that element already points to +w, returns the one with the next index, or the first one after the
+/// last; a caller that turns each result to +w thus visits one element after another. Returns std::nullopt if there are
+/// no elements of this kind. Takes time linear in the size of the object.
 std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation);
 
 /// The parts of a picture that show one element of the object: slice vertices and slice edges, given by their source
@@ -58,17 +59,36 @@ struct ElementSources {
     bool operator==(const ElementSources&) const = default;
 };
 
-/// Finds the parts of a picture that show an element. A vertex is shown by itself and by the slice vertices that are
-/// cut from its edges; an edge by itself and by the slice vertices that are cut from it; a 2-face by the slice edges
-/// that are cut from it, and by its edges; a cell by all that shows its 2-faces; a point by itself. Overwrites `out`.
-/// Takes time linear in the number of edges. Requires element.index < elementCount(object, element.kind).
+/// Finds the parts of a picture that show an element:
+/// - a vertex: itself, and the slice vertices cut from its edges;
+/// - an edge: itself, and the slice vertices cut from it;
+/// - a 2-face: its edges, and the slice edges cut from it;
+/// - a cell: everything that shows its 2-faces;
+/// - a point of a point cloud: itself.
+///
+/// Overwrites `out`. Takes time linear in the number of edges. Requires element.index < elementCount(object,
+/// element.kind).
 void findSourcesShowing(const Object& object, const Element& element, ElementSources& out);
 
 /// Returns the w coordinate, after rotation by `orientation`, of the next vertex above `w` or, if `upward` is false,
-/// below `w`. Between two successive vertices, the section w = const does not change its combinatorial type (Coxeter,
-/// Regular Polytopes, §13.1). Heights that differ by at most kOnPlane circumradii count as equal. Returns an empty
-/// optional if there is no such vertex.
+/// below `w`. The section w = const of a polytope has the same combinatorial type at all w between two successive
+/// vertices (Coxeter, Regular Polytopes, §13.1). Coordinates that differ by at most kOnPlane circumradii count as
+/// equal. Returns std::nullopt if there is no such vertex.
 std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
                                        bool upward);
+
+/// A w coordinate at which vertices lie, and the number of vertices there.
+struct VertexHeight {
+    double w = 0;
+    std::size_t vertices = 0;
+};
+
+/// Returns the w coordinates of the vertices of the rotated object, in ascending order. Successive coordinates that
+/// differ by at most kOnPlane circumradii form one group (see groupHeights()).
+std::vector<VertexHeight> vertexHeights(const Object& object, const geometry::Rotation& orientation);
+
+/// Sorts w coordinates, and groups successive ones that differ by at most `same`. The w of a group is the mean of its
+/// coordinates.
+std::vector<VertexHeight> groupHeights(std::vector<double> heights, double same);
 
 }  // namespace oval4d::slicing

@@ -1,5 +1,5 @@
 #pragma once
-// Filled faces of slices, decomposed into convex polygons, for drawing and for the meshes of nonconvex slices.
+// Filled faces of slices, decomposed into convex polygons. Nonconvex slices are drawn and exported in this form.
 
 #include <array>
 #include <cstdint>
@@ -13,20 +13,21 @@
 
 namespace oval4d::slicing {
 
-/// The filled faces of slices. All loops that a hyperplane cuts from one cell form one face, which is filled by the
-/// nonzero winding rule: a point of the plane belongs to the face if the sum of the loops' winding numbers around it is
-/// not 0.
+/// The filled faces of slices. All loops in which a hyperplane cuts one cell bound one face, which is filled by the
+/// nonzero winding rule: a point of the plane belongs to the face if the sum of the winding numbers of the loops around
+/// it is not 0.
 ///
-/// A patch is one filled face. Slice i has the patches [patchBegin[i], patchBegin[i + 1]). A patch consists of pieces:
-/// convex polygons that do not overlap, unless the patch is filled roughly (see Filler::fill). Patch p has the pieces
-/// [pieceBegin[p], pieceBegin[p + 1]). Piece k is the loop corners[cornerBegin[k]] … corners[cornerBegin[k + 1] − 1],
-/// counterclockwise seen from outside, or seen from inside where the winding number is negative.
+/// A patch is a filled face. Slice i has the patches patchBegin[i] … patchBegin[i + 1] − 1. A patch consists of pieces:
+/// convex polygons that do not overlap, unless the patch is filled roughly (see Filler::fill()). Patch p has the pieces
+/// pieceBegin[p] … pieceBegin[p + 1] − 1. Piece k is the loop corners[cornerBegin[k]] … corners[cornerBegin[k + 1] −
+/// 1]. Seen from outside, it is counterclockwise where the winding number is positive, and clockwise where it is
+/// negative.
 struct Fill {
     struct Patch {
         glm::dvec3 normal;  ///< unit length, outward; the plane is dot(normal, x) = offset
         double offset;
         std::uint32_t source;               ///< the source number, as in SliceSet::faceSource
-        std::uint32_t firstLoop, lastLoop;  ///< its loops: faces firstLoop … lastLoop − 1 of the SliceSet
+        std::uint32_t firstLoop, lastLoop;  ///< its loops: the faces firstLoop … lastLoop − 1 of the set
         int winding;                        ///< the maximum of |winding number|; 0 if the patch is filled roughly
     };
     std::vector<std::uint32_t> patchBegin, pieceBegin, cornerBegin;
@@ -37,17 +38,19 @@ struct Fill {
     void clear();
 };
 
-/// Decomposes the faces of slices into convex polygons with a plane sweep. Reuses its memory between calls. A filler
-/// may be used by one thread at a time.
+/// Decomposes the faces of slices into convex polygons with a sweep line. Reuses its memory between calls. Only one
+/// thread at a time may use a filler.
 class Filler {
   public:
     static constexpr std::size_t kNoLimit = ~std::size_t{0};
 
-    /// Fills the faces of all slices, which were cut from a polytope of this circumradius. Overwrites `out` and reuses
-    /// its memory. `steps` limits the time for all faces together: a face whose loops have n sides, which cross at k
-    /// points, takes at most 2 n² + n · k steps. If too few steps are left for a face, the face is filled roughly: each
-    /// of its loops becomes the triangles between the sides of the loop and the mean of its corners. These triangles
-    /// cover the interior of the loop exactly if the loop is star-shaped about the mean, as star polygons are.
+    /// Fills the faces of all slices. `circumradius` is that of the sliced polytope. Overwrites `out` and reuses its
+    /// memory.
+    ///
+    /// `steps` limits the time for all faces together: a face whose loops have n sides that cross at k points takes at
+    /// most 2 n² + n · k steps. If too few steps are left for a face, the face is filled roughly: each of its loops
+    /// becomes the triangles between the sides of the loop and the mean of its corners. These triangles cover exactly
+    /// the interior of the loop if the loop is star-shaped about the mean, as star polygons are.
     void fill(const SliceSet& slices, double circumradius, Fill& out, std::size_t steps = kNoLimit);
 
   private:
@@ -56,7 +59,7 @@ class Filler {
         glm::dvec2 low, high;
         double slope;               // dx/dy
         int winding;                // the change of the winding number across the side, from left to right
-        std::uint32_t from, to;     // the levels of its ends, indices into levels_
+        std::uint32_t from, to;     // the levels of its ends: indices into levels_
         double middle;              // x at half the height of the current strip
         double at(double y) const;  // returns x at height y
     };

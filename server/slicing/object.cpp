@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "fields/field.hpp"
 #include "geometry/point_cloud.hpp"
 #include "polytopes/off.hpp"
 #include "polytopes/polytope.hpp"
@@ -19,10 +20,13 @@ namespace {
 using polytopes::Polytope;
 
 const std::vector<glm::dvec4>& verticesOf(const Object& object) {
-    return std::visit(Visitor{[](const PolytopePtr& p) -> const std::vector<glm::dvec4>& { return p->vertices; },
-                              [](const CloudPtr& cloud) -> const std::vector<glm::dvec4>& { return cloud->points; }},
-                      object);
+    return visitElements(Visitor{[](const PolytopePtr& p) -> const std::vector<glm::dvec4>& { return p->vertices; },
+                                 [](const CloudPtr& cloud) -> const std::vector<glm::dvec4>& { return cloud->points; }},
+                         object);
 }
+
+// The radius is small, because the domain's edges only frame the surfaces.
+double ballRadius(const fields::Field& /*field*/) { return 0.016; }
 
 double ballRadius(const Polytope& p) {
     double sum = 0;
@@ -87,17 +91,53 @@ const geometry::ObjectInfo& infoOf(const Object& object) {
 
 std::array<std::size_t, 4> elementCounts(const Object& object) {
     using Counts = std::array<std::size_t, 4>;
-    return std::visit(Visitor{[](const PolytopePtr& p) {
-                                  return Counts{p->vertices.size(), p->edges.size(), p->faces.size(), p->cells.size()};
-                              },
-                              [](const CloudPtr& cloud) { return Counts{cloud->points.size(), 0, 0, 0}; }},
-                      object);
+    return visitElements(Visitor{[](const PolytopePtr& p) {
+                                     return Counts{p->vertices.size(), p->edges.size(), p->faces.size(),
+                                                   p->cells.size()};
+                                 },
+                                 [](const CloudPtr& cloud) { return Counts{cloud->points.size(), 0, 0, 0}; }},
+                         object);
+}
+
+const fields::Field* fieldIn(const Object& object) {
+    const auto* field = std::get_if<FieldPtr>(&object);
+    return field == nullptr ? nullptr : field->get();
+}
+
+Object imageOf(const Object& object, const geometry::ReferenceFrame& frame) {
+    return frame == geometry::ReferenceFrame{} ? object : imageOf(object, frame, geometry::nextSerial());
+}
+
+Object imageOf(const Object& object, const geometry::ReferenceFrame& frame, std::uint64_t serial) {
+    if (frame == geometry::ReferenceFrame{}) return object;
+    return std::visit(
+        [&]<typename Kind>(const std::shared_ptr<const Kind>& shared) -> Object {
+            return std::make_shared<const Kind>(imageOf(*shared, frame, serial));
+        },
+        object);
+}
+
+double initialSliceExtent(const Object& object) {
+    constexpr double kInDomain = 0.95;
+    const fields::Field* field = fieldIn(object);
+    if (field == nullptr) return infoOf(object).circumradius;
+    double reach = 0;
+    for (const glm::dvec4& vertex : field->domain->vertices) reach = std::max(reach, std::abs(vertex.w));
+    return kInDomain * reach;
 }
 
 std::size_t memoryOf(const Object& object) {
     return std::visit(Visitor{[](const PolytopePtr& p) { return polytopes::memoryOf(*p); },
                               [](const CloudPtr& cloud) {
                                   return sizeof *cloud + cloud->points.size() * (sizeof(glm::dvec4) + sizeof(double));
+                              },
+                              [](const FieldPtr& field) {
+                                  std::size_t functions = 0;
+                                  if (!field->isImage) {
+                                      functions = field->function->memory();
+                                      if (field->second) functions += field->second->function->memory();
+                                  }
+                                  return sizeof *field + functions + polytopes::memoryOf(*field->domain);
                               }},
                       object);
 }
@@ -123,35 +163,35 @@ double ballRadius(const Object& object) {
 }
 
 void findCellCenters(const Object& object, std::vector<glm::dvec4>& out) {
-    std::visit(Visitor{[&](const PolytopePtr& p) { findCellCenters(*p, out); },
-                       [&](const CloudPtr& /*cloud*/) { out.clear(); }},
-               object);
+    visitElements(Visitor{[&](const PolytopePtr& p) { findCellCenters(*p, out); },
+                          [&](const CloudPtr& /*cloud*/) { out.clear(); }},
+                  object);
 }
 
 void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals, std::vector<double>& offsets) {
-    std::visit(Visitor{[&](const PolytopePtr& p) { findCellHyperplanes(*p, normals, offsets); },
-                       [&](const CloudPtr& /*cloud*/) {
-                           normals.clear();
-                           offsets.clear();
-                       }},
-               object);
+    visitElements(Visitor{[&](const PolytopePtr& p) { findCellHyperplanes(*p, normals, offsets); },
+                          [&](const CloudPtr& /*cloud*/) {
+                              normals.clear();
+                              offsets.clear();
+                          }},
+                  object);
 }
 
 std::span<const std::uint32_t> typeOfCells(const Object& object) {
     using Types = std::span<const std::uint32_t>;
-    return std::visit(Visitor{[](const PolytopePtr& p) { return Types(p->typeOfCell); },
-                              [](const CloudPtr& /*cloud*/) { return Types(); }},
-                      object);
+    return visitElements(Visitor{[](const PolytopePtr& p) { return Types(p->typeOfCell); },
+                                 [](const CloudPtr& /*cloud*/) { return Types(); }},
+                         object);
 }
 
 std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices) {
-    return std::visit(Visitor{[&](const PolytopePtr& p) { return polytopes::write4Off(*p, rotatedVertices); },
-                              [&](const CloudPtr& cloud) {
-                                  Polytope points;
-                                  points.name = cloud->name;
-                                  return polytopes::write4Off(points, rotatedVertices);
-                              }},
-                      object);
+    return visitElements(Visitor{[&](const PolytopePtr& p) { return polytopes::write4Off(*p, rotatedVertices); },
+                                 [&](const CloudPtr& cloud) {
+                                     Polytope points;
+                                     points.name = cloud->name;
+                                     return polytopes::write4Off(points, rotatedVertices);
+                                 }},
+                         object);
 }
 
 }  // namespace oval4d::slicing

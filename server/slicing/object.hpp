@@ -1,7 +1,7 @@
 #pragma once
-// The extension point for new kinds of 4-D objects: a variant, and functions that apply to every kind. Only the kinds
-// themselves (polytopes/, geometry/point_cloud), slicing/, session/load.cpp, store/object_codec.cpp and the formats of
-// protocol/schema/load.schema.json depend on the kind of an object; all other code uses these functions.
+// The extension point for new kinds of 4-D objects: a variant, and functions for objects of every kind. Only the kinds
+// themselves (polytopes/, fields/, geometry/point_cloud), slicing/, session/load.cpp, store/object_codec.cpp and the
+// formats in protocol/schema/load.schema.json depend on the kind of an object; all other code uses these functions.
 
 #include <array>
 #include <cstddef>
@@ -16,8 +16,12 @@
 #include <glm/vec4.hpp>
 
 #include "geometry/object_info.hpp"
+#include "geometry/reference_frame.hpp"
 #include "geometry/rotation.hpp"
 
+namespace oval4d::fields {
+struct Field;
+}
 namespace oval4d::geometry {
 struct PointCloud;
 }
@@ -29,19 +33,35 @@ namespace oval4d::slicing {
 
 using PolytopePtr = std::shared_ptr<const polytopes::Polytope>;
 using CloudPtr = std::shared_ptr<const geometry::PointCloud>;
+using FieldPtr = std::shared_ptr<const fields::Field>;
 
 /// A 4-D object: a shared pointer to immutable data. The pointer is null only in an uninitialized session::State. Two
-/// objects compare equal only if they share the same data.
-using Object = std::variant<PolytopePtr, CloudPtr>;
+/// objects are equal if they share the same data. The vertices, edges, 2-faces and cells of a field are those of its
+/// domain.
+using Object = std::variant<PolytopePtr, CloudPtr, FieldPtr>;
 
-/// Returns the properties that objects of every kind have. The reference is valid as long as the object exists. Here
-/// and in all functions below, the object must not be null.
+/// Returns the field, or null if the object is of another kind. The pointer is valid as long as the field exists.
+const fields::Field* fieldIn(const Object& object);
+
+/// Returns the properties that objects of every kind have. The reference is valid as long as the data exists. This
+/// function and those below require an object that is not null.
 const geometry::ObjectInfo& infoOf(const Object& object);
 
 /// Returns the numbers of vertices (or points), edges, 2-faces and cells.
 std::array<std::size_t, 4> elementCounts(const Object& object);
 
-/// Returns the memory used by an object in bytes, without its name.
+/// Returns the image of the object: the object in the coordinates of `frame`. If `frame` is the default frame, this is
+/// the object itself; otherwise it is a new object with the serial number `serial` or, without this parameter, with a
+/// new one. The image of a field shares its functions. Takes time and memory linear in the number of elements.
+Object imageOf(const Object& object, const geometry::ReferenceFrame& frame);
+Object imageOf(const Object& object, const geometry::ReferenceFrame& frame, std::uint64_t serial);
+
+/// Returns the largest |w| of the slices when an object is first shown: the circumradius. For a field, returns 95 % of
+/// the largest |w| of the unrotated domain, so that no slice of it is empty.
+double initialSliceExtent(const Object& object);
+
+/// Returns the memory used by an object, in bytes, without its name. For the image of a field, does not count the
+/// functions, because they belong to the original field.
 std::size_t memoryOf(const Object& object);
 
 /// Returns the address of the shared data. It identifies the object: all copies of an Object return the same address.
@@ -52,25 +72,27 @@ std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotatio
 
 /// Returns the radius of the balls drawn at slice vertices, as a fraction of the circumradius. For a polytope, the
 /// radius grows with the mean edge length, so that balls neither hide the slices of a 120-cell nor look too small in
-/// slices of a 5-cell. For a point cloud, the radius decreases as the number of points grows. Takes time linear in the
-/// number of edges.
+/// slices of a 5-cell. For a point cloud, the radius is smaller if there are more points. For a field, it is constant.
+/// Takes time linear in the number of edges.
 double ballRadius(const Object& object);
 
-/// Sets `out` to the center of each cell: the mean of its vertices, each weighted by the number of 2-faces of the cell
-/// that contain it. Leaves `out` empty for a point cloud.
+/// Sets `out` to the center of each cell: the mean of its vertices, weighted by the number of 2-faces of the cell that
+/// contain the vertex. Clears `out` for a point cloud.
 void findCellCenters(const Object& object, std::vector<glm::dvec4>& out);
 
-/// Finds the hyperplane of each cell: sets `normals` to its outward normals, whose length is six times the volume of
-/// the cell, and `offsets` to the products of the normal and any point of the cell. If a cell encloses no volume, as
-/// some cells that cross themselves do, both are 0. A point cloud has no cells.
+/// Finds the hyperplane of each cell: sets `normals` to the outward normals of the cells, and `offsets` to the dot
+/// products of each normal and any point of its cell. The length of a normal is six times the volume of the cell. If a
+/// cell encloses no volume, as some self-intersecting cells do, the normal and the offset are 0. Clears both lists for
+/// a point cloud.
 void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals, std::vector<double>& offsets);
 
-/// Returns the type of each cell, as an index into ObjectInfo::cellTypes; empty for a point cloud.
+/// Returns the type of each cell, as an index into ObjectInfo::cellTypes. The span is valid as long as the data exists;
+/// it is empty for a point cloud.
 std::span<const std::uint32_t> typeOfCells(const Object& object);
 
-/// Returns the object as the text of a 4OFF file, in the object's units. The file contains `rotatedVertices` instead of
-/// the object's own vertices. Importing the file of a polytope gives the rotated polytope; the file of a point cloud
-/// has vertices only.
+/// Returns the object as the text of a 4OFF file, in the object's units. The file contains `rotatedVertices` in place
+/// of the object's own vertices, so importing it gives the rotated polytope. The file of a point cloud has only
+/// vertices; that of a field contains the domain.
 std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices);
 
 }  // namespace oval4d::slicing

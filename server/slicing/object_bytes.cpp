@@ -1,10 +1,13 @@
 #include "slicing/object_bytes.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "fields/array_field.hpp"
+#include "fields/formula_field.hpp"
 #include "geometry/point_cloud.hpp"
 #include "polytopes/polytope.hpp"
 #include "slicing/visitor.hpp"
@@ -41,7 +44,93 @@ void visitCloud(Archive& archive, Cloud& cloud) {
     archive(cloud.points), archive(cloud.radii);
 }
 
-enum class Kind : std::uint8_t { polytope, cloud };
+// Writes samples, or the number of their file and their place in it.
+class SampleWriter {
+  public:
+    SampleWriter(ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory)
+        : archive_(archive), files_(files), maxInMemory_(maxInMemory) {}
+
+    void write(const fields::Samples& samples) {
+        const std::size_t count = samples.values().size();
+        const bool inFile = samples.file() && count > maxInMemory_;
+        archive_(inFile);
+        if (!inFile) {
+            maxInMemory_ -= std::min(maxInMemory_, count);
+            archive_(samples.values());
+            return;
+        }
+        auto found = std::ranges::find(files_, samples.file());
+        if (found == files_.end()) found = files_.insert(found, samples.file());
+        archive_(static_cast<std::size_t>(found - files_.begin())), archive_(samples.offset()), archive_(count);
+    }
+
+  private:
+    ByteWriter& archive_;
+    MappedFiles& files_;
+    std::size_t maxInMemory_;
+};
+
+void writeField(const fields::Field& field, ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory) {
+    SampleWriter writer(archive, files, maxInMemory);
+    archive(field.formula), archive(field.array ? field.array->box() : field.box);
+    if (field.array) {
+        archive(field.array->shape());
+        writer.write(field.array->storage());
+    }
+    const fields::SecondFunction* const second = field.second.get();
+    archive(second == nullptr ? std::string() : second->formula);
+    archive(second == nullptr ? std::string() : second->variable);
+    const bool hasArray = second != nullptr && second->array != nullptr;
+    archive(hasArray);
+    if (hasArray) writer.write(second->array->storage());
+}
+
+// Reads the samples of an array whose other members are known.
+void readSamples(ByteReader& archive, const MappedFiles& files, fields::ReadField& array) {
+    bool inFile = false;
+    archive(inFile);
+    if (inFile) {
+        std::size_t number = 0, offset = 0, count = 0;
+        archive(number), archive(offset), archive(count);
+        if (number >= files.size() || !files[number] || count != fields::sampleCount(array.shape))
+            throw std::runtime_error("samples are missing");
+        try {
+            array.samples = fields::Samples(files[number], offset, count);
+        } catch (const std::invalid_argument& invalid) {
+            throw std::runtime_error(invalid.what());
+        }
+        return;
+    }
+    std::vector<float> samples;
+    archive(samples);
+    if (samples.size() != fields::sampleCount(array.shape)) throw std::runtime_error("samples are missing");
+    array.samples = fields::Samples(std::move(samples));
+}
+
+// Throws std::runtime_error if the field is invalid.
+fields::Field readField(const std::string& name, ByteReader& archive, const MappedFiles& files) {
+    const auto require = [](const std::optional<Error>& error) {
+        if (error) throw std::runtime_error("an invalid field: " + error->message);
+    };
+    std::string formula, second, variable;
+    fields::ReadField array;
+    bool hasArray = false;
+    archive(formula), archive(array.box);
+    if (formula.empty()) archive(array.shape), readSamples(archive, files, array);
+    archive(second), archive(variable), archive(hasArray);
+    auto field = formula.empty() ? fields::fieldFromArray(name, array)
+                                 : fields::fieldFromFormula(name, formula, array.box, second);
+    if (!field) require(field.error());
+    if (formula.empty() && !second.empty()) require(fields::setSecondFormula(*field, second));
+    if (hasArray) {
+        if (!formula.empty()) throw std::runtime_error("a formula with an array");
+        readSamples(archive, files, array);
+        require(fields::setSecondArray(*field, array, variable));
+    }
+    return std::move(*field);
+}
+
+enum class Kind : std::uint8_t { polytope, cloud, field };
 
 void requirePolytope(Kind kind) {
     if (kind != Kind::polytope) throw std::runtime_error("an unknown kind of object");
@@ -59,19 +148,24 @@ JaggedArray arrayFrom(ByteReader& archive) {
 
 }  // namespace
 
-void encodeObject(const Object& object, std::string& out) {
+void encodeObject(const Object& object, std::string& out, MappedFiles& files) {
     out.clear();
+    files.clear();
     ByteWriter archive(out);
     std::visit(Visitor{[&](const PolytopePtr& p) {
                            archive(Kind::polytope), visitPolytope(archive, *p);
                            archive(p->cellTypes.size());
                            for (const auto& [name, cells] : p->cellTypes) archive(name), archive(cells);
                        },
-                       [&](const CloudPtr& cloud) { archive(Kind::cloud), visitCloud(archive, *cloud); }},
+                       [&](const CloudPtr& cloud) { archive(Kind::cloud), visitCloud(archive, *cloud); },
+                       [&](const FieldPtr& field) {
+                           archive(Kind::field), writeField(*field, archive, files, 0);
+                           archive(field->name), archive(field->serial);
+                       }},
                object);
 }
 
-Object decodeObject(std::string_view bytes) {
+Object decodeObject(std::string_view bytes, const MappedFiles& files) {
     ByteReader archive(bytes);
     Kind kind{};
     archive(kind);
@@ -79,6 +173,11 @@ Object decodeObject(std::string_view bytes) {
         auto cloud = std::make_shared<geometry::PointCloud>();
         visitCloud(archive, *cloud);
         return CloudPtr(std::move(cloud));
+    }
+    if (kind == Kind::field) {
+        auto field = std::make_shared<fields::Field>(readField("", archive, files));
+        archive(field->name), archive(field->serial);
+        return FieldPtr(std::move(field));
     }
     requirePolytope(kind);
     auto p = std::make_shared<Polytope>();
@@ -91,19 +190,21 @@ Object decodeObject(std::string_view bytes) {
     return PolytopePtr(std::move(p));
 }
 
-void writeParts(const Object& object, ByteWriter& archive) {
+void writeParts(const Object& object, ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory) {
     std::visit(
         Visitor{[&](const PolytopePtr& p) {
                     archive(Kind::polytope), archive(p->vertices);
                     visitArray(archive, p->faces), visitArray(archive, p->cells), archive(p->typeOfCell);
                 },
-                [&](const CloudPtr& cloud) { archive(Kind::cloud), archive(cloud->points), archive(cloud->radii); }},
+                [&](const CloudPtr& cloud) { archive(Kind::cloud), archive(cloud->points), archive(cloud->radii); },
+                [&](const FieldPtr& field) { archive(Kind::field), writeField(*field, archive, files, maxInMemory); }},
         object);
 }
 
-Object readParts(ByteReader& archive, const std::string& name, std::size_t maxVertices) {
+Object readParts(ByteReader& archive, const std::string& name, std::size_t maxVertices, const MappedFiles& files) {
     Kind kind{};
     archive(kind);
+    if (kind == Kind::field) return std::make_shared<const fields::Field>(readField(name, archive, files));
     std::vector<glm::dvec4> vertices;
     archive(vertices);
     if (vertices.size() > maxVertices) throw std::runtime_error("too many vertices");

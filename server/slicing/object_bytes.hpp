@@ -4,27 +4,41 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "fields/array/mapped_file.hpp"
+#include "fields/array/shape.hpp"
 #include "serialization/byte_archive.hpp"
 #include "slicing/object.hpp"
 
 namespace oval4d::slicing {
 
-/// Encodes an object with all its data, including its serial number, in the byte order and number formats of this
-/// machine. Overwrites `out`.
-void encodeObject(const Object& object, std::string& out);
+/// The mapped files that contain the samples of arrays. A message refers to a file by its index in this list. The files
+/// themselves are not part of the message: their descriptors are sent separately.
+using MappedFiles = std::vector<fields::MappedFilePtr>;
 
-/// Decodes the bytes of `encodeObject`. The sender must be trusted: the bytes are not validated. Throws
-/// std::runtime_error if bytes are missing.
-Object decodeObject(std::string_view bytes);
+/// Encodes an object, including its name and serial number, in the byte order and number formats of this machine. The
+/// object must not be an image made by imageOf(). Overwrites `out`. Sets `files` to the files that the receiver needs.
+void encodeObject(const Object& object, std::string& out, MappedFiles& files);
 
-/// Writes the data from which `readParts` rebuilds the object: the vertices, 2-faces, cells and cell types of a
-/// polytope, or the points and radii of a cloud; not the name.
-void writeParts(const Object& object, serialization::ByteWriter& archive);
+/// Decodes the bytes that encodeObject() wrote. The sender must be trusted, because not all bytes are validated. Throws
+/// std::runtime_error if bytes or files are missing.
+Object decodeObject(std::string_view bytes, const MappedFiles& files = {});
 
-/// Builds an object with this name and a new serial number from the data of `writeParts`. The sender need not be
-/// trusted: throws std::runtime_error with the reason if the object is invalid or has more than `maxVertices` vertices
-/// or points.
-Object readParts(serialization::ByteReader& archive, const std::string& name, std::size_t maxVertices);
+/// Writes the data from which readParts() rebuilds the object, without its name: the vertices, 2-faces, cells and cell
+/// types of a polytope; the points and radii of a cloud; or the functions (formulas or samples) and the domain of a
+/// field.
+///
+/// Samples are written inline if they are not in a file, or while the number of inline samples is at most
+/// `maxInMemory`. Otherwise a reference to their file is written, and the file is added to `files` if it is not there
+/// yet.
+void writeParts(const Object& object, serialization::ByteWriter& archive, MappedFiles& files,
+                std::size_t maxInMemory = fields::kMaxSamples);
+
+/// Builds an object with this name and a new serial number from the data that writeParts() wrote. The sender need not
+/// be trusted. Throws std::runtime_error with the reason if the object is invalid, if it has more than `maxVertices`
+/// vertices or points, or if samples are not in one of the files.
+Object readParts(serialization::ByteReader& archive, const std::string& name, std::size_t maxVertices,
+                 const MappedFiles& files = {});
 
 }  // namespace oval4d::slicing

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/index.hpp"
 #include "slicing/cloud_slicer.hpp"
 
 namespace oval4d::slicing {
 
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+using geometry::kNone;
 constexpr int kW = 3;
 
 void clear(PlanarSection& section) {
@@ -23,7 +24,7 @@ void clear(PlanarSection& section) {
     section.boundary.clear();
 }
 
-// Returns the axis that neither the plane nor `other` contains.
+// Returns the axis that is neither `other` nor one of the plane's two axes.
 int remainingAxis(const std::array<int, 2>& plane, int other) { return 0 + 1 + 2 + 3 - plane[0] - plane[1] - other; }
 
 glm::dvec4 unitVector(int axis) {
@@ -34,11 +35,11 @@ glm::dvec4 unitVector(int axis) {
 
 }  // namespace
 
-// A plane is the intersection of two hyperplanes. The object is cut by the first, w = const if the plane lies in it,
-// and the slice by the second.
+// A plane is the intersection of two hyperplanes. The object is cut by the first hyperplane, and the resulting slice by
+// the second. If the plane lies in a hyperplane w = const, this is the first one.
 void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int slice,
                          const glm::dvec4& point, PlanarSections& out) {
-    // The other two slices, in which z or y is constant, are cut from the object after that axis has been turned to w.
+    // For a first hyperplane z = const or y = const, the object is cut after z or y has been rotated to w.
     constexpr std::array<int, 3> kFirstAxis{kW, 2, 1};
     for (const int first : kFirstAxis) {
         const SliceSet* set = &slices;
@@ -54,7 +55,7 @@ void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orienta
         for (std::size_t i = 0; i < kPlaneAxes.size(); ++i) {
             const auto& axes = kPlaneAxes[i];
             const auto contains = [&](int axis) { return axes[0] == axis || axes[1] == axis; };
-            // The first of kFirstAxis that the plane does not contain.
+            // The first axis in kFirstAxis that is not one of the plane's axes.
             const auto fixed = std::ranges::find_if_not(kFirstAxis, contains);
             if (*fixed != first) continue;
             out[i].axes = axes;
@@ -85,8 +86,8 @@ void PlanarSlicer::cut(const Object& object, const SliceSet& slices, int slice, 
         copyCloudPoints(slices, slice, axis, point[axis], out);
         return;
     }
-    // Vertices in the hyperplane count as above it, unless none is below it: a face that the hyperplane touches from
-    // below then has its section, too.
+    // Vertices in the hyperplane count as above it or, if no vertex lies below it, as below it. So a slice that only
+    // touches the hyperplane has a section, too, on whichever side it lies.
     zeroIsAbove_ = anyBelow;
     cutEdges(slices, slice, static_cast<std::uint32_t>(elementCounts(object)[2]), axis, point[axis], out);
     cutFaces(slices, slice, out);
@@ -123,7 +124,7 @@ void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t fac
         if (isAbove(a) == isAbove(b)) continue;
         if (distance_[a] == 0 || distance_[b] == 0) {
             const std::uint32_t v = distance_[a] == 0 ? a : b;
-            // The slice's vertex was cut from a polytope's edge, or is a vertex of the polytope: see SliceSet.
+            // The slice vertex was cut from an edge of the polytope, or is a vertex of the polytope: see SliceSet.
             if (pointOfVertex_[v] == kNone)
                 pointOfVertex_[v] = add(vertices_[v], faces + slices.vertexSource[firstVertex + v]);
             pointOfEdge_[e] = pointOfVertex_[v];

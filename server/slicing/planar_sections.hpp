@@ -1,7 +1,7 @@
 #pragma once
-// The sections of an object by the six planes through a point that are parallel to two coordinate axes: the panels of a
-// HyperSlice matrix (J. J. van Wijk and R. van Liere, "HyperSlice: visualization of scalar functions of many
-// variables", 1993). They are computed exactly, by cutting slices once more.
+// The sections of an object by the six planes through a given point that are each parallel to two coordinate axes: the
+// panels of a HyperSlice matrix (J. J. van Wijk and R. van Liere, "HyperSlice: visualization of scalar functions of
+// many variables", 1993). They are computed exactly, by cutting a slice with a second hyperplane.
 
 #include <array>
 #include <cstdint>
@@ -20,11 +20,11 @@ namespace oval4d::slicing {
 
 /// The section of an object by a plane.
 ///
-/// Source numbers tell from which element an element of the section was cut, as in SliceSet. For a polytope with E
-/// edges, F 2-faces and C cells, `pointSource` is the index of the 2-face that was cut, F + e if polytope edge e was
-/// cut, or F + E + v if polytope vertex v lies in the plane; `edgeSource` is the index of the cell that was cut, or C +
-/// f if 2-face f was cut along the plane. For a point cloud, `pointSource` is the index of the point; there are no
-/// edges.
+/// The source number of each of its points and edges says from which element of the object it was cut, as in SliceSet.
+/// For a polytope with E edges, F 2-faces and C cells, `pointSource` is the index of the 2-face that was cut, or F + e
+/// if polytope edge e was cut, or F + E + v if polytope vertex v lies in the plane; `edgeSource` is the index of the
+/// cell that was cut, or C + f if 2-face f was cut along the plane. For a point cloud, `pointSource` is the index of
+/// the point; there are no edges.
 struct PlanarSection {
     /// The coordinate axes to which the plane is parallel, as indices into x, y, z, w. axes[0] < axes[1].
     std::array<int, 2> axes{};
@@ -43,13 +43,13 @@ inline constexpr std::array<std::array<int, 2>, 6> kPlaneAxes{{{0, 1}, {0, 2}, {
 /// The sections by the planes of kPlaneAxes.
 using PlanarSections = std::array<PlanarSection, kPlaneAxes.size()>;
 
-/// Cuts objects by planes. Reuses its memory. May be used by one thread at a time.
+/// Cuts objects by planes. Reuses its memory. Only one thread at a time may use a slicer.
 class PlanarSlicer {
   public:
     /// Cuts `object`, rotated by `orientation`, by the six planes through `point`. `slices` must have been cut from the
-    /// rotated object, and its slice number `slice` by the hyperplane through the point. Of a point cloud, a section
-    /// contains the points that are within half the spacing of `slices` of both hyperplanes that meet in the plane.
-    /// Overwrites `out` and reuses its memory.
+    /// rotated object, and the hyperplane of slice number `slice` must contain `point`. Each plane is the intersection
+    /// of two hyperplanes; the section of a point cloud contains the points whose distance from both is at most half
+    /// the spacing of `slices`. Overwrites `out` and reuses its memory.
     void slice(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int slice,
                const glm::dvec4& point, PlanarSections& out);
 
@@ -68,13 +68,13 @@ class PlanarSlicer {
     static void findBoundary(PlanarSection& section);
 
     Slicer slicer_;
-    SliceSet slice_;                    // by a hyperplane other than w = const
-    std::vector<glm::dvec4> vertices_;  // of the slice that is cut
+    SliceSet slice_;                    // the slice by a hyperplane z = const or y = const
+    std::vector<glm::dvec4> vertices_;  // the vertices of the slice that is cut
     std::vector<double> distance_;      // per vertex: its signed distance from the hyperplane; 0 within rounding
     std::vector<std::uint32_t> pointOfVertex_;  // per vertex and edge of the slice: the point of the section, or kNone
     std::vector<std::uint32_t> pointOfEdge_;
     std::vector<FaceCrossing> crossings_;  // of one face
-    bool zeroIsAbove_ = true;              // on which side vertices count that lie in the hyperplane
+    bool zeroIsAbove_ = true;              // whether vertices in the hyperplane count as above it
 };
 
 }  // namespace oval4d::slicing

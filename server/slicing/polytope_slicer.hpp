@@ -18,14 +18,15 @@
 
 namespace oval4d::slicing {
 
-/// Slices polytopes, convex or not. Reuses its scratch memory, so that repeated calls of similar size allocate nothing.
-/// A slicer may be used by one thread at a time.
+/// Slices polytopes, convex or not. Reuses its memory, so that repeated calls of similar size allocate nothing. Only
+/// one thread at a time may use a slicer.
 class PolytopeSlicer {
   public:
-    /// Slices large convex polytopes on two cores if `forkJoin` is not null. `forkJoin` must outlive this object.
+    /// If `forkJoin` is not null, may slice large convex polytopes on two cores. `forkJoin` must outlive this object.
     explicit PolytopeSlicer(parallel::ForkJoin* forkJoin = nullptr) : convexSlicer_(forkJoin) {}
 
-    /// Slices `polytope` rotated by `orientation`. Overwrites `out` and reuses its memory.
+    /// Slices `polytope` rotated by `orientation`. Overwrites `out`, except ballScale, ballOpacity, surfaces and fogs,
+    /// and reuses its memory.
     void slice(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
                const geometry::Hyperplanes& planes, SliceSet& out);
 
@@ -34,21 +35,22 @@ class PolytopeSlicer {
     static constexpr std::uint32_t kNone = 0xffffffffU;
     static constexpr std::uint32_t kNewEdge = 0xfffffffeU;  // see Segment
 
-    // The hyperplanes with the indices in [from, to); none if to ≤ from.
+    // The hyperplanes with the indices in [from, to). None if to ≤ from.
     struct Span {
         std::int32_t from, to;
     };
     // A segment in which a 2-face crosses the level just above hyperplane `plane`. It runs from slot `up`, where the
-    // 2-face's vertex loop rises through this level, to slot `down`, where the loop descends (for slots, see
-    // slotBegin_). `edge` is the slice edge of the segment; kNone if the segment shrinks to a point when it is moved
-    // down into the hyperplane. Before numberEdges() runs, `edge` holds kNewEdge if the slice edge is new, or the index
-    // of the polytope's edge onto which the segment moves.
+    // vertex loop of the 2-face rises through this level, to slot `down`, where the loop descends (for slots, see
+    // slotBegin_). `edge` is the slice edge of the segment, or kNone if the segment shrinks to a point when it is moved
+    // down into the hyperplane. Until numberEdges() runs, `edge` is instead kNewEdge or, if the segment moves to an
+    // edge of the polytope in the hyperplane, the index of this edge.
     struct Segment {
         std::int32_t plane;
         std::uint32_t up, down;
         std::uint32_t edge;
     };
-    // A slice face: a closed loop with `size` corners, which begin at loopCorners_[begin]. For `source`, see SliceSet.
+    // A slice face: a closed loop with `size` corners, of which loopCorners_[begin] is the first. For `source`, see
+    // SliceSet.
     struct Loop {
         std::int32_t plane;
         std::uint32_t source, begin, size;
@@ -66,8 +68,8 @@ class PolytopeSlicer {
     // Cuts all slices of a convex polytope by the faster ConvexSlicer. Returns false if it cannot.
     bool cutConvex(const polytopes::Polytope& polytope, SliceSet& out);
     bool cutTouching(const polytopes::Polytope& polytope, SliceSet& out);
-    // Cuts only the slice in hyperplane `plane` of `all`, and writes it to `single`. Borrows the rotated vertices of
-    // `all` during the call.
+    // Cuts only the slice in hyperplane `plane` of `all`, and writes it to `single`. During the call, the rotated
+    // vertices of `all` are moved to `single`.
     void cutOnePlane(const polytopes::Polytope& polytope, SliceSet& all, std::int32_t plane, SliceSet& single);
     void cutEdges(const polytopes::Polytope& polytope, SliceSet& out);
     void cutFaces(const polytopes::Polytope& polytope, SliceSet& out);
@@ -92,8 +94,8 @@ class PolytopeSlicer {
     std::array<SliceSet, 2> singles_;               // the slices in hyperplanes that the polytope touches from one side
     std::vector<SliceSet*> touching_;               // per hyperplane: an element of singles_, or null
     std::vector<std::int32_t> allBelow_, allUpTo_;  // below_ and upTo_ for all hyperplanes, during cutTouching()
-    // Per vertex: the number of hyperplanes strictly below the vertex, and the number of hyperplanes below or through
-    // it. The two numbers differ if the vertex lies in a hyperplane, whose index is then below_.
+    // Per vertex: the number of hyperplanes strictly below it, and the number of hyperplanes below or through it. The
+    // numbers differ if the vertex lies in a hyperplane; the index of this hyperplane is below_.
     std::vector<std::int32_t> below_, upTo_, rankSum_;  // rankSum_: below_ + upTo_
     bool anyOnPlane_ = false;                           // whether any vertex lies in a hyperplane
     std::vector<std::uint32_t> vertexPoint_;            // per vertex that lies in a hyperplane: its slice vertex
@@ -104,17 +106,18 @@ class PolytopeSlicer {
     std::vector<std::uint32_t> sliceEdgeOf_;  // per edge that lies in a hyperplane: its slice edge
     std::vector<Segment> segments_;           // the segments of 2-face f begin at segmentBegin_[f]
     std::vector<std::uint32_t> segmentBegin_;
-    std::vector<Span> faceSpan_, cellSpan_;  // per element: the hyperplanes with vertices on both sides
+    std::vector<Span> faceSpan_, cellSpan_;  // per element: the hyperplanes with its vertices on both sides
     std::vector<std::int32_t> lyingIn_;      // per 2-face: the hyperplane that contains all of it, or kNoPlane
-    // Per slot, while a cell is traced: the next slot around the cell's section, and the slice edge that leads there.
-    // kNone in next_ for a slot that has no next slot or has already been traced.
+    // Per slot, while a cell is traced: the next slot around the section of the cell, and the slice edge that leads to
+    // it. next_ is kNone for a slot that has no next slot or has already been traced.
     std::vector<std::uint32_t> next_, nextEdge_;
-    // The slots that have a next slot in the current cell, each after its hyperplane: the loops are traced from these.
+    // The slots that have a next slot in the current cell, each with its hyperplane. The tracing of loops starts at
+    // them.
     std::vector<std::pair<std::int32_t, std::uint32_t>> starts_;
-    std::vector<std::uint32_t> touchingFaces_;  // 2-faces in which the polytope touches a hyperplane
+    std::vector<std::uint32_t> touchingFaces_;  // 2-faces in a hyperplane that may be the whole slice
     std::vector<bool> bounded_;                 // per hyperplane: whether a 2-face in it is a slice face
     std::vector<Loop> loops_;
-    std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // slice vertex, slice edge to the next corner
+    std::vector<std::array<std::uint32_t, 2>> loopCorners_;  // slice vertex; slice edge to the next corner
     std::vector<std::uint32_t> cursor_, cornerCursor_;       // per hyperplane: where to write the next element
     std::vector<std::uint32_t> up_, down_;  // per hyperplane: the slots where a convex 2-face's loop rises and descends
     std::vector<LoopCrossing> ups_, downs_;  // in one hyperplane: where a nonconvex 2-face's loop rises and descends

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "geometry/index.hpp"
 #include "geometry/point_cloud.hpp"
 #include "polytopes/polytope.hpp"
 #include "slicing/cloud_slicer.hpp"
@@ -15,7 +16,7 @@ namespace oval4d::slicing {
 
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+using geometry::kNone;
 
 // The elements of a polytope that part 0 contains.
 struct Selection {
@@ -75,7 +76,7 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
                         const Options& options, SliceSet& out, std::vector<std::uint32_t>& faceCells) {
     clear(out);
     faceCells.clear();
-    const HyperplaneProjection& projection = options.projection;
+    const ProjectionToHyperplane& projection = options.projection;
     const auto addPolytope = [&](const polytopes::Polytope& p) {
         const auto edges = static_cast<std::uint32_t>(p.edges.size());
         const auto faces = static_cast<std::uint32_t>(p.faces.size());
@@ -112,13 +113,13 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         }
         out.ballOpacity.assign(out.ballScale.size(), 1);
     };
-    std::visit(Visitor{[&](const PolytopePtr& p) { addPolytope(*p); }, [&](const CloudPtr& p) { addCloud(*p); }},
-               object);
+    visitElements(Visitor{[&](const PolytopePtr& p) { addPolytope(*p); }, [&](const CloudPtr& p) { addCloud(*p); }},
+                  object);
     endPart(out);
     for (int i = options.firstSlice; i < options.endSlice; ++i) addSlice(slices, i, projection, out, faceCells);
 }
 
-void Projector::addSlice(const SliceSet& slices, int slice, const HyperplaneProjection& projection, SliceSet& out,
+void Projector::addSlice(const SliceSet& slices, int slice, const ProjectionToHyperplane& projection, SliceSet& out,
                          std::vector<std::uint32_t>& faceCells) {
     const auto append = [](auto& to, const auto& from, std::uint32_t begin, std::uint32_t end) {
         to.insert(to.end(), from.begin() + begin, from.begin() + end);
@@ -151,7 +152,7 @@ void Projector::addSlice(const SliceSet& slices, int slice, const HyperplaneProj
 // A cell's outer side is turned toward the eye E if E lies on the outer side of its hyperplane: n·E > n·p for its
 // outward normal n and any of its points p. With E = (0, 0, 0, d), divided by d: n_w > (n·p) / d.
 void Projector::findFacingCells(const Object& object, const geometry::Rotation& orientation,
-                                const HyperplaneProjection& projection) {
+                                const ProjectionToHyperplane& projection) {
     const geometry::ObjectInfo& info = infoOf(object);
     if (object_ != info.serial) {
         object_ = info.serial;

@@ -14,9 +14,9 @@
 #include "slicing/visitor.hpp"
 
 // A convex polyhedron is determined by its vertices. The vertices are recognized by their distances from each other,
-// which do not depend on the orientation. Of a slice, the numbers of edges and faces and the lengths of the edges are
+// which do not depend on the orientation. For a slice, the numbers of edges and faces and the lengths of the edges are
 // compared, too: if the edges are those of the convex hull of the vertices, and the number of faces is that of the
-// hull, the slice is the hull. The distances also distinguish polyhedra of the same faces and the same circumradius,
+// hull, the slice is the hull. The distances also distinguish polyhedra with the same faces and the same circumradius,
 // such as the cuboctahedron and the triangular orthobicupola (Johnson's J27).
 
 namespace oval4d::slicing {
@@ -138,18 +138,19 @@ bool SectionNamer::mayHaveName(const Object& object, const geometry::Rotation& o
     const auto countInPlane = [&](const std::vector<glm::dvec4>& vertices) {
         return static_cast<std::size_t>(std::ranges::count_if(vertices, [&](const auto& v) { return sideOf(v) == 0; }));
     };
-    return std::visit(Visitor{[&](const PolytopePtr& p) {
-                                  const std::size_t inPlane = countInPlane(p->vertices);
-                                  if (inPlane > 0 && inPlane <= kMaxVertices) return true;
-                                  std::size_t size = inPlane;
-                                  for (const auto& [a, b] : p->edges) {
-                                      size += sideOf(p->vertices[a]) * sideOf(p->vertices[b]) < 0 ? 1 : 0;
-                                      if (size > kMaxVertices) return false;
-                                  }
-                                  return size > 0;
-                              },
-                              [](const CloudPtr& /*cloud*/) { return false; }},
-                      object);
+    if (fieldIn(object) != nullptr) return false;
+    return visitElements(Visitor{[&](const PolytopePtr& p) {
+                                     const std::size_t inPlane = countInPlane(p->vertices);
+                                     if (inPlane > 0 && inPlane <= kMaxVertices) return true;
+                                     std::size_t size = inPlane;
+                                     for (const auto& [a, b] : p->edges) {
+                                         size += sideOf(p->vertices[a]) * sideOf(p->vertices[b]) < 0 ? 1 : 0;
+                                         if (size > kMaxVertices) return false;
+                                     }
+                                     return size > 0;
+                                 },
+                                 [](const CloudPtr& /*cloud*/) { return false; }},
+                         object);
 }
 
 std::string_view SectionNamer::nameOfSlice(const SliceSet& slices, int slice) {

@@ -18,42 +18,44 @@ namespace oval4d::slicing {
 
 /// The names of a section.
 struct SectionNames {
-    std::string_view slice;     ///< as SectionNamer::nameOfSlice returns it
-    std::string_view vertices;  ///< as SectionNamer::nameOfVertices returns it
+    std::string_view slice;     ///< the result of SectionNamer::nameOfSlice()
+    std::string_view vertices;  ///< the result of SectionNamer::nameOfVertices()
     bool operator==(const SectionNames&) const = default;
 };
 
-/// Names slices, and the vertices of a polytope that lie in a hyperplane. Names only what is similar to one of the
-/// following shapes, with errors of at most 1e-6 of the circumradius: the point, the segment, the regular polygons, the
-/// Platonic and Archimedean solids, the uniform prisms and antiprisms (like the polygons, of up to 20 sides), and the
-/// rhombic dodecahedron, which is the middle section of the 24-cell beginning with a vertex. Everything else has no
-/// name, including every slice that is not convex or has several components.
+/// Names slices, and the vertices of an object that lie in a hyperplane. Names only shapes that are geometrically
+/// similar to one of the following, with errors of at most 1e-6 of the circumradius of the shape: the point, the
+/// segment, the regular polygons with up to 20 sides, the Platonic and Archimedean solids, the uniform prisms and
+/// antiprisms of these polygons, and the rhombic dodecahedron, which is the middle section of the vertex-first 24-cell.
+/// All other shapes have no name, including slices that are not convex or have several components.
 ///
-/// A slice whose numbers of vertices, edges and faces no named shape has takes 0.1 µs, however large it is. A named
-/// slice of V vertices takes time proportional to V² log V: an octahedron 0.2 µs, an icosahedron 0.7 µs, a
-/// rhombicosidodecahedron 20 µs, a truncated icosidodecahedron 300 µs. The first call in the process takes 5 ms longer.
-/// Repeated calls allocate no memory. A namer may be used by one thread at a time.
+/// If no named shape has the same numbers of vertices, edges and faces as a slice, a call takes 0.1 µs, regardless of
+/// the size of the slice. Otherwise the time is proportional to V² log V for V vertices: 0.2 µs for an octahedron, 0.7
+/// µs for an icosahedron, 20 µs for a rhombicosidodecahedron, 300 µs for a truncated icosidodecahedron. The first call
+/// in the process takes 5 ms longer. Repeated calls allocate no memory. Only one thread at a time may use a namer.
 class SectionNamer {
   public:
-    /// Returns false if the section of `object`, rotated by `orientation`, at this w certainly has no name. This is so
-    /// for a point cloud, and if both the number of vertices in the hyperplane, and this number plus the number of
-    /// edges that cross the hyperplane, are 0 or greater than the number of vertices of any named shape. Takes time
-    /// linear in the number of edges, much less than cutting the slice.
+    /// Returns false if the section of `object`, rotated by `orientation`, at this w certainly has no name. Sections of
+    /// point clouds and fields never have one. Let n be the number of vertices of a polytope in the hyperplane, and m
+    /// the number of its edges that cross the hyperplane. The section may have a name only if n or n + m is between 1
+    /// and the largest number of vertices of a named shape. Takes time linear in the number of edges, much less than
+    /// cutting the slice.
     static bool mayHaveName(const Object& object, const geometry::Rotation& orientation, double w);
 
     /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if it has none.
-    /// The name is valid until the process ends.
+    /// The string is valid until the process ends.
     std::string_view nameOfSlice(const SliceSet& slices, int slice);
 
-    /// Returns the name of the convex hull of those vertices of the polytope that lie in the hyperplane of slice number
-    /// `slice`, or an empty string if it has none. These are the sections of Coxeter's tables (Regular Polytopes, §13.1
-    /// and table V). The slice has more vertices if edges of the polytope cross the hyperplane: the 600-cell beginning
-    /// with a vertex has a dodecahedron as the second section after the point, but the slice there has 32 vertices.
-    /// `edges` is the number of edges of the polytope; 0 for a point cloud. The name is valid until the process ends.
-    /// Takes time linear in the number of the slice's vertices, and the time to compare those in the hyperplane.
+    /// Returns the name of the convex hull of those vertices of slice number `slice` that are vertices of the polytope,
+    /// or an empty string if it has none. These hulls are the sections in Coxeter's tables (Regular Polytopes, §13.1
+    /// and table V). The slice has more vertices if edges of the polytope cross the hyperplane: for example, the second
+    /// section of the vertex-first 600-cell after the point is a dodecahedron, but the slice there has 32 vertices.
+    /// `edges` is the number of edges of the polytope; it is 0 for a point cloud, so that all points of the slice
+    /// count. The string is valid until the process ends. Takes time linear in the number of the slice's vertices, plus
+    /// the time to compare the polytope's vertices with the named shapes.
     std::string_view nameOfVertices(const SliceSet& slices, int slice, std::size_t edges);
 
-    /// Returns whether a name that these functions have returned is that of a polyhedron, not a point, segment or
+    /// Returns whether `name`, a result of the functions above, is that of a polyhedron, not of a point, segment or
     /// polygon.
     static bool isSolid(std::string_view name);
 

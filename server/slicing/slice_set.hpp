@@ -10,14 +10,16 @@
 #include <glm/vec4.hpp>
 
 #include "geometry/hyperplanes.hpp"
+#include "slicing/surfaces/slice_fog.hpp"
+#include "slicing/surfaces/slice_surface.hpp"
 
 namespace oval4d::slicing {
 
 /// A vertex counts as lying in a hyperplane if their distance is at most this fraction of the circumradius.
 inline constexpr double kOnPlane = 1e-9;
 
-/// Numbers of vertices, edges, faces and face corners in slices. Describes the size of a slice, or its position in a
-/// SliceSet: the total size of the slices before it.
+/// Numbers of vertices, edges, faces and face corners: either the size of a slice, or its position in a SliceSet, which
+/// is the total size of the slices before it.
 struct SliceCounts {
     std::uint32_t vertices = 0, edges = 0, faces = 0, corners = 0;
 
@@ -26,41 +28,44 @@ struct SliceCounts {
     }
 };
 
-/// The slices of an object, stored as a structure of arrays. Slice i has the vertices with the indices vertexBegin[i] …
-/// vertexBegin[i + 1] − 1, and likewise edges and faces. The vertex indices in `edges` and `corners` are relative to
-/// the first vertex of the slice, the edge indices in `cornerEdges` to its first edge.
+/// The slices of an object, stored as a structure of arrays. Slice i has the vertices vertexBegin[i] … vertexBegin[i +
+/// 1] − 1, and likewise edges and faces. The indices of vertices in `edges` and `corners` are relative to the first
+/// vertex of the slice, and those of edges in `cornerEdges` to its first edge.
 ///
-/// The source number of a slice element tells from which element of the polytope it was cut. For a polytope with E
+/// The source number of an element of a slice says from which element of the object it was cut. For a polytope with E
 /// edges, F 2-faces and C cells, `vertexSource` is the index of the edge that was cut, or E + v if polytope vertex v
 /// lies in the hyperplane; `edgeSource` is the index of the 2-face that was cut, or F + e if edge e lies in the
 /// hyperplane; `faceSource` is the index of the cell that was cut, or C + f if 2-face f lies in the hyperplane. For a
-/// point cloud, `vertexSource` is the index of the point; slices have no edges and faces.
+/// point cloud, `vertexSource` is the index of the point; slices have no edges or faces. For a field, the vertices,
+/// edges and faces are those of the slices of its domain, which is a polytope.
 struct SliceSet {
     geometry::Hyperplanes planes;
-    std::vector<glm::dvec4> rotatedVertices;  ///< all vertices of the polytope, or points, rotated
+    std::vector<glm::dvec4> rotatedVertices;  ///< all vertices or points of the object, rotated
 
     std::vector<std::uint32_t> vertexBegin, edgeBegin, faceBegin;  ///< planes.count + 1 entries each
     std::vector<glm::dvec3> vertices;
     std::vector<std::uint32_t> vertexSource;
-    /// Per vertex: the radius of its ball relative to the usual radius, and the ball's opacity. Empty if all are 1.
+    /// Per vertex: the radius of its ball relative to the default (see ballRadius()), and the opacity of the ball. Both
+    /// are empty if all their values are 1.
     std::vector<float> ballScale, ballOpacity;
     std::vector<std::array<std::uint32_t, 2>> edges;
     std::vector<std::uint32_t> edgeSource;
-    std::vector<std::uint32_t> cornerBegin;  ///< per face: the index of its first corner; then their number
-    std::vector<std::uint32_t> corners;      ///< the loop of each face: vertices, counterclockwise from outside
+    std::vector<std::uint32_t> cornerBegin;  ///< per face: the index of its first corner; then the number of corners
+    std::vector<std::uint32_t> corners;      ///< the loop of each face: vertices, counterclockwise seen from outside
     std::vector<std::uint32_t> cornerEdges;  ///< entry i: the slice edge from corner i to the next in its loop
     std::vector<std::uint32_t> faceSource;
+    std::vector<SliceSurface> surfaces;  ///< for a field: one per slice; else empty
+    std::vector<SliceFog> fogs;          ///< for a field with fog: one per slice; else empty
 
     std::size_t vertexCount(int slice) const { return vertexBegin[slice + 1] - vertexBegin[slice]; }
     std::size_t edgeCount(int slice) const { return edgeBegin[slice + 1] - edgeBegin[slice]; }
     std::size_t faceCount(int slice) const { return faceBegin[slice + 1] - faceBegin[slice]; }
 
-    /// Returns the total counts of all slices. Must not be called for a default-constructed set, whose arrays are
-    /// empty.
+    /// Returns the total size of all slices. The set must not be default-constructed.
     SliceCounts totalCounts() const {
         return {vertexBegin.back(), edgeBegin.back(), faceBegin.back(), cornerBegin.back()};
     }
-    /// Resizes the arrays for planes.count slices with these total counts.
+    /// Resizes the arrays for planes.count slices with this total size.
     void resize(SliceCounts size);
     /// Records that slice number `slice` begins at `at`.
     void begin(int slice, SliceCounts at) {

@@ -5,13 +5,24 @@
 namespace oval4d::slicing {
 
 void Slicer::slice(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
-                   SliceSet& out) {
-    const parallel::OneAtATime::Use use(inUse_);
+                   const FieldSettings& settings, const SurfaceDetail& detail, SliceSet& out) {
+    const parallel::ExclusiveUse::Use use(inUse_);
     out.ballScale.clear();
     out.ballOpacity.clear();
-    std::visit(Visitor{[&](const PolytopePtr& p) { polytopes_.slice(*p, orientation, planes, out); },
-                       [&](const CloudPtr& cloud) { clouds_.slice(*cloud, orientation, planes, out); }},
-               object);
+    if (fieldIn(object) == nullptr) {
+        out.surfaces.clear();
+        out.fogs.clear();
+    }
+    std::visit(
+        Visitor{[&](const PolytopePtr& p) { polytopes_.slice(*p, orientation, planes, out); },
+                [&](const CloudPtr& cloud) { clouds_.slice(*cloud, orientation, planes, out); },
+                [&](const FieldPtr& field) { fields_.slice(*field, orientation, planes, settings, detail, out); }},
+        object);
+}
+
+void Slicer::slice(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
+                   SliceSet& out) {
+    slice(object, orientation, planes, {}, {}, out);
 }
 
 }  // namespace oval4d::slicing

@@ -5,27 +5,38 @@
 #include "parallel/fork_join.hpp"
 #include "parallel/ownership.hpp"
 #include "slicing/cloud_slicer.hpp"
+#include "slicing/field_settings.hpp"
+#include "slicing/field_slicer.hpp"
 #include "slicing/object.hpp"
 #include "slicing/polytope_slicer.hpp"
 #include "slicing/slice_set.hpp"
+#include "slicing/surface_detail.hpp"
 
 namespace oval4d::slicing {
 
-/// Slices objects of any kind by parallel hyperplanes w = const, with one slicer for each kind. Reuses its scratch
-/// memory, so that repeated calls of similar size allocate nothing. A slicer may be used by one thread at a time.
+/// Slices objects of any kind by parallel hyperplanes w = const. Reuses its memory, so that repeated calls of similar
+/// size allocate nothing. Only one thread at a time may use a slicer.
 class Slicer {
   public:
-    /// Slices large convex polytopes on two cores if `forkJoin` is not null. `forkJoin` must outlive this object.
-    explicit Slicer(parallel::ForkJoin* forkJoin = nullptr) : polytopes_(forkJoin) {}
+    /// If `forkJoin` is not null, slices large convex polytopes and fields on two cores. `forkJoin` must outlive this
+    /// object.
+    explicit Slicer(parallel::ForkJoin* forkJoin = nullptr) : polytopes_(forkJoin), fields_(forkJoin) {}
 
-    /// Slices `object` rotated by `orientation`. Overwrites `out` and reuses its memory.
+    /// Slices `object` rotated by `orientation`. Extracts the surfaces and samples the fog of a field as `settings` and
+    /// `detail` specify. Overwrites `out` and reuses its memory. Throws std::runtime_error if the samples of a field
+    /// are in a file that can no longer be read.
+    void slice(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
+               const FieldSettings& settings, const SurfaceDetail& detail, SliceSet& out);
+
+    /// Slices `object` like the function above, but without the surfaces and the fog of a field.
     void slice(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                SliceSet& out);
 
   private:
     PolytopeSlicer polytopes_;
     CloudSlicer clouds_;
-    parallel::OneAtATime inUse_;
+    FieldSlicer fields_;
+    parallel::ExclusiveUse inUse_;
 };
 
 }  // namespace oval4d::slicing

@@ -1,5 +1,5 @@
 #pragma once
-// Sweep of a hyperplane through a convex polytope.
+// A sweep of a hyperplane through a convex polytope.
 
 #include <array>
 #include <cstdint>
@@ -18,28 +18,31 @@
 namespace oval4d::slicing {
 
 /// Slices a convex polytope with a sweep: a hyperplane w = const rises through the polytope, and active lists hold the
-/// elements that it cuts. Each cut edge gives a vertex of the slice, each cut 2-face an edge, and each cut cell a face.
-/// The section of a 2-face runs from the edge where its vertex loop rises through the hyperplane to the edge where it
-/// descends. The section of a cell continues, across an edge, with the next 2-face around that edge. This combinatorial
-/// structure changes only when the hyperplane passes a vertex; between two vertices, only the coordinates of the slice
-/// change. Reuses its scratch memory between calls.
+/// elements that it currently cuts. Each cut edge gives a vertex of the slice, each cut 2-face an edge, and each cut
+/// cell a face. The section of a 2-face runs from the edge where the vertex loop of the 2-face rises through the
+/// hyperplane to the edge where it descends. The boundary of the section of a cell continues, at an edge, with the next
+/// 2-face around this edge. This combinatorial structure changes only when the hyperplane passes a vertex; between two
+/// vertices, only the coordinates of the slice change. Reuses its memory between calls.
 class Sweep {
   public:
     /// Prepares the sweep of a polytope by `planes` hyperplanes: finds the elements that each hyperplane cuts. `ranks`
-    /// locates the vertices relative to these hyperplanes; its arrays must outlive the call of `cut`. Returns false if
-    /// rounding errors in the vertices make a hyperplane cut a 2-face or a cell twice.
+    /// locates the vertices relative to the hyperplanes; its arrays must stay valid until cut() returns. Returns false
+    /// if rounding errors in the vertices make a hyperplane cut a 2-face in several segments; cut() must then not be
+    /// called.
     bool begin(const polytopes::Polytope& polytope, VertexRanks ranks, int planes);
 
-    /// Returns an upper bound of the total size of the slices, without those that are passed to `cut` in `touching`.
-    /// The bound is not exact if vertices lie in hyperplanes, because slices through vertices become smaller (see
-    /// DegeneracyCollapse).
+    /// Returns an upper bound of the total size of the slices, without those in `touching` (see cut()). The bound is
+    /// exact unless vertices lie in hyperplanes; slices through vertices are smaller (see DegeneracyCollapse).
     SliceCounts maxSize() const { return size_; }
 
-    /// Writes the slices to `out`. The first one becomes slice number `first` of `out`, and its elements begin at
-    /// position `at`; sets `at` to the position after the last slice. `out` must contain the rotated vertices, and its
-    /// arrays must be large enough. `touching` has an entry for each hyperplane. If the polytope touches the hyperplane
-    /// from one side, the entry is a set that contains only the slice in this hyperplane; otherwise, the entry is null.
-    /// `touching` may be empty if all entries would be null. Returns false in the same case as `begin`.
+    /// Writes the slices to `out`, which must contain the rotated vertices and have arrays that are large enough. The
+    /// first slice becomes slice number `first` of `out`, and its elements begin at position `at`; sets `at` to the
+    /// position after the last slice.
+    ///
+    /// `touching` has an entry for each hyperplane. If the polytope touches the hyperplane from one side, the entry is
+    /// a set that contains only the slice in this hyperplane; otherwise it is null. `touching` may be empty if all
+    /// entries would be null. Returns false, and leaves `out` unusable, if rounding errors in the vertices make a
+    /// hyperplane cut a cell in several polygons.
     bool cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, SliceCounts& at,
              SliceSet& out);
 
@@ -53,8 +56,8 @@ class Sweep {
     struct Span {
         std::int32_t from, to;
     };
-    // Where vertices lie, as seen from a hyperplane: at least one in it (inside); none in it, but at least one between
-    // it and the hyperplane below (between); or none in either place (none).
+    // Where vertices lie relative to a hyperplane: in it (inside), not in it but between it and the next lower one
+    // (between), or in neither place (none).
     enum class VerticesMet : std::uint8_t { none, between, inside };
     void findSteps(const polytopes::Polytope& polytope, int planes);
     bool findElements(const polytopes::Polytope& polytope, int planes);
@@ -73,18 +76,18 @@ class Sweep {
     ActiveList edges_, faces_, cells_;
     std::vector<Span> faceSpan_;            // per 2-face
     std::vector<VerticesMet> verticesMet_;  // per hyperplane
-    // The hyperplanes at which elements may become active or inactive: hyperplane 0, and all others whose
-    // verticesMet_ is not `none`; then the number of hyperplanes.
+    // The indices of the hyperplanes at which elements may become active or inactive: hyperplane 0, and all others
+    // whose verticesMet_ is not `none`. The last entry is the number of hyperplanes.
     std::vector<int> steps_;
     std::vector<Line> line_;                // per active edge
     std::vector<std::uint32_t> vertex_;     // per active edge: its slice vertex
     std::vector<std::uint32_t> sliceEdge_;  // per active 2-face: its slice edge
-    // The hyperplane cuts 2-face f in a segment with two ends: end 2 f lies on edge edgeOfEnd_[2 f], where the vertex
-    // loop of f rises through the hyperplane, and end 2 f + 1 on edge edgeOfEnd_[2 f + 1], where the loop descends. An
-    // end also stands for the directed segment (half-edge) that runs toward it: end 2 f + i belongs to the boundary
-    // loop of the section of cell faceCells[f][i], and nextEnd_[2 f + i] is the next half-edge of that loop.
+    // The hyperplane cuts 2-face f in a segment with two ends. End 2 f lies on edge edgeOfEnd_[2 f], where the vertex
+    // loop of f rises through the hyperplane; end 2 f + 1 lies on edge edgeOfEnd_[2 f + 1], where the loop descends. An
+    // end also stands for the half-edge that runs along the segment toward it: half-edge 2 f + i belongs to the
+    // boundary loop of the section of cell faceCells[f][i], and nextEnd_[2 f + i] is the next half-edge of this loop.
     std::vector<std::uint32_t> edgeOfEnd_, nextEnd_;
-    std::vector<std::uint32_t> firstEnd_;  // per active cell: an end at which tracing its section starts
+    std::vector<std::uint32_t> firstEnd_;  // per active cell: a half-edge of its section
     DegeneracyCollapse collapse_;
 };
 

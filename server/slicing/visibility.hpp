@@ -17,10 +17,10 @@ constexpr double opacityOf(Visibility visibility) {
     return visibility == Visibility::full ? 1 : visibility == Visibility::faded ? 0.25 : 0;
 }
 
-/// The visibilities of slice vertices, edges and faces, indexed by their source numbers (see SliceSet). A slice element
-/// has the visibility of the polytope element from which it was cut. A cell has the visibility of its type; any other
-/// polytope element has the greatest visibility of the cells that contain it. The lists are empty if everything is
-/// fully visible.
+/// The visibilities of slice vertices, edges and faces, indexed by their source numbers (see SliceSet). An element of a
+/// slice has the visibility of the polytope element from which it was cut. A cell has the visibility of its type, and
+/// any other polytope element the greatest visibility of the cells that contain it. The lists are empty if everything
+/// is fully visible.
 struct Visibilities {
     std::vector<Visibility> vertices, edges, faces;
 
@@ -31,12 +31,13 @@ struct Visibilities {
     Visibility face(std::uint32_t source) const { return faces.empty() ? Visibility::full : faces[source]; }
 };
 
-/// Derives the visibilities of all elements from the visibilities of the cell types, which `ofType` lists. Overwrites
-/// `out`.
+/// Finds the visibilities of all elements. `ofType` has the visibility of each cell type, in the order of
+/// ObjectInfo::cellTypes. Overwrites `out`.
 void findVisibilities(const Object& object, std::span<const Visibility> ofType, Visibilities& out);
 
-/// Returns the cell that determines the color of the slice face with this source number. This is the cell that was cut
-/// or, for a 2-face in the hyperplane, the first of its two cells that is not hidden.
+/// Returns the cell that determines the color of the slice face with the source number `source`. If the face was cut
+/// from a cell, this is that cell. If it is a 2-face in the hyperplane, this is the first of its two cells or, if that
+/// one is hidden, the second.
 std::uint32_t coloringCell(const Object& object, const Visibilities& visibilities, std::uint32_t source);
 
 }  // namespace oval4d::slicing

@@ -1,13 +1,30 @@
 #pragma once
 
+#include <utility>
+#include <variant>
+
+#include "fields/field.hpp"
+#include "slicing/object.hpp"
+
 namespace oval4d::slicing {
 
-/// A visitor for std::visit that combines one function for each kind of object. A missing function is a compile error.
+/// A visitor for std::visit, made of one function for each kind of object. If a kind has no function, the code does not
+/// compile.
 template <typename... Functions>
 struct Visitor : Functions... {
     using Functions::operator()...;
 };
 template <typename... Functions>
 Visitor(Functions...) -> Visitor<Functions...>;  // Clang 16 has no implicit deduction guides for aggregates
+
+/// Calls `visitor` with the PolytopePtr or CloudPtr of an object or, for a field, with that of its domain. Returns the
+/// result.
+template <typename V>
+decltype(auto) visitElements(const V& visitor, const Object& object) {
+    return std::visit(Visitor{[&](const PolytopePtr& p) -> decltype(auto) { return visitor(p); },
+                              [&](const CloudPtr& cloud) -> decltype(auto) { return visitor(cloud); },
+                              [&](const FieldPtr& field) -> decltype(auto) { return visitor(field->domain); }},
+                      object);
+}
 
 }  // namespace oval4d::slicing

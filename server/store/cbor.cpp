@@ -72,7 +72,7 @@ std::vector<std::uint32_t> readIntegers(const json& value) {
     return list;
 }
 
-std::string readName(const json& value) {
+std::string readShortText(const json& value) {
     auto text = value.get<std::string>();
     if (text.size() > kMaxNameBytes || !text::isUtf8(text)) throwUnreadable("a name is too long or is not UTF-8");
     return text;

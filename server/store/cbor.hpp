@@ -1,5 +1,5 @@
 #pragma once
-// Functions that write CBOR records (RFC 8949) and read values from them with checks.
+// Functions that write CBOR records (RFC 8949), and that read values from them and check these values.
 
 #include <concepts>
 #include <cstdint>
@@ -58,7 +58,7 @@ T readInteger(const nlohmann::json& value) {
 /// Returns the elements of an array. Throws UnreadableRecord if an element is not an integer from 0 to 2^32 − 1.
 std::vector<std::uint32_t> readIntegers(const nlohmann::json& value);
 
-/// Returns `value` as a name. Throws UnreadableRecord if the text is longer than 256 bytes or is not valid UTF-8.
-std::string readName(const nlohmann::json& value);
+/// Returns `value` as a name. Throws UnreadableRecord if the name is longer than 256 bytes or is not valid UTF-8.
+std::string readShortText(const nlohmann::json& value);
 
 }  // namespace oval4d::store

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 #include "polytopes/catalogue/catalogue.hpp"
 #include "session/settings.hpp"
 #include "store/cbor.hpp"
@@ -26,9 +28,11 @@ namespace {
 // Limits on decoded values, far above those that the server enforces for clients. Without them, a damaged record could
 // produce, for example, a state with a million slices instead of an error.
 constexpr int kMaxSlices = 100'001;
-constexpr std::size_t kMaxVertices = 1'000'000;        // of one polytope
-constexpr std::size_t kMaxTotalVertices = 10'000'000;  // of all polytopes of a session; a few bytes can name large ones
-constexpr std::uint64_t kMaxRevision = 1ULL << 53U;    // JSON readers represent integers exactly up to this one
+constexpr std::size_t kMaxVertices = 1'000'000;  // of one polytope
+// The maximum for all objects of a session that are built from their names, together with all images: a few bytes of a
+// record can request large objects.
+constexpr std::size_t kMaxTotalVertices = 10'000'000;
+constexpr std::uint64_t kMaxRevision = 1ULL << 53U;  // JSON readers represent integers exactly up to this one
 
 std::uint64_t revisionIn(const json& value) {
     const auto revision = readInteger<std::uint64_t>(value);
@@ -91,28 +95,50 @@ class ObjectTable {
     std::map<const void*, std::size_t> numbers_;
 };
 
-using ObjectList = std::vector<slicing::Object>;
-
-ObjectList objectsIn(const json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache) {
-    ObjectList objects;
-    std::size_t vertexBudget = kMaxTotalVertices;
-    for (const json& entry : list) {
-        if (entry.size() == 1) {
-            objects.push_back(rebuilt(readName(entry.at(0)), cache, vertexBudget));
-        } else if (auto object = objectOf(readName(entry.at(1)))) {
-            objects.push_back(std::move(*object));
-        } else {
-            throwUnreadable("an object is missing");
+/// The objects of a decoded session, and the images of them that its states show.
+class ObjectList {
+  public:
+    ObjectList(const json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache) {
+        for (const json& entry : list) {
+            if (entry.size() == 1) {
+                objects_.push_back(rebuilt(readShortText(entry.at(0)), cache, vertexBudget_));
+            } else if (auto object = objectOf(readShortText(entry.at(1)))) {
+                objects_.push_back(std::move(*object));
+            } else {
+                throwUnreadable("an object is missing");
+            }
         }
     }
-    return objects;
-}
 
-const slicing::Object& objectAt(const json& number, const ObjectList& objects) {
-    const auto index = readInteger<std::size_t>(number);
-    if (index >= objects.size()) throwUnreadable("an object is missing");
-    return objects[index];
-}
+    const slicing::Object& at(const json& number) const {
+        const auto index = readInteger<std::size_t>(number);
+        if (index >= objects_.size()) throwUnreadable("an object is missing");
+        return objects_[index];
+    }
+
+    /// Returns the image of an object in `frame`; the same one for all states that show it.
+    slicing::Object imageOf(const slicing::Object& source, const geometry::ReferenceFrame& frame) {
+        if (frame == geometry::ReferenceFrame{}) return source;
+        const auto known = std::ranges::find_if(
+            images_, [&](const Image& image) { return image.source == source && image.frame == frame; });
+        if (known != images_.end()) return known->image;
+        const std::size_t vertices = slicing::elementCounts(source)[0];
+        if (vertices > vertexBudget_) throwUnreadable("its objects have too many vertices");
+        vertexBudget_ -= vertices;
+        images_.push_back({source, frame, slicing::imageOf(source, frame)});
+        return images_.back().image;
+    }
+
+  private:
+    struct Image {
+        slicing::Object source;
+        geometry::ReferenceFrame frame;
+        slicing::Object image;
+    };
+    std::size_t vertexBudget_ = kMaxTotalVertices;
+    std::vector<slicing::Object> objects_;
+    std::vector<Image> images_;
+};
 
 // --- Parts of a state
 
@@ -151,8 +177,15 @@ std::optional<session::OngoingTurnToward> ongoingTurnTowardIn(const json& value)
         readNumber(value.at(2), std::numeric_limits<double>::min(), session::kMaxTurnTowardSeconds)};
 }
 
+json encoded(const slicing::FieldSettings& settings) {
+    const auto& [levels, inside, fog] = settings;
+    json points = json::array();
+    for (const auto& [value, opacity, color] : fog) points.push_back({value, opacity, color ? json(*color) : json()});
+    return {levels, static_cast<unsigned>(inside), std::move(points)};
+}
+
 json encoded(const scene::Look& look) {
-    const auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint] = look;
+    const auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint, field, caps] = look;
     const auto& [azimuth, elevation, zoom] = orbit;
     const auto& [hidden, faded] = cellTypes;
     json flags = json::array();
@@ -167,7 +200,9 @@ json encoded(const scene::Look& look) {
             static_cast<unsigned>(kind),
             eye,
             highlight ? json({static_cast<unsigned>(highlight->kind), highlight->index}) : json(),
-            {focusPoint.x, focusPoint.y, focusPoint.z}};
+            {focusPoint.x, focusPoint.y, focusPoint.z},
+            encoded(field),
+            static_cast<unsigned>(caps)};
 }
 
 /// A record written by an earlier version of the program has fewer flags; the other parts keep their defaults.
@@ -199,6 +234,21 @@ glm::dvec3 pointIn(const json& value, double circumradius) {
     return {readNumber(value.at(0), bound), readNumber(value.at(1), bound), readNumber(value.at(2), bound)};
 }
 
+slicing::FieldSettings fieldSettingsIn(const json& value) {
+    slicing::FieldSettings field{{}, enumerator(value.at(1), fields::Inside::above), {}};
+    for (const json& level : value.at(0)) field.levels.push_back(readNumber(level, session::kMaxLevel));
+    if (field.levels.empty() || field.levels.size() > slicing::kMaxLevels)
+        throwUnreadable("the number of levels is out of range");
+    // Records written by earlier versions of the program have no fog.
+    if (value.size() <= 2) return field;
+    for (const json& point : value.at(2)) {
+        field.fog.push_back({readNumber(point.at(0), session::kMaxLevel), readNumber(point.at(1), 0, 1), {}});
+        if (!point.at(2).is_null()) field.fog.back().color = readInteger<std::uint32_t>(point.at(2));
+    }
+    if (!session::isTransferFunction(field.fog)) throwUnreadable("the fog is not a transfer function");
+    return field;
+}
+
 scene::Look lookIn(const json& value, const slicing::Object& object) {
     const std::size_t kinds = slicing::infoOf(object).cellTypes.size();
     const json& orbit = value.at(2);
@@ -207,13 +257,15 @@ scene::Look lookIn(const json& value, const slicing::Object& object) {
         partsIn(value.at(1)),
         {readNumber(orbit.at(0), session::kMaxOrbitAngle), readNumber(orbit.at(1), session::kMaxOrbitAngle),
          readNumber(orbit.at(2), session::kMinZoom, session::kMaxZoom)},
-        enumerator(value.at(3), scene::Coloring::light),
+        enumerator(value.at(3), scene::Coloring::value),
         {cellTypesIn(value.at(4), kinds), cellTypesIn(value.at(5), kinds)},
         {},
         value.size() > 8 ? elementIn(value.at(8), object) : std::nullopt,
-        value.size() > 9 ? pointIn(value.at(9), slicing::infoOf(object).circumradius) : glm::dvec3(0)};
-    if (value.size() >
-        6)  // records written by earlier versions of the program have no projection, highlight and focus point
+        value.size() > 9 ? pointIn(value.at(9), slicing::infoOf(object).circumradius) : glm::dvec3(0),
+        value.size() > 10 ? fieldSettingsIn(value.at(10)) : slicing::FieldSettings{},
+        value.size() > 11 ? enumerator(value.at(11), scene::CapStyle::open) : scene::CapStyle::plain};
+    // Records written by earlier versions of the program lack the projection, highlight, focus point, field and caps.
+    if (value.size() > 6)
         look.projection = {enumerator(value.at(6), scene::ProjectionKind::orthogonal),
                            readNumber(value.at(7), session::kMinEye, session::kMaxEye)};
     const auto& [hidden, faded] = look.cellTypes;
@@ -224,10 +276,30 @@ scene::Look lookIn(const json& value, const slicing::Object& object) {
 
 // --- States
 
+json encoded(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+json encoded(const geometry::ReferenceFrame& frame) {
+    const auto& [pace, follow, boost] = frame;
+    return {pace, encoded(follow), encoded(boost)};
+}
+
+glm::dvec3 velocityIn(const json& value, double most) {
+    return {readNumber(value.at(0), most), readNumber(value.at(1), most), readNumber(value.at(2), most)};
+}
+
+geometry::ReferenceFrame referenceFrameIn(const json& value) {
+    const geometry::ReferenceFrame frame{readNumber(value.at(0), session::kMinPace, session::kMaxPace),
+                                         velocityIn(value.at(1), session::kMaxFollow),
+                                         velocityIn(value.at(2), session::kMaxBoost)};
+    if (!(glm::length(frame.boost) <= session::kMaxBoost)) throwUnreadable("a boost is too fast");
+    return frame;
+}
+
 json encoded(const State& state, ObjectTable& objects) {
-    const auto& [object, orientation, alpha, beta, step, slices, look, turning, last, ongoingTurnToward] = state;
+    const auto& [source, frame, object, orientation, alpha, beta, step, slices, look, turning, last,
+                 ongoingTurnToward] = state;
     const auto& [count, spacing, focus, offset] = slices;
-    return {objects.number(object),
+    return {objects.number(source),  // from which `object` is derived
             quaternion(orientation.left()),
             quaternion(orientation.right()),
             {alpha, beta, step},
@@ -235,18 +307,24 @@ json encoded(const State& state, ObjectTable& objects) {
             encoded(look),
             turning,
             encoded(last),
-            encoded(ongoingTurnToward)};
+            encoded(ongoingTurnToward),
+            encoded(frame)};
 }
 
-State stateIn(const json& value, const ObjectList& objects) {
-    const slicing::Object& object = objectAt(value.at(0), objects);
+State stateIn(const json& value, ObjectList& objects) {
+    const slicing::Object& source = objects.at(value.at(0));
+    const auto frame = value.size() > 9 ? referenceFrameIn(value.at(9)) : geometry::ReferenceFrame{};
+    const slicing::Object object = objects.imageOf(source, frame);
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     const json& angles = value.at(3);
     const json& slices = value.at(4);
     constexpr double kTwoPi = 2 * std::numbers::pi;
-    // Records written by earlier versions of the program have no offset and no turn toward an element.
+    // Records written by earlier versions of the program lack the offset, the turn toward an element, and the frame of
+    // reference.
     const double radius = info.circumradius;
-    State state{object,
+    State state{source,
+                frame,
+                object,
                 rotationIn(value.at(1), value.at(2)),
                 readNumber(angles.at(0), kTwoPi),
                 readNumber(angles.at(1), kTwoPi),
@@ -303,21 +381,22 @@ Session decode(std::string_view whole, std::string_view head, const ObjectLookup
                polytopes::PolytopeCache& cache) {
     return translatingErrors([&] {
         const json value = parseRecord(whole);
-        const ObjectList objects = objectsIn(value.at(2), objectOf, cache);
+        ObjectList objects(value.at(2), objectOf, cache);
         Session session;
         session.revision = revisionIn(value.at(1));
         session.current = stateIn(value.at(3), objects);
         for (const json& state : value.at(4)) session.undoSteps.push_back(stateIn(state, objects));
         for (const json& state : value.at(5)) session.redoSteps.push_back(stateIn(state, objects));
-        for (const json& own : value.at(6)) session.loaded[readName(own.at(0))] = objectAt(own.at(1), objects);
-        session.pendingKey = readName(value.at(7));
+        for (const json& own : value.at(6)) session.loaded[readShortText(own.at(0))] = objects.at(own.at(1));
+        session.pendingKey = readShortText(value.at(7));
         if (head.empty()) return session;
         const json newer = parseRecord(head);
         const auto revision = revisionIn(newer.at(1));
         if (revision <= session.revision) return session;
         session.undoSteps.push_back(std::move(session.current));
         session.redoSteps.clear();
-        session.current = stateIn(newer.at(3), objectsIn(newer.at(2), objectOf, cache));
+        ObjectList newerObjects(newer.at(2), objectOf, cache);
+        session.current = stateIn(newer.at(3), newerObjects);
         session.revision = revision;
         session.pendingKey.clear();
         return session;

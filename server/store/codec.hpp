@@ -25,9 +25,9 @@ std::string encodeHead(const session::Session& session, const ObjectKeyLookup& k
 /// Encodes the whole session, with at most `maxUndo` undo steps and at most `maxUndo` redo steps.
 std::string encodeWhole(const session::Session& session, std::size_t maxUndo, const ObjectKeyLookup& keyOf);
 
-/// Decodes a session from the results of encodeWhole and encodeHead. If `head` has a later revision than `whole`, the
-/// state in `head` becomes the current one, and the state in `whole` becomes the latest undo step. An empty `head` is
-/// ignored. Objects that can be rebuilt from their names come from `cache`, all others from `objectOf`. Throws
+/// Decodes a session from the results of encodeWhole() and encodeHead(). If `head` has a later revision than `whole`,
+/// the state in `head` becomes the current one, and the state in `whole` becomes the latest undo step. An empty `head`
+/// is ignored. Objects that can be rebuilt from their names come from `cache`, all others from `objectOf`. Throws
 /// UnreadableRecord if a record is invalid or an object is missing.
 session::Session decode(std::string_view whole, std::string_view head, const ObjectLookup& objectOf,
                         polytopes::PolytopeCache& cache);

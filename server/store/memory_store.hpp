@@ -7,7 +7,7 @@
 
 namespace oval4d::store {
 
-/// Keeps records in the memory of this process: they are lost when the process ends.
+/// Keeps records in the memory of this process, so they are lost when the process ends.
 class MemoryStore final : public Store {
   public:
     using Clock = std::chrono::steady_clock;
@@ -15,7 +15,7 @@ class MemoryStore final : public Store {
     /// `quota`: the maximum total size of all records, in bytes.
     explicit MemoryStore(std::size_t quota = kDefaultQuota) : quota_(quota) {}
 
-    WriteTiming writeTiming() const override { return WriteTiming::at_close; }
+    WritePolicy writePolicy() const override { return WritePolicy::at_close; }
     std::string name() const override { return "memory"; }
     std::optional<std::string> tokenHash(const std::string& id) override;
     std::optional<Record> claim(const std::string& id) override;

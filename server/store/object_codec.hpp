@@ -1,20 +1,30 @@
 #pragma once
-// Encodes objects (polytopes, point clouds) as CBOR records and decodes them. No other file in store/ distinguishes
-// between kinds of objects.
+// Encodes objects (polytopes, point clouds, fields) as CBOR records and decodes them. No other file in store/
+// distinguishes between kinds of objects.
 
+#include <functional>
 #include <string>
 #include <string_view>
 
+#include "errors/error.hpp"
+#include "session/command.hpp"
 #include "slicing/object.hpp"
 #include "store/unreadable_record.hpp"
 
 namespace oval4d::store {
 
-/// Returns the record of an object.
+/// Returns the record of an object. The record of a field whose samples are too large for memory contains the name of
+/// its file in the server's data folder instead of the samples.
 std::string encodeObjectRecord(const slicing::Object& object);
 
-/// Returns the object in a record made by encodeObjectRecord, and validates it like an object from a client's file.
-/// Throws UnreadableRecord if it is invalid.
-slicing::Object decodeObjectRecord(std::string_view bytes);
+/// Returns whether a record contains the name of a file instead of the samples.
+bool namesFile(std::string_view record);
+
+/// Reads a field from the server's data folder. Blocks the calling thread.
+using FileOpener = std::function<Result<slicing::Object>(const session::LoadObject& load)>;
+
+/// Returns the object in a record made by encodeObjectRecord(), and validates it like an object from a client's file.
+/// Throws UnreadableRecord if it is invalid, or if `open` does not find the file that it names.
+slicing::Object decodeObjectRecord(std::string_view bytes, const FileOpener& open = {});
 
 }  // namespace oval4d::store

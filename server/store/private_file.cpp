@@ -99,7 +99,7 @@ void makePrivate(const std::string& path) {
 
 void makePrivateIfExists(const std::string& path) { checkFile(path, Permissions::tighten); }
 
-void refuseUnsafe(const std::string& path) { checkFile(path, Permissions::leave); }
+void requireOwnRegularFile(const std::string& path) { checkFile(path, Permissions::leave); }
 
 std::string fileIdentity(const std::string& path) {
     struct stat status{};

@@ -8,18 +8,18 @@ namespace oval4d::store {
 /// Throws StoreError if `path` exists, unless it is a regular file that the server's own user owns. The owner of any
 /// other file, or of a symbolic link, could determine what the server reads and writes. Follows symbolic links among
 /// the parent folders: the operator is responsible for these.
-void refuseUnsafe(const std::string& path);
+void requireOwnRegularFile(const std::string& path);
 
 /// Creates `path` as an empty file with mode 0600, and missing parent folders with mode 0700. If the file exists with
-/// another mode, sets mode 0600 and logs this. Throws StoreError if that fails, or in the cases in which refuseUnsafe
-/// does.
+/// another mode, sets mode 0600 and logs this. Throws StoreError if that fails or if requireOwnRegularFile() would
+/// throw.
 void makePrivate(const std::string& path);
 
-/// Like makePrivate, but does nothing if the file does not exist.
+/// Like makePrivate(), but does nothing if the file does not exist.
 void makePrivateIfExists(const std::string& path);
 
-/// Returns the device and inode numbers of a file as text. They change if another file replaces the one at `path`.
-/// Returns an empty text if the file does not exist.
+/// Returns the device and inode numbers of a file, as a string that changes if another file replaces the one at `path`.
+/// Returns an empty string if the file does not exist.
 std::string fileIdentity(const std::string& path);
 
 }  // namespace oval4d::store

@@ -32,7 +32,7 @@ redis.call('PEXPIRE', KEYS[2], ARGV[2])
 return {fence, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 
 // The script that saves a session. KEYS: as above. ARGV: the name of this server, the expiry period, the fence, the
-// hash of the token, the token or an empty text, head, whole, 1 if no client has the session open anymore, the number
+// hash of the token, the token or an empty string, head, whole, 1 if no client has the session open anymore, the number
 // of objects to add, their keys and bytes, the keys of the objects to drop. Returns a SaveResult. Two servers have
 // equal fences only if Redis has lost writes; then only the save of the owner is accepted. A save of the head alone
 // does not restart the expiry period, because a save of the whole session follows within a second.

@@ -21,7 +21,7 @@ class RedisStore final : public Store {
     explicit RedisStore(const StoreOptions& options);
     ~RedisStore() override;
 
-    WriteTiming writeTiming() const override { return WriteTiming::at_once; }
+    WritePolicy writePolicy() const override { return WritePolicy::at_once; }
     std::string name() const override;
     std::optional<std::string> tokenHash(const std::string& id) override;
     std::optional<Record> claim(const std::string& id) override;
@@ -54,10 +54,10 @@ class RedisStore final : public Store {
     std::string host_, user_, password_, database_;
     int port_ = 6379;
     const Milliseconds expiry_, timeout_;
-    const std::string self_;  ///< random name of this server in Redis
+    const std::string self_;  // random name of this server in Redis
     std::unique_ptr<redisContext, Closer> context_;
-    std::string claimScript_, saveScript_, hashScript_, removeScript_;  ///< SHA-1 digests of the loaded scripts
-    /// Until this time, tokens are also stored as plain text, for servers of version 0.1.0.
+    std::string claimScript_, saveScript_, hashScript_, removeScript_;  // SHA-1 digests of the loaded scripts
+    // Until this time, tokens are also stored as plain text, for servers of version 0.1.0.
     std::chrono::steady_clock::time_point plainUntil_;
     std::size_t size_ = 0;
 };

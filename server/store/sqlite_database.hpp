@@ -19,8 +19,8 @@ class CorruptDatabase : public StoreError {
     using StoreError::StoreError;
 };
 
-/// A connection to a database file, which it locks exclusively from the first read on. Provides two SQL functions,
-/// hash_of(token) and digest_of(part, …), which call hashToken and recordDigest of secret.hpp.
+/// A connection to a database file. Locks the file exclusively from the first read on. Provides two SQL functions,
+/// hash_of(token) and digest_of(part, …), which call hashToken() and recordDigest() of secret.hpp.
 class Database {
   public:
     /// Opens an existing file; throws StoreError if there is none. Does not read the file, so it does not notice
@@ -36,7 +36,7 @@ class Database {
     void run(const char* sql);
     /// Executes a query and returns the first value of its first row, or 0 if there are no rows.
     std::int64_t number(const char* sql);
-    /// Keeps the write-ahead log file when the connection closes. Call before a damaged file is renamed with its log.
+    /// Keeps the write-ahead log file when the connection closes. Call this before renaming a damaged file and its log.
     void keepWriteAheadLog();
 
   private:

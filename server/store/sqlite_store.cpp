@@ -101,7 +101,7 @@ SqliteStore::SqliteStore(std::string path, std::size_t quota) : path_(std::move(
 }
 
 void SqliteStore::open() {
-    for (const char* beside : {"", "-wal", "-shm", "-journal"}) refuseUnsafe(path_ + beside);
+    for (const char* beside : {"", "-wal", "-shm", "-journal"}) requireOwnRegularFile(path_ + beside);
     refuseForeignFile(path_);
     makePrivate(path_);
     for (const char* beside : {"-wal", "-shm", "-journal"}) makePrivateIfExists(path_ + beside);

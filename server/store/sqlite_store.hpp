@@ -25,7 +25,7 @@ class SqliteStore final : public Store {
     /// file.
     explicit SqliteStore(std::string path, std::size_t quota = kDefaultQuota);
 
-    WriteTiming writeTiming() const override { return WriteTiming::soon; }
+    WritePolicy writePolicy() const override { return WritePolicy::soon; }
     std::string name() const override { return "sqlite:" + path_; }
     std::optional<std::string> tokenHash(const std::string& id) override;
     bool isDamaged(const std::string& id) override;
@@ -54,8 +54,8 @@ class SqliteStore final : public Store {
 
     const std::string path_;
     const std::int64_t maxPages_;
-    std::unique_ptr<Database> database_;  ///< null after a failed repair: the next operation opens the file again
-    std::string damage_;                  ///< damage that the next operation must repair; empty if there is none
+    std::unique_ptr<Database> database_;  // null after a failed repair: the next operation opens the file again
+    std::string damage_;                  // damage that the next operation must repair; empty if there is none
     std::size_t size_ = 0;
 };
 

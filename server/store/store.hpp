@@ -30,8 +30,8 @@ using Fence = std::uint64_t;
 
 /// A stored session.
 struct Record {
-    /// `whole` is the result of encodeWhole (codec.hpp). `head` is the result of encodeHead after a later change; empty
-    /// if `whole` is the newest state.
+    /// `whole` is the result of encodeWhole() (codec.hpp). `head` is the result of encodeHead() after a later change;
+    /// empty if `whole` is the newest state.
     std::string whole, head;
     /// The objects that cannot be rebuilt from their names, as pairs (key, encoded object).
     std::vector<std::pair<std::string, std::string>> objects;
@@ -70,9 +70,9 @@ class NotWritable : public StoreError {
     using StoreError::StoreError;
 };
 
-/// Stores the records of sessions by session id. Every function may block. Every function throws StoreError if the
-/// store is unavailable or reports an error. The operation may then have had all of its effect, a part of it or none,
-/// and it may be repeated. Not thread-safe: one thread at a time may call its functions.
+/// Stores the records of sessions by session id. Every function may block, and throws StoreError if the store is
+/// unavailable or reports an error. A failed operation may have had all of its effect, a part of it or none; it may be
+/// repeated. Not thread-safe: one thread at a time may call its functions.
 class Store {
   public:
     Store() = default;
@@ -81,19 +81,19 @@ class Store {
     virtual ~Store() = default;
 
     /// The time at which changes to an open session must be written to the store.
-    enum class WriteTiming : std::uint8_t {
+    enum class WritePolicy : std::uint8_t {
         at_close,  ///< when the last client leaves the session
         soon,      ///< within a second
         at_once,   ///< before the change is acknowledged, because another server may have to take the session over
     };
     /// Returns when changes must be written to this store.
-    virtual WriteTiming writeTiming() const = 0;
+    virtual WritePolicy writePolicy() const = 0;
 
     /// Returns the name of the store for logs, without passwords, such as "sqlite:/var/lib/oval4d/sessions.sqlite".
     virtual std::string name() const = 0;
 
-    /// Returns the hash of a stored session's token (hashToken in secret.hpp), or nothing if the session is not stored.
-    /// No store keeps the token itself, except Redis while servers of version 0.1.0 may still use it.
+    /// Returns the hash of a stored session's token (hashToken() in secret.hpp), or nothing if the session is not
+    /// stored. No store keeps the token itself, except Redis while servers of version 0.1.0 may still use it.
     virtual std::optional<std::string> tokenHash(const std::string& id) = 0;
 
     /// Returns whether a session's record is known to be damaged, so that even the correct token may not match its
@@ -122,8 +122,8 @@ class Store {
     /// Restarts the expiry period of sessions.
     virtual void touch(std::span<const std::string> ids) = 0;
 
-    /// Removes the sessions that were not saved, claimed or touched for `age`, and returns their number. Does nothing
-    /// and returns 0 if the store expires records itself.
+    /// Removes the sessions that have not been saved, claimed or touched for `age`, and returns their number. Does
+    /// nothing and returns 0 if the store expires records itself.
     virtual std::size_t expire(Milliseconds age) = 0;
 
     /// Updates size(), and returns the ids of the sessions that other servers have claimed from this one since the last

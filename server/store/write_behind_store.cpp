@@ -38,11 +38,11 @@ std::size_t bytesOf(const Session& session) {
         objects.try_emplace(slicing::identityOf(object), &object);
     };
     const auto add = [&](const session::State& state) {
-        addObject(state.object);
+        for (const slicing::Object* object : state.objects()) addObject(*object);
         bytes += sizeof state +
                  (state.look.cellTypes.hidden.size() + state.look.cellTypes.faded.size()) * sizeof(std::uint32_t);
     };
-    addObject(session.current.object);
+    for (const slicing::Object* object : session.current.objects()) addObject(*object);
     for (const session::State& state : session.undoSteps) add(state);
     for (const session::State& state : session.redoSteps) add(state);
     for (const auto& [name, object] : session.loaded) addObject(object);
@@ -54,7 +54,7 @@ std::size_t bytesOf(const Session& session) {
 
 WriteBehindStore::WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener)
     : store_(std::move(store)),
-      writeTiming_(store_->writeTiming()),
+      writeTiming_(store_->writePolicy()),
       name_(store_->name()),
       settings_(settings),
       listener_(std::move(listener)),
@@ -210,7 +210,7 @@ void WriteBehindStore::discardFetched(const std::string& id) {
 std::size_t WriteBehindStore::count() const {
     const std::lock_guard lock(mutex_);
     // If servers share the store (at_once), the number of stored sessions says nothing about the load of this server.
-    return writeTiming_ == Store::WriteTiming::at_once ? cached_.size() : kept_ + created_;
+    return writeTiming_ == Store::WritePolicy::at_once ? cached_.size() : kept_ + created_;
 }
 
 std::size_t WriteBehindStore::unsaved() const {

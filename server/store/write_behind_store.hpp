@@ -21,8 +21,8 @@
 namespace oval4d::store {
 
 /// A write-behind cache in front of a Store. It holds the sessions that are open on this server, and the closed ones
-/// whose last change is not yet in the store. Only the cache's own thread uses the store. Of several pending changes to
-/// a session, it writes only the newest one.
+/// whose last change is not yet in the store. Only the cache's own thread uses the store. If several changes to a
+/// session are pending, it writes only the newest state.
 ///
 /// The store counts as unavailable after a failed operation, such as a write for which it has no room, until it works
 /// again. While the store is unavailable, changes wait in memory, and no caller waits for the store; the cache retries
@@ -52,7 +52,7 @@ class WriteBehindStore {
         /// Called when an operation of the store has ended, for metrics.
         std::function<void(const char* operation, double seconds, bool succeeded)> operationEnded;
     };
-    /// A fetched session. If the session was still in memory, `session` has it. Otherwise `session` is empty, and
+    /// A fetched session. If the session was still in memory, `session` holds it. Otherwise `session` is empty, and
     /// `record` is the stored record, which the caller must decode with codec.hpp.
     struct Fetched {
         std::optional<session::Session> session;
@@ -63,7 +63,7 @@ class WriteBehindStore {
     using KeysBySerial = std::map<std::uint64_t, std::string>;
     /// A callback for the end of a save: see save().
     using Written = std::function<void(bool)>;
-    /// The part of a session to save: the result of encodeHead or of encodeWhole (codec.hpp).
+    /// The part of a session to save: the result of encodeHead() or of encodeWhole() (codec.hpp).
     enum class SaveScope : std::uint8_t { head, whole };
 
     WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener);
@@ -71,11 +71,11 @@ class WriteBehindStore {
     WriteBehindStore& operator=(const WriteBehindStore&) = delete;
     ~WriteBehindStore();
 
-    Store::WriteTiming writeTiming() const { return writeTiming_; }
+    Store::WritePolicy writePolicy() const { return writeTiming_; }
     const std::string& name() const { return name_; }
 
-    /// Creates a session that is open on this server, and returns its credentials. It is not in the store until it is
-    /// saved.
+    /// Creates a session that is open on this server, and returns its credentials. The session is not in the store
+    /// until it is saved.
     SessionCredentials create();
 
     /// Claims a session for this server. Calls `done` with the session, or with an error: `not_found`, `bad_token`, or
@@ -108,7 +108,7 @@ class WriteBehindStore {
     std::size_t count() const;
     /// Returns the number of sessions with changes that are not known to be in the store.
     std::size_t unsaved() const;
-    /// Returns the last error of the store; an empty text while the store is available.
+    /// Returns the last error of the store; an empty string while the store is available.
     std::string lastError() const;
 
     /// Writes pending changes for at most about `limit`, and then ends the cache's thread.
@@ -117,31 +117,31 @@ class WriteBehindStore {
   private:
     using Clock = std::chrono::steady_clock;
     using Value = std::shared_ptr<const session::Session>;
-    /// A session in memory.
+    // A session in memory.
     struct CachedSession {
         SessionCredentials credentials;
         Fence fence = 1;
-        Value head, whole;             ///< changes to be written; null if there are none
-        std::vector<Written> waiting;  ///< callbacks to call when these changes are written
-        bool saved = false;            ///< whether the session has ever been in the store
-        bool queued = false;           ///< whether the session's id is in queue_
-        bool inFlight = false;         ///< whether the session is being written
-        bool closed = false;           ///< whether no client has the session open; it is dropped once it is written
-        Clock::time_point closedAt;    ///< the time of close(), if `closed`
-        std::size_t bytes = 0;         ///< estimated memory of the session, if `closed`
+        Value head, whole;             // changes to be written; null if there are none
+        std::vector<Written> waiting;  // callbacks to call when these changes are written
+        bool saved = false;            // whether the session has ever been in the store
+        bool queued = false;           // whether the session's id is in queue_
+        bool inFlight = false;         // whether the session is being written
+        bool closed = false;           // whether no client has the session open; it is dropped once it is written
+        Clock::time_point closedAt;    // the time of close(), if `closed`
+        std::size_t bytes = 0;         // estimated memory of the session, if `closed`
     };
-    /// An object's key, and whether the store has the object.
+    // An object's key, and whether the store has the object.
     struct ObjectKey {
         std::string key;
         bool stored = false;
     };
     using ObjectKeys = std::map<std::uint64_t, ObjectKey>;
-    /// One write of a session.
+    // One write of a session.
     struct Job {
         std::string id;
         Value head, whole;
         std::vector<Written> waiting;
-        std::vector<std::uint64_t> added;  ///< ObjectInfo::serial of the objects that this write adds to the store
+        std::vector<std::uint64_t> added;  // ObjectInfo::serial of the objects that this write adds to the store
     };
 
     // These run on the cache's thread.
@@ -172,7 +172,7 @@ class WriteBehindStore {
     Clock::time_point nextWake() const;
 
     const std::unique_ptr<Store> store_;
-    const Store::WriteTiming writeTiming_;
+    const Store::WritePolicy writeTiming_;
     const std::string name_;
     const Settings settings_;
     const Listener listener_;

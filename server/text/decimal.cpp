@@ -79,7 +79,7 @@ constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // kBlock: a multiple 
 
 // The text of each number of a block: `head` is the text up to the second decimal and has `headLength` bytes. `digits`
 // are the next eight decimals, including trailing zeros, as bytes from 0 to 9. `plain` marks a group in which a number
-// is too small or too large for this form, or is a multiple of 1/100; putPlain writes all numbers of such a group.
+// is too small or too large for this form, or is a multiple of 1/100; putPlain() writes all numbers of such a group.
 struct Block {
     alignas(32) std::uint64_t head[kBlock], headLength[kBlock], digits[kBlock];
     bool plain[kGroups];

@@ -36,7 +36,7 @@ char* putVectors(char* at, std::span<const glm::dvec4> list);
 /// ones in the bytes above it, and the number of characters is in the highest byte.
 extern const std::array<std::uint64_t, 10'000> kSmallIntegerTexts;
 
-/// Writes an integer from 10,000 on, and returns the end of the text. Called by putInteger().
+/// Writes an integer of at least 10,000, and returns the end of the text. Called by putInteger().
 char* putLargeInteger(char* at, std::uint32_t number);
 
 /// Writes an integer at `at`, and returns the end of the text. May overwrite up to 7 bytes after the end.

@@ -10,7 +10,7 @@ namespace oval4d::text {
 
 /// Returns the candidate with the smallest edit distance (Levenshtein) from `text`. If several candidates have this
 /// distance, returns the first of them that is as long as `text`, or if there is none, the first of them. Returns an
-/// empty text if the distance is more than about half of the candidate's length.
+/// empty string if the distance is more than about half of the candidate's length.
 std::string_view closestMatch(std::string_view text, std::span<const std::string_view> candidates);
 
 /// Returns " (did you mean 'x'?)" with the candidate x that closestMatch() returns, or an empty string if there is

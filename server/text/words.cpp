@@ -42,7 +42,7 @@ std::string joined(const std::vector<std::string>& words, std::size_t first, std
     return text;
 }
 
-std::string folded(std::string_view text) {
+std::string normalizedName(std::string_view text) {
     std::string result;
     for (const char c : text) {
         if (!isSeparator(c)) result += lower(c);

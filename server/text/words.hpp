@@ -17,8 +17,8 @@ std::vector<std::string> wordsOf(std::string_view text);
 std::string joined(const std::vector<std::string>& words, std::size_t first, std::size_t end);
 
 /// Returns the text in lower case, without white space, hyphens and underscores. Two names denote the same thing if
-/// their folded texts are equal.
-std::string folded(std::string_view text);
+/// their normalized names are equal.
+std::string normalizedName(std::string_view text);
 
 /// Returns the text without spaces and tabs at its ends.
 std::string_view trimmed(std::string_view text);

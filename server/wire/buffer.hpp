@@ -10,8 +10,7 @@
 namespace oval4d::wire {
 
 /// Overwrites a string through a pointer. Enlarges the string as needed; the destructor truncates it to the bytes that
-/// were written. A string that is written again keeps its memory, which saves an allocation and filling the memory with
-/// zeros.
+/// were written. A string that is used again keeps its memory, so it need not be allocated and filled with zeros.
 class Buffer {
   public:
     explicit Buffer(std::string& out);
@@ -32,10 +31,10 @@ class Buffer {
         reserve(1);
         *at_++ = c;
     }
-    /// Appends a text.
+    /// Appends text.
     void put(std::string_view text) {
         reserve(text.size());
-        at_ = std::copy(text.begin(), text.end(), at_);  // unlike memcpy, also for an empty text without data
+        at_ = std::copy(text.begin(), text.end(), at_);  // unlike memcpy, allows an empty text whose data() is null
     }
 
   private:

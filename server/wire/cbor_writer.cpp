@@ -96,6 +96,7 @@ void CborWriter::roundedFloats(std::span<const float> list) {
     typedArray(kFloat32Array, list.size_bytes());
     if (!list.empty()) buffer_.put({reinterpret_cast<const char*>(list.data()), list.size_bytes()});
 }
+void CborWriter::vectors(std::span<const glm::vec3> list) { floatVectors(list); }
 void CborWriter::vectors(std::span<const glm::dvec3> list) { floatVectors(list); }
 void CborWriter::vectors(std::span<const glm::dvec4> list) { floatVectors(list); }
 

@@ -29,7 +29,7 @@ class CborWriter {
     void key(std::string_view name) { value(name); }
 
     void value(double number);  ///< writes single precision if that is exact, else double precision
-    void id(double number);     ///< writes an integer within ±2^53 as an integer, any other number as value()
+    void id(double number);     ///< writes an integer within ±2^53 as an integer, other numbers like value()
     void value(std::uint64_t number) { head(0, number); }
     void value(std::int64_t number);
     void value(std::uint32_t number) { head(0, number); }
@@ -40,11 +40,11 @@ class CborWriter {
     /// Appends encoded CBOR unchanged: a value, or members of an object.
     void raw(std::string_view text) { buffer_.put(text); }
 
-    // Typed arrays (RFC 8746), little-endian. `doubles` writes double precision; `vectors` and `roundedFloats` write
-    // single precision, to which they round doubles; `pairs`, `triples` and `numbers` write integers of 8, 16 or 32
-    // bits, the smallest size that is sufficient for all numbers of the array. Vectors, pairs and triples are
-    // flattened.
+    // Typed arrays (RFC 8746), little-endian. `doubles` writes double precision; `vectors` and roundedFloats() write
+    // single precision, and doubles are rounded to it; `pairs`, `triples` and `numbers` write integers of 8, 16 or 32
+    // bits, the smallest size that fits all numbers of the array. Vectors, pairs and triples are flattened.
     void doubles(std::span<const double> list);
+    void vectors(std::span<const glm::vec3> list);
     void vectors(std::span<const glm::dvec3> list);
     void vectors(std::span<const glm::dvec4> list);
     void pairs(std::span<const Pair> list);

@@ -1,8 +1,10 @@
+#include "wire/json_writer.hpp"
+
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
-
-#include "wire/json_writer.hpp"
+#include <utility>
 
 #include "text/decimal.hpp"
 
@@ -123,6 +125,20 @@ void JsonWriter::roundedFloats(std::span<const float> list) {
     beginArray();
     for (const float number : list) value(std::round(number * kDecimals) / kDecimals);
     endArray();
+}
+
+void JsonWriter::vectors(std::span<const glm::vec3> list) {
+    array(3 * list.size(), [list](char* at) {
+        constexpr std::size_t kBatch = 256;
+        std::array<glm::dvec3, kBatch> doubles;
+        for (std::size_t begin = 0; begin < list.size(); begin += kBatch) {
+            const auto batch = list.subspan(begin, std::min(kBatch, list.size() - begin));
+            std::ranges::transform(batch, doubles.begin(), [](const glm::vec3& v) { return glm::dvec3(v); });
+            if (begin > 0) *at++ = ',';
+            at = text::putVectors(at, std::span(std::as_const(doubles)).first(batch.size()));
+        }
+        return at;
+    });
 }
 
 void JsonWriter::vectors(std::span<const glm::dvec3> list) {

@@ -54,6 +54,7 @@ class JsonWriter {
 
     // Arrays of numbers. Coordinates of vectors are rounded to single precision.
     void vector(const glm::dvec3& v);
+    void vectors(std::span<const glm::vec3> list);
     void vectors(std::span<const glm::dvec3> list);
     void vectors(std::span<const glm::dvec4> list);
     void pairs(std::span<const Pair> list);

@@ -6,9 +6,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "fields/array/array_function.hpp"
+#include "fields/field.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
 #include "protocol_data/embedded_files.hpp"
 #include "scene/color.hpp"
+#include "scene/surface_look.hpp"
+#include "session/example_fields.hpp"
 #include "slicing/object.hpp"
 #include "wire/json_writer.hpp"
 
@@ -60,6 +64,13 @@ void writeObject(JsonWriter& w, const slicing::Object& object) {
     w.endObject();
 }
 
+void writeVector(JsonWriter& w, std::string_view name, const glm::dvec3& v) {
+    w.key(name);
+    w.beginArray();
+    for (int axis = 0; axis < 3; ++axis) w.value(v[axis]);
+    w.endArray();
+}
+
 void writeMatrix(JsonWriter& w, const glm::dmat4& matrix) {
     w.key("orientation");
     w.beginArray();
@@ -96,14 +107,87 @@ void writeLast(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
     w.endObject();
 }
 
+// Writes the member `values`: the second function, if there is one, and the color scale of values.
+void writeValues(JsonWriter& w, const fields::Field& field) {
+    constexpr int kColors = 9;
+    const scene::ValueScale scale = scene::valueScaleFor(field.coloringRange->get());
+    w.key("values");
+    w.beginObject();
+    if (field.second && field.second->array) {
+        w.member("variable", std::string_view(field.second->variable));
+    } else if (field.second) {
+        w.member("formula", std::string_view(field.second->formula));
+    }
+    w.key("range");
+    w.beginArray();
+    w.value(scale.least);
+    w.value(scale.greatest);
+    w.endArray();
+    w.key("colors");
+    w.beginArray();
+    for (int i = 0; i < kColors; ++i) {
+        const double at = static_cast<double>(i) / (kColors - 1);
+        w.value(std::uint64_t{scale.color(scale.least + at * (scale.greatest - scale.least))});
+    }
+    w.endArray();
+    w.endObject();
+}
+
+void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& look) {
+    w.key("field");
+    w.beginObject();
+    if (field.array) {
+        w.key("shape");
+        w.beginArray();
+        for (const std::size_t samples : field.array->shape()) w.value(std::uint64_t{samples});
+        w.endArray();
+        w.key("range");
+        w.beginArray();
+        w.value(double{field.array->statistics().min});
+        w.value(double{field.array->statistics().max});
+        w.endArray();
+        if (!field.array->rangeIsExact()) w.member("estimated", true);
+    } else {
+        w.member("formula", std::string_view(field.formula));
+    }
+    if (field.second || scene::colorsByValue(look)) writeValues(w, field);
+    w.key("box");
+    w.beginArray();
+    for (int axis = 0; axis < 4; ++axis) {
+        w.beginArray();
+        w.value(field.box.min[axis]);
+        w.value(field.box.max[axis]);
+        w.endArray();
+    }
+    w.endArray();
+    w.endObject();
+}
+
+void writeFog(JsonWriter& w, const std::vector<slicing::FogPoint>& points) {
+    w.key("fog");
+    w.beginArray();
+    for (const slicing::FogPoint& point : points) {
+        w.beginObject();
+        w.member("value", point.value);
+        w.member("opacity", point.opacity);
+        if (point.color) w.member("color", *point.color);
+        w.endObject();
+    }
+    w.endArray();
+}
+
 }  // namespace
 
 void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
-                  std::optional<double> id, std::string& out) {
+                  std::optional<double> id, std::string& out, slicing::Quality quality) {
     JsonWriter w(out);
     begin(w, "state", id);
     w.member("revision", revision);
+    if (quality == slicing::Quality::draft) w.member("draft", true);
     writeObject(w, state.object);
+    w.member("pace", state.referenceFrame.pace);
+    writeVector(w, "follow", state.referenceFrame.follow);
+    writeVector(w, "boost", state.referenceFrame.boost);
     writeMatrix(w, state.orientation.matrix());
     w.member("alpha", state.alpha);
     w.member("beta", state.beta);
@@ -140,6 +224,16 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
     w.member("zoom", state.look.orbit.zoom);
     w.endObject();
     w.member("color", text::nameOf(scene::kColorings, state.look.coloring));
+    if (slicing::fieldIn(state.object) != nullptr) {
+        w.key("levels");
+        w.beginArray();
+        for (const double level : state.look.field.levels) w.value(level);
+        w.endArray();
+        w.member("inside", text::nameOf(fields::kInsides, state.look.field.inside));
+        w.member("caps", text::nameOf(scene::kCapStyles, state.look.caps));
+        writeFog(w, state.look.field.fog);
+        writeField(w, *slicing::fieldIn(state.object), state.look);
+    }
     w.member("projection", text::nameOf(scene::kProjectionKinds, state.look.projection.kind));
     w.member("eye", state.look.projection.eye);
     w.key("hidden");
@@ -153,11 +247,11 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
 }
 
 std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
-                         std::optional<double> id) {
+                         std::optional<double> id, slicing::Quality quality) {
     constexpr std::size_t kTypicalBytes = 1024;
     std::string out;
     out.reserve(kTypicalBytes);
-    stateMessage(state, section, revision, id, out);
+    stateMessage(state, section, revision, id, out, quality);
     return out;
 }
 
@@ -216,6 +310,53 @@ std::string errorMessage(const Error& error, std::optional<double> id) {
     return out;
 }
 
+namespace {
+
+template <typename Number>
+void writePair(JsonWriter& w, std::string_view name, Number before, Number after) {
+    w.key(name);
+    w.beginArray();
+    w.value(before);
+    w.value(after);
+    w.endArray();
+}
+
+}  // namespace
+
+std::string criticalMessage(const slicing::CriticalSections& sections, std::uint64_t revision,
+                            std::optional<double> id) {
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "critical", id);
+        w.member("revision", revision);
+        w.member("least_w", sections.least);
+        w.member("most_w", sections.greatest);
+        w.member("tolerance", sections.tolerance);
+        w.member("resolution", sections.resolution);
+        w.key("sections");
+        w.beginArray();
+        for (const slicing::CriticalSection& section : sections.all) {
+            w.beginObject();
+            w.member("w", section.w);
+            w.member("change", text::nameOf(slicing::kSectionChanges, section.change));
+            if (section.change == slicing::SectionChange::vertices) {
+                w.member("vertices", std::uint64_t{section.vertices});
+            } else {
+                const auto& [components, cavities, euler] = section.before;
+                w.member("level", std::uint64_t{section.level});
+                writePair(w, "components", std::uint64_t{components}, std::uint64_t{section.after.components});
+                writePair(w, "cavities", std::uint64_t{cavities}, std::uint64_t{section.after.cavities});
+                writePair(w, "euler", std::int64_t{euler}, std::int64_t{section.after.euler});
+            }
+            w.endObject();
+        }
+        w.endArray();
+        w.endObject();
+    }
+    return out;
+}
+
 std::string doneMessage(std::optional<double> id, std::uint64_t revision, const std::vector<std::string>& warnings) {
     std::string out;
     {
@@ -250,7 +391,9 @@ std::string welcomeMessage(std::string_view session, std::string_view token, std
     return out;
 }
 
-std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded) {
+std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded,
+                             std::span<const std::string> data) {
+    constexpr Counts kBox{16, 32, 24, 8};  // the elements of a field's domain
     std::string out;
     {
         JsonWriter w(out);
@@ -271,18 +414,26 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
             w.member("symmetry_order", entry.symmetryOrder);
             w.endObject();
         }
-        for (const slicing::Object& object : loaded) {
+        const auto add = [&](std::string_view name, std::string_view family, const Counts& counts) {
             w.beginObject();
-            w.member("name", std::string_view(slicing::infoOf(object).name));
-            w.member("family", std::string_view("loaded"));
+            w.member("name", name);
+            w.member("family", family);
             w.key("aliases");
             w.beginArray();
             w.endArray();
             w.member("diagram", std::string_view());
             w.member("schlaefli", std::string_view());
-            writeCounts(w, countsOf(object));
+            writeCounts(w, counts);
             w.endObject();
+        };
+        for (const session::ExampleField& example : session::exampleFields()) {
+            const auto hasName = [&](const slicing::Object& object) {
+                return slicing::infoOf(object).name == example.name;
+            };
+            if (std::ranges::none_of(loaded, hasName)) add(example.name, "fields", kBox);
         }
+        for (const slicing::Object& object : loaded) add(slicing::infoOf(object).name, "loaded", countsOf(object));
+        for (const std::string& name : data) add(name, "data", kBox);
         w.endArray();
         w.endObject();
     }

@@ -12,31 +12,40 @@
 #include "errors/error.hpp"
 #include "scene/pick.hpp"
 #include "session/session.hpp"
+#include "slicing/critical/critical_sections.hpp"
 #include "slicing/section_name.hpp"
+#include "slicing/surface_detail.hpp"
 
 namespace oval4d::wire {
 
-/// Returns the `state` message of a state, whose focus slice has the names `section`. The PNG files of frames contain
-/// the same text.
+/// Returns the `state` message of a state. `section` has the names of its focus slice, and `quality` is the quality of
+/// the picture that follows. The PNG files of frames contain the same text.
 std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
-                         std::optional<double> id = {});
+                         std::optional<double> id = {}, slicing::Quality quality = slicing::Quality::full);
 /// Writes the `state` message to `out`. Overwrites `out` and reuses its memory.
 void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
-                  std::optional<double> id, std::string& out);
+                  std::optional<double> id, std::string& out, slicing::Quality quality = slicing::Quality::full);
 
-/// Returns the `at` message: what the picture `scene` of `object` shows at a point. `picked` is empty if that is
-/// nothing. `point` is the point of the object's space that a panel of the matrix shows there, if there is a panel.
+/// Returns the `at` message, which describes what the picture `scene` of `object` shows at a point. `picked` is the
+/// element there, if there is one. `point` is the 4-D point that a panel of the matrix shows there, if there is a
+/// panel.
 std::string atMessage(const std::optional<scene::PickedElement>& picked, const std::optional<glm::dvec4>& point,
                       const scene::Scene& scene, const slicing::Object& object, std::uint64_t revision,
                       std::optional<double> id);
+
+/// Returns the `critical` message: the critical values of w of the object.
+std::string criticalMessage(const slicing::CriticalSections& sections, std::uint64_t revision,
+                            std::optional<double> id);
 
 /// Returns the `error` message.
 std::string errorMessage(const Error& error, std::optional<double> id);
 /// Returns the `done` message. `warnings` are the warnings from reading a file.
 std::string doneMessage(std::optional<double> id, std::uint64_t revision,
                         const std::vector<std::string>& warnings = {});
-/// Returns the `catalogue` message: the entries of the catalogue, followed by the session's loaded objects.
-std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded = {});
+/// Returns the `catalogue` message: the entries of the catalogue and the example fields, followed by the session's
+/// loaded objects and by the arrays in the data folder, whose names are `data`.
+std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded = {},
+                             std::span<const std::string> data = {});
 /// Returns the `keymap` message, the key table of protocol/keymap.json.
 std::string keymapMessage(std::optional<double> id);
 

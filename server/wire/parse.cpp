@@ -3,7 +3,10 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "image/png_text.hpp"
+#include "session/load.hpp"
 #include "text/message_text.hpp"
 #include "wire/json_parser.hpp"
 #include "wire/schema.hpp"
@@ -66,12 +69,53 @@ Hello helloOf(const json& message) {
     return hello;
 }
 
+/// Reads an array of numbers, whose length the schema has checked, into a vector of this length.
+template <typename Vector>
+void takeVector(const json& object, const char* name, std::optional<Vector>& into) {
+    const auto member = object.find(name);
+    if (member == object.end()) return;
+    into.emplace();
+    for (int axis = 0; axis < Vector::length(); ++axis) (*into)[axis] = (*member)[axis].get<double>();
+}
+
+std::vector<slicing::FogPoint> fogOf(const json& points) {
+    std::vector<slicing::FogPoint> fog;
+    for (const json& point : points) {
+        fog.push_back({point.at("value"), point.at("opacity")});
+        take(point, "color", fog.back().color);
+    }
+    return fog;
+}
+
+fields::Box boxOf(const json& ranges) {
+    fields::Box box;
+    for (int axis = 0; axis < 4; ++axis) {
+        box.min[axis] = ranges[axis][0].get<double>();
+        box.max[axis] = ranges[axis][1].get<double>();
+    }
+    return box;
+}
+
+/// Returns the formula of the field with this name, from the member `field` of a state; nothing if it is an array.
+std::optional<session::LoadObject> formulaOf(const json& field, const std::string& name) {
+    if (!field.contains("formula")) return {};
+    session::LoadObject load{name, std::string(session::kFormula), field["formula"]};
+    load.box = boxOf(field.at("box"));
+    if (const auto values = field.find("values"); values != field.end()) load.values = values->value("formula", "");
+    return load;
+}
+
 session::Set setOf(const json& message) {
     session::Set set;
     set.continues = message.value("continues", false);
     if (const auto polytope = message.find("polytope"); polytope != message.end()) {
         set.object = polytope->is_object() ? polytope->at("name").get<std::string>() : polytope->get<std::string>();
+        if (const auto field = message.find("field"); field != message.end())
+            set.formula = formulaOf(*field, *set.object);
     }
+    take(message, "pace", set.pace);
+    takeVector(message, "follow", set.follow);
+    takeVector(message, "boost", set.boost);
     if (const auto rows = message.find("orientation"); rows != message.end()) {
         set.orientation.emplace();
         for (int row = 0; row < 4; ++row) {
@@ -90,10 +134,7 @@ session::Set setOf(const json& message) {
         take(*slices, "offset", set.offset);
         take(*slices, "w", set.focusW);
     }
-    if (const auto point = message.find("point"); point != message.end()) {
-        set.focusPoint.emplace();
-        for (int axis = 0; axis < 4; ++axis) (*set.focusPoint)[axis] = (*point)[axis].get<double>();
-    }
+    takeVector(message, "point", set.focusPoint);
     choose(message, "view", scene::kViews, set.view);
     if (const auto parts = message.find("shown"); parts != message.end()) {
         for (std::size_t i = 0; i < scene::kParts.size(); ++i) take(*parts, scene::kParts[i].name, set.parts[i]);
@@ -104,8 +145,12 @@ session::Set setOf(const json& message) {
         take(*camera, "zoom", set.zoom);
     }
     choose(message, "color", scene::kColorings, set.coloring);
+    choose(message, "caps", scene::kCapStyles, set.caps);
     choose(message, "projection", scene::kProjectionKinds, set.projection);
     take(message, "eye", set.eye);
+    take(message, "levels", set.levels);
+    choose(message, "inside", fields::kInsides, set.inside);
+    if (const auto fog = message.find("fog"); fog != message.end()) set.fog = fogOf(*fog);
     take(message, "hidden", set.hidden);
     take(message, "faded", set.faded);
     if (const auto element = message.find("highlight"); element != message.end()) {
@@ -125,6 +170,24 @@ session::TurnToward towardOf(const json& message) {
     take(message, "number", toward.index);
     toward.immediately = message.value("immediately", false);
     return toward;
+}
+
+session::LoadObject loadOf(const json& message) {
+    if (!message.contains("data") && !message.contains("path"))
+        throw InvalidRequest{"load: /data is missing: the text of a file, or else /path, a name in the data folder"};
+    if (message.contains("data") && message.contains("path"))
+        throw InvalidRequest{"load: give either /data or /path, not both"};
+    if (message.contains("data") && !message.contains("format")) throw InvalidRequest{"load: /format is missing"};
+    session::LoadObject load{message.at("name"), message.value("format", ""), message.value("data", ""),
+                             message.value("continues", false)};
+    load.path = message.value("path", "");
+    load.axes = message.value("axes", "");
+    load.variable = message.value("variable", "");
+    load.values = message.value("values", "");
+    load.valuesVariable = message.value("values_variable", "");
+    load.append = message.value("append", false);
+    if (const auto box = message.find("box"); box != message.end()) load.box = boxOf(*box);
+    return load;
 }
 
 exports::ExportRequest exportRequestOf(const json& message) {
@@ -171,8 +234,7 @@ decltype(Request::body) bodyOf(const std::string& type, const json& message) {
     if (type == "redo") return session::Command{session::Redo{}};
     if (type == "reset") return session::Command{session::Reset{}};
     if (type == "command") return session::Command{session::CommandLine{message.at("line")}};
-    if (type == "load")
-        return session::Command{session::Load{message.at("name"), message.at("format"), message.at("data")}};
+    if (type == "load") return session::Command{loadOf(message)};
     if (type == "get") return getOf(message);
     return helloOf(message);
 }
@@ -289,6 +351,23 @@ Result<session::Set> setFromState(std::string_view text) {
     auto request = requestOf(std::move(read));
     if (auto* bad = std::get_if<BadRequest>(&request)) return std::move(bad->error);
     return std::get<session::Set>(std::get<session::Command>(std::get<Request>(request).body));
+}
+
+Result<session::Set> setFromFile(std::string_view file, std::size_t maxMessage) {
+    const auto message = image::isPng(file) ? image::stateIn(file) : file;
+    if (!message)
+        return Error{ErrorCode::bad_message,
+                     "the picture contains no state: oval4d has not made it, or another program "
+                     "has saved it without the state"};
+    if (message->size() > maxMessage)
+        return Error{ErrorCode::too_large, "the state has " + std::to_string(message->size()) + " bytes; at most " +
+                                               std::to_string(maxMessage) + " are allowed (--max-message)"};
+    return setFromState(*message);
+}
+
+bool mayContainState(std::string_view file) {
+    const std::size_t first = file.find_first_not_of(" \t\r\n");
+    return image::isPng(file) || (first != std::string_view::npos && file[first] == '{');
 }
 
 }  // namespace oval4d::wire

@@ -1,6 +1,8 @@
 #pragma once
 // Parses the messages from clients, which are JSON.
 
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,11 +29,20 @@ struct RequestPeek {
     std::optional<std::string> type;
     std::optional<double> id;
 };
-/// Reads the type and the id from the beginning of a message. The message may be incomplete, or invalid after them.
+/// Reads the type and the id from the beginning of a message. The rest of the message may be missing or invalid.
 RequestPeek peekRequest(std::string_view beginning);
 
 /// Parses a `state` message, such as the one in the iTXt chunk of a frame's PNG file. Returns the command that restores
 /// this state. Errors: `bad_json`, `bad_message`, `out_of_range`.
 Result<session::Set> setFromState(std::string_view text);
+
+/// Parses the `state` message in a picture that oval4d has made, or one that is the whole file. Errors: `bad_message`
+/// if the file is a PNG file without a state; `too_large` if the message has more than `maxMessage` bytes; those of
+/// setFromState().
+Result<session::Set> setFromFile(std::string_view file,
+                                 std::size_t maxMessage = std::numeric_limits<std::size_t>::max());
+
+/// Returns whether a file is meant for setFromFile(): it starts like a PNG file or a JSON object.
+bool mayContainState(std::string_view file);
 
 }  // namespace oval4d::wire

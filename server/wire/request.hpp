@@ -38,12 +38,13 @@ struct Hello {
     std::optional<std::string> token;  ///< the token of the session that the connection joins
 };
 /// The data that a `get` message requests.
-enum class GetTarget : std::uint8_t { state, slices, frame, at, file, catalogue, keymap };
+enum class GetTarget : std::uint8_t { state, slices, frame, at, file, critical, catalogue, keymap };
 inline constexpr auto kGetTargets = std::to_array<text::Choice<GetTarget>>({{"state", GetTarget::state},
                                                                             {"slices", GetTarget::slices},
                                                                             {"frame", GetTarget::frame},
                                                                             {"at", GetTarget::at},
                                                                             {"file", GetTarget::file},
+                                                                            {"critical", GetTarget::critical},
                                                                             {"catalogue", GetTarget::catalogue},
                                                                             {"keymap", GetTarget::keymap}});
 

@@ -25,8 +25,8 @@ using valijson::adapters::NlohmannJsonAdapter;
 
 constexpr auto kRequests = std::to_array<std::string_view>(
     {"hello", "key", "rotate", "toward", "set", "load", "undo", "redo", "reset", "command", "get", "shown"});
-constexpr auto kAnswers =
-    std::to_array<std::string_view>({"welcome", "state", "slices", "at", "done", "error", "catalogue", "keymap"});
+constexpr auto kAnswers = std::to_array<std::string_view>(
+    {"welcome", "state", "slices", "at", "critical", "done", "error", "catalogue", "keymap"});
 
 struct MessageSchema {
     json text;
@@ -120,7 +120,7 @@ bool outOfBounds(const json& schema, const json& value) {
            (schema.contains("exclusiveMinimum") && number <= schema.at("exclusiveMinimum").get<double>());
 }
 
-// Returns ", not …" with the value. Returns an empty text for an array or object, because these may be long.
+// Returns ", not …" with the value. Returns an empty string for an array or object, because these may be long.
 std::string notThis(const json& value) {
     if (value.is_structured()) return {};
     return ", not " + (value.is_string() ? text::inQuotes(value.get<std::string>()) : value.dump());

@@ -14,10 +14,10 @@ namespace oval4d::wire {
 /// Returns the types of all messages that clients may send.
 std::span<const std::string_view> requestTypes();
 
-/// Validates `message` against the schema of the message type `type`, which must exist. Returns nothing if the message
-/// is valid, else an error whose text says what is wrong, where, and what is allowed, such as "rotate: /angles/0 must
-/// be a finite number of radians". Errors: `out_of_range` for a number outside its bounds, `bad_message` for all other
-/// faults.
+/// Validates `message` against the schema of `type`, which must be the name of a message type. Returns an empty
+/// optional if the message is valid, else an error whose text says what is wrong, where, and what is allowed, such as
+/// "rotate: /angles/0 must be a finite number of radians". Errors: `out_of_range` for a number outside its bounds,
+/// `bad_message` for all other faults.
 std::optional<Error> validationError(std::string_view type, const nlohmann::json& message);
 
 }  // namespace oval4d::wire

@@ -45,7 +45,7 @@ void writeSources(W& w, const Sources& of) {
     w.endObject();
 }
 
-// Writes the cell that determines each face's color, unless this is the face's source for every face.
+// Writes the cells that determine the colors of the faces, unless each face's source is this cell.
 template <typename W>
 void writeTints(W& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells, std::size_t from,
                 std::size_t to) {
@@ -163,7 +163,8 @@ void writeElements(JsonWriter& w, const SliceSet& slices, const std::vector<std:
     writeVisibilities(w, visibilities, of);
 }
 
-void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, std::size_t i) {
+void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, std::size_t i, SurfaceWriter& surfaces,
+                FogWriter& fogs) {
     w.beginObject();
     w.raw(placement);
     writeElements(w, *scene.slices, scene.faceCells, scene.visibilities, i);
@@ -175,6 +176,8 @@ void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, s
         writeFill(w, fill, scene.visibilities);
         w.endObject();
     }
+    surfaces.write(w, scene, i);
+    fogs.write(w, scene, i);
     w.endObject();
 }
 
@@ -230,7 +233,7 @@ void SliceListWriter::write(JsonWriter& w, const Scene& scene) {
         const SlicePlacement& placement = scene.placements[i];
         const auto text =
             placements_[i].textFor(placement, [&](std::string& out) { writePlacement(JsonWriter(out), placement); });
-        writeSlice(w, text, scene, i);
+        writeSlice(w, text, scene, i, surfaces_, fogs_);
     }
     w.endArray();
 }
@@ -289,6 +292,8 @@ void SliceListWriter::write(CborWriter& w, const Scene& scene) {
         writeFill(w, fill, scene.visibilities);
         w.endObject();
     }
+    surfaces_.write(w, scene);
+    fogs_.write(w, scene);
     w.endObject();
 }
 

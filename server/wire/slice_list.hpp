@@ -9,6 +9,8 @@
 
 #include "scene/scene.hpp"
 #include "wire/cached_text.hpp"
+#include "wire/fog_writer.hpp"
+#include "wire/surface_writer.hpp"
 
 namespace oval4d::wire {
 
@@ -35,6 +37,8 @@ class SliceListWriter {
     std::vector<CachedText<scene::SlicePlacement>> placements_;  // the texts in JSON, one per slice
     CachedText<std::vector<scene::SlicePlacement>> columns_;     // the text in CBOR, for all slices
     std::vector<std::uint32_t> sizes_;
+    SurfaceWriter surfaces_;
+    FogWriter fogs_;
 };
 
 }  // namespace oval4d::wire

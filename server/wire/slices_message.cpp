@@ -3,8 +3,10 @@
 #include <type_traits>
 
 #include "scene/density_plot.hpp"
+#include "slicing/coordinate_histograms.hpp"
 #include "text/choice.hpp"
 #include "wire/cbor_writer.hpp"
+#include "wire/fog_writer.hpp"
 #include "wire/json_writer.hpp"
 
 namespace oval4d::wire {
@@ -75,6 +77,30 @@ void writeColors(W& w, const scene::Style& style, const std::vector<scene::Color
     w.endObject();
 }
 
+// Returns the number of columns of Scene::density; 0 if it is not drawn.
+int columnsOf(const scene::CoordinatesLayout& layout) {
+    if (layout.panel > 0) return slicing::CoordinateHistograms::kColumns;
+    return layout.density ? scene::DensityPlot::kColumns : 0;
+}
+
+template <typename W>
+void writeHistogram(W& w, const scene::HistogramAxes& histogram) {
+    w.key("histogram");
+    w.beginObject();
+    writeNumbers(w, "reach", histogram.reach);
+    writeNumbers(w, "range", {histogram.least, histogram.greatest});
+    w.key("levels");
+    w.beginArray();
+    for (const scene::HistogramAxes::Level& level : histogram.levels) {
+        w.beginObject();
+        w.member("value", level.value);
+        w.member("color", level.color);
+        w.endObject();
+    }
+    w.endArray();
+    w.endObject();
+}
+
 template <typename W>
 void writeCoordinatesLayout(W& w, const scene::CoordinatesLayout& layout) {
     w.key("coordinates");
@@ -89,7 +115,8 @@ void writeCoordinatesLayout(W& w, const scene::CoordinatesLayout& layout) {
     w.member("line_width", layout.lineWidth);
     w.member("amplitude", layout.amplitude);
     w.member("named", layout.named);
-    w.member("columns", layout.density ? scene::DensityPlot::kColumns : 0);
+    w.member("columns", columnsOf(layout));
+    w.member("panel", layout.panel);
     w.endObject();
 }
 
@@ -135,7 +162,7 @@ void writeStaticScene(W&& w, const SlicesMessageWriter::StaticScene& fixed) {
 
 template <typename W>
 void SlicesMessageWriter::writeMessage(W&& w, CachedText<StaticScene>& cache, const Scene& scene,
-                                       std::uint64_t revision, std::optional<double> id) {
+                                       std::uint64_t revision, std::optional<double> id, slicing::Quality quality) {
     w.beginObject();
     w.member("type", "slices");
     if (id) {
@@ -143,6 +170,7 @@ void SlicesMessageWriter::writeMessage(W&& w, CachedText<StaticScene>& cache, co
         w.id(*id);
     }
     w.member("revision", revision);
+    if (quality == slicing::Quality::draft) w.member("draft", true);
     w.key("scene");
     w.beginObject();
     const StaticScene fixed{scene.look.view,   scene.look.parts,   scene.viewport,   scene.camera,
@@ -150,14 +178,20 @@ void SlicesMessageWriter::writeMessage(W&& w, CachedText<StaticScene>& cache, co
                             scene.faceOpacity, scene.axes,         scene.coordinates};
     w.raw(cache.textFor(fixed, [&](std::string& out) { writeStaticScene(W(out), fixed); }));
     writeColors(w, scene::style(), scene.cellColors);
+    SurfaceWriter::writeLook(w, scene.surfaces);
+    writeFogTable(w, scene.fog);
     w.endObject();
     if (scene.look.parts.coordinates) {
-        w.key("coordinates");
-        w.vectors(std::span<const glm::dvec4>(scene.slices->rotatedVertices));
-        if (scene.coordinates.density) {
-            w.key("density");
-            w.image(scene.density, scene::DensityPlot::kColumns);
+        // The coordinates of the domain's corners would say nothing about a field.
+        if (!scene.showsHistogram()) {
+            w.key("coordinates");
+            w.vectors(std::span<const glm::dvec4>(scene.slices->rotatedVertices));
         }
+        if (!scene.coordinates.hasLines()) {
+            w.key("density");
+            w.image(scene.density, columnsOf(scene.coordinates));
+        }
+        if (scene.showsHistogram()) writeHistogram(w, scene.histogram);
     }
     w.key("section");
     w.beginObject();
@@ -247,11 +281,11 @@ void SlicesMessageWriter::writeMatrix(W& w, const Scene& scene) {
 }
 
 void SlicesMessageWriter::write(const Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
-                                std::string& out) {
+                                std::string& out, slicing::Quality quality) {
     if (encoding == Encoding::cbor) {
-        writeMessage(CborWriter(out), cborStatic_, scene, revision, id);
+        writeMessage(CborWriter(out), cborStatic_, scene, revision, id, quality);
     } else {
-        writeMessage(JsonWriter(out), jsonStatic_, scene, revision, id);
+        writeMessage(JsonWriter(out), jsonStatic_, scene, revision, id, quality);
     }
 }
 

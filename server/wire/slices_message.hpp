@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "scene/scene.hpp"
+#include "slicing/surface_detail.hpp"
 #include "wire/cached_text.hpp"
 #include "wire/request.hpp"
 #include "wire/slice_list.hpp"
@@ -21,10 +22,10 @@ class SlicesMessageWriter {
     /// Writes the message of this scene as JSON, or as CBOR (RFC 8949) with typed arrays (RFC 8746). Overwrites `out`
     /// and reuses its memory.
     void write(const scene::Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
-               std::string& out);
+               std::string& out, slicing::Quality quality = slicing::Quality::full);
 
-    /// The values of a scene that stay the same while the object turns. Does not include the placements,
-    /// which stay the same, too: SliceListWriter caches them.
+    /// The values of a scene that stay the same while the object turns. Does not include the placements: they stay the
+    /// same, too, but SliceListWriter caches them.
     struct StaticScene {
         scene::View view{};
         scene::Parts shown;
@@ -39,7 +40,7 @@ class SlicesMessageWriter {
   private:
     template <typename W>
     void writeMessage(W&& w, CachedText<StaticScene>& cache, const scene::Scene& scene, std::uint64_t revision,
-                      std::optional<double> id);
+                      std::optional<double> id, slicing::Quality quality);
     template <typename W>
     void writeProjection(W& w, const scene::Scene& scene);
     template <typename W>

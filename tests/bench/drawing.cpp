@@ -84,7 +84,7 @@ class Drawer {
         image.height = viewport.height;
         image.pixels.resize(image::byteCount(viewport));
         raster::DrawTimes times;
-        rasterizer_.draw(state_, viewport, image.pixels, times);
+        rasterizer_.draw(state_, viewport, slicing::Quality::full, image.pixels, times);
     }
     void encode() { encoder_.encode(image, "", png_); }
 

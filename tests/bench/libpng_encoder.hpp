@@ -6,13 +6,14 @@
 
 namespace oval4d::bench {
 
+/// The result of encodeByLibpng().
 struct LibpngFile {
-    double seconds;
-    std::size_t bytes;
+    double seconds;     ///< the time of the encoding
+    std::size_t bytes;  ///< the size of the encoded file
 };
 
-/// Reads a PNG file of RGB pixels, encodes the pixels with libpng at level 1 and default filters, and measures the time
-/// of the encoding. Throws std::runtime_error if the file is not such a file.
+/// Decodes a PNG file to RGB pixels, encodes the pixels with libpng at compression level 1 with the default filters,
+/// and measures the time of the encoding only. Throws std::runtime_error if `png` is not a valid PNG file.
 LibpngFile encodeByLibpng(std::span<const std::uint8_t> png);
 
 }  // namespace oval4d::bench

@@ -1,5 +1,6 @@
 #pragma once
-// A WebSocket client for load tests, which measures how long its pictures take.
+// A WebSocket client for load tests. It waits for the picture that follows each key press, and counts pictures and
+// bytes.
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
@@ -18,18 +19,19 @@ namespace load {
 using Clock = std::chrono::steady_clock;
 using Endpoint = boost::asio::ip::tcp::endpoint;
 
-/// Seconds from a key to its picture.
+/// For each key press, the time in seconds until its picture arrived.
 using Latencies = std::vector<double>;
 
 class Client {
   public:
     Client(boost::asio::io_context& io, Endpoint server) : stream_(io), server_(server) {}
 
-    /// Connects, sends hello (a JSON text), and reads the first picture if there is a stream.
+    /// Connects and sends `hello`, a JSON text. If `streams` is true, `hello` requests pictures, and the first picture
+    /// is read.
     boost::asio::awaitable<void> open(std::string hello, bool streams);
     boost::asio::awaitable<void> send(std::string text);
-    /// Reads up to the picture of the wanted revision or a newer one. Acknowledges and counts this picture and all
-    /// earlier ones.
+    /// Reads messages until the picture of the revision `wanted` or of a newer one. Acknowledges and counts this
+    /// picture and all earlier ones.
     boost::asio::awaitable<void> picture(std::uint64_t wanted);
     /// Presses a key and waits for its picture.
     boost::asio::awaitable<void> key(char which);

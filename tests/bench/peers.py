@@ -41,6 +41,24 @@ def vtk(polytope, way, frames=11):
     return json.loads(done.stdout.splitlines()[-1])["total1"]
 
 
+def why_no_fields():
+    """Returns why fields cannot be compared with scipy and VTK here, None if they can."""
+    if not (FOLDER / "vtk_field.py").exists():
+        return "vtk_field.py is not in $OVAL4D_PEERS"
+    if subprocess.run(["/usr/bin/python3", "-c", "import scipy.ndimage"], capture_output=True, check=False).returncode:
+        return "python3-scipy is missing; where it conflicts with other packages, name its folder in PYTHONPATH"
+    return why_no_vtk()
+
+
+def vtk_field(field, frames=5):
+    """Returns the milliseconds per frame of 21 slices of a field of 64⁴ samples, each resampled on 64³ points."""
+    command = ["xvfb-run", "-a", "-s", "-screen 0 1280x720x24", "/usr/bin/python3", str(FOLDER / "vtk_field.py"),
+               "--field", field, "--frames", str(frames)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True,
+                          env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"})
+    return json.loads(done.stdout.splitlines()[-1])
+
+
 def js():
     """Returns for each polytope: the times of slicing by 21 hyperplanes and of JSON.stringify, the bytes of JSON, and
     the number of elements cut."""

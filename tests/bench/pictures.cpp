@@ -1,7 +1,7 @@
 // Measures every step from a state to its picture, as in the server; prints the medians as one line of JSON.
-//   bench_pictures POLYTOPE [SLICES] [WIDTH] [HEIGHT] [FRAMES] [SETTING=VALUE …]
+//   bench_pictures POLYTOPE|FILE.npy|formula [SLICES] [WIDTH] [HEIGHT] [FRAMES] [SETTING=VALUE …]
 // The scene is the same as in the programs of comparison: hyperplanes from w = −1 to 1 for a circumradius of 4/√10, and
-// double rotations. If FRAMES is 0, nothing is drawn.
+// double rotations. If FRAMES is 0, nothing is drawn. "formula" needs the setting of this name.
 
 #include <algorithm>
 #include <chrono>
@@ -11,8 +11,10 @@
 #include <exception>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -20,8 +22,10 @@
 #include "allocations.hpp"
 #include "libpng_encoder.hpp"
 #include "pipeline/pipeline.hpp"
+#include "session/load.hpp"
 #include "session/object_loader.hpp"
 #include "session/query.hpp"
+#include "session/settings.hpp"
 #include "wire/messages.hpp"
 
 namespace oval4d::bench {
@@ -35,7 +39,7 @@ struct Job {
     int slices = 21;
     scene::Viewport viewport;
     int frames = 60;
-    session::Query settings;  ///< further settings, such as projection=perspective
+    session::QueryParameters settings;  ///< further settings, such as projection=perspective
 };
 
 template <typename Work>
@@ -64,11 +68,19 @@ class Bench {
     explicit Bench(const Job& job) : job_(job) {
         polytopes::PolytopeCache cache;
         session::ObjectLoader loader(session::Limits{}, cache);
-        session::Query query{{"polytope", job.polytope}, {"slices", std::to_string(job.slices)}};
+        session::QueryParameters query{{"slices", std::to_string(job.slices)}};
         query.insert(query.end(), job.settings.begin(), job.settings.end());
-        const auto state = session::stateFromQuery(query, session::Limits{}, loader);
+        session::State start = session::initialState();
+        if (job.polytope.ends_with(".npy")) {
+            if (!session::replaceObject(start, arrayIn(job.polytope), loader))
+                throw std::runtime_error("the array cannot be shown");
+        } else if (job.polytope != "formula") {
+            query.emplace_back("polytope", job.polytope);
+        }
+        const auto state = session::stateFromQuery(query, session::Limits{}, loader, std::move(start));
         if (!state) throw std::runtime_error(state.error().message);
         state_ = *state;
+        if (std::ranges::find(query, "spacing", &session::QueryParameters::value_type::first) != query.end()) return;
         state_.slices.spacing =
             std::sqrt(10.0) / 4 * slicing::infoOf(state_.object).circumradius / std::max(1, job.slices / 2);
     }
@@ -87,13 +99,22 @@ class Bench {
     }
 
   private:
+    static slicing::Object arrayIn(const std::string& path) {
+        const auto file = fields::FileContents::map(path);
+        if (!file) throw std::runtime_error(file.error().message);
+        const auto read = session::readArray(*file, path);
+        if (!read) throw std::runtime_error(read.error().message);
+        return read->object;
+    }
+
     static std::unique_ptr<raster::Rasterizer> makeRasterizer(parallel::ForkJoin& forkJoin) {
         auto rasterizer = std::make_unique<raster::LocalRasterizer>(&forkJoin);
         rasterizer->limitFill(pipeline::Pipeline::kFillSteps);
         return rasterizer;
     }
 
-    // Calls step(i) at least `least` times and for some time, after a warm-up; records the allocations per step.
+    // Calls step(i) at least `least` times and for some time, after a warm-up; then again with the same i, when all
+    // memory has the size that it needs, and records the allocations per step.
     template <typename Step>
     void repeat(const char* name, int least, Step&& step) {
         const int warm = std::min(least, 24);
@@ -102,12 +123,13 @@ class Bench {
         int i = 0;
         while (i < warm) step(i++, unused);
         Samples whole;
-        const auto before = allocations();
         const auto start = std::chrono::steady_clock::now();
         const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start); };
         while (i < warm + least || passed().count() < kWhile) step(i++, whole);
-        result_["allocations"][name] = static_cast<double>(allocations() - before) / (i - warm);
         result_["ms"][name] = whole.milliseconds();
+        const auto before = allocations();
+        for (i = warm; i < warm + least; ++i) step(i, unused);
+        result_["allocations"][name] = static_cast<double>(allocations() - before) / least;
     }
 
     void turn(int i) {
@@ -117,7 +139,7 @@ class Bench {
 
     void cut(int i) {
         turn(i);
-        pipeline_.slice(state_, set_);
+        pipeline_.slice(state_, slicing::Quality::full, set_);
     }
 
     void slices() {
@@ -156,15 +178,24 @@ class Bench {
             whole.add(secondsOf([&] {
                 turn(i);
                 wire::stateMessage(state_, pipeline_.nameFocusSection(state_), 1, {}, text_);
-                pipeline_.drawPng(state_, text_, job_.viewport, png_);
+                pipeline_.drawPng(state_, text_, job_.viewport, slicing::Quality::full, png_);
             }));
             compose.add(pipeline_.times().compose);
             draw.add(pipeline_.times().draw);
             encode.add(pipeline_.times().encode);
         });
+        if (slicing::fieldIn(state_.object) != nullptr) {
+            repeat("draft", job_.frames, [&](int i, Samples& whole) {
+                whole.add(secondsOf([&] {
+                    turn(i);
+                    wire::stateMessage(state_, pipeline_.nameFocusSection(state_), 1, {}, text_);
+                    pipeline_.drawPng(state_, text_, job_.viewport, slicing::Quality::draft, png_);
+                }));
+            });
+        }
         for (int i = 0; i < std::min(job_.frames, 24); ++i) {
             turn(5 * i);
-            pipeline_.drawPng(state_, {}, job_.viewport, png_);
+            pipeline_.drawPng(state_, {}, job_.viewport, slicing::Quality::full, png_);
             const LibpngFile again = encodeByLibpng(png_);
             libpng.add(again.seconds);
             ours += png_.size();

@@ -21,7 +21,7 @@ from pathlib import Path
 import drawing
 import peers
 
-PARTS = ("targets", "parts", "growth", "polytopes", "whole", "drawing", "load")
+PARTS = ("targets", "parts", "growth", "polytopes", "whole", "fields", "drawing", "load")
 BIN = Path(sys.argv[1])
 REGULAR = ("5-cell", "8-cell", "120-cell", "600-cell")
 GROWING = ("5-cell", "8-cell", "24-cell", "omnitruncated 5-cell", "120-cell", "600-cell", "omnitruncated 24-cell",
@@ -262,6 +262,58 @@ def whole():
     table(["", "slices alone, ms", *(f"{what}, relative" for what in list(variants)[1:])], rows)
 
 
+# The functions of vtk_field.py. Between arrays and formulas, only the source of the values differs.
+FIELDS = {
+    "tiger": "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 - 0.09",
+    "blobs": "0.6 - (" + " + ".join(
+        f"exp(-((x-({math.cos(0.785 * a)}))^2 + (y-({math.sin(0.785 * a)}))^2 + (z-({0.6 * math.cos(2.4 * a)}))^2)"
+        "/(0.16+0.2*(w+1.6)))" for a in range(8)) + ")*(0.09/(0.04+0.05*(w+1.6)))^1.5",
+    "flow": "1.2 - exp(-(pi/2)^2*(w+1.6)/4)*pi/4*sqrt(" + " + ".join(
+        f"(exp(pi/4*{a})*sin(pi/4*{b}+pi/2*{c}) + exp(pi/4*{c})*cos(pi/4*{a}+pi/2*{b}))^2"
+        for a, b, c in ("xyz", "yzx", "zxy")) + ")",
+}
+
+
+def sampled(field, file):
+    """Writes a field of vtk_field.py as an array of 64⁴ samples with the axes t, z, y, x."""
+    program = """
+import sys, numpy
+source = open(sys.argv[1]).read().split("def main")[0]
+exec(source)
+g = numpy.linspace(-1.6, 1.6, 64, dtype=numpy.float32)
+axes = numpy.meshgrid(g, g, g, g, indexing="ij", sparse=True)
+values = FIELDS[sys.argv[2]](*reversed(axes))
+numpy.save(sys.argv[3], values.astype(numpy.float32))
+"""
+    subprocess.run(["/usr/bin/python3", "-c", program, peers.FOLDER / "vtk_field.py", field, file], check=True)
+
+
+def fields():
+    """Prints the times of fields, as arrays and as formulas, beside scipy and VTK; and of arrays with fog."""
+    print("\n## Fields: milliseconds from a state to its PNG, 21 slices, 1280 × 720\n\n"
+          "Arrays of 64⁴ samples. Medians of three turns; in each turn, all are measured one after the other.")
+    if why := peers.why_no_fields():
+        print(f"\nNot measured: {why}.")
+        return
+    shown = {"spacing": "0.12", "levels": "0", "inside": "below"}
+    box = {"box": ",".join(["-1.6", "1.6"] * 4)}
+    rows = []
+    for field, formula in FIELDS.items():
+        with tempfile.TemporaryDirectory(prefix="oval4d-") as folder:
+            file = Path(folder, f"{field}.npy")
+            sampled(field, file)
+            turns = [(pictures(file, frames=12, **shown),
+                      pictures("formula", frames=12, formula=formula, **box, **shown),
+                      pictures(file, frames=12, fog="-1:0.9,0:0.5,0.5:0", **shown),
+                      peers.vtk_field(field)["whole"]) for _ in range(3)]
+        times = [(*(ours["ms"]["frame"] for ours in turn[:3]), turn[3]) for turn in turns]
+        rows.append([field, *(statistics.median(column) for column in zip(*times)),
+                     *(statistics.median(turn[3] / turn[i] for turn in times) for i in (0, 1)),
+                     max(count for turn in turns for ours in turn[:3] for count in ours["allocations"].values())])
+    table(["", "array, ms", "formula, ms", "array with fog, ms", "scipy and VTK, ms", "ratio, array", "ratio, formula",
+           "most allocations a picture or message"], rows)
+
+
 def two_cores():
     """Prints the pictures per second for each way to use several cores."""
     print("\n## Drawing: state to PNG, as fast as possible\n\nThreads are llvmpipe's own.")
@@ -298,7 +350,7 @@ def main():
     loaded = load() if {"targets", "load"} & set(wanted) else None
     for name in wanted:
         {"targets": lambda: targets(turns, loaded), "parts": lambda: parts(turns), "growth": growth,
-         "polytopes": polytopes, "whole": whole, "drawing": two_cores, "load": lambda: under_load(loaded)}[name]()
+         "polytopes": polytopes, "whole": whole, "fields": fields, "drawing": two_cores, "load": lambda: under_load(loaded)}[name]()
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { openPage, openWithScript, ready } from "./support/browser.mjs";
+import { openPage, openWithScript, ready, spoken } from "./support/browser.mjs";
 import { decode, distance, pixelAt } from "./support/pixels.mjs";
 
 /** The dialogs, with the key that opens each. */
@@ -36,10 +36,10 @@ const panels = {
         await page.waitForFunction(() => document.getElementById("command-error").textContent !== "");
     },
     async "error at a value"(page) {
-        await page.click("button:has([data-reading=alpha])");
+        await page.click("button:has([data-state-field=alpha])");
         await page.keyboard.type("nonsense");
         await page.keyboard.press("Enter");
-        await page.waitForFunction(() => document.getElementById("reading-error-alpha").textContent !== "");
+        await page.waitForFunction(() => document.getElementById("state-field-error-alpha").textContent !== "");
     },
     async tour(page) {
         await page.keyboard.press("?");
@@ -231,22 +231,20 @@ test("accessibility: buttons work by keyboard", async () => {
 
 test("accessibility: changes are announced after a pause", async () => {
     const { page, press, close } = await openWithScript();
-    const spoken = (text) =>
-        page.waitForFunction((wanted) => document.getElementById("spoken").textContent.includes(wanted), text);
     assert.equal(await page.getAttribute("#spoken", "aria-live"), "polite");
-    await spoken("5-cell");
+    await spoken(page, "5-cell");
     await press("k");
-    await spoken("α 6°");
+    await spoken(page, "α 6°");
     await press("n");
-    await spoken("8-cell");
+    await spoken(page, "8-cell");
     await press("4");
-    await spoken("turned xw 6°");
+    await spoken(page, "turned xw 6°");
     await press("o");
-    await spoken("single view");
+    await spoken(page, "single view");
     await press("m");
-    await spoken("matrix view, focus point 0, 0, 0, 0");
+    await spoken(page, "matrix view, focus point 0, 0, 0, 0");
     await press("f");
-    await spoken("faces off");
+    await spoken(page, "faces off");
     await close();
 });
 

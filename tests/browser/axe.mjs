@@ -70,6 +70,16 @@ for (const [setting, { options, disabled = [] }] of Object.entries(settings)) {
         await says("command-error");
         await examine("the command line with an error");
         await page.keyboard.press("Escape");
+        await page.locator("[data-page-tool=field]").dispatchEvent("click");
+        await page.waitForSelector("#field:not([hidden])");
+        await page.waitForFunction(() => !document.getElementById("field-levels").disabled);
+        await examine("the panel of a field");
+        await page.fill("#field-formula", "x^2 + $");
+        await page.fill("#field-levels", "one");
+        await page.fill("[data-end='w to']", "none");
+        for (const id of ["field-error", "field-levels-error", "field-box-error"]) await says(id);
+        await examine("the panel of a field with errors");
+        await page.click("#field-close");
         const simplex = "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
         for (const [outcome, text] of Object.entries({ failed: "4OFF\n1 2 three\n", done: `${simplex}0 0 0 1\n` })) {
             await page.setInputFiles("#file", { name: "mine.txt", mimeType: "", buffer: Buffer.from(text) });

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { named, openWithScript, presented } from "./support/browser.mjs";
+import { named, openWithScript, presented, spoken } from "./support/browser.mjs";
 import { compare, covered, decode } from "./support/pixels.mjs";
 
 const shot = async (page) => decode(await page.locator("#drawing").screenshot());
@@ -92,14 +92,12 @@ test("colors: a kind can be hidden, faded and shown again, by mouse, by keyboard
 test("colors: changes are announced", async () => {
     const { page, script, close } = await openKinds();
     const { kinds } = (await script.state()).polytope;
-    const spoken = (text) =>
-        page.waitForFunction((wanted) => document.getElementById("spoken").textContent.includes(wanted), text);
-    await spoken("truncated 5-cell");
+    await spoken(page, "truncated 5-cell");
     await choose(page, "color", "w");
-    await spoken("colored by w");
+    await spoken(page, "colored by w");
     await choose(page, "kind-1", "faded");
-    await spoken(`${kinds[1].name} faded`);
+    await spoken(page, `${kinds[1].name} faded`);
     await choose(page, "kind-1", "shown");
-    await spoken("all kinds of cells shown");
+    await spoken(page, "all kinds of cells shown");
     await close();
 });

@@ -160,17 +160,17 @@ test("command line: Tab completes what is unique, or what the possible words hav
         assert.equal(await page.evaluate(() => document.activeElement.id), "command");
     }
     assert.equal((await completed(page, "set c")).line, "set c");
-    assert.deepEqual((await completed(page, "set c")).options.sort(), ["cells=", "color=", "coordinates="]);
+    assert.deepEqual((await completed(page, "set c")).options.sort(), ["caps=", "cells=", "color=", "coordinates="]);
     const { line, options } = await completed(page, "set co");
     assert.equal(line, "set co");
     assert.deepEqual(options.sort(), ["color=", "coordinates="]);
     assert.equal((await completed(page, "set sl")).line, "set slices=");
     assert.equal((await completed(page, "polytope trunc")).line, "polytope truncated ");
     assert.equal((await completed(page, "polytope hexacosichoron", "Tab")).line, "polytope 600-cell");
-    await page.fill("#command", "set l=1 end");
+    await page.fill("#command", "set h=1 end");
     await page.evaluate(() => document.getElementById("command").setSelectionRange(5, 5));
-    await page.keyboard.press("Tab"); // labels=, latency=
-    assert.equal(await page.inputValue("#command"), "set la=1 end", "the text after the caret stays");
+    await page.keyboard.press("Tab"); // hidden=, highlight=
+    assert.equal(await page.inputValue("#command"), "set hi=1 end", "the text after the caret stays");
     await close();
 });
 
@@ -187,9 +187,9 @@ test("command line: repeated Tab cycles through the completions, Shift-Tab goes 
     assert.equal(await page.getAttribute("#command", "role"), "combobox");
     assert.equal(await expanded(), "false");
     const { options } = await completed(page, "color ");
-    assert.deepEqual(options, ["cell", "kind", "w", "plain", "light"]);
+    assert.deepEqual(options, ["cell", "kind", "w", "plain", "light", "growth", "value"]);
     assert.equal(await expanded(), "true");
-    const steps = { Tab: ["cell", "kind"], "Shift+Tab": ["cell", "light"], ArrowDown: ["cell"], ArrowUp: ["light"] };
+    const steps = { Tab: ["cell", "kind"], "Shift+Tab": ["cell", "value"], ArrowDown: ["cell"], ArrowUp: ["value"] };
     for (const [key, expected] of Object.entries(steps)) {
         for (const option of expected) {
             await page.keyboard.press(key);
@@ -270,9 +270,11 @@ test("command line: :export saves a file in each format, as the export dialog do
         await page.waitForSelector("#drawing:focus");
         return download;
     };
-    for (const { name, bodies, group } of formats) {
+    for (const { name, bodies, of, group, objects } of formats) {
+        if (objects === "fields") continue;
         const download = await save(`export ${name}`);
-        assert.equal(download.suggestedFilename(), `8-cell${bodies ? "-w-0" : group === "figure" ? "-coordinates" : ""}.${name}`);
+        const part = bodies || of ? "-w-0" : group === "figure" ? "-coordinates" : "";
+        assert.equal(download.suggestedFilename(), `8-cell${part}.${name}`);
         assert.ok((await bytesOf(download)).length > 50, name);
     }
     assert.equal((await save("export PNG")).suggestedFilename(), "8-cell.png");
@@ -281,6 +283,11 @@ test("command line: :export saves a file in each format, as the export dialog do
     await type(page, "export stel");
     await page.waitForFunction(() =>
         /stel.*formats are 3mf, stl/.test(document.getElementById("command-error").textContent),
+    );
+    await page.keyboard.press("Escape");
+    await type(page, "export vti");
+    await page.waitForFunction(() =>
+        /VTI files contain only fields/.test(document.getElementById("command-error").textContent),
     );
     await page.keyboard.press("Escape");
     await script.request({ type: "set", slices: { focus: 100 } }); // far outside the polytope

@@ -65,7 +65,7 @@ test("connection: the page says that the server does not answer, or that the net
         await act();
         await page.waitForSelector("#connection[data-kind=late]", { timeout: 5000 });
         assert.equal(await connection(page), "Waiting…");
-        assert.equal(await page.locator("#spoken").textContent(), "Waiting…");
+        assert.equal(await page.locator("#connection-spoken").textContent(), "Waiting…");
         proxy.thaw();
         await isOpen(page);
         assert.equal(await connection(page), "Connected");

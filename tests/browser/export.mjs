@@ -65,6 +65,7 @@ test("export: every format makes its file, with a descriptive name", async () =>
         svg: /^<(\?xml|svg)/,
         pdf: /^%PDF-1/,
         x3d: /^<\?xml[^]*<X3D/,
+        vtp: /^<\?xml[^]*<PolyData/,
     };
     for (const [format, expected] of Object.entries(begins)) {
         const { name, bytes } = await exported(page, { format });
@@ -117,6 +118,30 @@ test("export: figures show what is chosen", async () => {
     await close();
 });
 
+test("export: a field and a polytope have different formats", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    const offered = () =>
+        page.locator("#export [name=format]:not([disabled])").evaluateAll((all) => all.map(({ value }) => value));
+    await openExport(page);
+    assert.ok((await offered()).includes("off") && !(await offered()).includes("vti"));
+    await choose(page, "format", "off");
+    await page.keyboard.press("Escape");
+    await script.request({ type: "load", name: "ball", format: "formula", data: "x^2 + y^2 + z^2 + w^2 < 1" });
+    await named(page, "ball");
+    await openExport(page);
+    assert.ok((await offered()).includes("vti") && !(await offered()).includes("off"));
+    assert.equal(await page.locator("#export [name=format]:checked").inputValue(), "3mf");
+    await page.keyboard.press("Escape");
+    const begins = { vti: /<ImageData/, vtp: /<PolyData/, csv: /^n,w,volume,area,/, glb: /^glTF/ };
+    for (const [format, expected] of Object.entries(begins)) {
+        const { name, bytes } = await exported(page, { format });
+        assert.match(name, new RegExp(`^ball.*\\.${format}$`));
+        assert.match(text(bytes, 400), expected, format);
+    }
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("export: only the options of the format are shown", async () => {
     const { page, close } = await openWithScript();
     await openExport(page);
@@ -125,7 +150,8 @@ test("export: only the options of the format are shown", async () => {
     for (const [format, expected] of Object.entries({
         stl: ["of", "body", "size", "label"],
         off: [],
-        csv: [],
+        csv: ["of"],
+        vtp: ["of"],
         png: ["pixels"],
         svg: ["figure"],
         glb: ["of", "body", "size", "label"],

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { setTimeout as pause } from "node:timers/promises";
 
 import { effects, prepare, strokes, table } from "./keys.mjs";
-import { common, readings } from "./support/browser.mjs";
+import { common, shownValues } from "./support/browser.mjs";
 import { openInFirefox, presented, type } from "./support/firefox.mjs";
 import { compare, covered, decode } from "./support/pixels.mjs";
 import { assertMatrix } from "./support/rotation.mjs";
@@ -64,7 +64,7 @@ test("firefox: every key has its effect", async () => {
         const before = await prepare(script, binding);
         const after = await press(...strokes(binding));
         effects[binding.action](before, after, binding);
-        assert.equal((await readings(page)).polytope, after.polytope.name, binding.name);
+        assert.equal((await shownValues(page)).polytope, after.polytope.name, binding.name);
         if (binding.shift === "inverse") {
             const back = await press(...strokes(binding, true));
             assertMatrix(back.orientation, before.orientation);
@@ -186,7 +186,7 @@ test("firefox: a shared link opens the session in a second tab", async () => {
     const { revision, polytope } = await second.press("n");
     await first.page.bringToFront();
     await presented(first.page, revision);
-    assert.equal((await readings(first.page)).polytope, polytope.name);
+    assert.equal((await shownValues(first.page)).polytope, polytope.name);
     assert.deepEqual([...first.errors, ...second.errors], []);
     await second.close();
     await first.close();

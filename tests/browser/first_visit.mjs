@@ -89,7 +89,7 @@ test("tour: five steps point at what they explain, forward and back", async () =
     const { page, errors, close } = await openWithScript({ firstVisit: true, viewport: { width: 1440, height: 900 } });
     await page.click("#welcome-tour");
     assert.equal(await isShown(page, "#welcome"), false);
-    const targets = ["#drawing", "[data-group=turn]", "#readings", "#drawing", "#header-files"];
+    const targets = ["#drawing", "[data-group=turn]", "#state-fields", "#drawing", "#header-files"];
     const texts = [];
     for (const [i, target] of targets.entries()) {
         assert.equal(await page.locator("#tour-number").innerText(), `${i + 1} of 5`);

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { common, openWithScript, presented, readings } from "./support/browser.mjs";
+import { common, openWithScript, presented, shownValues } from "./support/browser.mjs";
 import { assertMatrix, isNear, turned } from "./support/rotation.mjs";
 import { joinSession } from "./support/script.mjs";
 
@@ -104,7 +104,7 @@ for (const binding of table.filter(({ client }) => !client)) {
         const after = await script.until((one) => one.turning || !one.moving, "the end of the motion");
         assert.ok(effects[binding.action], `the test knows no effect of ${binding.action}`);
         effects[binding.action](before, after, binding);
-        const shown = await readings(page);
+        const shown = await shownValues(page);
         assert.equal(shown.polytope, after.polytope.name);
         assert.equal(Number(shown.slices), after.slices.count);
         assert.ok(Math.abs(parseFloat(shown.alpha) - (after.alpha * 180) / Math.PI) <= 0.005, shown.alpha);

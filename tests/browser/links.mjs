@@ -52,7 +52,7 @@ test("links: all errors in a query are reported, and the rest of the query appli
     assert.equal(lines.length, 3);
     const faults = ["polytope 25-cell", "set alpha=two", "set sides=3"];
     faults.forEach((fault, i) => assert.ok(lines[i].includes(`“${fault}”`), lines[i]));
-    await page.waitForFunction(() => document.querySelector("[data-reading=slices]").textContent === "11");
+    await page.waitForFunction(() => document.querySelector("[data-state-field=slices]").textContent === "11");
     assert.deepEqual(errors, []);
     await close();
 });

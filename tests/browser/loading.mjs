@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { named, openWithScript, presented, scriptFor } from "./support/browser.mjs";
+import { common, named, openWithScript, presented, restart, scriptFor } from "./support/browser.mjs";
 import { startServer } from "./support/server.mjs";
 
 const file = (name, text) => ({ name, mimeType: "", buffer: Buffer.from(text) });
@@ -85,6 +85,71 @@ test("loading: the error of a faulty file names the line, and the line is shown"
     await close();
 });
 
+/** A NumPy file with 8 × 8 × 8 × 8 samples of 1 − x² − y² − z² − w² from −1 to 1. */
+function ballFile(name) {
+    const header = "{'descr': '<f4', 'fortran_order': False, 'shape': (8, 8, 8, 8), }".padEnd(117) + "\n";
+    const axis = Array.from({ length: 8 }, (_, i) => (2 * i) / 7 - 1);
+    const samples = axis.flatMap((w) =>
+        axis.flatMap((z) => axis.flatMap((y) => axis.map((x) => 1 - x * x - y * y - z * z - w * w))),
+    );
+    const start = Buffer.from([0x93, ...Buffer.from("NUMPY"), 1, 0, header.length, 0]);
+    const buffer = Buffer.concat([start, Buffer.from(header), Buffer.from(new Float32Array(samples).buffer)]);
+    return { name, mimeType: "", buffer };
+}
+
+test("loading: an array is uploaded, and shown as a field", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    await page.setInputFiles("#file", ballFile("ball.npy"));
+    const { field, revision } = await script.until((one) => one.polytope.name === "ball.npy", "the array");
+    assert.deepEqual(field.shape, [8, 8, 8, 8]);
+    await presented(page, revision);
+    await named(page, "ball.npy");
+    await page.waitForSelector("#loading", { state: "hidden" });
+    const cut = ballFile("cut.npy");
+    await page.setInputFiles("#file", { ...cut, buffer: cut.buffer.subarray(0, 9000) });
+    await page.waitForSelector("#loading[data-outcome=failed]");
+    assert.match(await report(page), /bytes|short|incomplete|ends/i);
+    assert.equal((await script.state()).polytope.name, "ball.npy");
+    await close();
+    assert.deepEqual(errors.filter((error) => !/status of 400/.test(error)), []);
+});
+
+test("loading: a picture and a state are shown again, and files without a state are refused", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    const { url } = await common();
+    const query = "formula=x^2%2By^2-z^2<w&box=-1,1,-1,1,-1,1,0,2&levels=0.1,0.3&rotate=xw:0.4&slices=5&width=320&height=200";
+    const answer = await fetch(new URL(`api/v1/frame.png?${query}`, url));
+    const picture = { name: "a picture.png", mimeType: "image/png", buffer: Buffer.from(await answer.arrayBuffer()) };
+    await page.setInputFiles("#file", picture);
+    const state = await script.until((one) => one.field?.formula !== undefined, "the picture's field");
+    assert.equal(state.slices.count, 5);
+    assert.deepEqual(state.levels, [0.1, 0.3]);
+    await presented(page, state.revision);
+    await page.waitForSelector("#loading", { state: "hidden" });
+
+    await script.request({ type: "set", polytope: "24-cell" });
+    assert.ok(await drop(page, file("state.json", JSON.stringify(state))));
+    const again = await script.until((one) => one.field?.formula !== undefined && one.revision > state.revision, "the state");
+    assert.deepEqual({ ...again, revision: 0 }, { ...state, revision: 0 });
+    await page.waitForSelector("#loading", { state: "hidden" });
+
+    for (const [name, buffer, expected] of [
+        ["cut.png", picture.buffer.subarray(0, 33), /contains no state/],
+        ["other.json", Buffer.from('{"a": 1}'), /not a state of oval4d/],
+        ["cut.json", Buffer.from('{"type"'), /not valid JSON/],
+        ["wrong.json", Buffer.from('{"type":"state","zoom":1}'), /zoom/],
+    ]) {
+        await page.setInputFiles("#file", { name, mimeType: "", buffer });
+        await page.waitForFunction(
+            (source) => new RegExp(source).test(document.querySelector("#loading .report").textContent),
+            expected.source,
+        );
+    }
+    assert.deepEqual({ ...(await script.state()), id: 0 }, { ...again, id: 0 }, "nothing has changed");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("loading: unreadable files are refused before they are sent", async () => {
     const server = await startServer({ options: ["--max-message", "4096"] });
     const { page, script, close } = await openWithScript({ url: server.url });
@@ -92,7 +157,7 @@ test("loading: unreadable files are refused before they are sent", async () => {
         [`# ${"x".repeat(5000)}`, /too large: 5 KiB .* up to 4 KiB/],
         ["\n".repeat(3000), /too large/], // twice as long in JSON
         ["", /empty/],
-        ["PK\u0003\u0004\0\0", /not a text file/],
+        ["PK\u0003\u0004\0\0", /none of the formats of fields: npy/],
     ];
     for (const [text, expected] of cases) {
         await page.setInputFiles("#file", file("a.off", text));
@@ -140,11 +205,7 @@ test("loading: after a restart of the server, the file is loaded again", async (
     await script.until((one) => one.polytope.name === "kept.off", "the file's polytope");
     await named(page, "kept.off");
     script.leave();
-    await server.stop();
-    await page.waitForSelector("#connection[data-kind=waiting]");
-    const again = await startServer({ port: server.port });
-    await page.waitForSelector("#connection[data-kind=open]");
-    await page.waitForFunction(() => /new one/.test(document.getElementById("notice").textContent));
+    const again = await restart(server, page);
     const second = await scriptFor(page, again.url);
     await second.until((one) => one.polytope.name === "kept.off", "the file in the new session");
     second.leave();

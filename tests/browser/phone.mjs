@@ -15,11 +15,11 @@ test("phone: the picture has room, nothing overflows, every button is large enou
     assert.ok(covered(decode(await page.locator("#drawing").screenshot()), [16, 20, 28]) > 0.02);
     const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok((await overflow()) <= 0);
-    const readings = await page
-        .locator("[data-reading]")
+    const values = await page
+        .locator("[data-state-field]")
         .evaluateAll((all) => all.map((one) => one.getBoundingClientRect().right));
     assert.ok(
-        readings.every((right) => right <= 375),
+        values.every((right) => right <= 375),
         "the state is visible",
     );
 
@@ -89,7 +89,7 @@ test("phone: the header is not cut at any width", async () => {
         await page.setViewportSize({ width, height: 768 });
         const cut = await page.evaluate(() => {
             const header = document.querySelector("header").getBoundingClientRect();
-            const parts = [...document.querySelectorAll("header > :not(#readings), #readings button")];
+            const parts = [...document.querySelectorAll("header > :not(#state-fields), #state-fields button")];
             const boxes = parts.map((one) => one.getBoundingClientRect());
             const isWithin = ({ left, right, bottom }) => left >= 0 && right <= innerWidth && bottom <= header.bottom;
             const overlap = (a, b) =>

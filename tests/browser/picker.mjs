@@ -116,6 +116,35 @@ test("picker: works with the mouse alone, and from the button at the top", async
     await close();
 });
 
+test("picker: a misspelled name finds similar names, after the text itself", async () => {
+    const { page, script, close } = await openWithScript();
+    await openPicker(page);
+    for (const [text, similar] of [
+        ["tessaract", "8-cell"],
+        ["hexacosichoran", "600-cell"],
+        ["omnitrunkated 120 cell", "omnitruncated 120-cell"],
+    ]) {
+        await page.fill("#picker-search", text);
+        assert.deepEqual(await listed(page), [text, similar]);
+        assert.equal(await chosen(page), text);
+        assert.equal(await page.textContent("#picker-found"), "1 polytope with a similar name");
+    }
+    for (const text of ["zq", "qj", "wvqzk", "pyramid of cube"]) {
+        await page.fill("#picker-search", text);
+        assert.deepEqual(await listed(page), [text], "no name is similar");
+    }
+    await page.fill("#picker-search", "tessaract");
+    await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("Enter");
+    await script.until((one) => one.polytope.name === "8-cell", "the tesseract");
+    await page.waitForSelector("#picker:not([open])", { state: "attached" });
+    await openPicker(page);
+    await page.keyboard.type("pyramid of cube");
+    await page.keyboard.press("Enter");
+    await script.until((one) => one.polytope.name === "pyramid of cube", "a polytope that is built from its name");
+    await close();
+});
+
 test("picker: a name that is not listed is sent as typed; an error is shown and can be corrected", async () => {
     const { page, script, errors, close } = await openWithScript();
     const { revision } = await script.state();

@@ -2,25 +2,12 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { openPage, openWithScript, presented, readings } from "./support/browser.mjs";
-import { compare, decode, distance, pixelAt } from "./support/pixels.mjs";
+import { accurateBrowser, openPage, openWithScript, presented, shownValues } from "./support/browser.mjs";
+import { assertSimilar, assertStreamsAgree, drawBy, picture } from "./support/drawing.mjs";
+import { below, compare, decode, distance, pixelAt } from "./support/pixels.mjs";
 import { project, rgb, worldPoints } from "./support/scene.mjs";
 
 const drawing = (page) => page.locator("#drawing");
-
-/** Removes the focus from the drawing, and therefore the frame around it. */
-const blur = (page) => page.evaluate(() => document.activeElement.blur());
-
-async function picture(page) {
-    await blur(page);
-    return decode(await drawing(page).screenshot());
-}
-
-/** Switches the rendering mode and waits for a picture rendered in that mode. */
-async function drawBy(page, mode) {
-    await page.locator(`[data-page-tool=${mode}]`).dispatchEvent("click"); // in a narrow window it may be in a closed tab
-    await page.waitForSelector(`#drawing[data-drawn-by=${mode}]`);
-}
 
 for (const polytope of ["5-cell", "8-cell", "24-cell", "600-cell"]) {
     test(`picture: the slices of the ${polytope} are where the server places them`, async () => {
@@ -50,11 +37,6 @@ for (const polytope of ["5-cell", "8-cell", "24-cell", "600-cell"]) {
     });
 }
 
-/** The part of a picture from row `top` down. */
-function below({ width, height, data }, top) {
-    return { width, height: height - top, data: data.subarray(4 * width * top) };
-}
-
 for (const [polytope, columns] of [
     ["600-cell", false],
     ["120-cell", true],
@@ -73,9 +55,7 @@ for (const [polytope, columns] of [
         assert.equal(layout.columns > 0, columns);
         await drawBy(page, "frames");
         const top = Math.floor((1 - layout.zero - layout.amplitude) * height);
-        const { mean, far } = compare(below(geometry, top), below(await picture(page), top));
-        assert.ok(mean < 1.5, `mean difference ${mean.toFixed(2)} of 255`);
-        assert.ok(far < 0.005, `${(100 * far).toFixed(2)} % of the pixels differ much`);
+        assertSimilar(below(geometry, top), below(await picture(page), top), { mean: 1.5, far: 0.005 });
         if (columns) {
             // At the highest density the picture differs from the background; at density 0 it is the background.
             const at = (k) => {
@@ -121,20 +101,13 @@ const views = [
     },
     { name: "faces alone", settings: { polytope: "8-cell", shown: { bars: false, balls: false, coordinates: false } } },
 ];
-for (const { name, settings, mean: most = 1, far: allowed = 0.005 } of views) {
+for (const { name, settings, mean = 1, far = 0.005 } of views) {
     test(`picture: geometry and frame agree: ${name}`, async () => {
         const { page, script, errors, close } = await openWithScript();
         await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.7, 0.3] });
         const { revision } = await script.request({ type: "set", ...settings });
         await presented(page, revision);
-        const geometry = await picture(page);
-        await drawBy(page, "frames");
-        const frame = await picture(page);
-        const { mean, far } = compare(geometry, frame);
-        assert.ok(mean < most, `mean difference ${mean.toFixed(2)} of 255`);
-        assert.ok(far < allowed, `${(100 * far).toFixed(2)} % of the pixels differ much`);
-        await drawBy(page, "geometry");
-        assert.ok(compare(await picture(page), geometry).mean < 0.1, "switching back restores the first picture");
+        await assertStreamsAgree(page, { mean, far });
         assert.deepEqual(errors, []);
         await close();
     });
@@ -163,9 +136,9 @@ const matrices = [
     { name: "a tall window", settings: { polytope: "8-cell" }, viewport: { width: 400, height: 1000 }, mean: 0.7 },
     { name: "the focus point beyond the panels", settings: { polytope: "16-cell", point: [5, 0, -5, 0] } },
 ];
-for (const { name, settings, highlight, mean: most = 0.5, far: allowed = 0.0015, viewport } of matrices) {
+for (const { name, settings, highlight, mean = 0.5, far = 0.0015, viewport } of matrices) {
     test(`picture: geometry and frame agree: the matrix: ${name}`, async () => {
-        const { page, script, errors, close } = await openWithScript(viewport && { viewport });
+        const { page, script, errors, close } = await openWithScript({ browser: await accurateBrowser(), ...(viewport && { viewport }) });
         const dots = Array.from({ length: 90 }, (_, i) => [1, 2, 3, 4].map((k) => Math.sin(k * i * i + k)));
         const lines = dots.map((dot, i) => [...dot, 0.05 + 0.15 * (i % 2)].join(" "));
         await script.request({ type: "load", name: "dots", format: "cloud", data: `CLOUD\n${lines.join("\n")}\n` });
@@ -180,9 +153,7 @@ for (const { name, settings, highlight, mean: most = 0.5, far: allowed = 0.0015,
         assert.equal(viewport !== undefined, matrix.left < 0.1, "beside the slice, or below it in a tall window");
         await drawBy(page, "frames");
         const [own, served] = [geometry, await picture(page)].map((one) => matrixOf(one, matrix));
-        const { mean, far } = compare(own, served);
-        assert.ok(mean < most, `mean difference ${mean.toFixed(2)} of 255`);
-        assert.ok(far < allowed, `${(100 * far).toFixed(2)} % of the pixels differ much`);
+        assertSimilar(own, served, { mean, far });
         assert.deepEqual(errors, []);
         await close();
     });
@@ -288,10 +259,10 @@ test("picture: the header rounds w like the label of the focus slice", async () 
         const { slices } = await script.request({ type: "get", what: "slices" });
         const { label } = slices.find((slice) => slice.focus);
         await page.waitForFunction(
-            (value) => document.querySelector("[data-reading=w]").textContent === value,
+            (value) => document.querySelector("[data-state-field=w]").textContent === value,
             /^w = ([^,]+)/.exec(label)[1],
         );
-        assert.ok(label.startsWith(`w = ${(await readings(page)).w}`), label);
+        assert.ok(label.startsWith(`w = ${(await shownValues(page)).w}`), label);
     }
     await close();
 });

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { openWithScript, presented } from "./support/browser.mjs";
+import { openWithScript, presented, spoken } from "./support/browser.mjs";
 import { decode, distance, pixelAt } from "./support/pixels.mjs";
 import { project, rgb, worldPoints } from "./support/scene.mjs";
 
@@ -261,9 +261,7 @@ test("pointing: edges and vertices have their lengths and coordinates", async ()
 
 test("pointing: a click keeps the element and moves the focus in one step; the background and Escape end it", async () => {
     const { page, script, press, errors, size, picture, click, close } = await openTurned();
-    const spoken = (text) =>
-        page.waitForFunction((wanted) => document.getElementById("spoken").textContent.includes(wanted), text);
-    await spoken("24-cell"); // from now on, changes are announced
+    await spoken(page, "24-cell"); // from now on, changes are announced
     const { at, source } = faceIn(await picture(), size, 2);
     await click(...at);
     const kept = await script.until(({ highlight }) => highlight !== null, "the highlight");
@@ -273,7 +271,7 @@ test("pointing: a click keeps the element and moves the focus in one step; the b
     const undone = await press("u");
     assert.deepEqual([undone.highlight, undone.slices.focus], [null, 0]);
     assert.deepEqual((await press("Control+r")).highlight, kept.highlight);
-    await spoken(`cell ${source} highlighted`);
+    await spoken(page, `cell ${source} highlighted`);
 
     await click(8, size.height / 2 + 60);
     const ended = await script.until(({ highlight }) => highlight === null, "no highlight");

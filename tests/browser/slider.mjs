@@ -84,14 +84,19 @@ test("slider: the marks follow a turn before the exact values are there, and the
     const { page, script, close } = await openSlider();
     await page.evaluate(() => {
         const { send } = WebSocket.prototype;
-        window.letFilesPass = () => (WebSocket.prototype.send = send);
+        const held = [];
+        window.letSearchesPass = () => {
+            WebSocket.prototype.send = send;
+            for (const [socket, text] of held) socket.send(text);
+        };
         WebSocket.prototype.send = function (text) {
-            if (JSON.parse(text).what !== "file") send.call(this, text);
+            if (JSON.parse(text).what === "critical") held.push([this, text]);
+            else send.call(this, text);
         };
     });
     await script.request({ type: "toward", element: "cell", immediately: true });
     await marked(page, 15); // the sections of the 600-cell that begin with a cell: Coxeter, table V(iii)
-    await page.evaluate(() => window.letFilesPass());
+    await page.evaluate(() => window.letSearchesPass());
     await page.click("[data-page-tool=frames]");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
     await script.request({ type: "toward", element: "vertex", number: 5, immediately: true });
@@ -114,7 +119,7 @@ test("slider: dragging moves the focus, and the values and the section are shown
     assert.ok(near(slices.offset + slices.focus * slices.spacing, section.w));
     assert.ok(near(await valueOf(page), section.w));
     await page.waitForFunction(
-        (text) => document.querySelector("[data-reading=w]").textContent === text,
+        (text) => document.querySelector("[data-state-field=w]").textContent === text,
         section.w.toFixed(2),
     );
     assert.equal(await page.getAttribute(kSlider, "aria-valuetext"), `w = ${section.w.toFixed(2)}`);
@@ -334,4 +339,19 @@ test("slider: covers nothing, is not covered, and is large enough, in every wind
         await script.until(({ section }) => section.name === "icosahedron", `${name}: a tap on a mark`);
         await close();
     }
+});
+
+test("slider: the marks of a field are where its body changes its topology, and the keys move there", async () => {
+    const { page, script, press, close } = await openWithScript();
+    const data = "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 - 0.09";
+    await script.request({ type: "load", name: "tiger", format: "formula", data });
+    await marked(page, 4);
+    const expected = [-1, -0.4, 0.4, 1].map((w) => (w + 2) / 4); // ±b ± r, of the box from −2 to 2
+    (await marks(page)).forEach((at, i) => assert.ok(near(at, expected[i], 1e-3), `${at}`));
+    const { sections } = await script.request({ type: "get", what: "critical" });
+    await press("Shift+Digit0"); // )
+    await untilAt(script, sections[2].w, 1e-9, "the focus at the next change");
+    await press("Shift+Digit9"); // (
+    await untilAt(script, sections[1].w, 1e-9, "the focus at the change before");
+    await close();
 });

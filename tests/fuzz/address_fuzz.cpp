@@ -62,13 +62,13 @@ void judge(const net::AccessFields& who) {
     require(open.check(back) == open.check(who), "the cookie is as good as the token");
 }
 
-void describe(session::Query query) {
+void describe(session::QueryParameters query) {
     const auto large = [](const auto& entry) { return entry.first == "polytope" && !fuzz::isSmall(entry.second); };
     if (std::any_of(query.begin(), query.end(), large)) return;
     std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
     for (const exports::Format& format : exports::formats()) {
-        session::Query settings = query;
-        const auto request = pipeline::takeExportRequest(settings, format);
+        session::QueryParameters settings = query;
+        const auto request = pipeline::extractExportRequest(settings, format);
         if (!request) {
             fuzz::requireSentence(request.error());
             return;

@@ -158,7 +158,8 @@ json fromCbor(const std::string& text) {
     require(!message.is_discarded(), "a message is CBOR");
     message = plain(message);
     if (message.contains("coordinates")) message["coordinates"] = rows(message["coordinates"], 4);
-    if (message.contains("density")) message["density"] = rows(message["density"], scene::DensityPlot::kColumns);
+    if (message.contains("density"))
+        message["density"] = rows(message["density"], message["scene"]["coordinates"]["columns"]);
     message["slices"] = rowsOf(message["slices"]);
     return message;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Helpers shared by the fuzzers: invariants of sessions, and the execution of commands without large polytopes.
+// Helpers shared by the fuzzers: they check the invariants of sessions, and execute commands that build no large
+// polytopes.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@
 
 namespace oval4d::fuzz {
 
-/// Aborts the process unless `holds`; libFuzzer reports this as a finding.
+/// If `holds` is false, prints `what` and `detail` and aborts the process, which libFuzzer reports as a crash.
 inline void require(bool holds, std::string_view what, std::string_view detail = {}) {
     if (holds) return;
     std::fprintf(stderr, "broken: %.*s %.*s\n", static_cast<int>(what.size()), what.data(),
@@ -36,7 +37,8 @@ inline std::string_view textOf(const std::uint8_t* data, std::size_t size) {
     return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Takes the text up to the next `separator` from the front of `text`.
+/// Removes the part of `text` up to and including the first `separator`, and returns it without the separator. If there
+/// is no separator, removes and returns the whole text.
 inline std::string_view takeUntil(std::string_view& text, char separator) {
     const std::size_t end = std::min(text.find(separator), text.size());
     const std::string_view head = text.substr(0, end);
@@ -48,20 +50,21 @@ inline std::string_view takeUntil(std::string_view& text, char separator) {
 inline const session::Limits kLimits{
     .maxSlices = 31, .maxUndo = 4, .maxLoaded = 2, .maxVertices = 120, .maxHullCells = 500};
 
-/// Returns the fuzzer's only cache.
+/// Returns the polytope cache that the whole fuzzer uses.
 inline polytopes::PolytopeCache& cache() {
     static polytopes::PolytopeCache kCache;
     return kCache;
 }
 
-/// Returns whether the text names no polytope, or one that is built quickly.
+/// Returns whether a command with this name runs fast: polytopes::designNamed() refuses the name, or the polytope has
+/// at most kLimits.maxVertices vertices.
 inline bool isSmall(std::string_view name) {
     const auto named = polytopes::designNamed(name, kLimits.maxVertices);
     const auto* design = std::get_if<polytopes::Design>(&named);
     return design == nullptr || polytopes::elementCounts(*design).vertices <= kLimits.maxVertices;
 }
 
-/// Returns the name of the polytope that a command selects, "" if it selects none.
+/// Returns the name of the object that a command selects; empty if the command selects none.
 inline std::string polytopeIn(const session::Command& command, const session::State& state) {
     if (const auto* line = std::get_if<session::CommandLine>(&command)) {
         const auto parsed = session::parseCommandLine(line->line, state);
@@ -71,11 +74,19 @@ inline std::string polytopeIn(const session::Command& command, const session::St
     return set ? set->object.value_or("") : "";
 }
 
-/// Requires the invariants of every state that a client can produce.
+/// Requires that a state meets the invariants, which hold for every state that a client can produce.
 inline void requireSound(const session::State& state, const session::Limits& limits) {
     const auto within = [](double value, double most) { return std::abs(value) <= most; };
     require(slicing::identityOf(state.object) != nullptr, "a state has an object");
     const geometry::ObjectInfo& info = slicing::infoOf(state.object);
+    const auto& [pace, follow, boost] = state.referenceFrame;
+    require(pace >= session::kMinPace && pace <= session::kMaxPace, "the pace is within its bounds");
+    for (int axis = 0; axis < 3; ++axis) require(within(follow[axis], session::kMaxFollow), "the velocity is bounded");
+    require(glm::length(boost) <= session::kMaxBoost, "an observer is slower than light");
+    require((state.object == state.source) == (state.referenceFrame == geometry::ReferenceFrame{}),
+            "the default frame shows the object itself");
+    require(slicing::elementCounts(state.object) == slicing::elementCounts(state.source), "an image has all elements");
+    require(std::isfinite(info.circumradius) && info.circumradius > 0, "an image has an extent");
     const glm::dmat4 matrix = state.orientation.matrix();
     for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < 4; ++j)
@@ -98,6 +109,8 @@ inline void requireSound(const session::State& state, const session::Limits& lim
         require(seconds > 0 && seconds <= session::kMaxTurnTowardSeconds,
                 "a turn toward an element ends within its bound");
     }
+    require(session::isTransferFunction(state.look.field.fog), "the fog is a transfer function");
+    require(slicing::fieldIn(state.object) != nullptr || state.look.field.fog.empty(), "only fields have fog");
     for (int axis = 0; axis < 3; ++axis)
         require(within(state.look.focusPoint[axis] / info.circumradius, session::kMaxOffset * (1 + 1e-9)),
                 "the focus point is within its bounds");
@@ -131,7 +144,7 @@ inline void requireSound(const session::Session& session, const session::Limits&
     require(session.loaded.size() <= limits.maxLoaded, "no more than maxLoaded objects are kept");
 }
 
-/// Requires that a message is a JSON object (and therefore UTF-8); returns it.
+/// Parses a message and returns it. Requires that the message is a JSON object; this implies that it is UTF-8.
 inline nlohmann::json requireJson(const std::string& text) {
     auto message = nlohmann::json::parse(text, nullptr, false);
     require(!message.is_discarded() && message.is_object(), "a message is a JSON object:", text);
@@ -144,18 +157,19 @@ inline void requireSentence(const Error& error) {
     require(requireJson(wire::errorMessage(error, {})).at("message") == error.message, "an error travels whole");
 }
 
-/// Executes a command as the server does, unless it would build a large polytope.
+/// Executes a command as the server does, and requires that the session then meets its invariants or, after an error,
+/// is unchanged. If the command needs an object to be loaded first, executes it only if the object is small.
 inline void execute(session::Session& session, const session::Command& command) {
     const session::Session before = session;
     const bool small = isSmall(polytopeIn(command, session.current)) && !std::holds_alternative<session::Key>(command);
     session::ObjectLoader loader(kLimits, cache(), session::ObjectLoader::Mode::deferred, session::readObject);
     auto done = session::apply(session, command, kLimits, loader);
-    if (loader.isPending()) {
+    for (int orders = 0; loader.isPending(); ++orders) {
         require(!done && session == before, "what is not ready yet changes nothing");
         if (!small) return;
         loader.loadPendingObject();
         done = session::apply(session, command, kLimits, loader);
-        require(!loader.isPending(), "a command orders one thing");
+        require(orders < 3, "a command orders at most a file, the array to which it is added, and images");
     }
     if (!done) {
         requireSentence(done.error());
@@ -168,7 +182,7 @@ inline void execute(session::Session& session, const session::Command& command) 
     }
 }
 
-/// Requires that a state survives encoding as a message and setting another session to it.
+/// Requires that encoding a state as a message and setting another session to the message gives an equal state.
 inline void requireRoundTrip(const session::State& state, const session::LoadedObjects& loaded) {
     const std::string text = wire::stateMessage(state, {}, 7, 3);
     requireJson(text);
@@ -180,7 +194,7 @@ inline void requireRoundTrip(const session::State& state, const session::LoadedO
     other.loaded = loaded;
     // A loaded polytope that was replaced, or that belongs to another session, is not found by its name.
     const auto own = loaded.find(name);
-    const bool named = own != loaded.end() ? own->second == state.object : isSmall(name);
+    const bool named = own != loaded.end() ? own->second == state.source : isSmall(name);
     if (!named) return;
     session::ObjectLoader loader(kLimits, cache());
     const auto done = session::apply(other, *set, kLimits, loader);
@@ -190,11 +204,14 @@ inline void requireRoundTrip(const session::State& state, const session::LoadedO
                 "the orientation survives");
     }
     other.current.orientation = state.orientation;
+    require(other.current.source == state.source && other.current.referenceFrame == state.referenceFrame,
+            "an object and its frame of reference survive");
+    other.current.object = state.object;  // an equal image, made anew
     if (!state.lastTurn) other.current.lastTurn.reset();
     require(other.current == state, "a state survives:", text);
 }
 
-/// Slices the state's object as for a picture; requires that all indices are in range.
+/// Slices the state's object as for a picture, with at most 51 slices. Requires that all indices are in range.
 inline void requireSlices(const session::State& state) {
     static slicing::Slicer slicer;
     static slicing::SliceSet slices;

@@ -1,10 +1,31 @@
 """Fixtures of the service tests; also runs test functions that are coroutines."""
 
 import asyncio
+import collections
 import inspect
 
 import pytest
-from harness import DEADLINE, Server
+from harness import DEADLINE, Server, is_sanitizer_build
+
+SANITIZED_CASES = 2
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "release_only: computes for long; not run with sanitizers, with which the unit tests run this code")
+
+
+def pytest_collection_modifyitems(config, items):
+    """With sanitizers, everything takes several times as long: of a test with more than SANITIZED_CASES cases, only some
+    are run, evenly spread. They run the same code with other data; unit tests and fuzzers cover the readers of data."""
+    if not is_sanitizer_build():
+        return
+    cases = collections.defaultdict(list)
+    for item in items:
+        if not item.get_closest_marker("release_only"):
+            cases[item.nodeid.split("[")[0]].append(item)
+    kept = {item for same in cases.values() for item in same[::-(-len(same) // SANITIZED_CASES)]}
+    config.hook.pytest_deselected(items=[item for item in items if item not in kept])
+    items[:] = [item for item in items if item in kept]
 
 
 @pytest.fixture(scope="session", name="server")

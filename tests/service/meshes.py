@@ -1,5 +1,6 @@
-"""Reads exported files with other programs: admesh, assimp, and an independent 3MF reader."""
+"""Reads exported files with other programs: admesh, assimp, and independent readers of 3MF and VTK's XML files."""
 
+import base64
 import collections
 import io
 import json
@@ -90,3 +91,39 @@ def validate_glb(path):
     done = subprocess.run(["node", str(HERE / "validate_glb.mjs"), str(path)], capture_output=True, text=True,
                           timeout=120, check=True)
     return json.loads(done.stdout)
+
+
+VTK_TYPES = {"Float32": "f", "Float64": "d", "Int32": "i", "Int64": "q", "UInt8": "B"}
+
+
+def vtk_array(node):
+    """Returns the numbers of a DataArray element, as tuples if it has several components."""
+    assert node.tag == "DataArray" and node.get("format") == "binary", node.attrib
+    data = base64.b64decode(node.text.strip(), validate=True)
+    kind = VTK_TYPES[node.get("type")]
+    (size,) = struct.unpack_from("<Q", data)
+    assert size == len(data) - 8 and size % struct.calcsize(kind) == 0
+    numbers = list(struct.unpack(f"<{size // struct.calcsize(kind)}{kind}", data[8:]))
+    components = int(node.get("NumberOfComponents"))
+    return [tuple(numbers[i:i + components]) for i in range(0, len(numbers), components)] if components > 1 else numbers
+
+
+def read_vtk(data, type_):
+    """Returns the arrays of a VTK XML file with one piece: by section, then by name; of an image also its lattice."""
+    root = ElementTree.fromstring(data)
+    assert root.tag == "VTKFile" and root.get("type") == type_
+    assert root.get("byte_order") == "LittleEndian" and root.get("header_type") == "UInt64"
+    (whole,) = root
+    (piece,) = whole
+    assert whole.tag == type_ and piece.tag == "Piece"
+    result = {section.tag: {array.get("Name"): vtk_array(array) for array in section} for section in piece}
+    if type_ == "ImageData":
+        assert piece.get("Extent") == whole.get("WholeExtent")
+        result["extent"] = [int(number) for number in whole.get("WholeExtent").split()]
+        for name in ("Origin", "Spacing"):
+            result[name.lower()] = [float(number) for number in whole.get(name).split()]
+    else:
+        assert int(piece.get("NumberOfPoints")) == len(result["Points"]["points"])
+        assert int(piece.get("NumberOfPolys")) == len(result["Polys"]["offsets"])
+        assert all(0 <= p < len(result["Points"]["points"]) for p in result["Polys"]["connectivity"])
+    return result

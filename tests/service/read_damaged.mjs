@@ -22,6 +22,13 @@ function random(below) {
     return ((t ^ (t >>> 14)) >>> 0) % below;
 }
 
+function joined(first, second) {
+    const out = new Uint8Array(first.length + second.length);
+    out.set(first);
+    out.set(second, first.length);
+    return out;
+}
+
 /** Returns a copy with some bytes changed, removed, repeated, or set to large values. */
 function damagedCopy(bytes) {
     let out = Uint8Array.from(bytes);
@@ -36,10 +43,10 @@ function damagedCopy(bytes) {
                 if (at < out.length) out[at] ^= 1 << random(8);
                 break;
             case 2:
-                out = Uint8Array.from([...out.subarray(0, at), ...out.subarray(at + some)]);
+                out = joined(out.subarray(0, at), out.subarray(at + some));
                 break;
             case 3:
-                out = Uint8Array.from([...out.subarray(0, at), ...out.subarray(at, at + some), ...out.subarray(at)]);
+                out = joined(out.subarray(0, at + some), out.subarray(at));
                 break;
             default:
                 out.fill(255, at, at + random(9));

@@ -21,7 +21,7 @@ from wire import Client, Refused
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 TABLE = json.loads((ROOT / "protocol/export_formats.json").read_text(encoding="utf-8"))["formats"]
-FORMATS = [row["name"] for row in TABLE]
+FORMATS = [row["name"] for row in TABLE if row.get("objects") != "fields"]
 ROTATION = "rotate=xw,yz:0.39,1.42"
 
 

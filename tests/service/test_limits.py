@@ -19,10 +19,11 @@ async def request_refusal(client, type_, **members):
 async def test_the_welcome_message_states_the_limits():
     with Server("--max-message", "64k", "--max-depth", 9, "--max-requests", 77, "--min-side", 20, "--max-width", 900,
                 "--max-height", 800, "--max-pixels", 500_000, "--max-slices", 41, "--shown-timeout", 2.5,
-                "--max-file-triangles", 5000, "--max-file-bytes", "1M", "--max-file-time", 7) as server:
+                "--max-file-triangles", 5000, "--max-file-bytes", "1M", "--max-file-time", 7, "--max-upload", "1G",
+                "--max-field-bytes", "3M") as server:
         async with Client(server, width=900, height=500) as client:
             assert client.welcome["limits"] == {
-                "message": 65536, "request_bytes": 65536, "depth": 9, "requests_per_second": 77, "min_side": 20, "max_width": 900,
+                "message": 65536, "request_bytes": 65536, "upload": 1 << 30, "field_bytes": 3 << 20, "depth": 9, "requests_per_second": 77, "min_side": 20, "max_width": 900,
                 "max_height": 800, "max_pixels": 500_000, "slices": 41, "shown_timeout": 2.5,
                 "file_triangles": 5000, "file_bytes": 1 << 20, "file_time": 7}
             assert (await request_refusal(client, "set", slices={"count": 43})).code == "out_of_range"

@@ -47,7 +47,7 @@ async def test_memory_is_freed_after_a_burst():
         await wait_for_memory_below(server, warm + theirs + NOISE)
         await asyncio.sleep(1)  # the last busy worker frees its memory a little later
 
-        # The memory of connections is freed, too, even if no picture is requested afterwards.
+        # The memory of connections is freed, too, even if no picture is requested afterward.
         rest = server.anonymous_memory()
         await asyncio.gather(*(onlooker.close() for onlooker in onlookers))
         await wait_for_memory_below(server, rest - theirs / 4)

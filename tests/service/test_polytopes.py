@@ -1,5 +1,7 @@
 """Polytopes by name, by notation and from the catalogue."""
 
+from urllib.parse import quote
+
 import pytest
 from wire import Client, Refused
 
@@ -15,6 +17,19 @@ from wire import Client, Refused
     ("7x9 duoprism", "7,9-duoprism", (63, 126, 79, 16)),
     ("pentagonal antiprism prism", "pentagonal antiprism prism", (20, 50, 44, 14)),
     ("snub cube prism", "snub cubic prism", (48, 144, 136, 40)),
+    ("pyramid of cube", "pyramid of cube", (9, 20, 18, 7)),
+    ("bipyramid of icosahedron", "bipyramid of icosahedron", (14, 54, 80, 40)),
+    ("prism of rhombic dodecahedron", "prism of rhombic dodecahedron", (28, 62, 48, 14)),
+    ("prism of Snub Cube", "snub cubic prism", (48, 144, 136, 40)),
+    ("product of 5-gon and 7-gon", "5,7-duoprism", (35, 70, 47, 12)),
+    ("dual of bipyramid of dual of 6-gonal prism", "dual of bipyramid of hexagonal bipyramid", (24, 48, 34, 10)),
+    ("rectification of 16-cell", "24-cell", (24, 96, 96, 24)),
+    ("truncation of tesseract", "truncation of 8-cell", (64, 128, 88, 24)),
+    ("hull of tesseract and 16-cell of circumradius 2", "hull of 8-cell and 16-cell of circumradius 2",
+     (24, 96, 96, 24)),
+    ("intersection of tesseract and dual of tesseract", "intersection of 8-cell and 16-cell", (24, 96, 96, 24)),
+    ("rectification of hull of omnitruncated 5-cell and intersection of runcitruncated tesseract of circumradius 3.25 "
+     "and cantellated 24-cell", None, None),
 ])
 async def test_names_and_notations_select_polytopes(server, text, name, counts):
     async with Client(server, stream="geometry") as client:
@@ -23,9 +38,10 @@ async def test_names_and_notations_select_polytopes(server, text, name, counts):
             done = await client.request(request.pop("type_"), **request)
             state = await client.wait_for_state(done["revision"])
             polytope = state["polytope"]
-            assert polytope["name"] == name
-            assert tuple(polytope[part] for part in ("vertices", "edges", "faces", "cells")) == counts
-            assert sum(kind["cells"] for kind in polytope["kinds"]) == counts[3]
+            found = tuple(polytope[part] for part in ("vertices", "edges", "faces", "cells"))
+            assert polytope["name"] == (name or polytope["name"]) and found == (counts or found)
+            assert found[0] - found[1] + found[2] - found[3] == 0 or "/" in name
+            assert sum(kind["cells"] for kind in polytope["kinds"]) == found[3]
             # The polytope of a state message can be set again.
             await client.request("set", polytope="5-cell")
             done = await client.request("set", polytope=polytope)
@@ -55,6 +71,16 @@ async def test_kinds_of_cells_have_names_and_colors(server):
     ("o5o3o3o", "ringed"),
     ("2,5-duoprism", "at least three sides"),
     ("{6,3,3}", "finite"),
+    ("cube", "is a polyhedron"),
+    ("dual of cube", "is a polyhedron"),
+    ("dual of tessaract", "'tessaract' is not the name of a polytope; did you mean 'tesseract'?"),
+    ("pyramid of tesseract", "is not the name of a polyhedron"),
+    ("piramid of cube", "did you mean 'pyramid'?"),
+    ("hull of tesseract", "the word 'and'"),
+    ("hull of tesseract and 16-cell of circumradius 1000", "from 0.01 to 100"),
+    ("truncation of great 120-cell", "is not convex"),
+    ("product of 5-gon and cube", "is not a polygon"),
+    ("dual of " * 9 + "5-cell", "at most 8"),
 ])
 async def test_unknown_names_are_explained(server, text, expected_text):
     async with Client(server) as client:
@@ -63,17 +89,63 @@ async def test_unknown_names_are_explained(server, text, expected_text):
             with pytest.raises(Refused) as refused:
                 await client.request(line.pop("type_"), **line)
             assert refused.value.code == "unknown_polytope"
-            assert expected_text in refused.value.text and f"'{text}'" in refused.value.text
+            assert expected_text in refused.value.text
+            assert f"'{text}'" in refused.value.text or f"'{text[:60]}…'" in refused.value.text
         after = await client.request("get", what="state")
         assert {**after, "id": 0} == {**before, "id": 0}
 
 
 async def test_too_many_vertices_are_refused(server):
     async with Client(server) as client:
-        for text in ("1000,1000-duoprism", "x999999o x999999o", "500000-gonal antiprism prism"):
+        for text, most in (("1000,1000-duoprism", 100000), ("x999999o x999999o", 100000),
+                           ("500000-gonal antiprism prism", 100000), ("pyramid of 500000-gonal prism", 100000),
+                           ("truncation of omnitruncated 120-cell", 20000),
+                           ("hull of omnitruncated 120-cell and omnitruncated 120-cell", 20000),
+                           ("rectification of 3,1500-duoprism", 1000)):
             with pytest.raises(Refused) as refused:
                 await client.request("set", polytope=text)
-            assert refused.value.code == "too_large" and "100000" in refused.value.text
+            assert refused.value.code == "too_large" and str(most) in refused.value.text
+
+
+async def test_nothing_similar_is_suggested_for_nonsense(server):
+    async with Client(server) as client:
+        for text in ("q", "zz", "wvqzk", "7"):
+            with pytest.raises(Refused) as refused:
+                await client.request("set", polytope=text)
+            assert refused.value.code == "unknown_polytope" and "did you mean" not in refused.value.text
+
+
+async def test_kinds_of_cells_are_found_by_all_their_names(server):
+    async with Client(server) as client:
+        await client.request("set", polytope="pyramid of 7-gonal prism")
+        names = ["heptagonal prism", "heptagonal pyramid", "square pyramid"]
+        state = await client.request("get", what="state")
+        assert sorted(kind["name"] for kind in state["polytope"]["kinds"]) == names
+        for text in ("heptagonal prism", "7-gonal prism", "7 gonal prism", "Heptagonal Prism"):
+            await client.request("command", line=f"hide {text}")
+            hidden = (await client.request("get", what="state"))["hidden"]
+            assert [state["polytope"]["kinds"][kind]["name"] for kind in hidden] == ["heptagonal prism"], text
+            await client.request("set", hidden=[])
+
+
+def test_addresses_name_composed_polytopes(server):
+    def frame(name):
+        return server.get(f"/api/v1/frame.png?polytope={quote(name)}&width=320&height=180")
+
+    assert frame("rectification of 16-cell").body == frame("24-cell").body
+    assert frame("pyramid of rhombic dodecahedron").status == 200
+    refused = frame("pyramid of teapot")
+    assert refused.status == 400 and b"is not the name of a polyhedron" in refused.body
+
+
+async def test_composed_polytopes_are_built_again_from_their_names(server):
+    name = "hull of pyramid of dual of cuboctahedron and intersection of 24-cell and 5,5-duoprism of circumradius 2"
+    async with Client(server) as client:
+        await client.request("set", polytope=name)
+        polytope = (await client.request("get", what="state"))["polytope"]
+        await client.request("set", polytope="5-cell")
+        await client.request("set", polytope=polytope["name"])
+        assert (await client.request("get", what="state"))["polytope"] == polytope
 
 
 async def test_catalogue_entries_have_the_stated_counts(server):

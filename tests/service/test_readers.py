@@ -16,9 +16,11 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "protocol/python"))
 from oval4d_client import from_cbor, png_state  # noqa: E402
 
-# States whose messages together have all members: tints, hidden and faded cells, crossing faces, a density strip.
+# States whose messages together have all members: tints, hidden and faded cells, crossing faces, a density
+# strip, surfaces of a field.
 STATES = [[], ["polytope 8-cell"], ["polytope 5,7-duoprism", "rotate xw 0.5", "hide 0", "fade 1"],
-          ["polytope 5/2,5-duoprism", "rotate xw,yz 0.3 0.1", "fade 0"], ["polytope 120-cell", "set slices=1"]]
+          ["polytope 5/2,5-duoprism", "rotate xw,yz 0.3 0.1", "fade 0"], ["polytope 120-cell", "set slices=1"],
+          ["formula x*y < z - w", "set slices=3 color=growth"]]
 
 
 async def slices_and_frame(server, lines, encoding):
@@ -77,6 +79,7 @@ def damaged_copy(data, rng):
     return bytes(out)
 
 
+@pytest.mark.release_only
 async def test_the_python_client_reads_or_refuses_damaged_messages(server, message_folder):
     await write_messages(server, message_folder)
     rng = random.Random(11)
@@ -112,6 +115,7 @@ def test_the_python_client_refuses_invalid_data_with_value_error(data):
         png_state(b"\x89PNG\r\n\x1a\n" + len(text + b"oval4d" + bytes(5)).to_bytes(4, "big") + b"iTXtoval4d" + bytes(5) + text + bytes(4))
 
 
+@pytest.mark.release_only
 async def test_the_typescript_client_reads_or_refuses_damaged_messages(server, message_folder):
     await write_messages(server, message_folder)
     modules = ROOT / "web_client/node_modules"

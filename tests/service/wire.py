@@ -92,11 +92,11 @@ class Client:
     async def send(self, type_, **members):
         await self.socket.send(json.dumps({"type": type_, **members}))
 
-    async def request(self, type_, **members):
+    async def request(self, type_, *, deadline=DEADLINE, **members):
         """Sends a request with an id and returns its answer; raises Refused for an error."""
         number = next(self._ids)
         await self.send(type_, id=number, **members)
-        answer = await self.wait_until(lambda: self.answer_to(number))
+        answer = await self.wait_until(lambda: self.answer_to(number), deadline)
         if answer["type"] == "error":
             raise Refused(answer)
         return answer
@@ -143,13 +143,18 @@ class Client:
         return await self.wait_until(lambda: next((m for m in self.states() if m["revision"] >= revision), None))
 
     async def wait_for_slices(self, revision):
-        return await self.wait_until(lambda: next((m for m in self.streamed_messages("slices") if m["revision"] >= revision), None))
+        """Waits for the streamed slices of this revision or a newer one that are not a draft."""
+        def found():
+            pictures = self.streamed_messages("slices")
+            return next((m for m in pictures if m["revision"] >= revision and "draft" not in m), None)
+        return await self.wait_until(found)
 
     async def wait_for_frame(self, revision):
-        """Waits for the streamed frame that follows the state of this revision or a newer one."""
+        """Waits for the streamed frame that follows the state of this revision or a newer one, and is not a draft."""
         def found():
             for at, message in enumerate(self.messages[:-1]):
-                if isinstance(message, dict) and message["type"] == "state" and message["revision"] >= revision:
+                is_state = isinstance(message, dict) and message["type"] == "state"
+                if is_state and message["revision"] >= revision and "draft" not in message:
                     if isinstance(self.messages[at + 1], bytes):
                         return self.messages[at + 1]
             return None

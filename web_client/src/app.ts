@@ -1,14 +1,17 @@
 // The page: connects the session to the picture, the keys, the buttons and the display of the state.
 
-import { Client, RequestError, type KeyBinding, type Keymap, type Request, type State } from "@oval4d/protocol";
+import { Client, RequestError } from "@oval4d/protocol";
+import type { Done, KeyBinding, Keymap, Request, Settings, State } from "@oval4d/protocol";
 
 import { Colors } from "./colors";
 import { CommandLine } from "./command_line";
 import { namesOfKeys } from "./completion";
-import { ConnectionView } from "./connection";
+import { ConnectionStatus } from "./connection_status";
 import { download, fileName } from "./download";
 import { byId } from "./element";
 import { ExportDialog } from "./export_dialog";
+import { FieldPanel } from "./field_panel";
+import { fieldOfLine, type FormulaField, loadOf } from "./fields";
 import { FileLoading } from "./file_loading";
 import { isFirstVisit, kFirstView, Welcome } from "./first_visit";
 import { FocusPoint } from "./focus_point";
@@ -22,7 +25,7 @@ import { listenForGestures } from "./gestures";
 import { Help } from "./help";
 import type { Point } from "./hover";
 import { KeyRepeat } from "./key_repeat";
-import { editingAction, isForControl, strokeFromEvent, strokesOfBinding, type Stroke } from "./keys";
+import { editingAction, isForControl, strokeFromEvent, strokesOfBinding, type KeyStroke } from "./keys";
 import { Latency } from "./latency";
 import { extractSharedSession, readInitialView, rememberSession, shareLink } from "./link";
 import { Notice } from "./notice";
@@ -33,7 +36,7 @@ import { Picker } from "./picker";
 import { type Mode, Stage } from "./picture/stage";
 import { PointedLabel } from "./pointed_label";
 import { Pointing } from "./pointing";
-import { Readings } from "./readings";
+import { StateFields } from "./state_fields";
 import { RotationControl } from "./rotation";
 import { readStored, writeStored } from "./tab_storage";
 import { Tools } from "./tools";
@@ -50,7 +53,7 @@ export class App {
     private readonly drawing = byId("drawing");
     private readonly polytopeButton = byId("polytope");
     private readonly notice = new Notice();
-    private readonly connection = new ConnectionView();
+    private readonly connection = new ConnectionStatus();
     private readonly keyRepeat = new KeyRepeat();
     private readonly latency = new Latency();
     private readonly initialView = readInitialView();
@@ -80,6 +83,7 @@ export class App {
         onState: (state) => this.update(state),
         onSlices: (slices) => {
             this.slider.updatePicture(slices);
+            this.fieldPanel.updatePicture(slices);
             // The state of a picture arrives before it.
             if (this.state) this.stage.showSlices(slices, this.state.camera, this.state.polytope);
         },
@@ -125,9 +129,19 @@ export class App {
             keys: namesOfKeys(this.keymap?.keys ?? []),
         }),
     });
-    private readonly readings = new Readings((line) => this.request({ type: "command", line }));
-    private readonly picker = new Picker((name) => this.request({ type: "set", polytope: name }));
-    private readonly fileLoading = new FileLoading(this.client);
+    private readonly stateFields = new StateFields((line) => this.request({ type: "command", line }));
+    private readonly picker = new Picker((name, isData) =>
+        this.request(isData ? { type: "load", name, path: name } : { type: "set", polytope: name }),
+    );
+    private readonly fileLoading = new FileLoading(this.client, (state) =>
+        this.request({ ...state, type: "set", turning: false }),
+    );
+    private readonly fieldPanel = new FieldPanel({
+        load: (...change) => this.loadField(...change),
+        set: (settings) => this.request({ type: "set", ...settings }),
+        shareAddress: (address) => void this.copyLink(address, "It opens this field"),
+        closed: () => this.drawing.focus(),
+    });
     private readonly exportDialog = new ExportDialog(this.client, () => this.stage.size);
     private readonly tools = new Tools({ press: (...binding) => this.press(...binding) });
     private readonly tour = new Tour(() => this.drawing.focus());
@@ -178,7 +192,7 @@ export class App {
     /** Shows the first view, unless the address names another view or session. */
     private welcomeFirstVisit(): void {
         const { credentials, lines } = this.initialView;
-        if (credentials || lines.length > 0 || !isFirstVisit()) return;
+        if (credentials || lines.length > 0 || this.initialView.field || !isFirstVisit()) return;
         this.initialView.lines = [...kFirstView];
         this.welcome.show();
     }
@@ -193,7 +207,7 @@ export class App {
     private joinSharedSession(): void {
         const credentials = extractSharedSession();
         if (!credentials) return;
-        this.initialView.lines = []; // another session's view does not apply to this one
+        this.clearInitialView(); // another session's view does not apply to this one
         this.state = this.lostState = undefined;
         this.client.credentials = credentials;
         this.client.connect();
@@ -217,6 +231,11 @@ export class App {
         }
     }
 
+    private clearInitialView(): void {
+        Object.assign(this.initialView, { lines: [], faults: [] });
+        delete this.initialView.field;
+    }
+
     private showKeys(keymap: Keymap): void {
         this.keymap = keymap;
         this.help.show(keymap);
@@ -227,18 +246,25 @@ export class App {
             reset: () => void this.send({ type: "reset" }),
             share: () => void this.shareSession(),
             save: () => void this.savePicture(),
+            openField: () => this.fieldPanel.open(),
         });
         this.tools.show(keymap, [this.colors.section, ...page]);
     }
 
     /** In a new session, restores the view of a lost session or applies the view in the page's address. */
     private async restoreView(): Promise<void> {
-        const { lines } = this.initialView;
+        const { lines, field, faults } = this.initialView;
         const lost = this.lostState;
-        this.initialView.lines = [];
+        this.clearInitialView();
         this.lostState = undefined;
         if (lost) await this.restore(lost);
-        const faults: string[] = [];
+        if (field) {
+            try {
+                this.fieldPanel.adopt(field, await this.loadField(field, {}));
+            } catch (error) {
+                faults.push(`The address contains “formula=${field.formula}”: ${(error as Error).message}`);
+            }
+        }
         for (const line of lines) {
             await this.client.request({ type: "command", line }).catch((error: RequestError) => {
                 faults.push(`The address contains “${line}”: ${error.message}`);
@@ -255,7 +281,7 @@ export class App {
         } catch (error) {
             if ((error as RequestError).code === "not_connected") throw error;
             this.notice.show((error as Error).message);
-            const { polytope, slices, point, hidden, faded, ...rest } = lost;
+            const { polytope, slices, point, hidden, faded, levels, inside, fog, ...rest } = lost;
             await this.client.request({ ...rest, type: "set", turning: false });
         }
     }
@@ -280,9 +306,10 @@ export class App {
         const { name } = state.polytope;
         this.polytopeButton.querySelector("b")!.textContent = name;
         document.title = `${name} \u2013 oval4d`;
-        this.readings.update(state);
+        this.stateFields.update(state);
         this.tools.update(state);
         this.colors.update(state);
+        this.fieldPanel.update(state);
     }
 
     private picturePresented(revision: number, by: Mode): void {
@@ -344,7 +371,7 @@ export class App {
         else if (stroke) this.sendStroke(stroke, event.repeat);
     }
 
-    private sendStroke(stroke: Stroke, held: boolean): void {
+    private sendStroke(stroke: KeyStroke, held: boolean): void {
         if (held && !this.keyRepeat.mayRepeat) return;
         const movesFocus = this.keymap?.keys.some(({ group, key }) => group === "focus" && key.startsWith(stroke.key));
         if (movesFocus) this.slider.stop();
@@ -408,7 +435,24 @@ export class App {
                 return this.openExport();
             },
         });
-        return isOfPage || this.request({ type: "command", line });
+        if (isOfPage) return undefined;
+        const { revision } = await this.request({ type: "command", line });
+        const field = fieldOfLine(line);
+        if (!field) return undefined;
+        this.fieldPanel.adopt(field, revision);
+        return undefined;
+    }
+
+    /** Loads a formula, then changes settings; returns the revision. */
+    private async loadField(field: FormulaField, settings: Settings, continues = false): Promise<number> {
+        // Both are sent at once, so that no picture shows the formula without the settings.
+        const answers = [this.request({ type: "load", ...loadOf(field), ...(continues && { continues }) })];
+        if (Object.keys(settings).length > 0) {
+            answers.push(this.request({ type: "set", continues: true, ...settings }));
+        }
+        const [loaded, changed] = await Promise.allSettled(answers);
+        if (loaded!.status === "rejected") throw loaded!.reason;
+        return (changed?.status === "fulfilled" ? changed : loaded!).value.revision;
     }
 
     private openPicker(): void {
@@ -440,13 +484,14 @@ export class App {
     }
 
     /** Requests a change, and tracks it until its picture is presented. */
-    private async request(command: Command): Promise<void> {
+    private async request(command: Command): Promise<Done> {
         const answer = this.client.request(command);
         try {
             await Promise.all([this.keyRepeat.track(answer), this.latency.track(command.type, answer)]);
         } finally {
             this.framePointing.update();
         }
+        return answer;
     }
 
     /** Like request(), but shows an error as a notice. Resolves to whether the command has been executed. */
@@ -473,12 +518,16 @@ export class App {
 
     private async shareSession(): Promise<void> {
         if (!this.client.credentials) return;
-        const link = shareLink(this.client.credentials);
+        await this.copyLink(shareLink(this.client.credentials), "Anyone who opens it joins this session");
+    }
+
+    /** Copies a link, or shows it for copying; `effect` says what it does. */
+    private async copyLink(link: string, effect: string): Promise<void> {
         try {
             await navigator.clipboard.writeText(link);
-            this.notice.show("Link copied. Anyone who opens it joins this session.");
+            this.notice.show(`Link copied. ${effect}.`);
         } catch {
-            this.notice.show("Copy this link. Anyone who opens it joins this session:", link);
+            this.notice.show(`Copy this link. ${effect}:`, link);
         }
     }
 

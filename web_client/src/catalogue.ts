@@ -10,6 +10,9 @@ export interface Family {
 /** The quality of a match; smaller is better. */
 const kMatch = { exact: 0, prefix: 1, wordPrefix: 2, substring: 3 };
 
+const kMostCompared = 64; // letters that are compared to find similar names
+const kLettersPerMistake = 3; // as in the server's suggestions
+
 interface Indexed {
     entry: CatalogueEntry;
     family: string;
@@ -35,16 +38,44 @@ export class Catalogue {
 
     /** The entries that contain every word of `query`, by family; the best matches come first. */
     find(query: string): Family[] {
-        const wanted = normalize(query);
         const words = query.split(/\s+/).map(normalize);
-        const found = this.indexed
-            .filter(({ searchText }) => words.every((word) => contains(searchText, word)))
-            .map((item) => ({ ...item, match: matchQuality(item.names, wanted) }));
+        const found = this.indexed.filter(({ searchText }) => words.every((word) => contains(searchText, word)));
+        return this.byFamily(found, normalize(query));
+    }
+
+    /**
+     * The entries with the least number of spelling mistakes in `query`, by family; none if there is more than one in
+     * three letters. Numbers must be the same.
+     */
+    findSimilar(query: string): Family[] {
+        return this.byFamily(this.similar(normalize(query)), normalize(query));
+    }
+
+    private byFamily(items: Indexed[], wanted: string): Family[] {
+        const found = items.map((item) => ({ ...item, match: matchQuality(item.names, wanted) }));
         const families = this.families
             .map((name) => ({ name, found: found.filter(({ family }) => family === name).sort(compareMatch) }))
             .filter((family) => family.found.length > 0);
         families.sort((a, b) => compareMatch(a.found[0]!, b.found[0]!));
         return families.map((family) => ({ name: family.name, entries: family.found.map(({ entry }) => entry) }));
+    }
+
+    private similar(wanted: string): Indexed[] {
+        const text = wanted.replaceAll(" ", "").slice(0, kMostCompared);
+        let least = Math.floor(text.length / kLettersPerMistake);
+        let similar: Indexed[] = [];
+        if (least === 0) return similar;
+        for (const item of this.indexed) {
+            for (const name of item.names) {
+                if (numbersIn(name) !== numbersIn(wanted)) continue;
+                const distance = editDistance(text, name.replaceAll(" ", "").slice(0, kMostCompared), least);
+                if (distance > least) continue;
+                if (distance < least) similar = [];
+                least = distance;
+                if (similar.at(-1) !== item) similar.push(item);
+            }
+        }
+        return similar;
     }
 
     /** The entry with this name, alias or symbol, regardless of case and hyphens. */
@@ -60,6 +91,26 @@ function contains(text: string, word: string): boolean {
         if (!/^\d/.test(word) || !/\d/.test(text[at - 1] ?? "")) return true;
     }
     return false;
+}
+
+function numbersIn(text: string): string {
+    return (text.match(/\d+/g) ?? []).join(" ");
+}
+
+/** The edit distance (Levenshtein) of two texts; more than `most` if it is more than that. */
+function editDistance(a: string, b: string, most: number): number {
+    if (Math.abs(a.length - b.length) > most) return most + 1;
+    const row = Array.from({ length: b.length + 1 }, (_, j) => j);
+    for (let i = 0; i < a.length; i++) {
+        let diagonal = row[0]!;
+        row[0] = i + 1;
+        for (let j = 0; j < b.length; j++) {
+            const replaced = diagonal + (a[i] === b[j] ? 0 : 1);
+            diagonal = row[j + 1]!;
+            row[j + 1] = Math.min(replaced, row[j]! + 1, row[j + 1]! + 1);
+        }
+    }
+    return row[b.length]!;
 }
 
 function matchQuality(names: string[], wanted: string): number {

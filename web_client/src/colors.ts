@@ -3,15 +3,50 @@
 import type { CellKind, Coloring, Settings, State } from "@oval4d/protocol";
 
 import { element } from "./element";
+import { isField } from "./fields";
 import { capitalize, formatCount } from "./format";
 import type { Section } from "./tools";
 
-const kColorings: Record<Coloring, { label: string; title: string }> = {
-    cell: { label: "Cell", title: "Each cell has its own color" },
-    kind: { label: "Kind", title: "Each kind of cell has its own color" },
-    w: { label: "w", title: "The color shows the w of the cell's center" },
-    plain: { label: "Plain", title: "All faces have the same color" },
-    light: { label: "Light", title: "Cells are shaded by a light in four dimensions" },
+interface ColoringText {
+    label: string;
+    title: string;
+}
+
+/** The colorings, for polytopes and for fields. A coloring without a text has the same effect as `plain`. */
+const kColorings: Record<Coloring, { polytope?: ColoringText; field?: ColoringText }> = {
+    cell: {
+        polytope: { label: "Cell", title: "Each cell has its own color" },
+        field: { label: "Level", title: "Each level has its own color" },
+    },
+    kind: { polytope: { label: "Kind", title: "Each kind of cell has its own color" } },
+    w: {
+        polytope: { label: "w", title: "The color shows the w of the cell's center" },
+        field: { label: "w", title: "The color shows the w of the slice" },
+    },
+    plain: {
+        polytope: { label: "Plain", title: "All faces have the same color" },
+        field: { label: "Plain", title: "All surfaces have the same color" },
+    },
+    light: { polytope: { label: "Light", title: "Cells are shaded by a light in four dimensions" } },
+    growth: { field: { label: "Growth", title: "How fast the surface moves outward as w grows" } },
+    value: { field: { label: "Value", title: "The value of the second function, or of the field itself" } },
+};
+interface Scale {
+    least: string;
+    most: string;
+    text: string;
+    /** CSS colors from one end to the other; by default those of the diverging scale. */
+    colors?: string[];
+}
+
+/** What the ends of the color scale mean. */
+const kScales: Partial<Record<Coloring, Scale>> = {
+    w: { least: "\u2212w", most: "+w", text: "From blue at the lowest w through gray to amber at the highest" },
+    growth: {
+        least: "shrinks",
+        most: "grows",
+        text: "From blue where the body shrinks through gray to amber where it grows",
+    },
 };
 const kPresences = ["shown", "faded", "hidden"] as const;
 type Presence = (typeof kPresences)[number];
@@ -20,16 +55,8 @@ const kMaxListedKinds = 24; // an imported polytope may have as many kinds of ce
 
 export class Colors {
     private readonly modes = element("div", { class: "segments", role: "group", "aria-label": "Color by" });
-    private readonly scale = element(
-        "p",
-        { class: "scale", hidden: true },
-        "\u2212w",
-        element("span", {
-            role: "img",
-            "aria-label": "From blue at the lowest w through gray to amber at the highest",
-        }),
-        "+w",
-    );
+    private readonly options = new Map<Coloring, HTMLElement>();
+    private readonly scale = element("p", { class: "scale", hidden: true });
     private readonly list = element("div", { class: "kinds" });
     private rows: HTMLElement[] = [];
     private listedKinds: string | undefined; // identifies the kinds of cells in the rows
@@ -37,9 +64,11 @@ export class Colors {
 
     /** `applyChange` is called to change the state. */
     constructor(private readonly applyChange: (change: Settings) => void) {
-        for (const [value, { label, title }] of Object.entries(kColorings)) {
+        for (const value of Object.keys(kColorings) as Coloring[]) {
             const radio = element("input", { type: "radio", name: "color", value });
-            this.modes.append(element("label", { title }, radio, element("span", {}, label)));
+            const option = element("label", {}, radio, element("span"));
+            this.options.set(value, option);
+            this.modes.append(option);
         }
         this.modes.addEventListener("change", (event) => {
             this.applyChange({ color: (event.target as HTMLInputElement).value as Coloring });
@@ -53,18 +82,39 @@ export class Colors {
 
     update(state: State): void {
         this.state = state;
-        const { kinds = [], name } = state.polytope;
+        const { name } = state.polytope;
+        const kinds = kindsOf(state);
         const listed = JSON.stringify([name, kinds]);
         if (listed !== this.listedKinds) this.listKinds(kinds);
         this.listedKinds = listed;
-        checkRadio(this.modes, state.color);
-        this.scale.hidden = state.color !== "w";
+        this.showColoring(state);
         this.list.toggleAttribute("data-colored", state.color === "kind");
         this.rows.forEach((row, kind) => {
             const presence = presenceOf(state, kind);
             row.dataset["presence"] = presence;
             checkRadio(row, presence);
         });
+    }
+
+    /** Shows the colorings that the object has, and the one that is seen. */
+    private showColoring(state: State): void {
+        const object = isField(state) ? "field" : "polytope";
+        for (const [value, option] of this.options) {
+            const text = kColorings[value][object];
+            option.hidden = text === undefined;
+            option.title = text?.title ?? "";
+            option.querySelector("span")!.textContent = text?.label ?? "";
+        }
+        const seen = coloringSeen(state);
+        checkRadio(this.modes, seen);
+        const scale = scaleOf(state, seen);
+        this.scale.hidden = scale === undefined;
+        const shown = JSON.stringify(scale);
+        if (!scale || this.scale.dataset["of"] === shown) return;
+        this.scale.dataset["of"] = shown;
+        const bar = element("span", { role: "img", "aria-label": scale.text });
+        if (scale.colors) bar.style.background = `linear-gradient(90deg, ${scale.colors.join(", ")})`;
+        this.scale.replaceChildren(scale.least, bar, scale.most);
     }
 
     private listKinds(kinds: CellKind[]): void {
@@ -87,9 +137,35 @@ export class Colors {
     }
 }
 
+/** The coloring that the picture shows: `plain` if the object does not have the chosen one. */
+function coloringSeen(state: State): Coloring {
+    return kColorings[state.color][isField(state) ? "field" : "polytope"] ? state.color : "plain";
+}
+
+/** The color scale of what the picture shows; that of values if only the caps show them. */
+function scaleOf({ caps, field }: State, seen: Coloring): Scale | undefined {
+    const values = field?.values;
+    if (!values || (seen !== "value" && (caps !== "value" || kScales[seen]))) return kScales[seen];
+    const [least, most] = values.range.map((value) => String(Number(value.toPrecision(3)))).map(withMinus) as [string, string];
+    const name = values.formula ?? values.variable ?? "the values of the field";
+    return { least, most, text: `The colors of ${name}, from ${least} to ${most}`, colors: values.colors.map(cssColor) };
+}
+
+/** A text for screen readers such as "colored by kind". */
+export function spokenColoring(state: State): string {
+    const seen = coloringSeen(state);
+    const name = seen === "cell" && isField(state) ? "level" : seen;
+    return seen === "plain" ? "plain colors" : `colored by ${name}`;
+}
+
+/** The kinds of cells that can be shown, faded or hidden. The box of a field has none. */
+function kindsOf(state: State): CellKind[] {
+    return isField(state) ? [] : (state.polytope.kinds ?? []);
+}
+
 /** A text for screen readers such as "cube hidden, tetrahedron faded", or "all kinds of cells shown". */
 export function spokenKinds(state: State): string {
-    const { kinds = [] } = state.polytope;
+    const kinds = kindsOf(state);
     const named = (list: number[], presence: Presence): string[] =>
         list.map((kind) => `${kinds[kind]?.name ?? `kind ${kind}`} ${presence}`);
     const all = [...named(state.hidden, "hidden"), ...named(state.faded, "faded")];
@@ -102,7 +178,7 @@ function presenceOf({ hidden, faded }: State, kind: number): Presence {
 
 function kindRow({ name, cells, color }: CellKind, kind: number): HTMLElement {
     const swatch = element("i", { "aria-hidden": "true" });
-    if (color !== undefined) swatch.style.background = `#${color.toString(16).padStart(6, "0")}`;
+    if (color !== undefined) swatch.style.background = cssColor(color);
     const radios = kPresences.map((presence) => {
         const label = capitalize(presence);
         const attributes = { type: "radio", name: `kind-${kind}`, value: presence, "aria-label": label };
@@ -121,6 +197,14 @@ function kindRow({ name, cells, color }: CellKind, kind: number): HTMLElement {
         element("small", {}, formatCount(cells)),
         element("div", { class: "presence" }, ...radios),
     );
+}
+
+function cssColor(color: number): string {
+    return `#${color.toString(16).padStart(6, "0")}`;
+}
+
+function withMinus(text: string): string {
+    return text.replace("-", "\u2212");
 }
 
 function checkRadio(within: HTMLElement, value: string): void {

@@ -24,7 +24,7 @@ interface Schema {
     properties?: Record<string, Schema>;
 }
 
-const kNotOnTheLine = ["type", "id", "continues", "revision", "orientation", "moving", "section", "last"]; // members of `set` without a setting
+const kNotOnTheLine = ["type", "id", "continues", "revision", "orientation", "draft", "moving", "section", "field", "last"]; // members of `set` without a setting
 
 /** The settings of the command `set`, with their values; a setting that is a number or a name has none. */
 export const kSettings = new Map<string, string[]>(settingsOf(set.properties as Record<string, Schema>));

@@ -1,18 +1,19 @@
-// The values of w at which vertices of the rotated object lie: only there does the section w = const change its type
-// (Coxeter, Regular Polytopes, §13.1). The parallel coordinates give them at once, but rounded. Their exact values are
-// in the exported CSV file, which the page requests when the object has come to rest.
+// The values of w at which the section w = const changes its type: of a polytope, those at which vertices lie (Coxeter,
+// Regular Polytopes, §13.1); of a field, those at which the body changes its topology. The parallel coordinates give those
+// of a polytope at once, but rounded. The page requests the exact values when the object has come to rest.
 
 import type { Client, Slices, State } from "@oval4d/protocol";
 
-/** A w at which vertices lie, and their number. */
+/** A critical w; of a polytope, with the number of vertices that lie there. */
 export interface Level {
     w: number;
-    vertices: number;
+    vertices?: number;
 }
 
-const kRestTime = 200; // milliseconds without a turn after which the exact values are requested
+// Milliseconds without a turn after which the exact values are requested: of a field, the search takes seconds.
+const kRestTime = 200;
+const kFieldRestTime = 1500;
 const kRounding = 1e-6; // circumradii: rounded values that differ by less count as equal
-const kHeading = "critical_w,vertices\n"; // the first line of the table of levels in the CSV file
 
 export class CriticalLevels {
     /** From the lowest w to the highest; empty before the first are known. */
@@ -21,7 +22,11 @@ export class CriticalLevels {
     isCurrent = false;
     /** Whether they are exact and those of the newest state. */
     isExact = false;
+    /** The lowest and the highest w of the object; 0 before they are known. */
+    range: [number, number] = [0, 0];
     private knownFor = ""; // what the known or requested levels depend on
+    private restTime = kRestTime;
+    private isAsking = false; // whether an answer is outstanding: there is one request at a time
     private timer: ReturnType<typeof setTimeout> | undefined;
 
     constructor(
@@ -29,13 +34,21 @@ export class CriticalLevels {
         private readonly onChange: () => void,
     ) {}
 
-    update({ polytope, orientation, slices }: State): void {
-        const key = JSON.stringify([polytope, orientation, slices.spacing]); // δ changes if another object has this name
+    update({ polytope, pace, follow, boost, orientation, slices, field, levels, inside }: State): void {
+        const object = [polytope, pace, follow, boost, field, levels, inside];
+        const key = JSON.stringify([object, orientation, slices.spacing]); // δ changes if another object has this name
         if (key === this.knownFor) return;
         this.knownFor = key;
         this.isCurrent = this.isExact = false;
-        clearTimeout(this.timer);
-        this.timer = setTimeout(() => void this.request(key), kRestTime);
+        this.restTime = field ? kFieldRestTime : kRestTime;
+        if (field) {
+            // Until they are known, the range is that of the slices.
+            const reach = (slices.spacing * (slices.count - 1)) / 2;
+            this.all = [];
+            this.range = [slices.offset - reach, slices.offset + reach];
+            this.isCurrent = true;
+        }
+        this.schedule();
         this.onChange();
     }
 
@@ -46,31 +59,35 @@ export class CriticalLevels {
         this.all = [];
         for (const w of heights) {
             const last = this.all.at(-1);
-            if (last && w - last.w <= kRounding * scene.circumradius) ++last.vertices;
+            if (last && w - last.w <= kRounding * scene.circumradius) last.vertices = (last.vertices ?? 0) + 1;
             else this.all.push({ w, vertices: 1 });
         }
+        this.range = [this.all[0]!.w, this.all.at(-1)!.w];
         this.isCurrent = true;
         this.onChange();
     }
 
-    private async request(key: string): Promise<void> {
+    private schedule(): void {
+        clearTimeout(this.timer);
+        this.timer = setTimeout(() => void this.request(), this.restTime);
+    }
+
+    private async request(): Promise<void> {
+        if (this.isAsking) return;
+        const key = this.knownFor;
+        this.isAsking = true;
         try {
-            const file = await this.client.request({ type: "get", what: "file", format: "csv" });
+            const { least_w, most_w, sections } = await this.client.request({ type: "get", what: "critical" });
             if (this.knownFor !== key) return;
-            this.all = parse(new TextDecoder().decode(file));
+            this.all = sections;
+            this.range = [least_w, most_w];
             this.isCurrent = this.isExact = true;
             this.onChange();
         } catch {
             if (this.knownFor === key) this.knownFor = ""; // the next state requests them again
+        } finally {
+            this.isAsking = false;
+            if (this.knownFor !== key && this.knownFor !== "") this.schedule();
         }
     }
-}
-
-function parse(csv: string): Level[] {
-    const table = csv.slice(csv.indexOf(kHeading) + kHeading.length);
-    return table
-        .trim()
-        .split("\n")
-        .map((line) => line.split(",").map(Number))
-        .map(([w, vertices]) => ({ w: w!, vertices: vertices! }));
 }

@@ -50,6 +50,7 @@ export class ExportDialog {
         }
         this.field("format").value = format.name;
         this.prepare(state);
+        if (this.format !== format) throw new Error(`${format.label} files contain only ${format.objects}`);
         const wrong = this.form.querySelector<HTMLInputElement>("input:enabled:invalid");
         if (wrong) throw new Error(`the ${wrong.name} in the export dialog is not valid: ${wrong.validationMessage}`);
         download(await this.requestFile(format), this.fileNameFor(format), format.type);
@@ -69,7 +70,18 @@ export class ExportDialog {
             field.value ||= String(pageSize);
         }
         this.selectPreset();
+        this.showFormats();
         this.showOptions();
+    }
+
+    /** Hides the formats that do not describe the object. Selects the first one if the selected format is among them. */
+    private showFormats(): void {
+        const kind = this.state?.field ? "fields" : "polytopes";
+        for (const { name, objects } of kAllFormats) {
+            const radio = this.form.querySelector<HTMLInputElement>(`[name=format][value="${name}"]`)!;
+            radio.disabled = radio.parentElement!.hidden = objects !== undefined && objects !== kind;
+            if (radio.disabled && radio.checked) this.field("format").value = kAllFormats[0]!.name;
+        }
     }
 
     private field(name: string): HTMLInputElement {

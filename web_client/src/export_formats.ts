@@ -14,6 +14,8 @@ export interface Format {
     type: string;
     /** The options that the format offers. */
     choices: Choice[];
+    /** The only objects that the format describes, if it does not describe all. */
+    objects?: "fields" | "polytopes";
 }
 
 const kPng: Format = {
@@ -36,10 +38,24 @@ interface Row {
     media_type: string;
     group: string;
     bodies?: string;
+    of?: boolean;
+    objects?: string;
 }
 
 function format(row: Row): Format {
-    const { name, label, about } = row;
-    const choices: Choice[] = row.bodies ? ["of", "body", "size", "label"] : row.group === "figure" ? ["figure"] : [];
-    return { name, label, about, type: row.media_type, choices };
+    const { name, label, about, objects } = row;
+    return {
+        name,
+        label,
+        about,
+        type: row.media_type,
+        choices: choicesOf(row),
+        ...(objects && { objects: objects as "fields" | "polytopes" }),
+    };
+}
+
+function choicesOf(row: Row): Choice[] {
+    if (row.bodies) return ["of", "body", "size", "label"];
+    if (row.of) return ["of"];
+    return row.group === "figure" ? ["figure"] : [];
 }

@@ -1,14 +1,16 @@
-// Loads files that the user chooses or drops on the page. Shows the progress, and the server's warnings or error.
+// Loads files that the user chooses or drops on the page: texts in messages, arrays as uploads, and the states in
+// pictures of oval4d. Shows the progress, and the server's warnings or error.
 
-import type { Client, Done, RequestError } from "@oval4d/protocol";
+import type { Client, Done, RequestError, State } from "@oval4d/protocol";
 
+import { isBinary, uploadArray } from "./array_upload";
 import { byId, element } from "./element";
-import { FileError, linesAround, type PolytopeFile, readFile } from "./files";
+import { FileError, linesAround, type LoadedObject, nameOf, readFile, readState, tooLarge } from "./files";
 import { toSentence } from "./format";
 
 const kProgressInterval = 100; // milliseconds
 const kDefaultLimit = 8 * 2 ** 20; // bytes of a message, if the server states no limit
-const kMaxKeptFiles = 8; // as many as a session holds
+const kMaxKept = 8; // as many as a session holds
 const kMaxExcerptWidth = 120; // characters of a line of the file
 
 export class FileLoading {
@@ -18,10 +20,13 @@ export class FileLoading {
     private readonly report = this.root.querySelector<HTMLElement>(".report")!;
     private readonly chooser = byId<HTMLInputElement>("file");
     private readonly dropTarget = byId("drop");
-    private readonly keptFiles = new Map<string, PolytopeFile>(); // loaded from this page, by name
+    private readonly kept = new Map<string, LoadedObject | File>(); // loaded from this page, by name; arrays as files
     private queue: Promise<void> = Promise.resolve();
 
-    constructor(private readonly client: Client) {
+    constructor(
+        private readonly client: Client,
+        private readonly reveal: (state: State) => Promise<unknown>, // shows the state in the session
+    ) {
         this.chooser.addEventListener("change", () => {
             this.enqueue([...(this.chooser.files ?? [])]);
             this.chooser.value = ""; // so that the user can choose the same file again after correcting it
@@ -36,10 +41,11 @@ export class FileLoading {
         this.chooser.click();
     }
 
-    /** Loads a file of this page into a new session; does nothing if this page has loaded no file of this name. */
+    /** Loads an object of this page into a new session; does nothing if this page has loaded none of this name. */
     async reload(name: string): Promise<void> {
-        const file = this.keptFiles.get(name);
-        if (file) await this.client.request({ type: "load", ...file });
+        const object = this.kept.get(name);
+        if (object instanceof File) await this.upload(object);
+        else if (object) await this.client.request({ type: "load", ...object });
     }
 
     /** Hides the panel, unless a file is being loaded. */
@@ -55,35 +61,61 @@ export class FileLoading {
     }
 
     private async load(file: File): Promise<void> {
-        let read: PolytopeFile | undefined;
+        let read: LoadedObject | undefined;
         try {
             this.showProgress(file.name);
-            read = await readFile(file, this.client.welcome?.limits["message"] ?? kDefaultLimit);
+            const limit = this.client.welcome?.limits["message"] ?? kDefaultLimit;
+            const state = await readState(file, limit);
+            if (state) {
+                await this.reveal(state);
+                this.showWarnings([]);
+                return;
+            }
+            if (await isBinary(file)) {
+                this.showWarnings((await this.upload(file)).warnings ?? []);
+                this.keep(file);
+                return;
+            }
+            read = await readFile(file, limit);
             const done = await this.send(read);
-            this.keepFile(read);
+            this.keep(read);
             this.showWarnings(done.warnings ?? []);
         } catch (error) {
             this.showError(error as Error, read?.data ?? "");
         }
     }
 
-    private async send(file: PolytopeFile): Promise<Done> {
+    private upload(file: File): Promise<Done> {
+        const { welcome, credentials } = this.client;
+        const limit = welcome?.limits["upload"] ?? Infinity;
+        if (file.size > limit) throw new FileError(tooLarge(file.size, limit));
+        if (!credentials) throw new FileError("There is no connection to a session. Try again.");
+        return uploadArray(file, nameOf(file), credentials, (part) => this.showSent(part));
+    }
+
+    /** Shows which part of a file has been sent, from 0 to 1. */
+    private showSent(part: number): void {
+        this.showReport(part < 1 ? `Sending the file: ${Math.floor(100 * part)}%` : "Checking the file");
+        if (part < 1) this.progress.value = part;
+        else this.progress.removeAttribute("value"); // the server does not report progress
+    }
+
+    private async send(file: LoadedObject): Promise<Done> {
         const answer = this.client.request({ type: "load", ...file });
         const all = this.client.unsent;
         const timer = setInterval(() => {
             const { unsent } = this.client;
-            const sent = 1 - unsent / all;
-            this.showReport(unsent > 0 ? `Sending the file: ${Math.floor(100 * sent)}%` : "Checking the file");
-            if (unsent > 0) this.progress.value = sent;
-            else this.progress.removeAttribute("value"); // the server does not report progress
+            this.showSent(unsent > 0 ? Math.min(1 - unsent / all, 0.999) : 1);
         }, kProgressInterval);
         return await answer.finally(() => clearInterval(timer));
     }
 
-    private keepFile(file: PolytopeFile): void {
-        this.keptFiles.delete(file.name);
-        this.keptFiles.set(file.name, file);
-        if (this.keptFiles.size > kMaxKeptFiles) this.keptFiles.delete([...this.keptFiles.keys()][0]!);
+    /** Keeps an object that was loaded from this page, for reload(). */
+    private keep(object: LoadedObject | File): void {
+        const name = object instanceof File ? nameOf(object) : object.name;
+        this.kept.delete(name);
+        this.kept.set(name, object);
+        if (this.kept.size > kMaxKept) this.kept.delete([...this.kept.keys()][0]!);
     }
 
     private showProgress(name: string): void {

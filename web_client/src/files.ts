@@ -1,7 +1,9 @@
 // Reads files from the user's disk and prepares them for `load` messages.
 
+import { pngText, type State } from "@oval4d/protocol";
+
 /** The members of a `load` message. */
-export interface PolytopeFile {
+export interface LoadedObject {
     name: string;
     format: "off" | "points" | "cloud";
     data: string;
@@ -12,33 +14,58 @@ export class FileError extends Error {}
 
 const kMaxNameLength = 64; // characters, as in `load`
 
-/** Reads the text of a polytope from a file; throws FileError if it cannot be sent in a message of `limit` bytes. */
-export async function readFile(file: File, limit: number): Promise<PolytopeFile> {
+/**
+ * Reads the text of a polytope or a list of points from a file; throws FileError if it cannot be sent in a message of
+ * `limit` bytes.
+ */
+export async function readFile(file: File, limit: number): Promise<LoadedObject> {
     if (file.size === 0) throw new FileError("The file is empty.");
     if (file.size > limit) throw new FileError(tooLarge(file.size, limit));
     const data = await file.text();
-    if (data.includes("\0")) {
-        throw new FileError("This is not a text file. oval4d reads 4OFF files, lists of points and point clouds.");
-    }
-    const message = { name: printable(file.name), format: formatOf(file.name, data), data };
+    const message = { name: nameOf(file), format: formatOf(file.name, data), data };
     const bytes = new TextEncoder().encode(JSON.stringify(message)).length + 64; // allows for the other members
     if (bytes > limit) throw new FileError(tooLarge(bytes, limit));
     return message;
 }
 
+/** The start of a PNG file, and of a JSON object. */
+const kStateStart = /^(?:\x89PNG|\s*\{)/;
+
+/**
+ * Reads the state from a picture that oval4d has made, or from a JSON file. Resolves to undefined if the file is of
+ * another kind; throws FileError if it contains no state.
+ */
+export async function readState(file: File, limit: number): Promise<State | undefined> {
+    const start = new Uint8Array(await file.slice(0, 64).arrayBuffer());
+    if (!kStateStart.test(String.fromCharCode(...start))) return undefined;
+    const isPicture = start[0] === 0x89;
+    if (!isPicture && file.size > limit) throw new FileError(tooLarge(file.size, limit));
+    const text = isPicture ? pngText(new Uint8Array(await file.arrayBuffer())) : await file.text();
+    if (text === undefined) throw new FileError("The picture contains no state: oval4d has not made it.");
+    try {
+        const state = JSON.parse(text) as Partial<State> | null;
+        if (state?.type === "state") return state as State;
+    } catch {
+        throw new FileError("The file starts like a JSON object, but is not valid JSON.");
+    }
+    throw new FileError('The JSON object is not a state of oval4d, whose "type" is "state".');
+}
+
 /** The format, from the keyword at the start (after any comments), or else from the file name extension. */
-function formatOf(name: string, data: string): PolytopeFile["format"] {
+function formatOf(name: string, data: string): LoadedObject["format"] {
     const [, first = ""] = /^(?:\s|#[^\n]*(?:\n|$))*([^\s#]*)/.exec(data) ?? [];
     if (/^cloud$/i.test(first)) return "cloud";
     return /OFF$/i.test(first) || /\.4?off$/i.test(name) ? "off" : "points";
 }
 
-function printable(name: string): string {
+/** The name under which a file is loaded. */
+export function nameOf({ name }: File): string {
     const text = [...name.replace(/\p{C}/gu, "")].slice(-kMaxNameLength).join("").trim();
     return text === "" ? "file" : text;
 }
 
-function tooLarge(bytes: number, limit: number): string {
+/** Says that a file of this size exceeds the limit. */
+export function tooLarge(bytes: number, limit: number): string {
     const size = (count: number): string =>
         count < 2 ** 20 ? `${Math.ceil(count / 2 ** 10)} KiB` : `${(count / 2 ** 20).toFixed(1)} MiB`;
     return `The file is too large: ${size(bytes)} when sent; this server accepts up to ${size(limit)}.`;

@@ -7,7 +7,7 @@ import type { Client, State } from "@oval4d/protocol";
 export type Point4 = State["point"];
 
 export interface FocusPointEvents {
-    /** A gesture begins, which may move the focus slice. */
+    /** Called when a gesture begins, which may move the focus slice. */
     began(): void;
     failed(error: Error): void;
 }

@@ -1,5 +1,5 @@
 // The slider below the picture: moves the focus slice from the lowest w of the object to the highest, and plays this
-// motion. Its marks are the values of w at which vertices lie.
+// motion. Its marks are the critical values of w: where vertices lie, or the body of a field changes its topology.
 
 import type { Client, Slices, State } from "@oval4d/protocol";
 
@@ -105,8 +105,7 @@ export class FocusSlider {
 
     /** The lowest and the highest w of the object. */
     private get range(): [number, number] {
-        const { all } = this.levels;
-        return [all[0]?.w ?? 0, all.at(-1)?.w ?? 0];
+        return this.levels.range;
     }
 
     private moveTo(w: number): void {
@@ -124,7 +123,7 @@ export class FocusSlider {
     /** The w of a mark within a few pixels, if there is one; otherwise the same w. */
     private snapped(w: number): number {
         const { all, isExact } = this.levels;
-        if (!this.isDragged || this.mayNotSnap || !isExact || all.length > kMaxMarks) return w;
+        if (!this.isDragged || this.mayNotSnap || !isExact || all.length === 0 || all.length > kMaxMarks) return w;
         const [least, most] = this.range;
         const distance = (level: Level): number => Math.abs(level.w - w);
         const nearest = all.reduce((best, level) => (distance(level) < distance(best) ? level : best));
@@ -214,11 +213,11 @@ function marksOutline(levels: Level[], at: (w: number) => number): string {
     return levels.map(({ w }) => `M${at(w)} 0V1`).join("");
 }
 
-/** How many vertices lie at which w, as an area in a square of side 1. */
+/** How many vertices or changes lie at which w, as an area in a square of side 1. */
 function densityOutline(levels: Level[], at: (w: number) => number): string {
     const bins = new Array<number>(kDensityBins).fill(0);
     const binOf = (w: number): number => Math.min(kDensityBins - 1, Math.floor(at(w) * kDensityBins));
-    for (const { w, vertices } of levels) bins[binOf(w)]! += vertices;
+    for (const { w, vertices } of levels) bins[binOf(w)]! += vertices ?? 1;
     const most = Math.max(...bins);
     const steps = bins.map((count, i) => `V${1 - count / most}H${(i + 1) / kDensityBins}`);
     return `M0 1${steps.join("")}V1Z`;

@@ -11,7 +11,7 @@ export class FrameLayout {
     private known: SliceLayout | undefined;
     private knownFor = ""; // what the known or requested layout depends on
 
-    /** `onKnown` is called when a layout that `current` has requested is there. */
+    /** `onKnown` is called when a layout that `current` requested has arrived. */
     constructor(
         private readonly client: Client,
         private readonly stage: Stage,

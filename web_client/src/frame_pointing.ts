@@ -66,7 +66,7 @@ export class FramePointing {
         this.update();
     }
 
-    /** Asks about the pointer's place until the last answer is about its newest place. */
+    /** Asks what is at the pointer, again and again, until an answer is about its newest position. */
     private async ask(): Promise<void> {
         this.isAsking = true;
         for (let pixel = this.nextPixel(); pixel; pixel = this.nextPixel()) {

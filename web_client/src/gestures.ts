@@ -1,6 +1,6 @@
-// Mouse, pen and touch on the drawing. Dragging orbits the view, the wheel or a pinch zooms, a click keeps what is under
-// it lit (see pointing.ts). With Alt, or with two fingers, dragging rolls the 4-D ball; with Alt and Shift, the ball of
-// every slice. In a panel of the matrix, dragging moves the focus point.
+// Mouse, pen and touch on the drawing. Dragging orbits the view, the wheel or a pinch zooms, and a click keeps the
+// element under the pointer highlighted (see pointing.ts). With Alt, or with two fingers, dragging rolls the 4-D ball;
+// with Alt and Shift, the ball of every slice. In a panel of the matrix, dragging moves the focus point.
 
 import type { FocusPointDrag } from "./focus_point_drag";
 import type { Point } from "./hover";
@@ -79,7 +79,7 @@ export function listenForGestures(drawing: HTMLElement, { orbit, rotation, focus
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"] as const)
         drawing.addEventListener(end, removeFinger);
     drawing.addEventListener("click", (event) => {
-        // The second click of a double click is none.
+        // The second click of a double click does not count as a click.
         if (!isClick || event.detail !== 1 || isModified(event)) return;
         click(placeOf(event));
     });

@@ -10,7 +10,7 @@ const kButtonKeys = /^( |Enter)$/;
 const kInputKeys = /^( |Enter|Home|End|(Arrow|Page).*)$/; // of radio buttons and sliders
 
 /** The members of a `key` message. */
-export interface Stroke {
+export interface KeyStroke {
     key: string;
     shift: boolean;
     ctrl: boolean;
@@ -35,7 +35,7 @@ export function editingAction(event: KeyboardEvent): "undo" | "redo" | undefined
 }
 
 /** The keystroke of an event; undefined for composition, for other modifiers and for keys that are not in the table. */
-export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding[]): Stroke | undefined {
+export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding[]): KeyStroke | undefined {
     if (event.isComposing || event.key === "Dead" || event.key === "Process" || event.metaKey) return undefined;
     // Some layouts type brackets with AltGr (which Windows reports with Ctrl+Alt) or with the Mac's Option key.
     const composed = event.getModifierState("AltGraph") || (event.altKey && /^[[\]{}]$/.test(event.key));
@@ -60,7 +60,7 @@ export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding
 }
 
 /** The keystrokes that a button for this binding sends. */
-export function strokesOfBinding(binding: KeyBinding, inverse: boolean): Stroke[] {
+export function strokesOfBinding(binding: KeyBinding, inverse: boolean): KeyStroke[] {
     const { key, ctrl = false } = binding;
     if (key.length > 1) return [...key].map((character) => ({ key: character, shift: false, ctrl }));
     return [{ key: inverse ? key.toUpperCase() : key, shift: inverse || key !== key.toLowerCase(), ctrl }];

@@ -1,14 +1,19 @@
-// What the page shows at the start: a shared session (URL fragment), a view (URL query), or the session from before a
-// reload.
+// Determines what the page shows at the start: a shared session (URL fragment), a view (URL query), or the session from
+// before a reload.
 
 import type { Credentials } from "@oval4d/protocol";
 
+import { boxOf, type FormulaField, kUsualBox, parseNumbers } from "./fields";
 import { readStored, writeStored } from "./tab_storage";
 
 export interface InitialView {
     /** The session to return to, or to join. */
     credentials?: Credentials;
-    /** Commands that produce the view of the query in a new session. */
+    /** The field of the query, which is loaded in a new session before the commands. */
+    field?: FormulaField;
+    /** What is wrong with the query, except for the formula and the commands. */
+    faults: string[];
+    /** Commands that produce the rest of the view of the query. */
     lines: string[];
 }
 
@@ -18,14 +23,15 @@ interface StoredSession {
 }
 
 const kIgnoredParameters = ["width", "height", "token"]; // not part of the view
+const kFieldParameters = ["formula", "values", "box"]; // not commands
 const kSessionKey = `oval4d.session ${location.pathname}`;
 
 export function readInitialView(): InitialView {
     const credentials = extractSharedSession();
-    if (credentials) return { credentials, lines: [] };
+    if (credentials) return { credentials, lines: [], faults: [] };
     const stored = readStored<StoredSession>(kSessionKey);
-    if (stored?.query === location.search) return { credentials: stored.credentials, lines: [] };
-    return { lines: commandLines(location.search) };
+    if (stored?.query === location.search) return { credentials: stored.credentials, lines: [], faults: [] };
+    return { ...fieldOf(location.search), lines: commandLines(location.search) };
 }
 
 /** The session of a shared link in the address bar, if any; removes it from there. */
@@ -62,20 +68,35 @@ function decodePercents(text: string): string {
     }
 }
 
-/** Converts a query such as "?polytope=24-cell&rotate=xw,yz:0.39,1.42&slices=31" to commands for the command line. */
-export function commandLines(query: string): string[] {
+/** The names and values of a query. A "+" is part of an expression, not an encoded blank. */
+function settingsOf(query: string): [name: string, value: string][] {
     const parts = query
         .replace(/^\?/, "")
         .split("&")
         .filter((part) => part !== "");
-    // A "+" is part of an expression, not an encoded blank.
-    const settings = parts.map((part) => part.split(/=(.*)/s).map(decodePercents));
+    return parts.map((part) => {
+        const [name = "", value = ""] = part.split(/=(.*)/s).map(decodePercents);
+        return [name, value];
+    });
+}
+
+/** The field of a query such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2". */
+function fieldOf(query: string): Pick<InitialView, "field" | "faults"> {
+    const { formula, box, values } = Object.fromEntries(settingsOf(query));
+    if (formula === undefined) return { faults: [] };
+    const given = box === undefined ? kUsualBox : boxOf(parseNumbers(box));
+    const fault = `The address contains “box=${box}”: it must be eight numbers, the ranges of x, y, z and w`;
+    return { field: { formula, box: given ?? kUsualBox, ...(values && { values }) }, faults: given ? [] : [fault] };
+}
+
+/** Converts a query such as "?polytope=24-cell&rotate=xw,yz:0.39,1.42&slices=31" to commands for the command line. */
+export function commandLines(query: string): string[] {
     // "toward" comes last, as in frame.png, because it depends on the polytope and the rotations.
-    const isLast = ([name]: string[]): number => Number(name === "toward");
-    return settings
-        .filter(([name = ""]) => !kIgnoredParameters.includes(name))
+    const isLast = ([name]: [string, string]): number => Number(name === "toward");
+    return settingsOf(query)
+        .filter(([name]) => ![...kIgnoredParameters, ...kFieldParameters].includes(name))
         .sort((a, b) => isLast(a) - isLast(b))
-        .map(([name = "", value = ""]) => {
+        .map(([name, value]) => {
             if (name === "polytope") return `polytope ${value.replaceAll("+", " ")}`;
             if (name === "toward") return `toward ${value.replace(":", " ")}`;
             if (name !== "rotate") return `set ${name}=${value}`;

@@ -17,7 +17,7 @@ const kZoomStep = 1.1;
 export class OrbitControl {
     private sending = false;
     private unsent = false;
-    private unlimited: Orbit | undefined; // the orbit before the first move that no known layout limited
+    private unlimited: Orbit | undefined; // the orbit before the first move that was made while the layout was unknown
     /** What the actions of the camera in the key table do. */
     private readonly actions: Record<string, () => void> = {
         orbit_left: () => this.orbitBy(-kAngleStep, 0),
@@ -67,7 +67,10 @@ export class OrbitControl {
         return move !== undefined;
     }
 
-    /** Orbits by these angles. Each is limited for itself, so that the camera moves along the limit of the other. */
+    /**
+     * Orbits by these angles. Each is limited on its own, so that the camera can still move in one direction when the
+     * other is at its limit.
+     */
     private orbitBy(azimuth: number, elevation: number): void {
         const from = this.stage.orbit;
         const turned = this.limited(from, { azimuth: from.azimuth + azimuth });
@@ -75,7 +78,10 @@ export class OrbitControl {
         this.setOrbit(this.limited(turned, { elevation: tilted }));
     }
 
-    /** The orbit after a change, or after as much of it as leaves enough slices visible, or as many as before. */
+    /**
+     * The orbit after a change, or after as large a part of it as leaves kLeastVisible of the slices visible, or as
+     * many as before if these were fewer.
+     */
     private limited(from: Orbit, change: Partial<Orbit>): Orbit {
         const to = { ...from, ...change };
         const layout = this.layout();

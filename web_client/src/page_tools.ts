@@ -11,6 +11,7 @@ export interface PageActions {
     reset(): void;
     share(): void;
     save(): void;
+    openField(): void;
 }
 
 export function pageSections(actions: PageActions): Section[] {
@@ -24,6 +25,10 @@ export function pageSections(actions: PageActions): Section[] {
         {
             title: "Repeat and undo",
             content: [button("reset", "Reset", "Restore the initial orientation and focus", actions.reset)],
+        },
+        {
+            title: "Polytope",
+            content: [button("field", "Field", "Show the field of a formula of x, y, z and w", actions.openField)],
         },
         {
             title: "Rendered by",

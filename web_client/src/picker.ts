@@ -7,6 +7,8 @@ import { Dialog } from "./dialog";
 import { byId, element } from "./element";
 import { formatCount, toSentence } from "./format";
 
+const kDataFamily = "data"; // the family of the arrays in the server's data folder
+const kFieldFamilies = ["fields", kDataFamily];
 const kPage = 8; // number of options by which Page Up and Page Down move
 const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1, PageDown: kPage, PageUp: -kPage };
 
@@ -25,8 +27,11 @@ export class Picker {
     private failure = ""; // why the catalogue cannot be listed; "" if it can be
     private choiceNumber = 0; // number of the latest choice; results of earlier choices are ignored
 
-    /** `choose` selects a polytope by name; it throws an Error whose message is shown to the user. */
-    constructor(private readonly choose: (name: string) => Promise<unknown>) {
+    /**
+     * `choose` shows the object of this name, which is an array of the server's data folder if `isData`; it throws an
+     * Error whose message is shown to the user.
+     */
+    constructor(private readonly choose: (name: string, isData: boolean) => Promise<unknown>) {
         this.input.addEventListener("input", () => this.search());
         this.input.addEventListener("keydown", (event) => this.keydown(event));
         byId("picker-form").addEventListener("submit", (event) => {
@@ -74,7 +79,8 @@ export class Picker {
         ++this.choiceNumber;
         this.showError(this.failure);
         const text = this.input.value.trim();
-        const families = this.catalogue.find(text);
+        const found = this.catalogue.find(text);
+        const families = found.length > 0 ? found : this.catalogue.findSimilar(text);
         const groups = families.map(({ name, entries }, i) => {
             const title = element("h3", { id: `picker-family-${i}`, role: "presentation" }, name);
             const options = entries.map((entry) => this.options.get(entry)!);
@@ -84,10 +90,13 @@ export class Picker {
         const isName = text === "" || this.catalogue.findByName(text) !== undefined;
         this.typedOption.replaceChildren(element("b", {}, "Build "), element("q", {}, text));
         this.typedOption.dataset["name"] = text;
-        this.list.replaceChildren(...groups, ...(isName ? [] : [this.typedOption]));
-        const shown = this.listedOptions.length - (isName ? 0 : 1);
+        // Similar names come after the text: it may be a name that only the server knows.
+        const typed = isName ? [] : [this.typedOption];
+        this.list.replaceChildren(...(found.length > 0 ? [...groups, ...typed] : [...typed, ...groups]));
+        const shown = this.listedOptions.length - typed.length;
         const number = shown === 0 ? "No" : formatCount(shown);
-        const results = shown === 1 ? "1 polytope" : `${number} polytopes`;
+        const similar = found.length === 0 && shown > 0 ? " with a similar name" : "";
+        const results = (shown === 1 ? "1 polytope" : `${number} polytopes`) + similar;
         this.resultCount.textContent = this.options.size > 0 ? results : "";
         for (const one of this.options.values()) {
             one.toggleAttribute("data-current", one.dataset["name"] === this.current);
@@ -130,7 +139,7 @@ export class Picker {
         this.showError("");
         this.list.setAttribute("aria-busy", "true");
         try {
-            await this.choose(chosen.dataset["name"]!);
+            await this.choose(chosen.dataset["name"]!, chosen.dataset["family"] === kDataFamily);
             if (number === this.choiceNumber) this.dialog.close();
         } catch (error) {
             if (number === this.choiceNumber) this.showError((error as Error).message);
@@ -152,13 +161,15 @@ function optionElement(entry: CatalogueEntry, id: string): HTMLElement {
     const also = aliases.filter((alias) => alias !== symbol && alias !== diagram).join(", ");
     const drawn = symbol === diagram || diagram === "" ? [] : [element("code", {}, diagram), also === "" ? "" : ", "];
     const counts = [vertices, edges, faces, cells].map(formatCount).join(" ");
-    const attributes = { role: "option", id, "data-name": name, "aria-selected": "false" };
+    const attributes = { role: "option", id, "data-name": name, "data-family": entry.family ?? "", "aria-selected": "false" };
     return element(
         "div",
         attributes,
         element("b", {}, name),
         element("span", { class: "symbol-of" }, symbol),
         element("small", {}, ...drawn, also),
-        element("small", { class: "counts", title: "Vertices, edges, 2-faces, cells" }, counts),
+        kFieldFamilies.includes(entry.family ?? "")
+            ? element("small", { class: "counts" }, "field")
+            : element("small", { class: "counts", title: "Vertices, edges, 2-faces, cells" }, counts),
     );
 }

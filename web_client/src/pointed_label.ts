@@ -14,7 +14,7 @@ export interface ElementDescription extends PolytopeElement {
     coordinates?: readonly number[] | undefined;
     /** The length of an edge. */
     length?: number | undefined;
-    /** The least and the most w of its vertices. */
+    /** The least and the greatest w of its vertices. */
     range?: readonly [number, number] | undefined;
     /** The w of the slice in which it is pointed at. */
     sliceW?: number | undefined;

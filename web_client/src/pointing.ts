@@ -1,5 +1,5 @@
-// The element under the pointer in the page's own picture: it is named beside the pointer, and lit in all slices, the
-// projection and the parallel coordinates. For the server's pictures, see frame_pointing.ts.
+// The element under the pointer in the page's own picture: its name is shown beside the pointer, and it is highlighted
+// in all slices, the projection and the parallel coordinates. For the server's pictures, see frame_pointing.ts.
 
 import type { PolytopeElement, Slice, State } from "@oval4d/protocol";
 

@@ -1,6 +1,6 @@
-// What a gesture turns: A. J. Hanson's rolling ball. In three dimensions, a drag turns the ball's near side (+z) in the
-// direction of the drag; in four, it turns the side that faces the 4-D eye (+w). Both are sums of simple rotations.
-// A. J. Hanson, "Rotations for N-dimensional graphics", Graphics Gems V, 1995.
+// The rotations of gestures: A. J. Hanson's rolling ball. In three dimensions, a drag turns the ball's near side (+z)
+// in the direction of the drag; in four, it turns the side that faces the 4-D eye (+w). Both are sums of simple
+// rotations. A. J. Hanson, "Rotations for N-dimensional graphics", Graphics Gems V, 1995.
 
 import type { Plane } from "@oval4d/protocol";
 
@@ -20,7 +20,9 @@ export function turnsOfDrag(ball: Ball, dx: number, dy: number, height: number):
     return rolled(ball, dx * perPixel, dy * perPixel);
 }
 
-/** Turns by a wheel: the plane that the drag of the same ball leaves out. */
+/**
+ * Turns by a wheel, in the plane in which a drag does not roll the same ball: zw for the 4-D ball, xy for the 3-D ball.
+ */
 export function turnsOfWheel(ball: Ball, pixels: number): Turns {
     return ball === "4-D" ? { zw: -pixels * kWheelTurn } : { xy: -pixels * kWheelTurn };
 }

@@ -32,8 +32,10 @@ const kRepeatingActions =
 const kHoldDelay = 400; // milliseconds until a held button repeats
 const kHoldInterval = 60; // milliseconds between repetitions
 
-/** The actions that switch something on and off, and a function that returns whether it is on. A part of the picture is
- * switched by the action of the same name. */
+/**
+ * The actions that switch something on and off, and a function that returns whether it is on. A part of the picture is
+ * switched by the action of the same name.
+ */
 const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
     view: (state) => state.view === "single",

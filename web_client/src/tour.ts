@@ -1,5 +1,6 @@
-// A tour of the page: a panel beside what it explains. The page stays usable meanwhile. The steps are in index.html:
-// each names the elements to point at, of which the first visible one is used, and possibly only a part of its height.
+// A tour of the page: a panel beside what it explains. The page stays usable during the tour. The steps are in
+// index.html: each lists the elements to point at, of which the first visible one is used, and may select a part of its
+// height.
 
 import { byId } from "./element";
 

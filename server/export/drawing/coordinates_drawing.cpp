@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "scene/density_plot.hpp"
+#include "slicing/coordinate_histograms.hpp"
 
 namespace oval4d::exports {
 
@@ -45,7 +46,8 @@ Drawing drawStrip(const scene::Scene& scene) {
                      {DensityImage{{kDrawingMargin, kDrawingMargin},
                                    {kDrawingMargin + 3 * step, bottom},
                                    {tones.begin(), tones.end()},
-                                   colors}}};
+                                   scene::DensityPlot::kColumns,
+                                   {colors.begin(), colors.end()}}}};
     ShapeGroup axes{"axes", {}};
     for (int k = 0; k < 4; ++k) {
         const double x = kDrawingMargin + k * step;
@@ -59,9 +61,50 @@ Drawing drawStrip(const scene::Scene& scene) {
             {std::move(strip), std::move(axes)}};
 }
 
+Drawing drawHistogram(const scene::Scene& scene, const fields::Field& field, const geometry::Rotation& orientation) {
+    using slicing::CoordinateHistograms;
+    constexpr double kGap = 12;  // between two panels
+    const slicing::FieldSettings& settings = scene.look.field;
+    CoordinateHistograms histogram;
+    histogram.measure(field, orientation, settings.levels);
+    const auto [least, greatest] = histogram.range();
+    const double width = (kDrawingWidth - 2 * kDrawingMargin - 3 * kGap) / 4, bottom = kDrawingMargin + 2 * kAmplitude;
+    Drawing drawing{"Histogram of the values: " + scene.title, kDrawingWidth, bottom + kDrawingMargin + kText, {}};
+    ShapeGroup levels{"levels", {}}, axes{"axes", {}};
+    for (int k = 0; k < 4; ++k) {
+        const double left = kDrawingMargin + k * (width + kGap), right = left + width;
+        const scene::Color color = scene::style().axes[static_cast<std::size_t>(k)];
+        const std::string name(1, "xyzw"[k]);
+        DensityImage panel{{left, kDrawingMargin}, {right, bottom}, {}, CoordinateHistograms::kPanel, {color}};
+        for (int row = 0; row < CoordinateHistograms::kRows; ++row) {
+            const auto first =
+                histogram.tones().subspan(CoordinateHistograms::index(row, k, 0), CoordinateHistograms::kPanel);
+            panel.tones.insert(panel.tones.end(), first.begin(), first.end());
+        }
+        drawing.groups.push_back({"histogram-" + name, {std::move(panel)}});
+        for (std::size_t i = 0; i < settings.levels.size(); ++i) {
+            const double level = settings.levels[i];
+            if (level < least || level > greatest) continue;
+            const double y = bottom - 2 * kAmplitude * (level - least) / (greatest - least);
+            levels.shapes.emplace_back(
+                Line{.from = {left, y},
+                     .to = {right, y},
+                     .width = 0.5,
+                     .color = scene::surfaceColor(i, settings.levels.size(), scene.look.coloring)});
+        }
+        axes.shapes.emplace_back(Line{.from = {left, bottom}, .to = {right, bottom}, .color = color, .id = name});
+        axes.shapes.emplace_back(TextLine{{(left + right) / 2, bottom + 1.3 * kText}, kText, kDrawingText, name});
+    }
+    drawing.groups.push_back(std::move(levels));
+    drawing.groups.push_back(std::move(axes));
+    return drawing;
+}
+
 }  // namespace
 
-Drawing drawCoordinates(const scene::Scene& scene) {
+Drawing drawCoordinates(const scene::Scene& scene, const slicing::Object& object,
+                        const geometry::Rotation& orientation) {
+    if (const fields::Field* field = slicing::fieldIn(object)) return drawHistogram(scene, *field, orientation);
     const std::vector<glm::dvec4>& vertices = scene.slices->rotatedVertices;
     if (vertices.size() > scene::kMaxVerticesAsLines) return drawStrip(scene);
     const Columns columns(vertices.size());

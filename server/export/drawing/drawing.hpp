@@ -1,6 +1,5 @@
 #pragma once
-// Drawings for printing, made of lines and areas that are sharp at any size. Writers of figure formats need no other
-// data.
+// Vector drawings for printing. The writers of SVG and PDF files get a Drawing and no other data.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +13,7 @@
 
 namespace oval4d::exports {
 
-// Lengths are in points (1/72 inch). Positions are measured from the upper left corner, y downward.
+// Lengths are in points (1/72 inch). Positions are measured from the upper left corner, with y downward.
 
 /// A straight line.
 struct Line {
@@ -26,7 +25,7 @@ struct Line {
     std::string id = {};  ///< identifies the line in the file; may be empty
 };
 /// The interior of a polygon.
-struct Area {
+struct FilledPolygon {
     std::vector<glm::dvec2> corners;
     scene::Color color = 0;
     double opacity = 1;  ///< 0 … 1
@@ -45,29 +44,38 @@ struct TextLine {
     scene::Color color = 0;
     std::string text;
 };
-/// A density strip (see scene::DensityPlot) in a rectangle. The first and the last column are centered on the left and
-/// right edges, the first and the last row on the upper and lower edges.
+/// A raster image of a density strip (see scene::DensityPlot) or of a panel of a histogram (see
+/// slicing::CoordinateHistograms). The centers of the first and the last column lie on the left and right edges of the
+/// rectangle, those of the first and the last row on its upper and lower edges.
 struct DensityImage {
     glm::dvec2 topLeft, bottomRight;
-    std::vector<std::uint8_t> tones;         ///< row by row; opacities from 0 to 255
-    std::array<scene::Color, 4> axisColors;  ///< of x, y, z and w; columns between them have mixed colors
-};
-using Shape = std::variant<Line, Area, Disk, TextLine, DensityImage>;
+    std::vector<std::uint8_t> tones;   ///< row by row; opacities from 0 to 255
+    int columns = 1;                   ///< at least 2 in a drawing
+    std::vector<scene::Color> colors;  ///< at least one; spaced evenly from the first column to the last, and
+                                       ///< interpolated between these positions
 
-/// Shapes that belong together. Later shapes cover earlier ones.
+    int rows() const { return static_cast<int>(tones.size()) / columns; }
+    std::uint8_t tone(int row, int column) const {
+        return tones[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                     static_cast<std::size_t>(column)];
+    }
+};
+using Shape = std::variant<Line, FilledPolygon, Disk, TextLine, DensityImage>;
+
+/// A named group of shapes. Later shapes cover earlier ones.
 struct ShapeGroup {
     std::string id;  ///< identifies the group in the file; unique in a drawing
     std::vector<Shape> shapes;
 };
 
-/// A drawing on white or transparent ground.
+/// A drawing without a background, for white paper.
 struct Drawing {
     std::string title;
     double width = 0, height = 0;
     std::vector<ShapeGroup> groups;  ///< later groups cover earlier ones
 };
 
-/// The width of drawings: that of a text column of a printed page.
+/// The width of drawings: the width of the text on a printed page.
 inline constexpr double kDrawingWidth = 480;
 inline constexpr double kDrawingMargin = 12;
 inline constexpr scene::Color kDrawingText = 0x444444;

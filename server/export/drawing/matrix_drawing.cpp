@@ -28,9 +28,9 @@ class SectionDrawer {
         ShapeGroup group{{"xyzw"[row], "xyzw"[column]}, {}};
         drawFrame(center, group);
         if (!scene_.crossing && !from.boundary.empty()) {
-            Area area{{}, kFill};
-            for (const std::uint32_t p : from.boundary) area.corners.push_back(place(from.points[p]));
-            group.shapes.emplace_back(std::move(area));
+            FilledPolygon polygon{{}, kFill};
+            for (const std::uint32_t p : from.boundary) polygon.corners.push_back(place(from.points[p]));
+            group.shapes.emplace_back(std::move(polygon));
         }
         drawFocusLines(center, row, column, group);
         const double width = std::min(1.6, 250 * scene_.matrix.pointRadius + 0.5);

@@ -74,14 +74,14 @@ class ProjectionDrawer {
         const auto isSeen = [&](slicing::Visibility v) { return v != slicing::Visibility::hidden; };
         for (std::uint32_t f = set.faceBegin[part]; look.faceOpacity > 0 && f < set.faceBegin[part + 1]; ++f) {
             if (!isSeen(scene_.visibilities.face(set.faceSource[f]))) continue;
-            Area area{{}, scene_.cellColors[scene_.projection.faceCells[f]], look.faceOpacity};
+            FilledPolygon polygon{{}, scene_.cellColors[scene_.projection.faceCells[f]], look.faceOpacity};
             double depth = 0;
             for (std::uint32_t c = set.cornerBegin[f]; c < set.cornerBegin[f + 1]; ++c) {
                 const glm::dvec3 p = place(set.vertices[v0 + set.corners[c]]);
-                area.corners.push_back(onPaper(p));
+                polygon.corners.push_back(onPaper(p));
                 depth += p.z / (set.cornerBegin[f + 1] - set.cornerBegin[f]);
             }
-            add(depth, std::move(area));
+            add(depth, std::move(polygon));
         }
         for (std::uint32_t e = set.edgeBegin[part]; look.barRadius > 0 && e < set.edgeBegin[part + 1]; ++e) {
             if (!isSeen(scene_.visibilities.edge(set.edgeSource[e]))) continue;

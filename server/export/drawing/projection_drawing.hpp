@@ -5,8 +5,9 @@
 
 namespace oval4d::exports {
 
-/// Draws the projection of the whole object and the sections in it, as seen from the direction of the camera by a
-/// parallel projection. Shapes are sorted by their depth; nearer bars are darker. The scene must show the projection.
+/// Draws the projection of the whole object to three dimensions, and the sections in it, by a parallel projection in
+/// the direction in which the camera looks. Sorts the shapes by depth; nearer bars are darker. The scene must show the
+/// projection.
 Drawing drawProjection(const scene::Scene& scene);
 
 }  // namespace oval4d::exports

@@ -1,11 +1,16 @@
 #include "export/formats/csv.hpp"
 
-#include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "export/formats/text.hpp"
 #include "export/mesh/measure.hpp"
+#include "fields/field.hpp"
+#include "slicing/element.hpp"
+#include "slicing/exact/exact_slicer.hpp"
 #include "slicing/slice_set.hpp"
+#include "slicing/surfaces/section_values.hpp"
+#include "slicing/surfaces/surface_measurements.hpp"
 
 namespace oval4d::exports {
 
@@ -28,9 +33,63 @@ void appendSlice(std::string& out, const slicing::SliceSet& slices, int i) {
     out += "\n";
 }
 
+void appendMeasurements(std::string& out, const slicing::SurfaceMeasurements& m) {
+    for (const double number : {m.volume, m.area}) {
+        out += ',';
+        append(out, number);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        out += ',';
+        if (m.centroid) append(out, (*m.centroid)[axis]);
+    }
+    out += ',' + std::to_string(m.components) + ',' + std::to_string(m.euler);
+}
+
+std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
+    const geometry::Hyperplanes& planes = source.scene.slices->planes;
+    const slicing::FieldSettings& settings = source.scene.look.field;
+    const bool hasLevels = settings.levels.size() > 1;
+    std::string out = hasLevels ? "n,w,level," : "n,w,";
+    out += "volume,area,centroid_x,centroid_y,centroid_z,components,euler";
+    out += field.second ? ",mean_second_value\n" : "\n";
+    const glm::dmat4 toFunction = field.toFunction * source.orientation.inverse().matrix();
+    slicing::FieldSection section;
+    std::vector<float> values;
+    slicing::ExactSlicer slicer(field, source.orientation);
+    slicing::ExactSurface surface;
+    slicing::ExactSlicer::Options options{
+        .inside = settings.inside, .maxTriangles = source.budget.triangles(), .mustStop = [&] {
+            source.budget.checkTriangles(surface.triangles.size());
+            return source.budget.mustStop();
+        }};
+    for (int i = 0; i < planes.count; ++i) {
+        for (const double level : settings.levels) {
+            options.level = level;
+            const auto done = slicer.slice(planes.w(i), options, surface);
+            source.budget.checkTime();
+            if (!done) throw ExportRefused{{ExportError::Cause::too_large, done.error().message}};
+            source.budget.checkTriangles(surface.triangles.size());
+            out += std::to_string(planes.first + i) + ',';
+            append(out, planes.w(i));
+            if (hasLevels) append(out += ',', level);
+            appendMeasurements(out, slicing::measureSurface(surface));
+            if (field.second) {
+                slicing::placeSection(field, toFunction, planes.w(i), section);
+                slicing::evaluateInSection(*field.second->function, section, std::span(std::as_const(surface.points)),
+                                           values);
+                out += ',';
+                if (const auto mean = slicing::meanOnSurface(surface, values)) append(out, *mean);
+            }
+            out += '\n';
+        }
+    }
+    return out;
+}
+
 }  // namespace
 
 std::string measurementsCsv(const SceneInput& source) {
+    if (const fields::Field* field = slicing::fieldIn(source.object)) return fieldCsv(source, *field);
     const slicing::SliceSet& slices = *source.scene.slices;
     std::string out = "n,w,vertices,edges,faces,volume,area,centroid_x,centroid_y,centroid_z\n";
     for (int i = 0; i < slices.planes.count; ++i) appendSlice(out, slices, i);
@@ -38,16 +97,10 @@ std::string measurementsCsv(const SceneInput& source) {
     out += "\ncritical_w,vertices\n";
     std::vector<double> levels;
     for (const glm::dvec4& v : slices.rotatedVertices) levels.push_back(v.w);
-    std::ranges::sort(levels);
     const double same = slicing::kOnPlane * source.scene.circumradius;
-    for (auto first = levels.begin(); first != levels.end();) {
-        auto last = first + 1;
-        while (last != levels.end() && *last - *(last - 1) <= same) ++last;
-        double sum = 0;
-        for (auto at = first; at != last; ++at) sum += *at;
-        append(out, sum / static_cast<double>(last - first));
-        out += ',' + std::to_string(last - first) + '\n';
-        first = last;
+    for (const auto& [w, vertices] : slicing::groupHeights(std::move(levels), same)) {
+        append(out, w);
+        out += ',' + std::to_string(vertices) + '\n';
     }
     return out;
 }

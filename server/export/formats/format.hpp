@@ -1,19 +1,22 @@
 #pragma once
 // The description of a file format, and the input of the functions that write files.
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "export/budget.hpp"
 #include "export/drawing/drawing.hpp"
+#include "export/extent.hpp"
 #include "export/mesh/mesh.hpp"
+#include "geometry/rotation.hpp"
 #include "scene/scene.hpp"
 #include "slicing/object.hpp"
 
 namespace oval4d::exports {
 
-/// The input of formats with bodies: the bodies, already arranged.
+/// The input of the writers of formats with bodies. The bodies are already arranged.
 struct BodiesToWrite {
     std::span<const NamedMesh> solids;
     std::span<const scene::Color> cellColors;  ///< the color of each cell
@@ -25,24 +28,35 @@ struct BodiesToWrite {
         const std::uint32_t cell = solid.mesh.cells[triangle];
         return cell < cellColors.size() ? cellColors[cell] : solid.color;
     }
+    /// Returns whether any mesh has pointColors.
+    bool havePointColors() const {
+        return std::ranges::any_of(solids, [](const NamedMesh& solid) { return !solid.mesh.pointColors.empty(); });
+    }
 };
 
-/// The input of data formats: a scene, and the object whose slices it contains.
+/// The input of the writers of data formats. The slices of `scene` were cut from `object` rotated by `orientation`.
 struct SceneInput {
     const scene::Scene& scene;
     const slicing::Object& object;
+    const geometry::Rotation& orientation;
+    Extent extent;
+    const Budget& budget;
 };
 
-/// A file format of protocol/export_formats.json. Exactly one of its writers is not null: the first of a format with
-/// bodies, the second of a format for data, the third of a format for figures.
+/// A file format of protocol/export_formats.json. Exactly one of its three writers is not null: writeBodies for a
+/// format with bodies, writeScene for a data format, writeDrawing for a figure format.
 struct Format {
-    /// How the bodies are arranged. `none`: the format has no bodies; `plate`: in rows for a 3-D printer; `oval`: as in
-    /// the oval view.
+    /// How the bodies of several slices are arranged. `none`: the format has no bodies; `plate`: in rows for a 3-D
+    /// printer; `oval`: as in the oval view.
     enum class Arrangement { none, plate, oval };
+    /// The kinds of objects that files of the format can contain. `polytopes` includes point clouds.
+    enum class Objects { all, fields, polytopes };
 
     std::string name;       ///< the name in messages, which is also the file name extension: "stl"
     std::string mediaType;  ///< the value of the Content-Type header
     Arrangement arrangement = Arrangement::none;
+    Objects objects = Objects::all;
+    bool takesSurfaces = false;  ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
     std::string (*writeBodies)(const BodiesToWrite&) = nullptr;
     std::string (*writeScene)(const SceneInput&) = nullptr;
     std::string (*writeDrawing)(const Drawing&) = nullptr;

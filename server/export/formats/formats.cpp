@@ -15,19 +15,23 @@
 #include "export/formats/stl.hpp"
 #include "export/formats/svg.hpp"
 #include "export/formats/three_mf.hpp"
+#include "export/formats/vti.hpp"
+#include "export/formats/vtp.hpp"
 #include "export/formats/x3d.hpp"
 #include "protocol_data/embedded_files.hpp"
+#include "text/choice.hpp"
 
 namespace oval4d::exports {
 
 namespace {
 
-/// The name of a format and the function that writes it: of bodies, of a scene or of a drawing; the others are null.
+/// The name of a format, and the function that writes it from bodies, a scene or a drawing; the other two are null.
 struct Writer {
     std::string_view name;
     std::string (*ofBodies)(const BodiesToWrite&) = nullptr;
     std::string (*ofScene)(const SceneInput&) = nullptr;
     std::string (*ofDrawing)(const Drawing&) = nullptr;
+    bool takesSurfaces = false;
 };
 constexpr auto kWriters = std::to_array<Writer>({{.name = "3mf", .ofBodies = threeMf},
                                                  {.name = "csv", .ofScene = measurementsCsv},
@@ -38,7 +42,12 @@ constexpr auto kWriters = std::to_array<Writer>({{.name = "3mf", .ofBodies = thr
                                                  {.name = "ply", .ofBodies = ply},
                                                  {.name = "stl", .ofBodies = stl},
                                                  {.name = "svg", .ofDrawing = svg},
+                                                 {.name = "vti", .ofScene = vti},
+                                                 {.name = "vtp", .ofScene = vtp, .takesSurfaces = true},
                                                  {.name = "x3d", .ofBodies = x3d}});
+
+constexpr auto kObjects = std::to_array<text::Choice<Format::Objects>>(
+    {{"all", Format::Objects::all}, {"fields", Format::Objects::fields}, {"polytopes", Format::Objects::polytopes}});
 
 std::vector<Format> readTable() {
     std::vector<Format> table;
@@ -51,6 +60,8 @@ std::vector<Format> readTable() {
             throw std::logic_error("export_formats.json: no matching writer for " + format.name);
         if (!bodies.empty())
             format.arrangement = bodies == "plate" ? Format::Arrangement::plate : Format::Arrangement::oval;
+        format.objects = text::valueNamed(kObjects, row.value("objects", "all")).value();
+        format.takesSurfaces = writer->takesSurfaces;
         format.writeBodies = writer->ofBodies;
         format.writeScene = writer->ofScene;
         format.writeDrawing = writer->ofDrawing;

@@ -9,11 +9,11 @@
 
 namespace oval4d::exports {
 
-/// Returns all formats: the rows of protocol/export_formats.json, each with its writer. Throws std::logic_error if a
-/// row has no writer, or a writer has no row.
+/// Returns all formats: the rows of protocol/export_formats.json, each with its writer. The first call reads the table
+/// and throws std::logic_error if a row has no writer or a writer has no row. Thread-safe.
 std::span<const Format> formats();
 
-/// Returns the format with this name, or nullptr.
+/// Returns the format with this name, or nullptr if there is none.
 const Format* formatNamed(std::string_view name);
 
 /// Returns the names of all formats.

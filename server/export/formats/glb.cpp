@@ -3,9 +3,11 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -64,20 +66,27 @@ class VertexAttribute {
     glm::vec3 least_{3e38F}, most_{-3e38F};
 };
 
-/// Adds a solid to the model. Triangles do not share vertices, so that each triangle has one normal and one color.
+glm::vec3 linearColor(scene::Color color) {
+    return {linear(color >> 16U & 0xffU), linear(color >> 8U & 0xffU), linear(color & 0xffU)};
+}
+
+/// Adds a solid to the model. Triangles do not share vertices, so that each corner has its own normal and color.
 void addMesh(const NamedMesh& solid, const BodiesToWrite& bodies, tinygltf::Model& model) {
     VertexAttribute positions;
     VertexAttribute normals;
     VertexAttribute colors;
+    const bool colored = !solid.mesh.pointColors.empty();
+    const auto smooth = colored ? smoothNormals(solid.mesh) : std::vector<std::array<glm::dvec3, 3>>();
     for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) {
         const glm::dvec3 across = normalOf(solid.mesh, solid.mesh.triangles[t]);
         const double length = glm::length(across);
         if (!(length > 0)) continue;  // a degenerate triangle is invisible and has no normal
-        const scene::Color color = bodies.colorOf(solid, t);
-        for (const std::uint32_t corner : solid.mesh.triangles[t]) {
+        const glm::vec3 color = linearColor(bodies.colorOf(solid, t));
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t corner = solid.mesh.triangles[t][i];
             positions.add(glm::vec3(solid.mesh.points[corner] * kMetersPerMillimeter));
-            normals.add(glm::normalize(glm::vec3(across / length)));
-            colors.add({linear(color >> 16U & 0xffU), linear(color >> 8U & 0xffU), linear(color & 0xffU)});
+            normals.add(glm::normalize(glm::vec3(colored ? smooth[t][i] : across / length)));
+            colors.add(colored ? linearColor(solid.mesh.pointColors[corner]) : color);
         }
     }
     tinygltf::Primitive primitive;

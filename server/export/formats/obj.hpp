@@ -6,7 +6,7 @@
 
 namespace oval4d::exports {
 
-/// Returns a Wavefront OBJ file in millimeters, with an object for each body and, in it, a group for each cell.
+/// Returns a Wavefront OBJ file in millimeters. Each body is an object; in it, the triangles of each cell form a group.
 std::string obj(const BodiesToWrite& bodies);
 
 }  // namespace oval4d::exports

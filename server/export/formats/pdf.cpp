@@ -13,13 +13,9 @@
 
 #include <hpdf.h>
 
-#include "scene/density_plot.hpp"
-
 namespace oval4d::exports {
 
 namespace {
-
-using scene::DensityPlot;
 
 // libharu reports errors to this function, whose parameters it prescribes. `first` is the HPDF_STATUS that keeps the
 // first error. After an error, the functions of libharu do nothing.
@@ -45,12 +41,12 @@ class PageWriter {
         HPDF_Page_LineTo(page_, x(line.to), y(line.to));
         HPDF_Page_Stroke(page_);
     }
-    void operator()(const Area& area) {
-        if (area.corners.empty()) return;
-        fillWith(area.color, area.opacity);
-        HPDF_Page_MoveTo(page_, x(area.corners[0]), y(area.corners[0]));
-        for (std::size_t i = 1; i < area.corners.size(); ++i)
-            HPDF_Page_LineTo(page_, x(area.corners[i]), y(area.corners[i]));
+    void operator()(const FilledPolygon& polygon) {
+        if (polygon.corners.empty()) return;
+        fillWith(polygon.color, polygon.opacity);
+        HPDF_Page_MoveTo(page_, x(polygon.corners[0]), y(polygon.corners[0]));
+        for (std::size_t i = 1; i < polygon.corners.size(); ++i)
+            HPDF_Page_LineTo(page_, x(polygon.corners[i]), y(polygon.corners[i]));
         HPDF_Page_ClosePath(page_);
         HPDF_Page_Fill(page_);
     }
@@ -71,26 +67,27 @@ class PageWriter {
     void operator()(const DensityImage& density) {
         setOpacity(1);
         std::vector<HPDF_BYTE> colors;
-        for (int row = 0; row < DensityPlot::kRows; ++row) {
-            for (int column = 0; column < DensityPlot::kColumns; ++column) {
-                const double at = static_cast<double>(column) / DensityPlot::kGap;
-                const auto first = std::min(static_cast<std::size_t>(at), density.axisColors.size() - 2);
+        for (int row = 0; row < density.rows(); ++row) {
+            for (int column = 0; column < density.columns; ++column) {
+                const std::size_t last = density.colors.size() - 1;
+                const double at = static_cast<double>(column) * static_cast<double>(last) / (density.columns - 1);
+                const auto first = std::min(static_cast<std::size_t>(at), last);
                 for (const int shift : {16, 8, 0}) {
-                    const float from = channel(density.axisColors[first], shift);
-                    const float to = channel(density.axisColors[first + 1], shift);
+                    const float from = channel(density.colors[first], shift);
+                    const float to = channel(density.colors[std::min(first + 1, last)], shift);
                     const double t = at - static_cast<double>(first);
                     colors.push_back(static_cast<HPDF_BYTE>(std::lround(255 * (from + t * (to - from)))));
                 }
             }
         }
-        const auto image = HPDF_LoadRawImageFromMem(document_, colors.data(), DensityPlot::kColumns, DensityPlot::kRows,
-                                                    HPDF_CS_DEVICE_RGB, 8);
-        const auto mask = HPDF_LoadRawImageFromMem(document_, density.tones.data(), DensityPlot::kColumns,
-                                                   DensityPlot::kRows, HPDF_CS_DEVICE_GRAY, 8);
+        const auto width = static_cast<HPDF_UINT>(density.columns), height = static_cast<HPDF_UINT>(density.rows());
+        const auto image = HPDF_LoadRawImageFromMem(document_, colors.data(), width, height, HPDF_CS_DEVICE_RGB, 8);
+        const auto mask =
+            HPDF_LoadRawImageFromMem(document_, density.tones.data(), width, height, HPDF_CS_DEVICE_GRAY, 8);
         HPDF_Image_AddSMask(image, mask);
         // Columns are centered on their axes, and rows on their values.
         const glm::dvec2 size = density.bottomRight - density.topLeft;
-        const double across = size.x / (DensityPlot::kColumns - 1), down = size.y / (DensityPlot::kRows - 1);
+        const double across = size.x / (density.columns - 1), down = size.y / (density.rows() - 1);
         const glm::dvec2 corner{density.topLeft.x - across / 2, density.bottomRight.y + down / 2};
         HPDF_Page_DrawImage(page_, image, x(corner), y(corner), static_cast<float>(size.x + across),
                             static_cast<float>(size.y + down));
@@ -127,7 +124,7 @@ class PageWriter {
     std::map<int, HPDF_ExtGState> states_;
 };
 
-// Document information may not contain other characters without another encoding.
+// Replaces other characters, which the document information cannot contain in its default encoding.
 std::string asciiOnly(std::string text) {
     std::ranges::replace_if(text, [](char c) { return c < ' ' || c > '~'; }, '?');
     return text;

@@ -1,8 +1,29 @@
 #include "export/formats/ply.hpp"
 
+#include <limits>
+
 #include "export/formats/little_endian.hpp"
 
 namespace oval4d::exports {
+
+namespace {
+
+void putColor(std::string& out, scene::Color color) {
+    for (const unsigned shift : {16U, 8U, 0U}) put(out, static_cast<std::uint8_t>(color >> shift));
+}
+
+void putPoints(std::string& out, const NamedMesh& solid, bool colored) {
+    const Mesh& mesh = solid.mesh;
+    for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+        put(out, mesh.points[p] + solid.at);
+        if (!colored) continue;
+        const bool own = !mesh.pointColors.empty();
+        putColor(out, own ? mesh.pointColors[p] : solid.color);
+        put(out, own ? mesh.pointValues[p] : std::numeric_limits<float>::quiet_NaN());
+    }
+}
+
+}  // namespace
 
 std::string ply(const BodiesToWrite& bodies) {
     const auto solids = bodies.solids;
@@ -12,21 +33,19 @@ std::string ply(const BodiesToWrite& bodies) {
         points += solid.mesh.points.size();
         triangles += solid.mesh.triangles.size();
     }
+    const bool colored = bodies.havePointColors();  // otherwise triangles have colors
+    const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     std::string out = "ply\nformat binary_little_endian 1.0\ncomment oval4d, millimeters\nelement vertex " +
-                      std::to_string(points) + "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                      std::to_string(triangles) +
-                      "\nproperty list uchar uint vertex_indices\nproperty uchar red\nproperty uchar green\n"
-                      "property uchar blue\nend_header\n";
-    for (const NamedMesh& solid : solids) {
-        for (const glm::dvec3& point : solid.mesh.points) put(out, point + solid.at);
-    }
+                      std::to_string(points) + "\nproperty float x\nproperty float y\nproperty float z\n" +
+                      (colored ? colors + "property float value\n" : "") + "element face " + std::to_string(triangles) +
+                      "\nproperty list uchar uint vertex_indices\n" + (colored ? "" : colors) + "end_header\n";
+    for (const NamedMesh& solid : solids) putPoints(out, solid, colored);
     std::uint32_t first = 0;
     for (const NamedMesh& solid : solids) {
         for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) {
             put(out, std::uint8_t{3});
             for (const std::uint32_t corner : solid.mesh.triangles[t]) put(out, first + corner);
-            const scene::Color color = bodies.colorOf(solid, t);
-            for (const unsigned shift : {16U, 8U, 0U}) put(out, static_cast<std::uint8_t>(color >> shift));
+            if (!colored) putColor(out, bodies.colorOf(solid, t));
         }
         first += static_cast<std::uint32_t>(solid.mesh.points.size());
     }

@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "export/formats/text.hpp"
-#include "scene/density_plot.hpp"
 
 namespace oval4d::exports {
 
@@ -36,16 +35,13 @@ std::string opacityOf(std::string_view name, double opacity) {
 /// Returns the density as SVG paths. The density is rounded to kTones tones; there is one path for each tone, with the
 /// outlines of all pixels of this tone.
 std::string densityPaths(const DensityImage& density) {
-    using scene::DensityPlot;
     constexpr int kTones = 32;
-    const auto toneAt = [&](int row, int column) {
-        return (density.tones[DensityPlot::index(row, column)] * kTones + 127) / 255;
-    };
+    const auto toneAt = [&](int row, int column) { return (density.tone(row, column) * kTones + 127) / 255; };
     std::array<std::string, kTones + 1> paths;
-    for (int column = 0; column < DensityPlot::kColumns; ++column) {
-        for (int row = 0, end = 0; row < DensityPlot::kRows; row = end) {
+    for (int column = 0; column < density.columns; ++column) {
+        for (int row = 0, end = 0; row < density.rows(); row = end) {
             const int tone = toneAt(row, column);
-            while (end < DensityPlot::kRows && toneAt(end, column) == tone) ++end;
+            while (end < density.rows() && toneAt(end, column) == tone) ++end;
             paths[static_cast<std::size_t>(tone)] +=
                 'M' + std::to_string(column) + ' ' + std::to_string(row) + "h1v" + std::to_string(end - row) + "h-1z";
         }
@@ -59,6 +55,18 @@ std::string densityPaths(const DensityImage& density) {
     return out;
 }
 
+/// Returns the gradient `axes-colors`, which mixes the colors of the axes.
+std::string gradient(const DensityImage& density) {
+    std::string out = "<linearGradient id=\"axes-colors\" gradientUnits=\"userSpaceOnUse\"" + attribute("x1", 0.5) +
+                      attribute("x2", density.columns - 0.5) + ">\n";
+    const double last = static_cast<double>(density.colors.size()) - 1;
+    for (std::size_t k = 0; k < density.colors.size(); ++k) {
+        out += "<stop" + attribute("offset", static_cast<double>(k) / last) +
+               attribute("stop-color", color(density.colors[k])) + "/>\n";
+    }
+    return out + "</linearGradient>\n";
+}
+
 /// Returns the SVG element of a shape.
 struct ElementWriter {
     std::string operator()(const Line& line) const {
@@ -68,13 +76,13 @@ struct ElementWriter {
                opacityOf("stroke-opacity", line.opacity) + attribute("x1", line.from.x) + attribute("y1", line.from.y) +
                attribute("x2", line.to.x) + attribute("y2", line.to.y) + "/>\n";
     }
-    std::string operator()(const Area& area) const {
+    std::string operator()(const FilledPolygon& polygon) const {
         std::string corners;
-        for (const glm::dvec2& corner : area.corners) {
+        for (const glm::dvec2& corner : polygon.corners) {
             if (!corners.empty()) corners += ' ';
             corners += number(corner.x) + ',' + number(corner.y);
         }
-        return "<polygon" + attribute("fill", color(area.color)) + opacityOf("fill-opacity", area.opacity) +
+        return "<polygon" + attribute("fill", color(polygon.color)) + opacityOf("fill-opacity", polygon.opacity) +
                attribute("points", corners) + "/>\n";
     }
     std::string operator()(const Disk& disk) const {
@@ -87,22 +95,15 @@ struct ElementWriter {
                attribute("y", line.at.y) + '>' + xmlEscaped(line.text) + "</text>\n";
     }
     std::string operator()(const DensityImage& density) const {
-        using scene::DensityPlot;
-        std::string out = "<linearGradient id=\"axes-colors\" gradientUnits=\"userSpaceOnUse\"" + attribute("x1", 0.5) +
-                          attribute("x2", DensityPlot::kColumns - 0.5) + ">\n";
-        const double last = static_cast<double>(density.axisColors.size()) - 1;
-        for (std::size_t k = 0; k < density.axisColors.size(); ++k) {
-            out += "<stop" + attribute("offset", static_cast<double>(k) / last) +
-                   attribute("stop-color", color(density.axisColors[k])) + "/>\n";
-        }
         // Columns are centered on their axes, and rows on their values.
-        const double across = (density.bottomRight.x - density.topLeft.x) / (DensityPlot::kColumns - 1);
-        const double down = (density.bottomRight.y - density.topLeft.y) / (DensityPlot::kRows - 1);
-        return out +
-               "</linearGradient>\n<g fill=\"url(#axes-colors)\" shape-rendering=\"crispEdges\" "
-               "transform=\"translate(" +
-               number(density.topLeft.x - across / 2) + ' ' + number(density.topLeft.y - down / 2) + ") scale(" +
-               std::to_string(across) + ' ' + std::to_string(down) + ")\">\n" + densityPaths(density) + "</g>\n";
+        const double across = (density.bottomRight.x - density.topLeft.x) / (density.columns - 1);
+        const double down = (density.bottomRight.y - density.topLeft.y) / (density.rows() - 1);
+        const bool isPlain = density.colors.size() == 1;
+        return (isPlain ? std::string() : gradient(density)) + "<g" +
+               attribute("fill", isPlain ? color(density.colors.front()) : "url(#axes-colors)") +
+               " shape-rendering=\"crispEdges\" transform=\"translate(" + number(density.topLeft.x - across / 2) + ' ' +
+               number(density.topLeft.y - down / 2) + ") scale(" + std::to_string(across) + ' ' + std::to_string(down) +
+               ")\">\n" + densityPaths(density) + "</g>\n";
     }
 };
 

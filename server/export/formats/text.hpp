@@ -1,5 +1,5 @@
 #pragma once
-// Text formatting of numbers and names.
+// Formatting of numbers and names as text.
 
 #include <string>
 #include <string_view>
@@ -14,8 +14,8 @@ void append(std::string& out, float number);
 /// Appends three numbers separated by spaces.
 void append(std::string& out, const glm::dvec3& point);
 
-/// Returns a label such as "w = −0.25", with enough decimals to distinguish neighboring slices. `spacing` is the
-/// distance between neighboring hyperplanes.
+/// Returns a label such as "w = −0.25", with enough decimals (2 to 9) to distinguish neighboring slices. `spacing` is
+/// the distance between neighboring hyperplanes.
 std::string labelOfW(double w, double spacing);
 
 /// Returns the text escaped for XML content and attributes: & < > and quotes become entities, and control characters

@@ -18,7 +18,10 @@ void appendColor(std::string& out, scene::Color color) {
 void appendBody(std::string& out, const NamedMesh& solid, const BodiesToWrite& bodies) {
     out += "<Transform translation=\"";
     append(out, glm::dvec3(solid.at * kMeter));
-    out += "\"><Shape><Appearance><Material/></Appearance>\n<IndexedFaceSet colorPerVertex=\"false\" coordIndex=\"";
+    const std::vector<scene::Color>& colors = solid.mesh.pointColors;
+    out += "\"><Shape><Appearance><Material/></Appearance>\n<IndexedFaceSet ";
+    out += colors.empty() ? "colorPerVertex=\"false\"" : "creaseAngle=\"0.7\"";
+    out += " coordIndex=\"";
     for (const auto& [a, b, c] : solid.mesh.triangles)
         out += std::to_string(a) + ' ' + std::to_string(b) + ' ' + std::to_string(c) + " -1 ";
     out += "\">\n<Coordinate point=\"";
@@ -27,7 +30,9 @@ void appendBody(std::string& out, const NamedMesh& solid, const BodiesToWrite& b
         out += ' ';
     }
     out += "\"/>\n<Color color=\"";
-    for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) appendColor(out, bodies.colorOf(solid, t));
+    for (const scene::Color color : colors) appendColor(out, color);
+    for (std::size_t t = 0; t < solid.mesh.triangles.size() && colors.empty(); ++t)
+        appendColor(out, bodies.colorOf(solid, t));
     out += "\"/>\n</IndexedFaceSet>\n<MetadataString name=\"name\" value='\"" + xmlEscaped(solid.name) +
            "\"'/>\n</Shape></Transform>\n";
 }

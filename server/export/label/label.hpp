@@ -14,18 +14,20 @@ namespace oval4d::exports {
 /// letters.
 class LabelText {
   public:
-    /// `name` is the object's name, and `w` the position of the hyperplane as text, such as "w = −0.25".
+    /// `name` is the object's name, and `w` the position of the hyperplane as text, such as "w = −0.25". Throws
+    /// std::runtime_error if the font cannot be read.
     LabelText(const std::string& name, const std::string& w);
 
     /// Engraves the text into the face of a convex body that allows the largest letters. Triangles with the same entry
-    /// in `mesh.cells` form a face. Letters are at most size / 10 high and at most 0.8 mm deep. For `size`, see
-    /// ExportRequest::size. Returns false and leaves the mesh unchanged if the letters would be less than 1 mm high, or
-    /// if the body is not convex or too thin.
+    /// in `mesh.cells` form a face. Letters are at most size / 10 high, and from 0.25 to 0.8 mm deep. `size` is
+    /// ExportRequest::size, in millimeters. Returns false and leaves the mesh unchanged if the body is not convex or is
+    /// too thin, or if the letters would be less than 1 mm high.
     bool engrave(Mesh& mesh, double size, const Grid& grid) const;
 
     /// Returns a plate with the text engraved into its top side. The letters are size / 15 high, but at least 3 and at
     /// most 12 mm. The bottom of the plate lies in the plane z = 0; the plate is centered in x and extends from y = 0
-    /// toward negative y. For `size`, see ExportRequest::size.
+    /// toward negative y. `size` is ExportRequest::size, in millimeters. Throws std::runtime_error if the letters
+    /// cannot be engraved.
     Mesh plate(double size, const Grid& grid) const;
 
   private:

@@ -10,12 +10,12 @@ namespace oval4d::exports {
 
 /// The outlines of a block of text, centered at the origin. The unit is the height of a capital letter.
 struct Lettering {
-    std::vector<Contour> contours;  ///< counterclockwise around the letters' area
+    std::vector<Contour> contours;  ///< the area of the letters lies on their left (see outlineOf())
     glm::dvec2 size{0};             ///< width and height of the bounding box
 };
 
-/// Returns the outlines of lines of UTF-8 text, each line centered below the previous one. Returns no contours if the
-/// text has no visible letter. Throws std::runtime_error if the font cannot be read.
+/// Returns the outlines of lines of UTF-8 text, each line centered below the previous one. Returns no contours if no
+/// character of the text has an outline. Throws std::runtime_error if the font cannot be read.
 Lettering letteringOf(const std::vector<std::string>& lines);
 
 }  // namespace oval4d::exports

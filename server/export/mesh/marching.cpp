@@ -7,13 +7,15 @@
 
 #include <glm/common.hpp>
 
+#include "geometry/index.hpp"
+
 namespace oval4d::exports {
 
 namespace {
 
 constexpr int kSide = SampledField::kSide;
 constexpr int kPoints = kSide * kSide * kSide;
-constexpr std::uint32_t kNone = 0xffffffffU;
+using geometry::kNone;
 
 glm::ivec3 blockOf(const glm::ivec3& point) { return {point.x >> 3, point.y >> 3, point.z >> 3}; }
 

@@ -3,8 +3,8 @@
 // cubic grid changes sign. Each cube is divided into six tetrahedra around one diagonal (H. Freudenthal, Annals of
 // Mathematics 43, 1942), in the same way in all cubes, so that adjacent cubes share whole faces. The surface in a
 // tetrahedron is a triangle or a quadrilateral. It has one corner on each edge of the tetrahedron whose ends differ in
-// sign. The polygons around a corner form one ring, because the tetrahedra around the edge that contains the corner
-// form one. Therefore the surface is closed and 2-manifold and does not intersect itself, whatever the field is.
+// sign. The polygons around a corner form one ring, because the tetrahedra around the corner's edge do. Therefore the
+// surface is closed and 2-manifold and does not intersect itself, whatever the field is.
 
 #include <array>
 #include <cstdint>
@@ -20,12 +20,13 @@
 
 namespace oval4d::exports {
 
-/// A scalar field that is sampled at the points origin + step · (i, j, k). Points with negative values are inside. Only
-/// blocks of points in which a value was set are stored; all other values are +infinity.
+/// A scalar field that is sampled at the points origin + step · (i, j, k), in millimeters. Points with negative values
+/// are inside. Values are stored in cubic blocks. A block exists once a value in it was written or ensureBlock() was
+/// called; the value of every point that was never written is +infinity.
 class SampledField {
   public:
     static constexpr int kSide = 8;  ///< points along each edge of a block
-    /// The indices i, j and k must be from −kFarthest to kFarthest.
+    /// The indices i, j and k of all points must be from −kFarthest to kFarthest.
     static constexpr int kFarthest = 1 << 19;
 
     SampledField(const glm::dvec3& origin, double step) : origin_(origin), step_(step) {}
@@ -33,10 +34,10 @@ class SampledField {
     double step() const { return step_; }
     /// Returns the position of the point with these indices.
     glm::dvec3 positionOf(const glm::ivec3& at) const { return origin_ + step_ * glm::dvec3(at); }
-    /// Returns the indices of the last point that is not above `place` in any coordinate.
+    /// Returns (place − origin) / step, with each coordinate rounded down to an integer.
     glm::ivec3 floorIndex(const glm::dvec3& place) const;
 
-    /// Returns the value at a point, for writing. Creates the point's block if it does not exist.
+    /// Returns a reference to the value at a point. Creates the point's block if it does not exist.
     float& operator[](const glm::ivec3& point);
     /// Creates the block that contains the point, if it does not exist.
     void ensureBlock(const glm::ivec3& point) { (*this)[point]; }
@@ -44,12 +45,12 @@ class SampledField {
     float value(const glm::ivec3& point) const;
 
     struct Block {
-        glm::ivec3 corner;                                ///< the indices of its point with the least x, y, z
+        glm::ivec3 corner;                                ///< the indices of the block's point with the least x, y, z
         std::array<float, kSide * kSide * kSide> values;  ///< x varies fastest, z slowest
     };
-    /// Returns all blocks, in an order that depends only on their positions.
+    /// Returns all blocks, in an order that depends only on their positions and not on the order of their creation.
     std::vector<const Block*> blocks() const;
-    /// Returns the block that contains the point, or nullptr if it is not stored.
+    /// Returns the block that contains the point, or nullptr if the block does not exist.
     const Block* find(const glm::ivec3& point) const;
 
   private:
@@ -59,24 +60,25 @@ class SampledField {
     Block* last_ = nullptr;  // the block last written to
 };
 
-/// The point where the surface crosses an edge of a tetrahedron. `fraction` is its position on the edge, from 0 at the
-/// inside end to 1 at the outside end. `cell` is the cell whose face the edge crosses there, or kNoCell.
+/// The point where the surface crosses an edge of a tetrahedron. `fraction` is the position of the point on the edge,
+/// from 0 at the inside end to 1 at the outside end. `cell` is the cell of the object from which the surface at this
+/// point was cut, or kNoCell.
 struct EdgeCrossing {
     double fraction = 0.5;
     std::uint32_t cell = kNoCell;
 };
-/// Finds the crossing on the edge between a point that is inside and a neighboring point that is outside.
+/// A function that finds the crossing on the edge between an inside point and a neighboring outside point.
 using FindCrossing = std::function<EdgeCrossing(const glm::ivec3& inside, const glm::ivec3& outside)>;
 
-/// Returns a mesh of the surface that separates inside points from outside points. If a cube has an inside corner, the
-/// field must contain the block of the cube's lowest corner (see SampledField::ensureBlock), and the values that
-/// `crossing` reads for the edges of the cube. The mesh's coordinates are rounded to `grid`. The field's step must be
-/// at least 64 steps of `grid`: crossings are kept away from the ends of their edges, so that no two crossings coincide
-/// after rounding.
+/// Returns a mesh of the surface that separates inside points from outside points. For each cube with an inside corner,
+/// `field` must have the block of the cube's lowest corner (see SampledField::ensureBlock()), and the values that
+/// `crossing` reads for the edges of the cube. The points of the mesh are rounded to `grid`. The field's step must be
+/// at least 64 steps of `grid`: then no two crossings coincide after rounding, because crossings are kept away from the
+/// ends of their edges. Throws ExportRefused if `budget` is exceeded.
 Mesh marchTetrahedra(const SampledField& field, const FindCrossing& crossing, const Grid& grid, const Budget& budget);
 
-/// Returns a function that finds crossings by linear interpolation of the values. The function refers to `field`, which
-/// must outlive it.
+/// Returns a function that finds crossings by linear interpolation of the values of `field`, with the cell kNoCell.
+/// `field` must outlive the function.
 FindCrossing linearCrossing(const SampledField& field);
 
 }  // namespace oval4d::exports

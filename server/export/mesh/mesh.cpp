@@ -63,8 +63,46 @@ double volumeOf(const Mesh& mesh) {
     return six / 6;
 }
 
+bool hasVolume(const Mesh& mesh, const Grid& grid) {
+    double twiceArea = 0;
+    for (const auto& triangle : mesh.triangles) twiceArea += glm::length(normalOf(mesh, triangle));
+    constexpr double kLeastThickness = 4;
+    return volumeOf(mesh) > kLeastThickness * grid.step() * twiceArea / 4;
+}
+
 glm::dvec3 normalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
     return glm::cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);
+}
+
+std::vector<std::array<glm::dvec3, 3>> smoothNormals(const Mesh& mesh) {
+    constexpr double kLeastCosine = 0.766;  // of 40°
+    const std::size_t count = mesh.triangles.size();
+    std::vector<glm::dvec3> across;
+    std::vector<std::uint32_t> begin(mesh.points.size() + 1, 0);
+    for (const auto& triangle : mesh.triangles) {
+        across.push_back(normalOf(mesh, triangle));
+        for (const std::uint32_t corner : triangle) ++begin[corner + 1];
+    }
+    for (std::size_t p = 0; p < mesh.points.size(); ++p) begin[p + 1] += begin[p];
+    std::vector<std::uint32_t> around(3 * count);  // the triangles around each point
+    std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
+    for (std::uint32_t t = 0; t < count; ++t) {
+        for (const std::uint32_t corner : mesh.triangles[t]) around[cursor[corner]++] = t;
+    }
+    std::vector<std::array<glm::dvec3, 3>> normals(count);
+    for (std::size_t t = 0; t < count; ++t) {
+        const double length = glm::length(across[t]);
+        for (std::size_t i = 0; i < 3 && length > 0; ++i) {
+            const std::uint32_t corner = mesh.triangles[t][i];
+            glm::dvec3 sum(0);
+            for (std::uint32_t at = begin[corner]; at < begin[corner + 1]; ++at) {
+                const glm::dvec3& other = across[around[at]];
+                if (glm::dot(other, across[t]) >= kLeastCosine * glm::length(other) * length) sum += other;
+            }
+            normals[t][i] = glm::normalize(sum);
+        }
+    }
+    return normals;
 }
 
 void Box::include(const glm::dvec3& point) {

@@ -1,5 +1,5 @@
 #pragma once
-// Triangle meshes with coordinates that every file format represents exactly.
+// Triangle meshes, and the grid of coordinates that every file format in millimeters represents exactly.
 
 #include <array>
 #include <cstdint>
@@ -22,6 +22,10 @@ struct Mesh {
     std::vector<glm::dvec3> points;                       ///< millimeters
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `points`
     std::vector<std::uint32_t> cells;                     ///< the cell that each triangle was cut from, or kNoCell
+    /// For the surface of a field: the color of each point, and the value of the function at each point. Otherwise both
+    /// are empty.
+    std::vector<scene::Color> pointColors;
+    std::vector<float> pointValues;
 
     void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t cell) {
         triangles.push_back({a, b, c});
@@ -33,17 +37,17 @@ struct Mesh {
 struct NamedMesh {
     std::string name;
     Mesh mesh;
-    scene::Color color;  ///< the color of triangles without a cell
-    glm::dvec3 at{0};    ///< position of the mesh's origin in millimeters; a multiple of the grid step
+    scene::Color color;  ///< the color of the triangles whose cell is kNoCell
+    glm::dvec3 at{0};    ///< the position of the mesh's origin in the file, in millimeters; lies on the grid
 };
 
-/// Rounds coordinates to multiples of a power of two, which float32 and decimal formats represent exactly. Therefore
-/// two points are equal in a file if and only if they are equal here, and a mesh remains closed for a program that
-/// identifies points by their coordinates.
+/// Rounds coordinates to multiples of a power of two, so that file formats in millimeters represent them exactly, as
+/// decimals or as 32-bit floats. Therefore two points are equal in a file if and only if their rounded coordinates are
+/// equal, and a mesh remains closed for a program that identifies points by their coordinates.
 class Grid {
   public:
-    /// `size` is the diameter of the polytope in millimeters, `extent` the largest absolute coordinate in the file in
-    /// millimeters.
+    /// Chooses the step. `size` is the diameter of the object's circumscribed sphere and `extent` the largest absolute
+    /// coordinate in the file, both in millimeters.
     Grid(double size, double extent);
 
     /// Returns the distance between neighboring grid points in millimeters, a power of two.
@@ -55,15 +59,24 @@ class Grid {
     double step_;
 };
 
-/// Returns whether every edge belongs to exactly two triangles that traverse it in opposite directions, and the
-/// triangles around every point form one ring.
+/// Returns whether the mesh is a closed 2-manifold: every edge belongs to exactly two triangles, which traverse it in
+/// opposite directions, and the triangles around every point form one ring.
 bool isClosedManifold(const Mesh& mesh);
 
 /// Returns the volume that the mesh encloses; negative if its triangles face inward.
 double volumeOf(const Mesh& mesh);
 
+/// Returns whether the mesh has a volume that rounding cannot have caused: its mean thickness, which is the volume
+/// divided by half the surface area, must exceed 4 grid steps.
+bool hasVolume(const Mesh& mesh, const Grid& grid);
+
 /// Returns the normal of a triangle of the mesh; its length is twice the triangle's area.
 glm::dvec3 normalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle);
+
+/// Returns a unit normal for each corner of each triangle: the mean of the normals of the triangles around the corner's
+/// point, weighted by their areas. Triangles whose normals differ by more than 40° from the normal of the corner's own
+/// triangle do not count. The result is 0 for the corners of triangles without area.
+std::vector<std::array<glm::dvec3, 3>> smoothNormals(const Mesh& mesh);
 
 /// An axis-aligned bounding box. It is empty until it includes a point.
 struct Box {

@@ -12,16 +12,17 @@ struct SkeletonRadii {
     double ball = 0, bar = 0;
 };
 
-/// Returns the radii that balls and bars have in the picture, in millimeters. `scale` is in millimeters per unit of the
-/// polytope.
+/// Returns the radii in millimeters at which balls and bars have the same proportions as in the picture. `scale` is in
+/// millimeters per unit of the polytope.
 SkeletonRadii skeletonRadii(const scene::Scene& scene, double scale);
 
-/// Returns the estimated total number of triangles of all slices if skeletonOf() meshes them with cubes as wide as the
-/// radius of a bar. Cubes half as wide give four times as many. `scale` is in millimeters per unit of the polytope.
+/// Returns the estimated total number of triangles of the skeletons of all slices if skeletonOf() uses cubes as wide as
+/// the radius of a bar. Cubes of half this width give four times as many triangles. `scale` is in millimeters per unit
+/// of the polytope.
 double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& radii);
 
 /// Returns the skeleton of slice i, meshed by marching tetrahedra in cubes that are `cube` millimeters wide. `scale` is
-/// in millimeters per unit of the polytope.
+/// in millimeters per unit of the polytope. Throws ExportRefused if `budget` is exceeded.
 Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& radii, double cube,
                 const Grid& grid, const Budget& budget);
 

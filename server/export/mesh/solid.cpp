@@ -107,15 +107,6 @@ void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh) {
     for (std::size_t c = 1; c + 1 < n; ++c) mesh.add(loop[best], loop[(best + c) % n], loop[(best + c + 1) % n], cell);
 }
 
-/// Returns whether the mesh has a volume: its mean thickness, which is the volume divided by half the surface area,
-/// must exceed 4 grid steps.
-bool hasVolume(const Mesh& mesh, const Grid& grid) {
-    double twiceArea = 0;
-    for (const auto& triangle : mesh.triangles) twiceArea += glm::length(normalOf(mesh, triangle));
-    constexpr double kLeastThickness = 4;
-    return volumeOf(mesh) > kLeastThickness * grid.step() * twiceArea / 4;
-}
-
 Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const Grid& grid) {
     const Welded welded(slices, i, scale, grid);
     Mesh mesh;

@@ -7,10 +7,11 @@
 
 namespace oval4d::exports {
 
-/// Returns the body that the faces of slice i enclose. The body of a convex slice has the same faces as the slice; its
-/// coordinates are rounded to the grid. The body of any other slice, whose faces may intersect, is bounded by its outer
-/// surface (see outer_surface.hpp). Returns an empty mesh if the slice has no volume after rounding. `scale` is in
-/// millimeters per unit of the polytope.
+/// Returns the body that the faces of slice i enclose. The body of a convex slice has the faces of the slice with
+/// coordinates rounded to the grid or, if the rounding makes faces degenerate, is the convex hull of the rounded
+/// points. The body of any other slice, whose faces may intersect, is bounded by its outer surface (see
+/// outer_surface.hpp). `scale` is in millimeters per unit of the polytope. Returns an empty mesh if the rounded body
+/// has no volume (see hasVolume()). Throws ExportRefused if `budget` is exceeded.
 Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const Grid& grid, const Budget& budget);
 
 }  // namespace oval4d::exports

@@ -1,5 +1,5 @@
 #pragma once
-// Triangulation of plane regions bounded by contours.
+// Outlines and triangulation of planar regions bounded by contours.
 
 #include <array>
 #include <cstdint>
@@ -9,17 +9,18 @@
 
 namespace oval4d::exports {
 
-/// The corners of a closed polygon.
+/// The corners of a closed polygon; the last corner is joined to the first.
 using Contour = std::vector<glm::dvec2>;
 
-/// Returns the boundary of the region in which the winding number of `contours` is not 0. The returned contours are
-/// counterclockwise around the region; they do not cross, and no two share an edge. Returns no contours if the
-/// tessellator fails.
+/// Returns the boundary of the region in which the winding number of `contours` is not 0. The returned contours have
+/// the region on their left: outer ones are counterclockwise, holes clockwise. They do not cross, and no two share an
+/// edge. Returns no contours if the tessellator fails.
 std::vector<Contour> outlineOf(const std::vector<Contour>& contours);
 
 /// Returns counterclockwise triangles that fill the region bounded by the contours. The three indices of a triangle
 /// refer to the concatenated list of the corners of all contours. No corner is added or dropped: each edge of a contour
-/// is an edge of exactly one triangle. Returns no triangles if the contours cross or touch.
+/// is an edge of exactly one triangle. Returns no triangles if the contours cross or touch, or if the tessellator
+/// fails.
 std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Contour>& contours);
 
 }  // namespace oval4d::exports

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "store/secret.hpp"
+#include "text/ascii.hpp"
 
 namespace oval4d::net {
 
@@ -17,11 +18,8 @@ bool equalsIgnoringCase(std::string_view a, std::string_view b) {
     return std::ranges::equal(a, b, {}, lower, lower);
 }
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-bool isHexadecimal(char c) { return isDigit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
-bool isHostNameCharacter(char c) {
-    return isDigit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '.' || c == '_';
-}
+bool isHexadecimal(char c) { return text::isDigit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
+bool isHostNameCharacter(char c) { return text::isDigit(c) || text::isLetter(c) || c == '-' || c == '.' || c == '_'; }
 
 /// Returns the port of an authority, or the default port of the scheme, which browsers omit.
 std::string_view portOrDefault(const Authority& authority, std::string_view defaultPort) {
@@ -33,7 +31,7 @@ bool listed(const std::vector<std::string>& list, std::string_view text) {
         list, [text](const std::string& entry) { return entry == "*" || equalsIgnoringCase(entry, text); });
 }
 
-/// Returns the value of the token cookie in a Cookie header; an empty text if there is none.
+/// Returns the value of the token cookie in a Cookie header; an empty string if there is none.
 std::string_view cookieIn(std::string_view header) {
     while (!header.empty()) {
         const std::size_t end = std::min(header.find(';'), header.size());
@@ -113,8 +111,8 @@ bool AccessControl::isListedOrigin(std::string_view origin) const {
 }
 
 /// Requests without an Origin come from programs other than browsers, or from the server's own pages, and are allowed.
-/// The origin of the server's own page has the host and port that the request addresses; the scheme may differ, because
-/// a proxy may terminate TLS.
+/// The origin of the server's own pages has the same host and port as the request; the scheme may differ, because a
+/// proxy may terminate TLS.
 bool AccessControl::isAllowedOrigin(std::string_view origin, std::string_view host) const {
     if (origin.empty() || isListedOrigin(origin)) return true;
     for (const auto& [scheme, port] : {std::pair("http://", "80"), std::pair("https://", "443")}) {

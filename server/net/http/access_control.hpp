@@ -41,8 +41,8 @@ class AccessControl {
     /// Checks the host, then the origin, then the token, and returns the first failure.
     Verdict check(const AccessFields& fields) const;
 
-    /// Returns whether a browser sent the request for a page of another site (W3C Fetch Metadata) whose origin is not
-    /// in the list of allowed foreign origins. Such requests must not cause expensive work.
+    /// Returns whether the request comes from a page of another site, according to Sec-Fetch-Site (W3C Fetch Metadata),
+    /// and the origin of that page is not an allowed foreign origin. Such requests must not cause expensive work.
     bool isCrossSite(const AccessFields& fields) const;
 
     /// Returns whether this origin is in the list of allowed foreign origins.
@@ -58,7 +58,7 @@ class AccessControl {
     static bool hasToken(const AccessFields& fields);
 
     /// Returns the value of a Set-Cookie field that stores the token in a cookie, so that later requests of the page
-    /// need no token in the query. Returns an empty text unless the query contains the correct token.
+    /// need no token in the query. Returns an empty string unless the query contains the correct token.
     std::string cookieFor(const AccessFields& fields) const;
 
   private:

@@ -35,7 +35,7 @@ std::function<ExportResult(std::size_t worker)> exportJob(Services services, con
     return [services, state, request, client](std::size_t /*worker*/) -> ExportResult {
         ScopedFileMetrics fileMetrics(services.metrics);
         auto held = client->byteAccount().forceReserve(0);
-        exports::Limits limits = services.options.file;
+        exports::ExportLimits limits = services.options.file;
         limits.reserve = [&held](std::size_t bytes) { return bytes <= held.size() || held.growTo(bytes); };
         auto made = pipeline::exportState(state, request, limits, services.exportWorkers.stopToken());
         if (!made) {

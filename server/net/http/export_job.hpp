@@ -15,7 +15,7 @@ namespace oval4d::net {
 using ExportResult = std::optional<Result<SharedBytes>>;
 
 /// Returns a job that makes the requested file. The bytes of the file are reserved on the client's byte account until
-/// the last copy of the SharedBytes is destroyed. Errors: those of pipeline::exportState; `too_many` means that the
+/// the last copy of the SharedBytes is destroyed. Errors: those of pipeline::exportState(); `too_many` means that the
 /// account has no room.
 std::function<ExportResult(std::size_t worker)> exportJob(Services services, const session::State& state,
                                                           const exports::ExportRequest& request,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
@@ -13,8 +14,10 @@
 
 #include "net/coroutine_helpers.hpp"
 #include "net/http/request_validation.hpp"
+#include "net/http/upload.hpp"
 #include "net/ws/min_read_rate.hpp"
 #include "net/ws/websocket_connection.hpp"
+#include "wire/messages.hpp"
 
 namespace oval4d::net {
 
@@ -32,15 +35,13 @@ constexpr std::size_t kReadBufferBytes = 64U << 10U;
 constexpr std::size_t kMaxLingerBytes = 256U << 10U;
 constexpr auto kLingerTime = std::chrono::seconds(1);
 
-constexpr unsigned kUpgradeRequired = 426;
-
 constexpr int kNotSentLowat = 256 << 10;  // approximate maximum of unsent bytes that the kernel buffers
 
 /// Serves the HTTP requests of one connection, one after another.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   public:
     HttpConnection(asio::ip::tcp::socket socket, ServerContext context, ClientPtr client,
-                   ConnectionRegistry::Admission admission)
+                   ConnectionRegistry::AdmissionDecision admission)
         : stream_(std::move(socket)),
           context_(std::move(context)),
           client_(std::move(client)),
@@ -53,6 +54,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     asio::awaitable<std::optional<HttpRequest>> read();
     asio::awaitable<bool> serve(HttpRequest request);
     asio::awaitable<Reply> answer(const HttpRequest& request);
+    std::optional<Reply> refuseConnection() const;
+    asio::awaitable<bool> serveUpload(HttpRequest request);
+    std::optional<Reply> checkUpload(const HttpRequest& request, Upload& upload, std::string& token) const;
+    asio::awaitable<SessionManager::JoinResult> joinSession(std::string session, std::string token);
+    std::function<void(SessionManager::JoinHandler)> sessionJoiner(std::string session, std::string token) const;
+    Reply replyTo(const Result<LiveSession::Applied>& applied);
+    asio::awaitable<std::optional<Reply>> receiveBody(const HttpRequest& request, UploadedBody& body);
     asio::awaitable<bool> write(const HttpRequest& request, Reply reply);
     asio::awaitable<void> refuse(const HttpRequest& request, Reply reply);
     asio::awaitable<void> linger();
@@ -70,13 +78,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     const ServerContext context_;
     ClientPtr client_;
     ConnectionRegistry::Registration registration_;
-    ConnectionRegistry::Admission admission_;
+    ConnectionRegistry::AdmissionDecision admission_;
     std::string resourcePolicy_;  // the Cross-Origin-Resource-Policy of the reply
     beast::flat_buffer buffer_{kReadBufferBytes};
     bool first_ = true, reading_ = false, stopping_ = false;
 };
 
-std::string_view field(const HttpRequest& request, http::field name) {
+std::string_view headerField(const HttpRequest& request, http::field name) {
     const auto found = request.find(name);
     if (found == request.end()) return {};
     return {found->value().data(), found->value().size()};
@@ -87,14 +95,14 @@ std::optional<RequestTarget> targetOf(const HttpRequest& request) {
 }
 
 AccessFields accessFieldsOf(const HttpRequest& request, const RequestTarget& target) {
-    const session::Query& query = target.query;
-    const auto token = std::ranges::find(query, "token", &session::Query::value_type::first);
+    const session::QueryParameters& query = target.query;
+    const auto token = std::ranges::find(query, "token", &session::QueryParameters::value_type::first);
     const auto site = request.find("Sec-Fetch-Site");
     // A target in absolute form overrides the Host field (RFC 9112, section 3.2.2).
-    return {target.authority.empty() ? field(request, http::field::host) : std::string_view(target.authority),
-            field(request, http::field::origin),
-            field(request, http::field::authorization),
-            field(request, http::field::cookie),
+    return {target.authority.empty() ? headerField(request, http::field::host) : std::string_view(target.authority),
+            headerField(request, http::field::origin),
+            headerField(request, http::field::authorization),
+            headerField(request, http::field::cookie),
             site == request.end() ? std::string_view() : std::string_view(site->value().data(), site->value().size()),
             token == query.end() ? std::string_view() : std::string_view(token->second)};
 }
@@ -165,7 +173,9 @@ asio::awaitable<void> HttpConnection::run() {
 
 /// Serves one request. Returns whether another request may follow on this connection.
 asio::awaitable<bool> HttpConnection::serve(HttpRequest request) {
-    if (auto fault = validateHeader(request)) {
+    const auto uploadTarget = targetOf(request);
+    const bool uploads = uploadTarget && isUpload(std::string_view(request.method_string()), uploadTarget->path);
+    if (auto fault = validateHeader(request, uploads ? BodyRule::required : BodyRule::none)) {
         co_await refuse(request, plainReply(*fault));
         co_return false;
     }
@@ -175,7 +185,8 @@ asio::awaitable<bool> HttpConnection::serve(HttpRequest request) {
         asio::steady_timer pause(stream_.get_executor(), toSteadyDuration(wait));
         co_await pause.async_wait(kAsTuple);
     }
-    if (!isWebSocketUpgrade(request) || admission_ != ConnectionRegistry::Admission::admitted) {
+    if (uploads) co_return co_await serveUpload(std::move(request));
+    if (!isWebSocketUpgrade(request) || admission_ != ConnectionRegistry::AdmissionDecision::admitted) {
         Reply reply = co_await answer(request);
         co_return co_await write(request, std::move(reply));
     }
@@ -264,11 +275,17 @@ std::optional<Reply> HttpConnection::checkHandshake(const HttpRequest& request, 
     return {};
 }
 
+/// Returns the reply to every request if this connection exceeds a limit; nothing if it is admitted.
+std::optional<Reply> HttpConnection::refuseConnection() const {
+    if (admission_ == ConnectionRegistry::AdmissionDecision::server_full)
+        return plainReply(503, "the server has too many connections; try again later\n");
+    if (admission_ == ConnectionRegistry::AdmissionDecision::client_full)
+        return tooMany("this address has too many connections; close some or try again later\n");
+    return {};
+}
+
 asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
-    if (admission_ == ConnectionRegistry::Admission::server_full)
-        co_return plainReply(503, "the server has too many connections; try again later\n");
-    if (admission_ == ConnectionRegistry::Admission::client_full)
-        co_return tooMany("this address has too many connections; close some or try again later\n");
+    if (auto refusal = refuseConnection()) co_return std::move(*refusal);
     auto target = targetOf(request);
     if (!target) co_return plainReply(400, "the request target is malformed\n");
     std::string cookie;
@@ -285,12 +302,137 @@ asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
                                  std::move(*target),
                                  combinedFieldValue(request, "If-None-Match"),
                                  combinedFieldValue(request, "Accept-Encoding"),
-                                 std::string(field(request, http::field::range)),
-                                 std::string(field(request, http::field::if_range)),
+                                 std::string(headerField(request, http::field::range)),
+                                 std::string(headerField(request, http::field::if_range)),
                                  client_};
     Reply reply = co_await context_.routes.answer(std::move(parsed));
     if (!cookie.empty()) reply.headers.emplace_back("Set-Cookie", std::move(cookie));
     co_return reply;
+}
+
+/// Receives a file and loads it into a session, or restores the state in it. Checks everything before it reads the
+/// body. After a refusal, the connection is closed, because the body was not read.
+asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
+    Upload upload;
+    std::string token;
+    if (auto refusal = checkUpload(request, upload, token)) {
+        co_await refuse(request, std::move(*refusal));
+        co_return false;
+    }
+    const auto joined = co_await joinSession(upload.session, std::move(token));
+    if (!joined) {
+        Reply refusal = uploadErrorReply(joined.error());
+        co_await refuse(request, std::move(refusal));
+        co_return false;
+    }
+    const std::shared_ptr<LiveSession>& session = *joined;
+    const struct Leaving {
+        SessionManager& sessions;
+        const std::shared_ptr<LiveSession>& session;
+        ~Leaving() { sessions.leave(session, nullptr); }
+    } leaving{*context_.sessions, session};
+    UploadedBody body(client_);
+    if (auto refusal = co_await receiveBody(request, body)) {
+        co_await refuse(request, std::move(*refusal));
+        co_return false;
+    }
+    if (!stream_.socket().is_open()) co_return false;
+    const auto file = body.finish();
+    std::optional<Result<LiveSession::Applied>> applied;
+    if (upload.load) {
+        upload.load->file = file;
+        applied = co_await session->apply(client_, std::move(*upload.load));
+    } else if (auto set = stateIn(*file, options().maxMessage)) {
+        applied = co_await session->apply(client_, std::move(*set));
+    } else {
+        applied = set.error();
+    }
+    Reply reply = replyTo(*applied);
+    co_return co_await write(request, std::move(reply));
+}
+
+Reply HttpConnection::replyTo(const Result<LiveSession::Applied>& applied) {
+    if (applied) return jsonReply(wire::doneMessage({}, applied->revision, applied->warnings));
+    context_.services.metrics.countError(applied.error().code);
+    return uploadErrorReply(applied.error());
+}
+
+/// Checks the header of an upload. If it is refused, returns the reply; otherwise sets `upload`, and `token` to the
+/// session's token.
+std::optional<Reply> HttpConnection::checkUpload(const HttpRequest& request, Upload& upload, std::string& token) const {
+    if (auto refusal = refuseConnection()) return refusal;
+    const auto target = targetOf(request);
+    std::string cookie;
+    if (auto refusal = checkAccess(request, *target, cookie)) return refusal;
+    auto parsed = parseUpload(std::string_view(request.method_string()), *target, context_.services.options.session);
+    if (!parsed) return uploadErrorReply(parsed.error());
+    const std::size_t most = parsed->load ? options().maxUpload : std::min(options().maxUpload, kMaxStateFile);
+    if (bodyLength(request) > most) {
+        return uploadErrorReply({ErrorCode::too_large, "an uploaded file may have at most " + std::to_string(most) +
+                                                           " bytes" +
+                                                           (most == options().maxUpload ? " (--max-upload)" : "")});
+    }
+    const auto given = request.find("Session-Token");
+    if (given == request.end()) {
+        return errorReply(
+            {ErrorCode::bad_token, "an upload needs the session's token in the header field Session-Token"});
+    }
+    if (!client_->mayTryToken(Client::Clock::now()))
+        return tooMany("this address has sent too many wrong tokens; try again in a minute\n");
+    token = {given->value().data(), given->value().size()};
+    upload = std::move(*parsed);
+    return {};
+}
+
+asio::awaitable<SessionManager::JoinResult> HttpConnection::joinSession(std::string session, std::string token) {
+    auto join = sessionJoiner(std::move(session), std::move(token));
+    auto joined = co_await awaitCallback<SessionManager::JoinResult>(std::move(join));
+    if (!joined && joined.error().code == ErrorCode::bad_token) client_->countWrongToken(Client::Clock::now());
+    co_return joined;
+}
+
+std::function<void(SessionManager::JoinHandler)> HttpConnection::sessionJoiner(std::string session,
+                                                                               std::string token) const {
+    return [sessions = context_.sessions, client = client_,
+            credentials = store::SessionCredentials{std::move(session), std::move(token)}](
+               const SessionManager::JoinHandler& done) { sessions->join(credentials, client, done); };
+}
+
+/// Reads the body of a request whose header is valid. Returns the reply if the body is refused. Closes the stream if
+/// the client has disconnected or sends too slowly.
+asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequest& request, UploadedBody& body) {
+    std::size_t left = bodyLength(request);
+    MinReadRate rate(options());
+    if (left > 0 && buffer_.size() == 0 && request.count(http::field::expect) > 0) {
+        constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
+        stream_.expires_after(rate.timeout());
+        const auto [fault, size] = co_await asio::async_write(stream_, asio::buffer(kContinue), kAsTuple);
+        if (fault) stream_.close();
+    }
+    while (left > 0 && stream_.socket().is_open()) {
+        if (buffer_.size() == 0) {
+            stream_.expires_after(rate.timeout());
+            reading_ = true;
+            const auto [fault, size] = co_await stream_.async_read_some(buffer_.prepare(kReadBufferBytes), kAsTuple);
+            reading_ = false;
+            if (fault == beast::error::timeout) context_.services.metrics.slowReaders.Increment();
+            if (fault) stream_.close();
+            buffer_.commit(size);
+            rate.count(size);
+        }
+        const std::size_t taken = std::min(left, buffer_.size());
+        if (auto error = body.append({static_cast<const char*>(buffer_.cdata().data()), taken})) {
+            context_.services.metrics.countError(error->code);
+            co_return uploadErrorReply(*error);
+        }
+        buffer_.consume(taken);
+        left -= taken;
+        if (const auto wait = client_->countBytes(taken, Client::Clock::now()); wait.count() > 0) {
+            asio::steady_timer pause(stream_.get_executor(), toSteadyDuration(wait));
+            co_await pause.async_wait(kAsTuple);
+        }
+    }
+    co_return std::nullopt;
 }
 
 /// Returns the Cross-Origin-Resource-Policy of a reply. If any foreign origin is allowed, pages of all origins may
@@ -335,7 +477,7 @@ asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, Reply re
     for (const auto& [name, value] : reply.headers) response.set(name, value);
     response.body() = {body.data(), body.size()};
     if (reply.status != 304) response.content_length(reply.body.size());
-    const bool rejected = admission_ != ConnectionRegistry::Admission::admitted;
+    const bool rejected = admission_ != ConnectionRegistry::AdmissionDecision::admitted;
     response.keep_alive(request.keep_alive() && !rejected && !stopping_);
     if (reply.status == kUpgradeRequired) response.set(http::field::connection, "close, upgrade");
     context_.services.metrics.countRequest(reply.status);

@@ -11,9 +11,9 @@ namespace oval4d::net {
 
 /// A request target (RFC 9112, section 3.2).
 struct RequestTarget {
-    std::string path;       ///< percent-decoded
-    std::string authority;  ///< host and port in absolute form, such as "localhost:8080"; empty in origin form
-    session::Query query;   ///< names and values, percent-decoded
+    std::string path;                ///< percent-decoded
+    std::string authority;           ///< host and port in absolute form, such as "localhost:8080"; empty in origin form
+    session::QueryParameters query;  ///< names and values, percent-decoded
 };
 
 /// Parses "/path?name=value&…" (origin form) or "http://host:port/path?…" (absolute form; RFC 9112, section 3.2).

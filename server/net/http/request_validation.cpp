@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <boost/beast/core/string.hpp>
 #include <boost/beast/http/rfc7230.hpp>
+#include <charconv>
+#include <limits>
+#include <system_error>
 
 #include "net/http/access_control.hpp"
+#include "text/ascii.hpp"
 
 namespace oval4d::net {
 
@@ -14,16 +18,12 @@ using http::field;
 
 namespace {
 
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-
 /// Returns whether the key is 16 bytes in base64: 22 digits, the last of which encodes only two bits, and two padding
 /// characters.
 bool isWebSocketKey(std::string_view key) {
     constexpr std::size_t kLength = 24, kDigits = 22;
     constexpr std::string_view kLast = "AQgw";
-    const auto isBase64 = [](char c) {
-        return isDigit(c) || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '+' || c == '/';
-    };
+    const auto isBase64 = [](char c) { return text::isDigit(c) || text::isLetter(c) || c == '+' || c == '/'; };
     return key.size() == kLength && std::all_of(key.begin(), key.begin() + kDigits, isBase64) &&
            kLast.find(key[kDigits - 1]) != std::string_view::npos && key.ends_with("==");
 }
@@ -34,7 +34,7 @@ std::string_view text(beast::string_view view) { return {view.data(), view.size(
 
 }  // namespace
 
-std::optional<HttpError> validateHeader(const HttpRequest& request) {
+std::optional<HttpError> validateHeader(const HttpRequest& request, BodyRule body) {
     constexpr unsigned kBad = 400, kExpectationFailed = 417;
     for (const field once : {field::host, field::origin, field::content_length, field::transfer_encoding,
                              field::sec_websocket_key, field::sec_websocket_version, field::authorization}) {
@@ -56,20 +56,33 @@ std::optional<HttpError> validateHeader(const HttpRequest& request) {
         if (request.version() < 11) return HttpError{kBad, "Transfer-Encoding is not allowed in HTTP/1.0"};
         if (!beast::iequals(coding->value(), "chunked"))
             return HttpError{kBad, "the only supported Transfer-Encoding is chunked"};
-        return HttpError{413, "request bodies are not accepted"};
+        return body == BodyRule::none
+                   ? HttpError{413, "request bodies are not accepted"}
+                   : HttpError{411, "the length of the body must be given as Content-Length, not in chunks"};
     }
     if (const auto length = request.find(field::content_length); length != request.end()) {
         const std::string_view digits = text(length->value());
-        if (digits.empty() || !std::ranges::all_of(digits, isDigit))
+        if (digits.empty() || !std::ranges::all_of(digits, text::isDigit))
             return HttpError{kBad, "Content-Length must be a decimal number"};
-        if (digits.find_first_not_of('0') != std::string_view::npos)
+        if (body == BodyRule::none && digits.find_first_not_of('0') != std::string_view::npos)
             return HttpError{413, "request bodies are not accepted"};
+    } else if (body == BodyRule::required) {
+        return HttpError{411, "an upload must have a Content-Length"};
     }
     if (const auto expected = request.find(field::expect);
         expected != request.end() && !beast::iequals(expected->value(), "100-continue")) {
         return HttpError{kExpectationFailed, "the only supported Expect value is 100-continue"};
     }
     return {};
+}
+
+std::size_t bodyLength(const HttpRequest& request) {
+    const auto field = request.find(http::field::content_length);
+    if (field == request.end()) return 0;
+    const std::string_view digits = text(field->value());
+    std::size_t length = 0;
+    const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), length);
+    return fault == std::errc::result_out_of_range ? std::numeric_limits<std::size_t>::max() : length;
 }
 
 bool isWebSocketUpgrade(const HttpRequest& request) {
@@ -81,7 +94,7 @@ bool isWebSocketUpgrade(const HttpRequest& request) {
 }
 
 std::optional<HttpError> validateHandshake(const HttpRequest& request) {
-    constexpr unsigned kBad = 400, kUpgradeRequired = 426;
+    constexpr unsigned kBad = 400;
     if (const auto version = request.find(field::sec_websocket_version);
         version == request.end() || version->value() != "13") {
         return HttpError{kUpgradeRequired, "the only supported WebSocket version is 13"};

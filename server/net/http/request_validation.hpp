@@ -9,7 +9,7 @@
 
 namespace oval4d::net {
 
-/// A request without a body, because no route accepts a body.
+/// The header of a request. A body, which only uploads have, is read separately.
 using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 
 /// The reason why a request is refused: an HTTP status and a message for the client.
@@ -18,10 +18,22 @@ struct HttpError {
     std::string reason;
 };
 
-/// Validates a request header; returns nothing if it is valid. A valid header announces no body, so the next request
-/// begins directly after it. A valid header has at most one Host, Origin and Content-Length field. After a refusal, the
-/// connection must be closed, because a proxy may disagree about where the request ends (request smuggling).
-std::optional<HttpError> validateHeader(const HttpRequest& request);
+inline constexpr unsigned kUpgradeRequired = 426;  ///< HTTP status: the client must use another protocol
+
+/// Whether a request may have a body.
+enum class BodyRule : bool {
+    none,      ///< the header must announce no body, so that the next request begins directly after it
+    required,  ///< the header must state the length of the body
+};
+
+/// Validates a request header; returns nothing if it is valid. A valid header has at most one Host, Origin and
+/// Content-Length field, and announces no chunked body. After a refusal, the connection must be closed, because a proxy
+/// may disagree about where the request ends (request smuggling).
+std::optional<HttpError> validateHeader(const HttpRequest& request, BodyRule body);
+
+/// Returns the length in bytes that a valid header announces for the body; 0 if it announces no body. Returns the
+/// maximum of std::size_t if the length is greater.
+std::size_t bodyLength(const HttpRequest& request);
 
 /// Returns whether the request asks for an upgrade to WebSocket.
 bool isWebSocketUpgrade(const HttpRequest& request);
@@ -30,8 +42,8 @@ bool isWebSocketUpgrade(const HttpRequest& request);
 /// valid.
 std::optional<HttpError> validateHandshake(const HttpRequest& request);
 
-/// Returns the values of all fields with this name, joined by commas (RFC 9110, section 5.3); an empty text if there is
-/// no such field. The name is not case-sensitive.
+/// Returns the values of all fields with this name, joined by commas (RFC 9110, section 5.3); an empty string if there
+/// is no such field. The name is not case-sensitive.
 std::string combinedFieldValue(const HttpRequest& request, std::string_view name);
 
 }  // namespace oval4d::net

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <fstream>
 
+#include "net/data_names.hpp"
 #include "net/http/etags_and_ranges.hpp"
 #include "net/http/export_job.hpp"
 #include "net/loader_job.hpp"
@@ -75,9 +76,9 @@ double residentBytes() {
 
 /// Removes `width` and `height` from a query, and returns the viewport that they describe after checking it against the
 /// limits.
-Result<scene::Viewport> takeViewport(session::Query& query, const pipeline::FrameLimits& limits) {
+Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipeline::FrameLimits& limits) {
     scene::Viewport viewport;
-    session::Query rest;
+    session::QueryParameters rest;
     for (auto& [name, value] : query) {
         if (name == "width" || name == "height") {
             const auto parsed = pixels(name, value);
@@ -106,7 +107,8 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
         auto held = client->byteAccount().reserve(image::byteCount(viewport));  // a PNG file is rarely larger
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
-        pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport, png);
+        pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport,
+                         slicing::Quality::full, png);
         metrics.observe(pipeline.times());
         held->resize(png.capacity());
         return SharedBytes(std::move(png)).keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(*held)));
@@ -151,6 +153,8 @@ Reply fileReply(const WebFile& file, const Routes::ParsedRequest& request) {
 
 }  // namespace
 
+Reply jsonReply(std::string message) { return textReply(kJson, std::move(message)); }
+
 Reply errorReply(const Error& error, unsigned status) {
     return textReply(kJson, wire::errorMessage(error, {}), status != 0 ? status : statusFor(error.code));
 }
@@ -165,8 +169,8 @@ asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
     if (path == "/healthz") co_return textReply("text/plain", "ok\n");
     if (path == "/readyz") co_return readiness();
     if (path == "/metrics") co_return metrics();
-    if (path == "/api/v1/catalogue") co_return textReply(kJson, wire::catalogueMessage({}));
-    if (path == "/api/v1/keymap") co_return textReply(kJson, wire::keymapMessage({}));
+    if (path == "/api/v1/catalogue") co_return co_await catalogue(request.client);
+    if (path == "/api/v1/keymap") co_return jsonReply(wire::keymapMessage({}));
     if (path == "/api/v1/frame.png") co_return co_await frame(std::move(request.target.query), request.client);
     if (const auto format = formatIn(path))
         co_return co_await file(std::move(request.target.query), *format, request.client);
@@ -176,7 +180,7 @@ asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
 
 /// Returns the state that a query describes. Builds the polytope on a worker if necessary. Throws what runOnPool()
 /// throws.
-asio::awaitable<Result<session::State>> Routes::state(session::Query query, ClientPtr client) {
+asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters query, ClientPtr client) {
     std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
     const session::Limits& limits = services_.options.session;
     const auto loader = std::make_shared<session::ObjectLoader>(
@@ -191,12 +195,21 @@ asio::awaitable<Result<session::State>> Routes::state(session::Query query, Clie
     }
 }
 
+asio::awaitable<Reply> Routes::catalogue(ClientPtr client) {
+    try {
+        const std::vector<std::string> names = co_await dataNames(services_, std::move(client));
+        co_return jsonReply(wire::catalogueMessage({}, {}, names));
+    } catch (const parallel::QueueFull&) {
+        co_return countedError(kTooManyJobs);
+    }
+}
+
 Reply Routes::countedError(const Error& error) {
     services_.metrics.countError(error.code);
     return errorReply(error);
 }
 
-asio::awaitable<Reply> Routes::frame(session::Query query, ClientPtr client) {
+asio::awaitable<Reply> Routes::frame(session::QueryParameters query, ClientPtr client) {
     try {
         const auto viewport = takeViewport(query, services_.options.frame);
         if (!viewport) co_return countedError(viewport.error());
@@ -204,7 +217,7 @@ asio::awaitable<Reply> Routes::frame(session::Query query, ClientPtr client) {
         if (!requested) co_return countedError(requested.error());
         auto png = co_await runOnPool<std::optional<SharedBytes>>(
             services_.pictureWorkers, frameJob(*requested, *viewport, client, services_.metrics), client->pictureLane(),
-            pipeline::frameCost(*requested, *viewport));
+            pipeline::frameCost(*requested, *viewport, slicing::Quality::full));
         if (!png) co_return countedError(kTooManyBytes);
         co_return reply("image/png", std::move(*png));
     } catch (const parallel::QueueFull&) {
@@ -215,9 +228,9 @@ asio::awaitable<Reply> Routes::frame(session::Query query, ClientPtr client) {
     }
 }
 
-asio::awaitable<Reply> Routes::file(session::Query query, const exports::Format& format, ClientPtr client) {
+asio::awaitable<Reply> Routes::file(session::QueryParameters query, const exports::Format& format, ClientPtr client) {
     try {
-        const auto exported = pipeline::takeExportRequest(query, format);
+        const auto exported = pipeline::extractExportRequest(query, format);
         if (!exported) co_return countedError(exported.error());
         const auto requested = co_await state(std::move(query), client);
         if (!requested) co_return countedError(requested.error());
@@ -268,6 +281,9 @@ Reply Routes::metrics() {
     shown.bytesHeld.Set(static_cast<double>(services_.clients.bytesHeld()));
     shown.clients.Set(static_cast<double>(services_.clients.size()));
     shown.polytopes.Set(static_cast<double>(services_.polytopes.bytes()));
+    shown.dataFields.Set(static_cast<double>(services_.data.bytes()));
+    shown.fieldFiles.Set(static_cast<double>(services_.fieldCache.bytes()));
+    shown.critical.Set(static_cast<double>(services_.critical.bytes()));
     return textReply("text/plain; version=0.0.4; charset=utf-8", shown.text());
 }
 

@@ -22,10 +22,13 @@ namespace oval4d::net {
 /// An HTTP response, independent of the HTTP library.
 struct Reply {
     unsigned status = 200;
-    std::string type;  ///< the Content-Type; empty: none is sent
+    std::string type;  ///< the Content-Type; if empty, the field is omitted
     SharedBytes body;
     std::vector<std::pair<std::string, std::string>> headers;
 };
+
+/// Returns a reply whose body is a message of the protocol.
+Reply jsonReply(std::string message);
 
 /// Returns a reply with the body `{"type":"error", …}` and the HTTP status `status`. If `status` is 0, the status is
 /// derived from the error code.
@@ -49,9 +52,10 @@ class Routes {
     boost::asio::awaitable<Reply> answer(ParsedRequest request);
 
   private:
-    boost::asio::awaitable<Reply> frame(session::Query query, ClientPtr client);
-    boost::asio::awaitable<Reply> file(session::Query query, const exports::Format& format, ClientPtr client);
-    boost::asio::awaitable<Result<session::State>> state(session::Query query, ClientPtr client);
+    boost::asio::awaitable<Reply> catalogue(ClientPtr client);
+    boost::asio::awaitable<Reply> frame(session::QueryParameters query, ClientPtr client);
+    boost::asio::awaitable<Reply> file(session::QueryParameters query, const exports::Format& format, ClientPtr client);
+    boost::asio::awaitable<Result<session::State>> state(session::QueryParameters query, ClientPtr client);
     Reply countedError(const Error& error);
     Reply readiness() const;
     Reply metrics();

@@ -1,32 +1,20 @@
 #include "net/http/spool.hpp"
 
-#include <fcntl.h>
 #include <spdlog/spdlog.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+
+#include "net/unnamed_file.hpp"
 
 namespace oval4d::net {
 
 namespace {
 
 constexpr std::size_t kSpoolThreshold = 1U << 20U;
-
-/// Opens an unnamed file, which the system deletes when nothing refers to it anymore. Returns -1 and sets errno if that
-/// fails.
-int openUnnamedFile(const std::filesystem::path& folder) {
-    constexpr mode_t kOwnersOnly = 0600;
-    const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kOwnersOnly);
-    if (file >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT)) return file;
-    std::string name = folder / "oval4d-XXXXXX";  // the file system does not support O_TMPFILE
-    const int named = mkostemp(name.data(), O_CLOEXEC);
-    if (named >= 0) unlink(name.c_str());
-    return named;
-}
 
 bool writeAll(int file, std::string_view rest) {
     while (!rest.empty()) {

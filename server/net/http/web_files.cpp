@@ -46,7 +46,7 @@ std::string etagOf(const std::string& content) {
     return fmt::format("\"{:016x}\"", crc.checksum());
 }
 
-/// Returns the content coding for a file name extension; an empty text for an uncompressed file.
+/// Returns the content coding for a file name extension; an empty string for an uncompressed file.
 std::string_view codingOf(const std::filesystem::path& path) {
     const std::string extension = path.extension().string();
     return extension == ".br" ? "br" : extension == ".gz" ? "gzip" : "";
@@ -63,7 +63,7 @@ Representation readRepresentation(const std::filesystem::path& path, std::string
 double weightOf(std::string_view coding, std::string_view acceptEncoding) {
     namespace http = boost::beast::http;
     const bool identity = coding == kIdentity;
-    double any = identity ? 0.0005 : 0;  // of the codings not listed, only identity is acceptable, as the last choice
+    double any = identity ? 0.0005 : 0;  // an unlisted coding is unacceptable, except identity as a last resort
     for (const auto& [name, parameters] : http::ext_list({acceptEncoding.data(), acceptEncoding.size()})) {
         double weight = 1;
         for (const auto& [key, value] : parameters)

@@ -7,14 +7,18 @@
 #include <boost/asio/dispatch.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/use_awaitable.hpp>
+#include <tuple>
+#include <utility>
 
+#include "fields/field.hpp"
 #include "net/coroutine_helpers.hpp"
+#include "net/data_names.hpp"
+#include "net/file_reader.hpp"
 #include "net/http/export_job.hpp"
 #include "net/loader_job.hpp"
 #include "net/run_on_pool.hpp"
 #include "pipeline/cost.hpp"
 #include "session/history.hpp"
-#include "session/object_loader.hpp"
 #include "wire/messages.hpp"
 
 namespace oval4d::net {
@@ -34,22 +38,34 @@ Message doneMessage(LiveSession::RequestId id, std::uint64_t revision) {
     return textMessage(wire::doneMessage(id, revision));
 }
 
-/// Returns a function that reads a file in a file reader process.
-session::FileReader fileReader(const Services& services) {
-    return [&readers = services.readers, stop = services.loadWorkers.stopToken()](
-               std::string_view format, std::string_view text, const std::string& name, const session::Limits& limits) {
-        return readers.read(format, text, name, limits, stop);
-    };
-}
-
 // Minimum time between two steps of a moving object.
 constexpr auto kMotionInterval = std::chrono::duration_cast<Pacing::Clock::duration>(1s) / 60;
 // Maximum time that one step of a moving object covers. Because of this maximum, the motion continues without a large
 // jump after a pause, and for a client that shows one picture per second.
 constexpr auto kMaxMotionStep = 250ms;
 
+// Pictures of fields are drafts while changes follow each other within kBurst, and until the session has rested for
+// kRest.
+constexpr auto kBurst = 300ms, kRest = 200ms;
+
 // Time until the next attempt after the job queue was full.
 constexpr auto kRetryInterval = 100ms;
+
+const Error kLostField{
+    ErrorCode::bad_field,
+    "the file of this field has been changed or shortened, or cannot be read any more; load it again"};
+
+/// Returns whether the samples of the field that is shown can no longer be read.
+bool isFieldLost(const session::State& state) {
+    const fields::Field* const field = slicing::fieldIn(state.object);
+    return field != nullptr && field->isLost();
+}
+
+/// The completion handler of a coroutine of a session, which keeps the session alive until then.
+struct KeepAlive {
+    std::shared_ptr<LiveSession> session;
+    void operator()(const std::exception_ptr& /*failure*/) const {}
+};
 
 const Error kNoPicture{ErrorCode::internal, "this picture could not be made; the session continues"};
 
@@ -63,13 +79,14 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
       client_(std::move(client)),
       strand_(asio::make_strand(services.io)),
       session_(std::move(value)),
-      objectBytes_(session::objectBytes(session_)),
-      held_(client_->byteAccount().forceReserve(objectBytes_ + session::historyBytes(session_))),
+      objectMemory_(session::ownObjectMemory(session_)),
+      held_(client_->byteAccount().forceReserve(objectMemory_ + session::historyMemory(session_))),
       changed_(Clock::now()),
       motionTimer_(strand_),
       paceTimer_(strand_),
       saveTimer_(strand_),
-      retryTimer_(strand_) {}
+      retryTimer_(strand_),
+      refineTimer_(strand_) {}
 
 asio::awaitable<void> LiveSession::welcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
     return asio::co_spawn(strand_, welcomeOnStrand(std::move(peer), std::move(hello), id), asio::use_awaitable);
@@ -79,10 +96,24 @@ asio::awaitable<void> LiveSession::execute(std::shared_ptr<Peer> peer, wire::Req
     return asio::co_spawn(strand_, executeOnStrand(std::move(peer), std::move(request)), asio::use_awaitable);
 }
 
+asio::awaitable<std::optional<Result<LiveSession::Applied>>> LiveSession::apply(ClientPtr client,
+                                                                                session::Command command) {
+    return asio::co_spawn(strand_, applyOnStrand(std::move(client), std::move(command)), asio::use_awaitable);
+}
+
 void LiveSession::leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left) {
+    stopSearches(peer);
     asio::post(strand_, [self = shared_from_this(), peer = std::move(peer), left = std::move(left)] {
         self->clients_.erase(peer.get());
         self->detached_ = left(self->session_) || self->detached_;
+    });
+}
+
+void LiveSession::stopSearches(std::shared_ptr<Peer> peer) {
+    asio::post(strand_, [self = shared_from_this(), peer = std::move(peer)] {
+        for (const std::weak_ptr<Search>& each : self->searches_) {
+            if (const auto search = each.lock(); search && search->by.lock() == peer) search->stop.request_stop();
+        }
     });
 }
 
@@ -105,15 +136,15 @@ void LiveSession::disconnectAll() {
 
 /// Adjusts the bytes reserved on the client's account to the memory of the session after a command. If that would
 /// exceed the limit, forgets the older half of the undo steps.
-void LiveSession::updateReservation(bool polytopesChanged) {
+void LiveSession::updateReservation(bool objectsChanged) {
     assertOnStrand();
-    if (polytopesChanged) objectBytes_ = session::objectBytes(session_);
-    const std::size_t bytes = objectBytes_ + session::historyBytes(session_);
+    if (objectsChanged) objectMemory_ = session::ownObjectMemory(session_);
+    const std::size_t bytes = objectMemory_ + session::historyMemory(session_);
     if (bytes > held_.size() && !held_.growTo(bytes)) {
         session::forgetOlderHalf(session_);
-        objectBytes_ = session::objectBytes(session_);
+        objectMemory_ = session::ownObjectMemory(session_);
     }
-    held_.resize(objectBytes_ + session::historyBytes(session_));
+    held_.resize(objectMemory_ + session::historyMemory(session_));
 }
 
 void LiveSession::saveNow(store::WriteBehindStore::Written written) {
@@ -125,12 +156,12 @@ void LiveSession::saveNow(store::WriteBehindStore::Written written) {
 /// Schedules a save. Must be called after each change.
 void LiveSession::scheduleSave() {
     assertOnStrand();
-    if (writeBehind_.writeTiming() == store::Store::WriteTiming::at_close) return;
+    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
     saveTimer_.start(weak_from_this(), Clock::now() + kSaveDelay, [](LiveSession& session) { session.saveNow(); });
 }
 
-/// Returns a function that writes the session, or only its head, to the store and calls its argument when that is done:
-/// see WriteBehindStore::save().
+/// Returns a function that writes the session, or only its head, to the store. The returned function calls its argument
+/// when the write is done: see WriteBehindStore::save().
 std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::WriteBehindStore::SaveScope scope) {
     session::Session value;
     if (scope == store::WriteBehindStore::SaveScope::whole) {
@@ -146,24 +177,22 @@ std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::W
 
 asio::awaitable<void> LiveSession::welcomeOnStrand(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
     assertOnStrand();
-    Lanes lanes = lanesOf(*peer);
-    clients_[peer.get()] =
-        Subscriber{peer, std::move(lanes), {hello.stream, hello.encoding, hello.viewport}, {}, false};
+    Lanes lanes = lanesOf(peer->client());
+    clients_[peer.get()] = Subscriber{peer, std::move(lanes), {hello.stream, hello.encoding, hello.viewport}, {}};
     peer->send(
-        textMessage(wire::welcomeMessage(credentials_.id, credentials_.token, limitsText(services_.options), id)));
+        textMessage(wire::welcomeMessage(credentials_.id, credentials_.token, limitsJson(services_.options), id)));
     update();
     co_return;
 }
 
-/// Returns the lanes of the peer's client in this session. All connections of a client to a session share these lanes,
+/// Returns the lanes of a client in this session. All connections of a client to a session share these lanes,
 /// so that a client with several connections gets no larger share of the workers.
-LiveSession::Lanes LiveSession::lanesOf(const Peer& peer) const {
-    const ClientPtr& own = peer.client();
+LiveSession::Lanes LiveSession::lanesOf(const ClientPtr& own) const {
     for (const auto& [key, client] : clients_) {
         if (client.lanes.client == own) return client.lanes;
     }
-    return {own, std::make_shared<parallel::WorkerPool::Lane>(own->pictureShare()),
-            std::make_shared<parallel::WorkerPool::Lane>(own->exportShare())};
+    return {own, std::make_shared<parallel::WorkerPool::Lane>(own->pictureFlow()),
+            std::make_shared<parallel::WorkerPool::Lane>(own->exportFlow())};
 }
 
 asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request) {
@@ -181,64 +210,134 @@ asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, w
     }
 }
 
-/// Applies a command. Slow work runs on a worker: later messages of this client wait for it, but not those of other
-/// clients. With a store that several servers share, the command is acknowledged only once its result is in the store.
+/// Applies a command of a client, and answers it.
 asio::awaitable<void> LiveSession::applyCommand(std::shared_ptr<Peer> peer, const session::Command& command,
                                                 RequestId id) {
-    const auto loader = std::make_shared<session::ObjectLoader>(
-        services_.options.session, services_.polytopes, session::ObjectLoader::Mode::deferred, fileReader(services_));
+    const auto applied = co_await perform(peer->client(), peer, command, id.has_value());
+    if (!applied) {
+        sendError(*peer, applied.error(), id);
+        co_return;
+    }
+    if (!applied->owned) co_return;  // this client is being disconnected
+    if (id) peer->send(textMessage(wire::doneMessage(id, applied->revision, applied->warnings)));
+    update();
+}
+
+asio::awaitable<std::optional<Result<LiveSession::Applied>>> LiveSession::applyOnStrand(ClientPtr by,
+                                                                                        session::Command command) {
+    const auto applied = co_await perform(std::move(by), nullptr, command, true);
+    if (applied && !applied->owned) co_return Result<Applied>(kInternalError);
+    update();
+    co_return applied;
+}
+
+/// Returns a loader that defers slow work.
+std::shared_ptr<session::ObjectLoader> LiveSession::makeLoader() const {
+    const session::CriticalSearch search{&services_.critical, services_.options.file.time};
+    return std::make_shared<session::ObjectLoader>(services_.options.session, services_.polytopes,
+                                                   session::ObjectLoader::Mode::deferred, fileReader(services_),
+                                                   search);
+}
+
+/// Applies a command. Slow work runs on a worker: later messages of this client wait for it, but not those of other
+/// clients. If several servers share the store, a command may be acknowledged only when its result is in the store;
+/// with `awaitStore`, this function waits for that.
+asio::awaitable<Result<LiveSession::Applied>> LiveSession::perform(ClientPtr by, std::shared_ptr<Peer> peer,
+                                                                   const session::Command& command, bool awaitStore) {
+    const auto loader = makeLoader();
     Result<std::monostate> done = kInternalError;
     std::uint64_t before = 0;
-    slicing::Object shown;
+    slicing::Object source, shown;
+    session::LoadedObjects loaded;
     try {
         for (;;) {
             before = revision();
+            source = session_.current.source;
             shown = session_.current.object;
+            loaded = session_.loaded;
             done = session::apply(session_, command, services_.options.session, *loader);
             if (!loader->isPending()) break;
-            auto reservation = client_->byteAccount().reserve(loader->bytesNeeded());
-            if (!reservation) {
-                done = kTooManyBytes;
+            std::shared_ptr<Search> search;
+            if (loader->isSearchPending()) {
+                search = startSearch(peer);
+                // The client's next message waits for this command, so otherwise nothing would be read from it.
+                if (peer) peer->watchWhileExecuting();
+            }
+            if (auto refused = co_await loadPending(by, loader, std::move(search))) {
+                done = std::move(*refused);
                 break;
             }
-            if (loader->isFilePending()) {
-                co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(loader), client_->loadLane(),
-                                                   loader->estimatedDuration());
-            } else {
-                co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader),
-                                                   lanesOf(*peer).pictures, loader->estimatedDuration());
-            }
         }
-        if (done) updateReservation(loader->hasDoneWork() || session_.current.object != shown);
+        if (done) updateReservation(session_.current.object != shown || session_.loaded != loaded);
     } catch (const parallel::QueueFull&) {
         done = kTooManyJobs;
     } catch (const std::exception& fault) {
         spdlog::error("command failed session={} fault=\"{}\"", credentials_.id, fault.what());
         done = kInternalError;
     }
-    if (!done) {
-        sendError(*peer, done.error(), id);
-        co_return;
-    }
-    const std::uint64_t reached = revision();
-    if (reached != before) {
-        changed_ = Clock::now();
-        scheduleSave();
-        if (writeBehind_.writeTiming() == store::Store::WriteTiming::at_once) {
-            // The head of a record is saved without objects, so a new object requires a save of the whole session.
-            const bool whole = session_.current.object != shown;
-            auto write = storeWriter(whole ? store::WriteBehindStore::SaveScope::whole
-                                           : store::WriteBehindStore::SaveScope::head);
-            if (id) {
-                const bool written = co_await awaitCallback<bool>(std::move(write));
-                if (!written) co_return;  // another server owns the session, and this client is being disconnected
-            } else {
-                write([](bool) {});
-            }
+    if (!done) co_return done.error();
+    Applied applied{revision(), loader->warnings(), true};
+    // The command may have extended a field that is not shown: then the source stays the same.
+    const bool hasNewObject = session_.current.source != source || session_.loaded != loaded;
+    if (applied.revision == before && !hasNewObject) co_return applied;
+    if (applied.revision != before) markChanged(Clock::now());
+    stopObsoleteSearches();
+    // The draft of a field that is larger than memory comes much sooner than the first complete picture.
+    const fields::Field* const field = slicing::fieldIn(session_.current.object);
+    if (session_.current.source != source && field != nullptr && field->source) changesQuickly_ = true;
+    scheduleSave();
+    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
+        // The head of a record is saved without objects, so a new object requires a save of the whole session.
+        auto write = storeWriter(hasNewObject ? store::WriteBehindStore::SaveScope::whole
+                                              : store::WriteBehindStore::SaveScope::head);
+        if (awaitStore) {
+            applied.owned = co_await awaitCallback<bool>(std::move(write));
+        } else {
+            write([](bool) {});
         }
     }
-    if (id) peer->send(textMessage(wire::doneMessage(id, reached, loader->warnings())));
-    update();
+    co_return applied;
+}
+
+/// Registers a search for the critical w of the current state, which stopSearches() and stopObsoleteSearches() can end.
+std::shared_ptr<LiveSession::Search> LiveSession::startSearch(const std::shared_ptr<Peer>& peer) {
+    assertOnStrand();
+    std::erase_if(searches_, [](const auto& each) { return each.expired(); });
+    auto search = std::make_shared<Search>(peer, session_.current, services_.exportWorkers.stopToken());
+    searches_.push_back(search);
+    return search;
+}
+
+/// Ends the searches whose results the current state does not need.
+void LiveSession::stopObsoleteSearches() {
+    assertOnStrand();
+    if (searches_.empty()) return;
+    const session::CriticalArguments needed = session::criticalArguments(session_.current);
+    for (const std::weak_ptr<Search>& each : searches_) {
+        if (const auto search = each.lock(); search && search->of != needed) search->stop.request_stop();
+    }
+}
+
+/// Builds or reads the loader's pending object on a worker, or runs its `search`, which is otherwise null. Returns an
+/// error if there is no room for the result.
+asio::awaitable<std::optional<Error>> LiveSession::loadPending(ClientPtr by,
+                                                               std::shared_ptr<session::ObjectLoader> loader,
+                                                               std::shared_ptr<Search> search) {
+    auto reservation = client_->byteAccount().reserve(loader->bytesNeeded());
+    if (!reservation) co_return kTooManyBytes;
+    if (loader->pendingNeedsFile()) {
+        co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(loader), client_->loadLane(),
+                                           loader->estimatedDuration());
+    } else if (search) {
+        co_await runOnPool<std::monostate>(services_.exportWorkers, loaderJob(loader, search->stop.get_token()),
+                                           lanesOf(by).exports, loader->estimatedDuration());
+    } else {
+        co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(loader), lanesOf(by).pictures,
+                                           loader->estimatedDuration());
+    }
+    const std::size_t bytes = loader->bytesLoaded();
+    if (bytes > reservation->size() && !reservation->growTo(bytes)) co_return kTooManyBytes;
+    co_return std::nullopt;
 }
 
 asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
@@ -251,9 +350,10 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
             peer->send(textMessage(stateText(id)));
             break;
         case wire::GetTarget::catalogue: {
+            const std::vector<std::string> names = co_await dataNames(services_, peer->client());
             std::vector<slicing::Object> loaded;
             for (const auto& [name, object] : session_.loaded) loaded.push_back(object);
-            peer->send(textMessage(wire::catalogueMessage(id, loaded)));
+            peer->send(textMessage(wire::catalogueMessage(id, loaded, names)));
             break;
         }
         case wire::GetTarget::keymap:
@@ -274,6 +374,10 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
         case wire::GetTarget::file:
             co_await answerWithFile(peer, get.file, id);
             break;
+        case wire::GetTarget::critical:
+            // The client's further messages do not wait for it.
+            asio::co_spawn(strand_, answerWithCritical(peer, id), KeepAlive{shared_from_this()});
+            break;
     }
 }
 
@@ -282,9 +386,9 @@ asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, ex
     const std::uint64_t askedRevision = revision();
     ExportResult made;
     try {
-        made = co_await runOnPool<ExportResult>(services_.exportWorkers,
-                                                exportJob(services_, session_.current, request, peer->client()),
-                                                lanesOf(*peer).exports, pipeline::exportCost(session_.current));
+        made = co_await runOnPool<ExportResult>(
+            services_.exportWorkers, exportJob(services_, session_.current, request, peer->client()),
+            lanesOf(peer->client()).exports, pipeline::exportCost(session_.current));
     } catch (const parallel::QueueFull&) {
         made = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -301,21 +405,50 @@ asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, ex
     peer->send(doneMessage(id, askedRevision));
 }
 
+asio::awaitable<void> LiveSession::answerWithCritical(std::shared_ptr<Peer> peer, RequestId id) {
+    const std::uint64_t askedRevision = revision();
+    Result<slicing::CriticalPtr> found = kInternalError;
+    try {
+        found = co_await findCritical(peer);
+    } catch (const parallel::QueueFull&) {
+        found = kTooManyJobs;
+    } catch (const std::exception& fault) {
+        spdlog::error("search failed session={} revision={} fault=\"{}\"", credentials_.id, askedRevision,
+                      fault.what());
+    }
+    if (!found) {
+        sendError(*peer, found.error(), id);
+        co_return;
+    }
+    peer->send(textMessage(wire::criticalMessage(**found, askedRevision, id)));
+}
+
+/// Finds the critical w of the current object. Unless they are known, an export worker searches for them.
+asio::awaitable<Result<slicing::CriticalPtr>> LiveSession::findCritical(std::shared_ptr<Peer> peer) {
+    const auto loader = makeLoader();
+    const session::State asked = session_.current;
+    auto found = loader->criticalSections(asked);
+    if (!loader->isPending()) co_return found;
+    auto search = startSearch(peer);
+    if (auto refused = co_await loadPending(peer->client(), loader, std::move(search))) co_return *refused;
+    co_return loader->criticalSections(asked);
+}
+
 asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
                                                      std::optional<glm::dvec2> point) {
     const std::uint64_t askedRevision = revision();
     std::optional<Error> failed;
     try {
         Message picture = co_await runOnPool<Message>(services_.pictureWorkers, requestedJob(key, id, point),
-                                                      lanesOf(*peer).pictures, pictureCost(session_.current, key));
+                                                      lanesOf(peer->client()).pictures,
+                                                      pictureCost(session_.current, key, slicing::Quality::full));
         peer->send(std::move(picture));
         if (key.stream == Stream::frames) peer->send(doneMessage(id, askedRevision));
     } catch (const parallel::QueueFull&) {
         failed = kTooManyJobs;
     } catch (const std::exception& fault) {
-        spdlog::error("picture failed session={} revision={} fault=\"{}\"", credentials_.id, askedRevision,
-                      fault.what());
-        failed = kInternalError;
+        logFailedPicture(session_.current, askedRevision, fault);
+        failed = isFieldLost(session_.current) ? kLostField : kInternalError;
     }
     if (failed) sendError(*peer, *failed, id);
 }
@@ -323,11 +456,12 @@ asio::awaitable<void> LiveSession::answerWithPicture(std::shared_ptr<Peer> peer,
 /// Returns a job that makes a picture of the current state or, with a point, tells what the picture shows there.
 std::function<Message(pipeline::Pipeline&)> LiveSession::requestedJob(const StreamKey& key, RequestId id,
                                                                       std::optional<glm::dvec2> point) const {
-    const SnapshotPtr known = snapshot_ && snapshot_->revision == revision() ? snapshot_ : nullptr;
+    const SnapshotPtr known = knownSnapshot(slicing::Quality::full);
     return [known, state = session_.current, askedRevision = revision(), changed = changed_, key, id, point,
             &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
         const SnapshotPtr snapshot =
-            suffices(known, key) ? known : makeSnapshot(pipeline, state, askedRevision, changed, key);
+            suffices(known, key) ? known
+                                 : makeSnapshot(pipeline, state, askedRevision, changed, key, slicing::Quality::full);
         if (point)
             return textMessage(
                 pipeline.describePoint(state, snapshot->slices, askedRevision, id, key.viewport, *point));
@@ -350,17 +484,18 @@ void LiveSession::update() {
     advanceMotion();
     std::vector<StreamKey> missing;
     bool allServed = true;
+    const slicing::Quality wanted = wantedQuality();
     for (auto& [key, client] : clients_) {
-        if (client.pacing.newest() == revision()) continue;
+        if (client.pacing.newest() == revision() && client.quality >= wanted) continue;
         if (client.streamKey.stream == Stream::none) {
             if (!client.stateInFlight) sendState(client);
             continue;
         }
         allServed = false;
         if (!client.pacing.hasRoom()) continue;
-        if (const Message* picture = findPicture(client.streamKey, revision())) {
+        if (const Message* picture = findPicture(client.streamKey, revision(), wanted)) {
             sendPicture(client, *picture);
-        } else if (!isEncoding(client.streamKey, revision()) &&
+        } else if (!isEncoding(client.streamKey, revision(), wanted) &&
                    client.pacing.hasRoom(countEncoding(client.streamKey)) &&
                    std::ranges::find(missing, client.streamKey) == missing.end()) {
             missing.push_back(client.streamKey);
@@ -371,6 +506,30 @@ void LiveSession::update() {
         snapshot_.reset();
         pictures_ = {};
     }
+    if (wanted == slicing::Quality::draft) scheduleRefinement();
+}
+
+void LiveSession::markChanged(Clock::time_point now) {
+    changesQuickly_ = lastChange_ && now - *lastChange_ < kBurst;
+    lastChange_ = changed_ = now;
+}
+
+/// Returns `draft` while a field moves or changes in quick succession, so that pictures follow fast; else `full`.
+slicing::Quality LiveSession::wantedQuality() const {
+    if (slicing::fieldIn(session_.current.object) == nullptr) return slicing::Quality::full;
+    const bool changing = changesQuickly_ && Clock::now() - changed_ < kRest;
+    return session_.current.moves() || changing ? slicing::Quality::draft : slicing::Quality::full;
+}
+
+/// Schedules pictures of full quality for the time when the session has rested for kRest.
+void LiveSession::scheduleRefinement() {
+    if (!session_.current.moves()) refineTimer_.start(weak_from_this(), changed_ + kRest, &LiveSession::update);
+}
+
+/// Returns the snapshot of the current revision in this quality, or null if it has not been made.
+SnapshotPtr LiveSession::knownSnapshot(slicing::Quality quality) const {
+    const bool isCurrent = snapshot_ && snapshot_->revision == revision() && snapshot_->quality == quality;
+    return isCurrent ? snapshot_ : nullptr;
 }
 
 /// Moves an object that turns continuously or turns toward an element, if the next step is due and a client that has
@@ -391,13 +550,14 @@ void LiveSession::advanceMotion() {
     }
     const auto passed = lastMotion_ ? std::min<Clock::duration>(now - *lastMotion_, kMaxMotionStep) : kMotionInterval;
     lastMotion_ = now;
-    changed_ = now;
+    markChanged(now);
     session::advance(session_, Seconds(passed).count());
     scheduleSave();
 }
 
 bool LiveSession::readyForNext(const Subscriber& client) const {
-    if (client.pacing.newest() != revision() && !isEncoding(client.streamKey, revision())) return false;
+    const bool hasNewest = client.pacing.newest() == revision();
+    if (!hasNewest && !isEncoding(client.streamKey, revision(), slicing::Quality::draft)) return false;
     return client.streamKey.stream == Stream::none ? !client.stateInFlight
                                                    : client.pacing.hasRoom(countEncoding(client.streamKey));
 }
@@ -406,21 +566,23 @@ std::size_t LiveSession::countEncoding(const StreamKey& key) const {
     return static_cast<std::size_t>(std::ranges::count(encoding_, key, &EncodingPicture::streamKey));
 }
 
-bool LiveSession::isEncoding(const StreamKey& key, std::uint64_t ofRevision) const {
-    return std::ranges::any_of(
-        encoding_, [&](const EncodingPicture& each) { return each.streamKey == key && each.revision == ofRevision; });
+bool LiveSession::isEncoding(const StreamKey& key, std::uint64_t ofRevision, slicing::Quality atLeast) const {
+    return std::ranges::any_of(encoding_, [&](const EncodingPicture& each) {
+        return each.streamKey == key && each.revision == ofRevision && each.quality >= atLeast;
+    });
 }
 
 /// Posts a job that makes these pictures, or replaces the job that is queued. Does nothing while the pictures of a job
 /// are being drawn, because update() is called again afterward.
 void LiveSession::requestPictures(std::vector<StreamKey> wanted) {
     assertOnStrand();
-    const SnapshotPtr known = snapshot_ && snapshot_->revision == revision() ? snapshot_ : nullptr;
+    const slicing::Quality quality = wantedQuality();
     const bool isNew = drawing_ == 0;
     const parallel::WorkerPool::LanePtr lane = clientToCharge(wanted).lanes.pictures;
     Seconds cost{0};
-    for (const StreamKey& key : wanted) cost += pictureCost(session_.current, key);
-    PictureJob next{isNew ? jobs_ + 1 : drawing_, session_.current, revision(), changed_, known, std::move(wanted)};
+    for (const StreamKey& key : wanted) cost += pictureCost(session_.current, key, quality);
+    PictureJob next{isNew ? jobs_ + 1 : drawing_, session_.current, revision(), changed_, quality,
+                    knownSnapshot(quality),       std::move(wanted)};
     {
         const std::lock_guard lock(queuedJobMutex_);
         if (!isNew && !queuedJob_) return;
@@ -457,18 +619,17 @@ void LiveSession::runJob(pipeline::Pipeline& pipeline) {
         job = std::move(*queuedJob_);
         queuedJob_.reset();
     }
-    JobResult result{job.number, job.revision, job.snapshot, {}, {}};
+    JobResult result{job.number, job.revision, job.quality, job.snapshot, {}, {}};
     for (const StreamKey& key : job.wanted) {
         try {
             if (!suffices(result.snapshot, key))
-                result.snapshot = makeSnapshot(pipeline, job.state, job.revision, job.changed, key);
+                result.snapshot = makeSnapshot(pipeline, job.state, job.revision, job.changed, key, job.quality);
             std::function<void()> whenDrawn;
             if (&key == &job.wanted.back()) whenDrawn = [this, &job, &key] { onDrawn(job, key); };
             result.pictures.emplace_back(key, makePicture(pipeline, *result.snapshot, key, {}, whenDrawn));
             services_.metrics.observe(pipeline.times());
         } catch (const std::exception& fault) {
-            spdlog::error("picture failed session={} revision={} fault=\"{}\"", credentials_.id, job.revision,
-                          fault.what());
+            logFailedPicture(job.state, job.revision, fault);
             result.failed.push_back(key);
         }
     }
@@ -477,14 +638,24 @@ void LiveSession::runJob(pipeline::Pipeline& pipeline) {
     });
 }
 
+/// A lost file is no fault of the server.
+void LiveSession::logFailedPicture(const session::State& state, std::uint64_t ofRevision, const std::exception& why) {
+    if (isFieldLost(state)) {
+        spdlog::warn("picture not made session={} revision={} reason=\"{}\"", credentials_.id, ofRevision, why.what());
+    } else {
+        spdlog::error("picture failed session={} revision={} fault=\"{}\"", credentials_.id, ofRevision, why.what());
+    }
+}
+
 /// Called on a worker when the last picture of a job is drawn, but not yet encoded. From then on, the next job may be
 /// queued.
 void LiveSession::onDrawn(const PictureJob& job, const StreamKey& key) {
-    asio::post(strand_, [self = shared_from_this(), drawn = EncodingPicture{job.number, job.revision, key}] {
-        if (self->drawing_ == drawn.job) self->drawing_ = 0;
-        self->encoding_.push_back(drawn);
-        self->update();
-    });
+    asio::post(strand_,
+               [self = shared_from_this(), drawn = EncodingPicture{job.number, job.revision, job.quality, key}] {
+                   if (self->drawing_ == drawn.job) self->drawing_ = 0;
+                   self->encoding_.push_back(drawn);
+                   self->update();
+               });
 }
 
 /// Sends the pictures that a worker has made. The session may have changed in the meantime, but the pictures are still
@@ -494,7 +665,10 @@ void LiveSession::onJobDone(JobResult result) {
     assertOnStrand();
     if (drawing_ == result.job) drawing_ = 0;
     std::erase_if(encoding_, [&](const EncodingPicture& each) { return each.job == result.job; });
-    const bool outdated = result.snapshot && snapshot_ && result.snapshot->revision < snapshot_->revision;
+    const auto isOlder = [](const Snapshot& a, const Snapshot& b) {
+        return std::tie(a.revision, a.quality) < std::tie(b.revision, b.quality);
+    };
+    const bool outdated = result.snapshot && snapshot_ && isOlder(*result.snapshot, *snapshot_);
     if (result.snapshot && result.snapshot != snapshot_ && !outdated) {
         snapshot_ = result.snapshot;
         pictures_.clear();
@@ -502,19 +676,23 @@ void LiveSession::onJobDone(JobResult result) {
     if (!outdated) std::ranges::move(result.pictures, std::back_inserter(pictures_));
     for (auto& [key, client] : clients_) {
         if (client.streamKey.stream == Stream::none || !client.pacing.hasRoom()) continue;
-        if (client.pacing.newest() && *client.pacing.newest() >= result.revision) continue;
-        if (const Message* picture = findPicture(client.streamKey, result.revision)) {
+        const auto newest = client.pacing.newest();
+        if (newest && std::tie(*newest, client.quality) >= std::tie(result.revision, result.quality)) continue;
+        if (const Message* picture = findPicture(client.streamKey, result.revision, result.quality)) {
             sendPicture(client, *picture);
         } else if (std::ranges::find(result.failed, client.streamKey) != result.failed.end()) {
             client.pacing.skipped(result.revision);
-            if (const auto peer = client.peer.lock()) sendError(*peer, kNoPicture, {});
+            client.quality = result.quality;
+            if (const auto peer = client.peer.lock())
+                sendError(*peer, isFieldLost(session_.current) ? kLostField : kNoPicture, {});
         }
     }
     update();
 }
 
-const Message* LiveSession::findPicture(const StreamKey& key, std::uint64_t ofRevision) const {
-    if (!snapshot_ || snapshot_->revision != ofRevision) return nullptr;
+const Message* LiveSession::findPicture(const StreamKey& key, std::uint64_t ofRevision,
+                                        slicing::Quality atLeast) const {
+    if (!snapshot_ || snapshot_->revision != ofRevision || snapshot_->quality < atLeast) return nullptr;
     const auto found = std::ranges::find(pictures_, key, &EncodedPictures::value_type::first);
     return found == pictures_.end() ? nullptr : &found->second;
 }
@@ -524,6 +702,7 @@ void LiveSession::sendPicture(Subscriber& client, const Message& picture) {
     const auto peer = client.peer.lock();
     if (!peer) return;
     client.pacing.sent(snapshot_->revision);
+    client.quality = snapshot_->quality;
     services_.metrics.countPicture(client.streamKey.stream);
     peer->send({snapshot_->stateText, false});
     peer->send(picture,
@@ -556,6 +735,7 @@ void LiveSession::sendState(Subscriber& client) {
         stateRevision_ = revision();
     }
     client.pacing.skipped(revision());
+    client.quality = slicing::Quality::full;
     client.stateInFlight = true;
     peer->send({stateText_, false}, [weak = weak_from_this(), to = client.peer] {
         const auto session = weak.lock();

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "net/ws/message.hpp"
 #include "net/ws/pacing.hpp"
 #include "net/ws/peer.hpp"
+#include "session/object_loader.hpp"
 #include "session/session.hpp"
 #include "store/write_behind_store.hpp"
 #include "wire/request.hpp"
@@ -52,57 +54,92 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// Executes a request of a client that was added with welcome(), and returns once the request is answered.
     boost::asio::awaitable<void> execute(std::shared_ptr<Peer> peer, wire::Request request);
 
-    /// Removes a client on the session's strand, then calls `left` there with the value of the session. `left` returns
-    /// whether the session has no client anymore; if it returns true, this object never writes the session to the store
-    /// again.
+    /// The result of a command.
+    struct Applied {
+        std::uint64_t revision = 0;
+        std::vector<std::string> warnings;  ///< about the file that was loaded
+        bool owned = true;                  ///< false if another server has taken over the session in the meantime
+    };
+    /// Applies a command for a client that need not be connected to the session. Connected clients see the change.
+    /// Errors: those of session::apply(); `too_many` if a limit on bytes or jobs is reached; `internal` if another
+    /// server has taken over the session. The awaited optional is never empty.
+    boost::asio::awaitable<std::optional<Result<Applied>>> apply(ClientPtr client, session::Command command);
+
+    /// Removes the client `peer`, or none if it is null, then calls `left` with the value of the session; both happen
+    /// on the session's strand. `left` must return whether the session has no clients left. If it returns true, this
+    /// object never writes the session to the store again.
     void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
+
+    /// Ends the searches for critical w that a client of the session has requested. They fail with `canceled`.
+    void stopSearches(std::shared_ptr<Peer> peer);
 
     /// Writes the whole session to the store. Releases its reference to `completion` once the session is written, or
     /// once the store is found to be unavailable.
     void save(std::shared_ptr<void> completion = {});
 
-    /// Closes all connections, and never writes the session to the store again, because another server has taken over
-    /// the session.
+    /// Closes all connections, and never writes the session to the store again. Must be called when another server has
+    /// taken over the session.
     void disconnectAll();
 
   private:
     using Clock = Pacing::Clock;
 
-    /// A client's lanes in the worker pools for its jobs in this session.
+    // A client's lanes in the worker pools for its jobs in this session.
     struct Lanes {
         ClientPtr client;
         parallel::WorkerPool::LanePtr pictures, exports;
     };
-    /// A connection to this session.
+    // A connection to this session.
     struct Subscriber {
         std::weak_ptr<Peer> peer;
         Lanes lanes;
         StreamKey streamKey;
         Pacing pacing;
-        bool stateInFlight = false;  ///< without a stream: whether a queued `state` message is not yet written
+        slicing::Quality quality = slicing::Quality::full;  // quality of the newest sent picture
+        bool stateInFlight = false;  // without a stream: whether a `state` message is queued, but not yet written
     };
     using EncodedPictures = std::vector<std::pair<StreamKey, Message>>;
-    /// A job that makes pictures of one revision.
+    // A job that makes pictures of one revision.
     struct PictureJob {
-        std::uint64_t number = 0;  ///< identifies the job within the session; starts at 1
+        std::uint64_t number = 0;  // identifies the job within the session; starts at 1
         session::State state;
         std::uint64_t revision = 0;
-        Clock::time_point changed;      ///< the time at which the session reached this revision
-        SnapshotPtr snapshot;           ///< the snapshot of this revision if it has already been made, else null
-        std::vector<StreamKey> wanted;  ///< the pictures to make
+        Clock::time_point changed;  // the time at which the session reached this revision
+        slicing::Quality quality = slicing::Quality::full;
+        SnapshotPtr snapshot;  // the snapshot of this revision and quality if it has already been made, else null
+        std::vector<StreamKey> wanted;  // the pictures to make
     };
-    /// A picture that has been drawn and is being encoded.
+    // A picture that has been drawn and is being encoded.
     struct EncodingPicture {
         std::uint64_t job = 0, revision = 0;
+        slicing::Quality quality = slicing::Quality::full;
         StreamKey streamKey;
     };
-    /// The result of a PictureJob.
+    // The result of a PictureJob.
     struct JobResult {
-        std::uint64_t job = 0;  ///< number of the job
+        std::uint64_t job = 0;  // number of the job
         std::uint64_t revision = 0;
+        slicing::Quality quality = slicing::Quality::full;
         SnapshotPtr snapshot;
         EncodedPictures pictures;
-        std::vector<StreamKey> failed;  ///< the pictures that could not be made
+        std::vector<StreamKey> failed;  // the pictures that could not be made
+    };
+
+    // A search for critical w that waits for a worker or runs.
+    struct Search {
+        // Requests a stop when the workers are to stop.
+        struct Forwarder {
+            std::stop_source stop;
+            void operator()() noexcept { stop.request_stop(); }
+        };
+        Search(std::weak_ptr<Peer> peer, const session::State& state, std::stop_token workersStop)
+            : by(std::move(peer)),
+              of(session::criticalArguments(state)),
+              whenWorkersStop(std::move(workersStop), Forwarder{stop}) {}
+        const std::weak_ptr<Peer> by;  // the client that requested it
+        const session::CriticalArguments of;
+        std::stop_source stop;
+        std::stop_callback<Forwarder> whenWorkersStop;
     };
 
     // The following functions run on the strand.
@@ -111,24 +148,39 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     }
     boost::asio::awaitable<void> welcomeOnStrand(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
     boost::asio::awaitable<void> executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request);
-    Lanes lanesOf(const Peer& peer) const;
+    Lanes lanesOf(const ClientPtr& own) const;
     boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
                                                    std::optional<glm::dvec2> point = {});
     boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
                                                 RequestId id);
+    boost::asio::awaitable<void> answerWithCritical(std::shared_ptr<Peer> peer, RequestId id);
+    boost::asio::awaitable<Result<slicing::CriticalPtr>> findCritical(std::shared_ptr<Peer> peer);
+    std::shared_ptr<Search> startSearch(const std::shared_ptr<Peer>& peer);
+    void stopObsoleteSearches();
     std::function<Message(pipeline::Pipeline&)> requestedJob(const StreamKey& key, RequestId id,
                                                              std::optional<glm::dvec2> point) const;
     boost::asio::awaitable<void> applyCommand(std::shared_ptr<Peer> peer, const session::Command& command,
                                               RequestId id);
+    boost::asio::awaitable<std::optional<Result<Applied>>> applyOnStrand(ClientPtr by, session::Command command);
+    boost::asio::awaitable<Result<Applied>> perform(ClientPtr by, std::shared_ptr<Peer> peer,
+                                                    const session::Command& command, bool awaitStore);
+    std::shared_ptr<session::ObjectLoader> makeLoader() const;
+    boost::asio::awaitable<std::optional<Error>> loadPending(ClientPtr by,
+                                                             std::shared_ptr<session::ObjectLoader> loader,
+                                                             std::shared_ptr<Search> search);
     std::function<void(std::function<void(bool)>)> storeWriter(store::WriteBehindStore::SaveScope scope);
-    void updateReservation(bool polytopesChanged);
+    void updateReservation(bool objectsChanged);
     void scheduleSave();
     void saveNow(store::WriteBehindStore::Written written = {});
     void sendError(Peer& peer, const Error& error, RequestId id);
 
     void update();
     void advanceMotion();
+    void markChanged(Clock::time_point now);
+    slicing::Quality wantedQuality() const;
+    SnapshotPtr knownSnapshot(slicing::Quality quality) const;
+    void scheduleRefinement();
     void requestPictures(std::vector<StreamKey> wanted);
     const Subscriber& clientToCharge(const std::vector<StreamKey>& wanted) const;
     void scheduleRetry();
@@ -139,13 +191,14 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void schedulePacing();
     void expirePictures();
     Clock::duration shownTimeout() const;
-    const Message* findPicture(const StreamKey& key, std::uint64_t ofRevision) const;
+    const Message* findPicture(const StreamKey& key, std::uint64_t ofRevision, slicing::Quality atLeast) const;
     bool readyForNext(const Subscriber& client) const;
     std::size_t countEncoding(const StreamKey& key) const;
-    bool isEncoding(const StreamKey& key, std::uint64_t ofRevision) const;
+    bool isEncoding(const StreamKey& key, std::uint64_t ofRevision, slicing::Quality atLeast) const;
     std::uint64_t revision() const { return session_.revision; }
 
     // The following functions run on a worker.
+    void logFailedPicture(const session::State& state, std::uint64_t ofRevision, const std::exception& why);
     void runJob(pipeline::Pipeline& pipeline);
     void onDrawn(const PictureJob& job, const StreamKey& key);
 
@@ -158,25 +211,31 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
     // Used only on the strand.
     session::Session session_;
-    std::size_t objectBytes_ = 0;   ///< session::objectBytes() of session_
-    ByteBudget::Reservation held_;  ///< reserves objectBytes_ and the bytes of the history
+    std::size_t objectMemory_ = 0;  // session::ownObjectMemory() of session_
+    ByteBudget::Reservation held_;  // reserves objectMemory_ and the memory of the history
     std::map<const Peer*, Subscriber> clients_;
-    Clock::time_point changed_;  ///< the time at which the session reached its revision
-    SnapshotPtr snapshot_;       ///< the newest snapshot, kept while a client waits for a picture; else null
-    EncodedPictures pictures_;   ///< pictures of snapshot_
-    SharedBytes stateText_;      ///< the `state` message of stateRevision_, for clients without a stream
+    Clock::time_point changed_;                    // the time at which the session reached its revision
+    std::optional<Clock::time_point> lastChange_;  // empty before the first change since the session was opened
+    bool changesQuickly_ = false;                  // whether the last change soon followed another one
+    SnapshotPtr snapshot_;      // the newest snapshot, kept while a client waits for a picture; else null
+    EncodedPictures pictures_;  // pictures of snapshot_
+    SharedBytes stateText_;     // the `state` message of stateRevision_, for clients without a stream
     std::optional<std::uint64_t> stateRevision_;
-    std::uint64_t jobs_ = 0;     ///< how many jobs have been posted, which is the number of the last one
-    std::uint64_t drawing_ = 0;  ///< the number of the job that is queued or being drawn; 0 if there is none
-    std::vector<EncodingPicture> encoding_;  ///< the pictures that are being encoded
-    std::optional<Clock::time_point>
-        lastMotion_;  ///< when the moving object made its last step; empty if it does not move
-    OneShotTimer motionTimer_, paceTimer_, saveTimer_, retryTimer_;
-    bool detached_ = false;  ///< whether this object must no longer write the session to the store
+    std::uint64_t jobs_ = 0;                 // the number of jobs posted so far; also the number of the newest job
+    std::uint64_t drawing_ = 0;              // the number of the job that is queued or being drawn; 0 if there is none
+    std::vector<EncodingPicture> encoding_;  // the pictures that are being encoded
+    // When the moving object made its last step. Empty if it does not move.
+    std::optional<Clock::time_point> lastMotion_;
+    // The searches that wait or run. Pointers to ended ones have expired, and are removed when the next search starts.
+    std::vector<std::weak_ptr<Search>> searches_;
+    OneShotTimer motionTimer_, paceTimer_, saveTimer_, retryTimer_, refineTimer_;
+    bool detached_ = false;  // whether this object must no longer write the session to the store
 
     // Shared by the strand and a worker.
     std::mutex queuedJobMutex_;
-    std::optional<PictureJob> queuedJob_;  ///< guarded by queuedJobMutex_; empty once a worker has started the job
+    // The job that waits for a worker; empty if there is none. Guarded by queuedJobMutex_, but needs no lock while no
+    // job is posted.
+    std::optional<PictureJob> queuedJob_;
 };
 
 }  // namespace oval4d::net

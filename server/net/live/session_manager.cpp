@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "net/file_reader.hpp"
 #include "store/codec.hpp"
 #include "store/object_codec.hpp"
 #include "store/secret.hpp"
@@ -21,12 +22,12 @@ store::WriteBehindStore::Settings settingsFrom(const Options& options) {
 /// keys of the decoded objects.
 class RecordObjects {
   public:
-    explicit RecordObjects(const store::Record& record) {
+    RecordObjects(const store::Record& record, store::FileOpener open) : open_(std::move(open)) {
         for (const auto& [key, bytes] : record.objects) bytes_[key] = bytes;
     }
     std::optional<slicing::Object> operator()(const std::string& key) {
         auto& object = decoded_[key];
-        if (!object && bytes_.contains(key)) object = store::decodeObjectRecord(bytes_[key]);
+        if (!object && bytes_.contains(key)) object = store::decodeObjectRecord(bytes_[key], open_);
         return object;
     }
     WriteBehindStore::KeysBySerial keys() const {
@@ -38,6 +39,7 @@ class RecordObjects {
     }
 
   private:
+    store::FileOpener open_;
     std::map<std::string, std::string_view> bytes_;
     std::map<std::string, std::optional<slicing::Object>> decoded_;
 };
@@ -81,7 +83,7 @@ std::optional<Error> SessionManager::admitSession(Client& client) {
         }
         evict(*unmodified);
     }
-    if (!client.tryOpenSession(now)) {
+    if (!client.admitNewSession(now)) {
         return Error{ErrorCode::too_many, "one address may open at most " +
                                               std::to_string(static_cast<long long>(options.client.newSessions)) +
                                               " sessions per minute; try again soon"};
@@ -115,12 +117,12 @@ void SessionManager::create(const ClientPtr& client, const JoinHandler& done) {
     const auto session = activate(credentials, client, session::Session{});
     lock.unlock();
     spdlog::info("session created session={}", credentials.id);
-    if (writeBehind_.writeTiming() == store::Store::WriteTiming::at_once) {
+    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
         // The session must be in the shared store before its client learns its id, so that every server can open it.
         writeBehind_.save(credentials.id, session::Session{}, WriteBehindStore::SaveScope::whole,
                           [done, session](bool) { done(session); });
     } else {
-        if (writeBehind_.writeTiming() == store::Store::WriteTiming::soon) session->save();
+        if (writeBehind_.writePolicy() == store::Store::WritePolicy::soon) session->save();
         done(session);
     }
 }
@@ -156,11 +158,13 @@ void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::Fet
         finishOpening(pending, std::move(*fetch->session));
     } else {
         const Seconds cost = decodingCost(fetch->record);
-        const bool accepted = services_.pictureWorkers.workers().post(
-            [self = shared_from_this(), pending, record = std::move(fetch->record)](std::size_t /*worker*/) {
-                self->decode(pending, record);
-            },
-            pending.client->pictureLane(), cost);
+        // Opening a file of the data folder may take long.
+        const bool opensFile = std::ranges::any_of(fetch->record.objects,
+                                                   [](const auto& object) { return store::namesFile(object.second); });
+        parallel::WorkerPool& pool = opensFile ? services_.loadWorkers : services_.pictureWorkers.workers();
+        const bool accepted = pool.post([self = shared_from_this(), pending, record = std::move(fetch->record)](
+                                            std::size_t /*worker*/) { self->decode(pending, record); },
+                                        opensFile ? pending.client->loadLane() : pending.client->pictureLane(), cost);
         if (accepted) return;
         writeBehind_.discardFetched(pending.credentials.id);
         finishOpening(pending, kTooManyJobs);
@@ -169,17 +173,30 @@ void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::Fet
 
 void SessionManager::decode(const PendingJoin& pending, const store::Record& record) {
     const std::string& id = pending.credentials.id;
+    bool fileIsMissing = false;
     try {
-        RecordObjects objects(record);
+        RecordObjects objects(record, [&](const session::LoadObject& load) -> Result<slicing::Object> {
+            const auto loaded = fileReader(services_)(load, services_.options.session);
+            if (loaded) return loaded->object;
+            fileIsMissing = true;
+            return loaded.error();
+        });
         auto value = store::decode(record.whole, record.head, std::ref(objects), services_.polytopes);
         if (!record.damage.empty()) throw store::UnreadableRecord(record.damage);
         writeBehind_.setStoredKeys(id, objects.keys());
         finishOpening(pending, std::move(value));
     } catch (const std::exception& fault) {
-        spdlog::error("session cannot be read session={} store={} fault=\"{}\"", id, writeBehind_.name(), fault.what());
+        if (fileIsMissing) {
+            spdlog::warn("session waits for its field session={} reason=\"{}\"", id, fault.what());
+        } else {
+            spdlog::error("session cannot be read session={} store={} fault=\"{}\"", id, writeBehind_.name(),
+                          fault.what());
+        }
         writeBehind_.discardFetched(id);
         finishOpening(pending,
-                      Error{ErrorCode::not_found, "this session is stored in a form that the server cannot read: " +
+                      Error{ErrorCode::not_found, (fileIsMissing ? "this session cannot be opened: "
+                                                                 : "this session is stored in a form that the server "
+                                                                   "cannot read: ") +
                                                       std::string(fault.what())});
     }
 }
@@ -249,7 +266,7 @@ std::shared_ptr<LiveSession> SessionManager::find(const std::string& id) const {
 }
 
 void SessionManager::saveAll(const std::shared_ptr<void>& completion) {
-    if (writeBehind_.writeTiming() == store::Store::WriteTiming::at_close) return;
+    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
     const std::lock_guard lock(mutex_);
     for (const auto& [id, live] : live_) live.session->save(completion);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Manages the sessions of this server. Sessions with clients are in memory, the others are in the store.
+// Manages the sessions of this server. Sessions with clients are in memory; the others are in the store.
 
 #include <map>
 #include <memory>
@@ -29,28 +29,28 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     /// Passes the session to `done`, or an error: `not_found`, `bad_token`, `too_many` if too many jobs are queued, or
     /// `internal` if the store does not answer.
     void join(const store::SessionCredentials& credentials, const ClientPtr& client, const JoinHandler& done);
-    /// Removes a client from a session, and closes the session if that was its last client. Must be called once for
-    /// each successful create() and join().
+    /// Removes the client `peer` from a session, and closes the session if that was its last client. `peer`: null if
+    /// the client was never welcomed, as for an upload. Must be called once for each successful create() and join().
     void leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer);
 
     /// Writes all open sessions to the store, unless sessions are written only when they are closed
-    /// (WriteTiming::at_close). Releases its references to `completion` once the sessions are written, or once the
+    /// (WritePolicy::at_close). Releases its references to `completion` once the sessions are written, or once the
     /// store is found to be unavailable.
     void saveAll(const std::shared_ptr<void>& completion = {});
     const store::WriteBehindStore& writeBehind() const { return writeBehind_; }
-    /// Writes all pending changes to the store, which takes at most about `limit`. No function may be called afterward.
+    /// Writes pending changes to the store for at most about `limit`. No other function may be called afterward.
     void stop(Seconds limit);
 
     /// Returns the number of sessions with at least one client.
     std::size_t openCount() const;
 
   private:
-    /// A session with clients.
+    // A session with clients.
     struct LiveEntry {
         std::shared_ptr<LiveSession> session;
-        int clients = 0;  ///< number of clients; the session is closed when it reaches 0
+        int clients = 0;  // number of clients; the session is closed when it reaches 0
     };
-    /// A call of join() that waits for the session to be fetched from the store.
+    // A call of join() that waits for the session to be fetched from the store.
     struct PendingJoin {
         store::SessionCredentials credentials;
         ClientPtr client;
@@ -72,8 +72,8 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     mutable std::mutex mutex_;
     std::map<std::string, LiveEntry, std::less<>> live_;  // guarded by mutex_
     SessionsByClient byClient_;                           // guarded by mutex_
-    // The sessions that are being fetched from the store, by id, each with the further calls of join() that wait for
-    // it. Guarded by mutex_.
+    // The sessions that are being fetched from the store, by id, each with the calls of join() that wait for it, except
+    // the call that started the fetch. Guarded by mutex_.
     std::map<std::string, std::vector<PendingJoin>, std::less<>> opening_;
     store::WriteBehindStore writeBehind_;  // declared last, because its thread uses the other members
 };

@@ -11,8 +11,8 @@
 namespace oval4d::net {
 
 /// Records which client opened each session of this process. Covers open sessions, and closed ones that have not
-/// expired. Finds the session to evict when a limit is reached: of the unmodified closed sessions, the one that was
-/// closed first. Not thread-safe.
+/// expired. When a limit is reached, finds the session to evict: the unmodified one that was closed first. Not
+/// thread-safe.
 class SessionsByClient {
   public:
     using Clock = std::chrono::steady_clock;

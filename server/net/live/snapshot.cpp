@@ -12,14 +12,16 @@ namespace oval4d::net {
 using wire::Stream;
 
 SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
-                         std::chrono::steady_clock::time_point changed, const StreamKey& key) {
+                         std::chrono::steady_clock::time_point changed, const StreamKey& key,
+                         slicing::Quality quality) {
     auto made = std::make_shared<Snapshot>();
     made->state = state;
     made->revision = revision;
     made->changed = changed;
-    made->stateText = SharedBytes(wire::stateMessage(state, pipeline.nameFocusSection(state), revision));
+    made->quality = quality;
+    made->stateText = SharedBytes(wire::stateMessage(state, pipeline.nameFocusSection(state), revision, {}, quality));
     made->sliced = key.stream != Stream::frames;
-    if (made->sliced) pipeline.slice(state, made->slices);
+    if (made->sliced) pipeline.slice(state, quality, made->slices);
     return made;
 }
 
@@ -31,16 +33,18 @@ Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, cons
                     std::optional<double> id, const std::function<void()>& whenDrawn) {
     if (key.stream == Stream::frames) {
         std::vector<std::uint8_t> png;
-        pipeline.drawPng(snapshot.state, snapshot.stateText.view(), key.viewport, png, whenDrawn);
+        pipeline.drawPng(snapshot.state, snapshot.stateText.view(), key.viewport, snapshot.quality, png, whenDrawn);
         return {SharedBytes(std::move(png)), true};
     }
     std::string text;
-    pipeline.writeSlices(snapshot.state, snapshot.slices, snapshot.revision, id, key.viewport, key.encoding, text);
+    pipeline.writeSlices(snapshot.state, snapshot.slices, snapshot.revision, id, key.viewport, key.encoding, text,
+                         snapshot.quality);
     return {SharedBytes(std::move(text)), key.encoding != wire::Encoding::json};
 }
 
-Seconds pictureCost(const session::State& state, const StreamKey& key) {
-    return key.stream == Stream::frames ? pipeline::frameCost(state, key.viewport) : pipeline::geometryCost(state);
+Seconds pictureCost(const session::State& state, const StreamKey& key, slicing::Quality quality) {
+    return key.stream == Stream::frames ? pipeline::frameCost(state, key.viewport, quality)
+                                        : pipeline::geometryCost(state, quality);
 }
 
 }  // namespace oval4d::net

@@ -13,6 +13,7 @@
 #include "pipeline/pipeline.hpp"
 #include "session/session.hpp"
 #include "slicing/slice_set.hpp"
+#include "slicing/surface_detail.hpp"
 #include "wire/request.hpp"
 
 namespace oval4d::net {
@@ -29,27 +30,28 @@ struct StreamKey {
 struct Snapshot {
     session::State state;
     std::uint64_t revision = 0;
-    std::chrono::steady_clock::time_point changed;  ///< the time at which the session reached this revision
-    SharedBytes stateText;                          ///< the `state` message of this revision
-    bool sliced = false;                            ///< whether `slices` is set
+    std::chrono::steady_clock::time_point changed;      ///< the time at which the session reached this revision
+    slicing::Quality quality = slicing::Quality::full;  ///< quality of the pictures made from this snapshot
+    SharedBytes stateText;                              ///< the `state` message of this revision
+    bool sliced = false;                                ///< whether `slices` is set
     slicing::SliceSet slices;
 };
 using SnapshotPtr = std::shared_ptr<const Snapshot>;
 
 /// Makes the snapshot of a revision, with slices if pictures of the kind `key` need them. Must be called on a worker.
 SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
-                         std::chrono::steady_clock::time_point changed, const StreamKey& key);
+                         std::chrono::steady_clock::time_point changed, const StreamKey& key, slicing::Quality quality);
 
 /// Returns whether the snapshot contains all that pictures of the kind `key` need. Returns false for a null pointer.
 bool suffices(const SnapshotPtr& snapshot, const StreamKey& key);
 
-/// Makes a picture: a PNG file for the stream of frames, else a `slices` message with this request id. For a PNG file,
-/// calls `whenDrawn` when the picture is drawn, but not yet encoded. Must be called on a worker. Throws
+/// Makes a picture: a PNG file if the stream of `key` is frames, else a `slices` message with this request id. For a
+/// PNG file, calls `whenDrawn` when the picture is drawn, but not yet encoded. Must be called on a worker. Throws
 /// std::runtime_error if the picture cannot be drawn.
 Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
                     std::optional<double> id, const std::function<void()>& whenDrawn = {});
 
 /// Returns the estimated time to make a picture of the kind `key`.
-Seconds pictureCost(const session::State& state, const StreamKey& key);
+Seconds pictureCost(const session::State& state, const StreamKey& key, slicing::Quality quality);
 
 }  // namespace oval4d::net

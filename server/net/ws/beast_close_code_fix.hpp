@@ -2,8 +2,8 @@
 // Corrects which close codes Beast accepts from clients. Beast 1.81 rejects 1014, which IANA has registered, and
 // accepts codes from 5000 on, which RFC 6455, section 7.4.2, does not allow; it has no option to change this. This
 // header therefore specializes the function template with which Beast reads a close frame, for the buffer type that
-// Beast uses. Every source file that uses a WebSocket stream must include this header, because all of them must see the
-// specialization.
+// Beast uses. Every source file that uses a WebSocket stream must include this header: if a file instantiated the
+// original template, the program would violate the one-definition rule.
 
 #include <array>
 #include <boost/beast/core/buffers_prefix.hpp>

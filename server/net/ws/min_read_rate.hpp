@@ -1,5 +1,5 @@
 #pragma once
-// The minimum rate at which a client must read.
+// The minimum rate at which a client must read, or send the body of a request.
 
 #include <algorithm>
 #include <chrono>
@@ -9,10 +9,10 @@
 
 namespace oval4d::net {
 
-/// Computes the timeouts that enforce the minimum reading rate while one message or reply is written. Otherwise a very
-/// slow client could make the server hold the message for hours. Each fragment must be written within
-/// Options::writeTimeout. In addition, the whole message must be written at the average rate Options::minReadRate, with
-/// two more write timeouts of grace; a rate of 0 turns this limit off.
+/// Computes the timeouts that enforce a minimum rate while one message or reply is written, or one body is read.
+/// Without a minimum, a very slow client could make the server hold the data for hours. Each fragment must be
+/// transferred within Options::writeTimeout. In addition, the fragment after the first n bytes must be transferred
+/// within n / Options::minReadRate plus two write timeouts from the start; a rate of 0 turns this second limit off.
 class MinReadRate {
   public:
     using Clock = std::chrono::steady_clock;
@@ -20,10 +20,10 @@ class MinReadRate {
     explicit MinReadRate(const Options& options)
         : grace_(options.writeTimeout), perSecond_(static_cast<double>(options.minReadRate)) {}
 
-    /// Counts bytes that the client has accepted.
+    /// Counts bytes that the client has accepted or sent.
     void count(std::size_t bytes) { taken_ += static_cast<double>(bytes); }
 
-    /// Returns the time within which the next fragment must be written; 1 ms if the client is already too slow.
+    /// Returns the time within which the next fragment must be transferred; 1 ms if the client is already too slow.
     Clock::duration timeout() const {
         const Seconds lived = Clock::now() - start_;
         const Seconds left = perSecond_ > 0 ? 2 * grace_ + Seconds(taken_ / perSecond_) - lived : grace_;

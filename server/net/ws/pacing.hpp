@@ -9,8 +9,8 @@
 namespace oval4d::net {
 
 /// Tracks the pictures on their way to one client. Each picture is sent (queued), then written to the socket, then
-/// shown by the client. At most kInFlight pictures may be sent but not yet shown. Two of them keep the client busy, and
-/// no queue of outdated pictures can form.
+/// shown by the client. At most kInFlight pictures may be sent but not yet shown: two are enough to keep the client
+/// busy, and too few to form a queue of outdated pictures.
 class Pacing {
   public:
     using Clock = std::chrono::steady_clock;

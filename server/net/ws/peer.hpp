@@ -23,6 +23,10 @@ class Peer {
     /// Returns the client to whom the connection belongs. The jobs of the connection run in this client's lanes.
     virtual const ClientPtr& client() const = 0;
 
+    /// Makes the connection notice at once if its client leaves while it executes a request, and then call
+    /// LiveSession::stopSearches(). Without this call, the connection notices that only after the request.
+    virtual void watchWhileExecuting() = 0;
+
     /// Closes the connection with a WebSocket close code after the queued messages have been written.
     virtual void close(std::uint16_t code, std::string reason) = 0;
 };

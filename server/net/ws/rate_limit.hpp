@@ -5,9 +5,9 @@
 
 namespace oval4d::net {
 
-/// Limits the rate of requests. Allows bursts of as many requests as the rate allows in two seconds, and refuses the
-/// requests beyond that. Refused requests count, too: a client is abusive, and should be disconnected, once as many of
-/// its requests have been refused as a whole burst allows. Not thread-safe.
+/// Limits the rate of requests. A burst may have as many requests as the rate allows in two seconds; further requests
+/// are refused, but still count. If a client keeps sending until it exceeds the limit by the size of another burst, it
+/// is abusive and should be disconnected. Not thread-safe.
 class RateLimit {
   public:
     using Clock = TokenBucket::Clock;

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <boost/asio/co_spawn.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
@@ -60,6 +61,7 @@ WebSocketConnection::WebSocketConnection(beast::tcp_stream stream, Services serv
       rate_(services.options.maxRequests, RateLimit::Clock::now()),
       deadline_(stream_.get_executor()),
       drained_(stream_.get_executor()),
+      executed_(stream_.get_executor()),
       helloDeadline_(stream_.get_executor()) {}
 
 asio::awaitable<void> WebSocketConnection::run(HttpRequest upgrade) {
@@ -102,29 +104,64 @@ void WebSocketConnection::startHelloTimer() {
     });
 }
 
+/// Executes the client's messages one after another. While one of them takes long, the next one is read, because Beast
+/// notices the client's pongs only while it reads. Before the client has joined a session, its messages are read one at
+/// a time, because the hello changes their maximum length.
 asio::awaitable<void> WebSocketConnection::readLoop() {
-    for (;;) {
-        co_await waitUntilDrained();
-        Incoming incoming = co_await read();
-        if (incoming.fault) {
-            if (incoming.fault == websocket::error::message_too_big) services_.metrics.countError(ErrorCode::too_large);
-            spdlog::debug("connection ended reason=\"{}\"", incoming.fault.message());
-            co_return;
-        }
-        services_.metrics.messagesReceived.Increment();
-        co_await pause(client_->countMessage(buffer_.size(), Client::Clock::now()));
-        if (closing_) {
-            // Ignore all messages that arrive before the client's close frame.
-        } else if (!stream_.got_text()) {
-            sendError({ErrorCode::bad_message, "messages to the server must be JSON text, not binary"}, {});
-            close(close_code::kNotText, "text expected");
-        } else if (incoming.refusal) {
-            sendError(*incoming.refusal, incoming.id);
-        } else {
-            co_await handle({static_cast<const char*>(buffer_.cdata().data()), buffer_.size()});
-        }
-        buffer_.consume(buffer_.size());
-        if (buffer_.capacity() > kMaxIdleBuffer) buffer_.shrink_to_fit();
+    Incoming incoming = co_await read();
+    while (!incoming.fault) {
+        swap(buffer_, message_);
+        startMessage(std::move(incoming));
+        incoming = co_await readAhead();
+        co_await waitUntil(executed_, [this] { return !executing_; });
+    }
+    if (incoming.fault == websocket::error::message_too_big) services_.metrics.countError(ErrorCode::too_large);
+    spdlog::debug("connection ended reason=\"{}\"", incoming.fault.message());
+}
+
+/// Starts to handle the message in `message_`; `executing_` is true until it has been handled. Does not combine the
+/// coroutine with readAhead() by Asio's operator &&: its cancellation is not thread-safe if a coroutine awaits another
+/// strand, here that of the session (https://github.com/chriskohlhoff/asio/issues/1348).
+void WebSocketConnection::startMessage(Incoming incoming) {
+    executing_ = true;
+    watching_ = false;
+    asio::co_spawn(stream_.get_executor(), handleMessage(std::move(incoming)),
+                   [self = shared_from_this()](const std::exception_ptr& /*failure*/) {
+                       self->message_.consume(self->message_.size());
+                       if (self->message_.capacity() > kMaxIdleBuffer) self->message_.shrink_to_fit();
+                       self->executing_ = false;
+                       self->executed_.cancel();
+                   });
+}
+
+/// Reads the next message once the current one is executed, or, in a session, has taken so long that the client's pong
+/// may be due. Does not read earlier: a client that closes the connection right after a request then still receives the
+/// answer, unless it is the answer of a long search.
+asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::readAhead() {
+    if (session_) {
+        executed_.expires_after(toSteadyDuration(services_.options.pingInterval / 2));
+        if (executing_ && !watching_) co_await executed_.async_wait(kAsTuple);
+    } else {
+        co_await waitUntil(executed_, [this] { return !executing_; });
+    }
+    Incoming next = co_await read();
+    if (next.fault && session_) session_->stopSearches(shared_from_this());
+    co_return next;
+}
+
+/// Handles the message in `message_`.
+asio::awaitable<void> WebSocketConnection::handleMessage(Incoming incoming) {
+    services_.metrics.messagesReceived.Increment();
+    co_await pause(client_->countMessage(message_.size(), Client::Clock::now()));
+    if (closing_) {
+        // Ignore all messages that arrive before the client's close frame.
+    } else if (!incoming.isText) {
+        sendError({ErrorCode::bad_message, "messages to the server must be JSON text, not binary"}, {});
+        close(close_code::kNotText, "text expected");
+    } else if (incoming.refusal) {
+        sendError(*incoming.refusal, incoming.id);
+    } else {
+        co_await handle({static_cast<const char*>(message_.cdata().data()), message_.size()});
     }
 }
 
@@ -133,12 +170,15 @@ asio::awaitable<void> WebSocketConnection::readLoop() {
 asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
     Incoming incoming;
     bool checked = false;
+    co_await waitUntil(drained_, [this] { return unsent_ <= services_.options.maxUnsent; });
     do {
         const auto [fault, size] = co_await stream_.async_read_some(buffer_, kReadChunk, kAsTuple);
         incoming.fault = fault;
         if (fault) break;
         if (!checked && buffer_.size() > services_.options.maxRequestBytes) {
             checked = true;
+            // Only one long message at a time may hold memory.
+            co_await waitUntil(executed_, [this] { return !executing_; });
             checkLongMessage(incoming);
         }
         if (incoming.refusal) {
@@ -146,6 +186,7 @@ asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
             buffer_.consume(buffer_.size());
         }
     } while (!stream_.is_message_done());
+    incoming.isText = stream_.got_text();
     co_return incoming;
 }
 
@@ -171,11 +212,11 @@ asio::awaitable<void> WebSocketConnection::pause(std::chrono::duration<double> w
     co_await timer.async_wait(kAsTuple);
 }
 
-/// Waits until the send queue is short enough to accept further requests.
-asio::awaitable<void> WebSocketConnection::waitUntilDrained() {
-    while (unsent_ > services_.options.maxUnsent && !ended_) {
-        drained_.expires_at(asio::steady_timer::time_point::max());
-        co_await drained_.async_wait(kAsTuple);
+/// Waits until `isTrue` returns true or the connection has ended. Tests again whenever `changed` is canceled.
+asio::awaitable<void> WebSocketConnection::waitUntil(asio::steady_timer& changed, std::function<bool()> isTrue) {
+    while (!isTrue() && !ended_) {
+        changed.expires_at(asio::steady_timer::time_point::max());
+        co_await changed.async_wait(kAsTuple);
     }
 }
 
@@ -315,6 +356,13 @@ void WebSocketConnection::dropSlowReader() {
     services_.metrics.slowReaders.Increment();
     spdlog::warn("client dropped: too many unread bytes client={}", client_->name());
     startClosing(close_code::kTryLater, "too many unread bytes");
+}
+
+void WebSocketConnection::watchWhileExecuting() {
+    asio::post(stream_.get_executor(), [self = shared_from_this()] {
+        self->watching_ = true;
+        self->executed_.cancel();
+    });
 }
 
 void WebSocketConnection::close(std::uint16_t code, std::string reason) {

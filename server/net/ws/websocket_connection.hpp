@@ -27,10 +27,10 @@ namespace oval4d::net {
 /// The WebSocket subprotocol that the server supports.
 inline constexpr std::string_view kSubprotocol = "oval4d.v1";
 
-/// Handles the requests of one client over a WebSocket. It answers each request before it reads the next one, so TCP
-/// back-pressure slows down a client that sends too fast. It writes one message at a time, and drops a client that
-/// reads too slowly. send(), close(), stop() and drop() may be called from any thread; all other functions run on the
-/// stream's strand.
+/// Handles the requests of one client over a WebSocket. It answers each request before it executes the next one and
+/// reads at most one message ahead, so TCP back-pressure slows down a client that sends too fast. It writes one message
+/// at a time, and drops a client that reads too slowly. The functions of Peer, stop() and drop() may be called from any
+/// thread; all other functions run on the stream's strand.
 class WebSocketConnection final : public Peer, public std::enable_shared_from_this<WebSocketConnection> {
   public:
     /// `session`: the session id in the request path; empty for a new session. `joined`: called when the client has
@@ -43,6 +43,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
 
     void send(Message message, std::function<void()> written = {}) override;
     const ClientPtr& client() const override { return client_; }
+    void watchWhileExecuting() override;
     void close(std::uint16_t code, std::string reason) override;
     /// Discards the queued messages, except the one that is being written, and closes the connection with code
     /// kStopping.
@@ -52,26 +53,30 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
 
   private:
     using RequestId = LiveSession::RequestId;
-    /// A message in the send queue.
+    // A message in the send queue.
     struct Outgoing {
         Message message;
-        std::function<void()> written;  ///< called once the message is written; may be empty
-        ByteBudget::Reservation held;   ///< reserves the bytes of the message
+        std::function<void()> written;  // called once the message is written; may be empty
+        ByteBudget::Reservation held;   // reserves the bytes of the message
     };
-    /// The result of reading a message.
+    // The result of reading a message.
     struct Incoming {
-        boost::system::error_code fault;  ///< why reading failed; empty if it succeeded
-        std::optional<Error> refusal;     ///< set if the message was long and was discarded
-        RequestId id;                     ///< the request id of a discarded message, if it was found
-        ByteBudget::Reservation held;     ///< reserves the memory of a long message
+        boost::system::error_code fault;  // why reading failed; empty if it succeeded
+        std::optional<Error> refusal;     // set if the message was long and was discarded
+        RequestId id;                     // the request id of a discarded message, if it was found
+        bool isText = false;
+        ByteBudget::Reservation held;  // reserves the memory of a long message
     };
 
     void configureStream(bool offersSubprotocol);
     void startHelloTimer();
     boost::asio::awaitable<void> readLoop();
-    boost::asio::awaitable<void> waitUntilDrained();
+    void startMessage(Incoming incoming);
+    boost::asio::awaitable<void> handleMessage(Incoming incoming);
+    boost::asio::awaitable<Incoming> readAhead();
     boost::asio::awaitable<Incoming> read();
     void checkLongMessage(Incoming& incoming);
+    boost::asio::awaitable<void> waitUntil(boost::asio::steady_timer& changed, std::function<bool()> isTrue);
     boost::asio::awaitable<void> pause(std::chrono::duration<double> wait);
     boost::asio::awaitable<void> handle(std::string_view text);
     boost::asio::awaitable<std::variant<wire::Request, wire::BadRequest>> parse(std::string_view text);
@@ -96,15 +101,17 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     std::function<void()> joined_;
     std::shared_ptr<LiveSession> session_;  // null until the client has joined a session
     RateLimit rate_;
-    boost::beast::flat_buffer buffer_;
+    boost::beast::flat_buffer buffer_;   // the message that is being read
+    boost::beast::flat_buffer message_;  // the message that is being executed
+    bool executing_ = false, watching_ = false;
 
     std::deque<Outgoing> outbox_;
     std::size_t unsent_ = 0;  // total size of the messages in outbox_, in bytes
     bool writing_ = false, ended_ = false;
     std::uint64_t writes_ = 0;  // number of completed writes; tells deadline_ whether its write has completed
     std::optional<boost::beast::websocket::close_reason> closing_;  // set once the connection is to be closed
-    std::optional<MinReadRate> minReadRate_;                        // for the message that is being written
-    boost::asio::steady_timer deadline_, drained_, helloDeadline_;
+    std::optional<MinReadRate> minReadRate_;  // gives the timeouts of the message that is being written
+    boost::asio::steady_timer deadline_, drained_, executed_, helloDeadline_;
 };
 
 }  // namespace oval4d::net

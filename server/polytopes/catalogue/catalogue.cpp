@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "polytopes/catalogue/names.hpp"
+#include "polytopes/construction/convex_hull.hpp"
 #include "polytopes/construction/diagram_text.hpp"
 #include "polytopes/construction/diminished.hpp"
 #include "polytopes/construction/uniform.hpp"
+#include "text/message_text.hpp"
 #include "text/words.hpp"
 
 namespace oval4d::polytopes {
@@ -96,15 +98,15 @@ const std::vector<CatalogueEntry>& entries() {
     return kEntries;
 }
 
-// Returns the entries by name, alias, diagram and Schläfli symbol, each converted by text::folded.
+// Returns the entries by name, alias, diagram and Schläfli symbol, each converted by text::normalizedName().
 const std::unordered_map<std::string, const CatalogueEntry*>& index() {
     static const auto kIndex = [] {
         std::unordered_map<std::string, const CatalogueEntry*> byName;
         for (const CatalogueEntry& entry : entries()) {
-            byName.emplace(text::folded(entry.name), &entry);
-            for (const std::string& alias : entry.aliases) byName.emplace(text::folded(alias), &entry);
+            byName.emplace(text::normalizedName(entry.name), &entry);
+            for (const std::string& alias : entry.aliases) byName.emplace(text::normalizedName(alias), &entry);
             for (const std::string& symbol : {entry.diagram, entry.schlaefli}) {
-                if (!symbol.empty()) byName.emplace(text::folded(symbol), &entry);
+                if (!symbol.empty()) byName.emplace(text::normalizedName(symbol), &entry);
             }
         }
         return byName;
@@ -117,15 +119,20 @@ struct NearMatch {
     const CatalogueEntry* entry;
 };
 
-// Returns the names with the least edit distance from `text`. If several have the same distance, keeps only those whose
-// length is nearest to that of `text`, because a wrong letter is likelier than a missing one.
+// Returns whether a distance is small enough for the two names to be spellings of one: about one mistake in three
+// letters.
+bool isNear(std::size_t distance, std::size_t length) { return 3 * distance <= length; }
+
+// Returns the names with the least edit distance from `text`; none if no name is similar. If several have the same
+// distance, keeps only those whose length is nearest to that of `text`, because a wrong letter is likelier than a
+// missing one.
 std::vector<NearMatch> nearest(std::string_view text) {
-    const std::size_t wanted = text::folded(text).size();
+    const std::size_t wanted = text::normalizedName(text).size();
     std::vector<NearMatch> best;
     std::pair<std::size_t, std::size_t> least(-1, -1);
     for (const polytopes::CatalogueEntry& entry : entries()) {
         const auto consider = [&](std::string_view name) {
-            const std::size_t known = text::folded(name).size();
+            const std::size_t known = text::normalizedName(name).size();
             const std::size_t longer = std::max(known, wanted) - std::min(known, wanted);
             if (longer > least.first) return;
             const std::pair distance(polytopes::editDistance(text, name), longer);
@@ -136,7 +143,37 @@ std::vector<NearMatch> nearest(std::string_view text) {
         consider(entry.name);
         for (const std::string& alias : entry.aliases) consider(alias);
     }
+    if (!isNear(least.first, wanted)) best.clear();
     return best;
+}
+
+constexpr std::size_t kMaxNameBytes = 256;  // of a name, which is stored and shown
+
+// Returns the reason why a polytope is too large to be built; nothing if it is not.
+std::optional<NameError> tooLarge(const Design& design, std::size_t maxVertices) {
+    const auto error = [&](const std::string& what, std::uint64_t most) {
+        return NameError{NameError::Reason::too_large,
+                         "the " + design.name + what + "; at most " + std::to_string(most) + " are allowed"};
+    };
+    const std::uint64_t vertices = elementCounts(design).vertices;
+    if (vertices > maxVertices) return error(" has " + std::to_string(vertices) + " vertices", maxVertices);
+    const std::uint64_t points = design.recipe->hullPoints();
+    if (points > kMaxHullPoints)
+        return error(" takes convex hulls of about " + std::to_string(points) + " points", kMaxHullPoints);
+    return {};
+}
+
+// Returns what designNamed() returns for a name within a name: an error has a message.
+DesignOrError designWithin(std::string_view text, std::size_t maxVertices) {
+    auto result = designNamed(text, maxVertices);
+    if (auto* error = std::get_if<NameError>(&result); error != nullptr && error->message.empty()) {
+        error->message = text::inQuotes(text) + " is not the name of a polytope";
+        std::vector<std::string> near;
+        for (const std::string_view name : nearestNames(text)) near.push_back(text::inQuotes(name));
+        const std::vector<std::string_view> views(near.begin(), near.end());
+        if (!near.empty()) error->message += "; did you mean " + text::alternatives(views) + "?";
+    }
+    return result;
 }
 
 }  // namespace
@@ -144,35 +181,34 @@ std::vector<NearMatch> nearest(std::string_view text) {
 std::span<const CatalogueEntry> catalogue() { return entries(); }
 
 const CatalogueEntry* findEntry(std::string_view text) {
-    if (const auto found = index().find(text::folded(text)); found != index().end()) return found->second;
+    if (const auto found = index().find(text::normalizedName(text)); found != index().end()) return found->second;
     const auto described = describedBy(text, [](std::string_view base) -> DesignOrError {
         const CatalogueEntry* entry = findEntry(base);
         return entry != nullptr ? DesignOrError(entry->design) : NameError{};
     });
     const auto* design = std::get_if<Design>(&described);
     if (design == nullptr) return nullptr;
-    const auto found = index().find(text::folded(design->name));
+    const auto found = index().find(text::normalizedName(design->name));
     return found == index().end() ? nullptr : found->second;
 }
 
 DesignOrError designNamed(std::string_view text, std::size_t maxVertices) {
     if (const auto* entry = findEntry(text)) return entry->design;
-    auto described = describedBy(text, [=](std::string_view base) { return designNamed(base, maxVertices); });
+    auto described = describedBy(text, [=](std::string_view base) { return designWithin(base, maxVertices); });
     if (const auto* design = std::get_if<Design>(&described)) {
-        const std::uint64_t vertices = elementCounts(*design).vertices;
-        if (vertices > maxVertices) {
-            return NameError{NameError::Reason::too_large, "the " + design->name + " has " + std::to_string(vertices) +
-                                                               " vertices; at most " + std::to_string(maxVertices) +
-                                                               " are allowed"};
+        if (design->name.size() > kMaxNameBytes) {
+            return NameError::impossible("the name has " + std::to_string(design->name.size()) + " bytes; at most " +
+                                         std::to_string(kMaxNameBytes) + " are allowed");
         }
+        if (auto error = tooLarge(*design, maxVertices)) return *std::move(error);
     }
     return described;
 }
 
 std::size_t editDistance(std::string_view one, std::string_view other) {
     constexpr std::size_t kLongest = 64;
-    const std::string a = text::folded(one.substr(0, kLongest));
-    const std::string b = text::folded(other.substr(0, kLongest));
+    const std::string a = text::normalizedName(one.substr(0, kLongest));
+    const std::string b = text::normalizedName(other.substr(0, kLongest));
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -186,7 +222,10 @@ std::size_t editDistance(std::string_view one, std::string_view other) {
     return row.back();
 }
 
-std::string_view nearestName(std::string_view text) { return nearest(text).front().name; }
+std::string_view nearestName(std::string_view text) {
+    const auto near = nearest(text);
+    return near.empty() ? std::string_view{} : near.front().name;
+}
 
 std::vector<std::string_view> nearestNames(std::string_view text) {
     constexpr std::size_t kMost = 3;

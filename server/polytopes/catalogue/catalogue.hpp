@@ -14,7 +14,7 @@
 
 namespace oval4d::polytopes {
 
-/// An entry of the catalogue. Its values are derived from the design, without building the polytope.
+/// An entry of the catalogue. The numbers and symbols come from the design; the polytope need not be built.
 struct CatalogueEntry {
     std::string name;                  ///< "24-cell"
     std::string family;                ///< "regular", "star", "uniform A4" … "H4", "other", "prism", "antiprism prism",
@@ -27,24 +27,31 @@ struct CatalogueEntry {
     Design design;
 };
 
-/// Returns all entries, in the order in which the keys n and N step through them: the convex regular polychora (4-D
-/// polytopes), the regular stars, the uniform polychora by symmetry group, prisms, and some members of each infinite
-/// family.
+/// Returns all entries, in the order in which the keys n and N of the page step through them: the convex regular
+/// polychora (4-D polytopes), the regular star polychora, the other convex uniform polychora, prisms over uniform
+/// polyhedra, and some antiprism prisms and duoprisms. The first call builds the catalogue; it exists until the process
+/// ends. Thread-safe.
 std::span<const CatalogueEntry> catalogue();
 
 /// Returns the entry with this name, alias, diagram or Schläfli symbol, or the entry of the polytope that the text
-/// describes (see names.hpp); nullptr if the catalogue does not contain it. Ignores case; blanks and hyphens are
-/// equivalent.
+/// describes in one of the notations (see describedBy() in names.hpp); nullptr if there is none. Ignores case; blanks
+/// and hyphens are equivalent.
 const CatalogueEntry* findEntry(std::string_view text);
 
-/// Returns the design of the polytope that a text names: an entry of the catalogue, or any other polytope that the text
-/// describes (see names.hpp) and that has at most `maxVertices` vertices. Returns an error if there is none.
+/// Returns the design of the polytope that a text names: that of an entry of the catalogue, or that of any other
+/// polytope that the text describes in one of the notations (see describedBy() in names.hpp). Returns an error if the
+/// text names no polytope. For a polytope that is not in the catalogue, also returns an error if it has more than
+/// `maxVertices` vertices, if its convex hulls have more than kMaxHullPoints points (convex_hull.hpp), or if its
+/// canonical name has more than 256 bytes.
 DesignOrError designNamed(std::string_view text, std::size_t maxVertices);
 
-/// Returns the name or alias with the least edit distance from `text`, for suggestions ("did you mean").
+/// Returns the name or alias with the least edit distance from `text`, for suggestions ("did you mean"). Among equal
+/// distances, prefers names whose length is nearest to that of `text`. Returns an empty text if the distance is more
+/// than a third of the length of `text`.
 std::string_view nearestName(std::string_view text);
 
-/// Returns the names with the least edit distance from `text`: at most three, and at most one for each polytope.
+/// Returns the names and aliases to which nearestName() gives equal preference: at most three, and at most one for each
+/// polytope. Returns none if nearestName() returns an empty text.
 std::vector<std::string_view> nearestNames(std::string_view text);
 
 /// Returns the edit distance (Levenshtein) of two names. Ignores case, blanks, hyphens, and everything after the first

@@ -5,9 +5,14 @@
 #include <optional>
 #include <utility>
 
+#include "polytopes/construction/combination.hpp"
 #include "polytopes/construction/design.hpp"
 #include "polytopes/construction/dual.hpp"
+#include "polytopes/construction/over_polyhedra.hpp"
+#include "polytopes/construction/solids.hpp"
 #include "polytopes/construction/uniform.hpp"
+#include "polytopes/construction/vertex_cuts.hpp"
+#include "text/message_text.hpp"
 #include "text/words.hpp"
 
 namespace oval4d::polytopes {
@@ -38,18 +43,16 @@ constexpr auto kOperations = std::to_array<Operation>({
     {"runcicantitruncated", {true, true, true, true}},
 });
 
-NameError impossible(std::string message) { return {NameError::Reason::impossible, std::move(message)}; }
-
 Diagram diagramOf(const UniformPolychoron& row) { return std::get<Diagram>(parseDiagram(row.linearNotation)); }
 
 bool isRegular(const UniformPolychoron& row) { return row.family == "regular" || row.family == "star"; }
 
 bool isCalled(const UniformPolychoron& row, std::string_view name) {
-    const std::string wanted = text::folded(name);
-    if (text::folded(row.name) == wanted || row.bowers == wanted) return true;
+    const std::string wanted = text::normalizedName(name);
+    if (text::normalizedName(row.name) == wanted || row.bowers == wanted) return true;
     const auto others = text::splitAtCommas(row.otherNames);
     return std::any_of(others.begin(), others.end(),
-                       [&](std::string_view other) { return text::folded(other) == wanted; });
+                       [&](std::string_view other) { return text::normalizedName(other) == wanted; });
 }
 
 template <typename Result>
@@ -59,7 +62,7 @@ DesignOrError designFrom(const Result& read) {
 }
 
 std::optional<Design> snubPrismNamed(std::string_view linearNotation) {
-    const std::string wanted = text::folded(linearNotation);
+    const std::string wanted = text::normalizedName(linearNotation);
     for (const NamedPolyhedron& base : namedPolyhedra()) {
         const std::string own(base.linearNotation);
         if (own.starts_with('s') && (wanted == own + "x" || wanted == "x" + own)) return prismOf(base);
@@ -94,14 +97,15 @@ DesignOrError duoprismNamed(std::vector<std::string> words) {
         if (own == "gonal" || own.empty()) continue;
         const auto polygon = polygonNamed(own);
         if (!polygon || polygon->numerator < 3) {
-            return impossible(
+            return NameError::impossible(
                 "a duoprism is named after two polygons with at least three sides, as in 5,7-duoprism or "
                 "5/2,5-duoprism");
         }
         polygons.push_back(*polygon);
     }
     if (polygons.size() == 1) polygons.push_back(polygons[0]);
-    if (polygons.size() != 2) return impossible("a duoprism is named after two polygons, as in 5,7-duoprism");
+    if (polygons.size() != 2)
+        return NameError::impossible("a duoprism is named after two polygons, as in 5,7-duoprism");
     return duoprism(polygons[0], polygons[1]);
 }
 
@@ -117,8 +121,9 @@ DesignOrError prismNamed(const std::vector<std::string>& words) {
     const auto polygon = polygonNamed(text::joined(words, 0, words.size() - 1));
     if (!polygon) return NameError{};
     if (polygon->numerator < 3 || (antiprism && polygon->denominator != 1)) {
-        return impossible(antiprism ? "the polygon of an antiprism must have at least three sides and be no star"
-                                    : "the polygon of a prism must have at least three sides");
+        return NameError::impossible(antiprism
+                                         ? "the polygon of an antiprism must have at least three sides and be no star"
+                                         : "the polygon of a prism must have at least three sides");
     }
     return antiprism ? antiprismPrism(polygon->numerator) : duoprism(*polygon, {4, 1});
 }
@@ -145,6 +150,12 @@ bool looksLikeDiagram(std::string_view text) {
 constexpr auto kNotations = std::to_array<Notation>({
     // A dual: "dual of rectified 5-cell", "dual 3,5-duoprism".
     dualNamed,
+    // A polytope over a polyhedron: "prism of rhombic dodecahedron", "pyramid of cube", "bipyramid of icosahedron".
+    overPolyhedronNamed,
+    // A polytope with its vertices cut off: "truncation of grand antiprism", "rectification of pyramid of cube".
+    vertexCutNamed,
+    // Two polytopes or polygons: "hull of tesseract and 16-cell", "intersection of …", "product of 5-gon and 7-gon".
+    combinationNamed,
     // A Schläfli symbol: "{5,5/2,5}", "t0,1{3,3,5}".
     [](const NameWords& text) -> std::optional<DesignOrError> {
         if (text.joinedFrom(0).find('{') == std::string::npos) return {};
@@ -174,15 +185,37 @@ constexpr auto kNotations = std::to_array<Notation>({
     [](const NameWords& text) -> std::optional<DesignOrError> { return operationNamed(text.words); },
 });
 
+// Returns the reason why a text in none of the notations names no polytope; empty if nothing better is known than that
+// it is unknown.
+std::string reasonFor(const std::vector<std::string>& words) {
+    if (const auto solid = solidNamed(words); solid && std::holds_alternative<Solid>(*solid)) {
+        const std::string name = nameOf(std::get<Solid>(*solid));
+        return "the " + name + " is a polyhedron; 4-D polytopes over it are the prism of " + name +
+               ", the pyramid of " + name + " and the bipyramid of " + name;
+    }
+    if (words.size() < 3 || words[1] != "of") return {};
+    const auto known = constructionWords();
+    return text::inQuotes(words[0]) + " is not a construction" + text::didYouMean(words[0], known) + "; there are " +
+           text::commaSeparated(known);
+}
+
 }  // namespace
 
 DesignOrError describedBy(std::string_view text, const DesignLookup& lookup) {
     const std::vector<std::string> words = text::wordsOf(text);
     if (words.empty()) return NameError{};
-    for (const Notation notation : kNotations) {
-        if (auto found = notation({words, lookup})) return *std::move(found);
+    if (const std::size_t count = constructionsIn(words); count > kMaxConstructions) {
+        return NameError::impossible("the name has " + std::to_string(count) + " constructions; at most " +
+                                     std::to_string(kMaxConstructions) + " are allowed");
     }
-    return NameError{};
+    for (const Notation notation : kNotations) {
+        auto found = notation({words, lookup});
+        if (!found) continue;
+        const auto* error = std::get_if<NameError>(&*found);
+        if (error == nullptr || error->reason != NameError::Reason::unknown || !error->message.empty())
+            return *std::move(found);
+    }
+    return NameError{NameError::Reason::unknown, reasonFor(words)};
 }
 
 std::vector<std::string> operationNames(const Diagram& diagram) {

@@ -1,6 +1,6 @@
 #pragma once
-// Names of polytopes beyond the catalogue: operations on regular polychora, products, prisms, and the notations of
-// Coxeter and Schläfli.
+// Names of polytopes that need not be in the catalogue: operations on regular polychora, products, prisms,
+// Coxeter–Dynkin diagrams and Schläfli symbols.
 
 #include <string>
 #include <string_view>
@@ -10,9 +10,10 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the design that a text describes in one of the notations, which kNotations in names.cpp lists with examples.
-/// Ignores case; blanks and hyphens between words are equivalent. `lookup` finds the design for the name of another
-/// polytope within the text, as in "dual of rectified 5-cell".
+/// Returns the design that a text describes in one of the notations; kNotations in names.cpp lists them with examples.
+/// Returns an error if the text is in no notation, if it is in a notation but describes no polytope, or if it has more
+/// than kMaxConstructions constructions (combination.hpp). Ignores case; blanks and hyphens between words are
+/// equivalent. Calls `lookup` for the name of another polytope within the text, as in "dual of rectified 5-cell".
 DesignOrError describedBy(std::string_view text, const DesignLookup& lookup);
 
 /// Returns the names that describe the polytope of a diagram as an operation on a convex regular polychoron, such as

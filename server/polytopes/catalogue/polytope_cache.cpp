@@ -37,7 +37,6 @@ std::size_t PolytopeCache::bytes() const {
     return bytes_;
 }
 
-/// Like `find`, but does not mark the polytope as used.
 PolytopeCache::Shared PolytopeCache::peek(const Design& design) const {
     const std::scoped_lock lock(mutex_);
     const auto found = slots_.find(design.name);

@@ -12,25 +12,28 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the 5-cell, which new sessions show. All callers and all caches share the same object. Thread-safe.
+/// Returns the 5-cell, which new sessions show. All callers and all caches share one object, which exists until the
+/// process ends. Thread-safe.
 const std::shared_ptr<const Polytope>& fiveCell();
 
-/// A cache of polytopes by name. Finds every polytope that is still in use elsewhere, through a weak pointer; in
-/// addition, owns the most recently used polytopes up to a memory limit. Thread-safe.
+/// A cache of polytopes, with their names as keys. The cache owns the most recently used polytopes, up to a memory
+/// limit. Through weak pointers, it also finds every polytope that it no longer owns but that a caller still holds.
+/// Thread-safe.
 class PolytopeCache {
   public:
     using Shared = std::shared_ptr<const Polytope>;
 
+    /// The default limit on the memory of the polytopes that the cache owns: 64 MiB.
     static constexpr std::size_t kDefaultBytes = std::size_t{64} << 20U;
 
     /// `bytes` is the limit on the memory of the polytopes that the cache owns.
     explicit PolytopeCache(std::size_t bytes = kDefaultBytes) : maxBytes_(bytes) {}
 
-    /// Returns the polytope of this design, and builds it if necessary. Concurrent calls for the same design build it
-    /// only once; the other calls wait. Throws std::invalid_argument as `build` does.
+    /// Returns the polytope of this design. If the cache does not find it, builds it on the calling thread; concurrent
+    /// calls for the same design wait until it is built. Throws std::invalid_argument as build() does.
     Shared get(const Design& design);
 
-    /// Returns the polytope of this design if it exists, else nullptr. Never waits for a polytope to be built.
+    /// Returns the polytope of this design if the cache finds it, else nullptr. Never waits for a polytope to be built.
     Shared find(const Design& design);
 
     /// Returns the memory in bytes of the polytopes that the cache owns, which never exceeds the limit.
@@ -43,12 +46,12 @@ class PolytopeCache {
         std::weak_ptr<const Polytope> polytope;
     };
 
-    // Returns the polytope of this design if it exists, without marking it as used; else nullptr.
+    // Like find(), but does not mark the polytope as used.
     Shared peek(const Design& design) const;
     // Returns the slot of this name; creates it if necessary.
     std::shared_ptr<Slot> slotOf(const std::string& name);
-    // Moves the polytope to the front of recent_, and removes the least recently used ones beyond the limit. Requires
-    // that mutex_ is held.
+    // Moves the polytope to the front of recent_, and removes the least recently used polytopes until the limit is met.
+    // Requires that the caller holds mutex_.
     void markUsed(const Shared& polytope);
 
     const std::size_t maxBytes_;

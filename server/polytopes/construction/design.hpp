@@ -1,5 +1,6 @@
 #pragma once
-// The designs of uniform polychora (4-D polytopes): how to build them, and their properties. See recipe.hpp.
+// Designs of uniform polychora (4-D polytopes), and functions that build a design of any polytope or return its
+// properties. recipe.hpp declares Design.
 
 #include <cstdint>
 #include <string>
@@ -12,26 +13,29 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the design of a diagram, which must be one that parseDiagram accepts. All diagrams of a polytope have the
-/// same design, which is built from the diagram with the largest symmetry group: x3o3o *b3o has the design of x3o3o4o.
+/// Returns the design of the polytope that `diagram` describes. parseDiagram() must accept the diagram. If several
+/// diagrams describe the same polytope, the design for all of them is that of the diagram with the largest group: for
+/// x3o3o *b3o, the design of x3o3o4o.
 Design designOf(const Diagram& diagram);
 
 /// Returns the design of the duoprism of the regular polygons p and q, which may be stars and must have at least 3
-/// sides. The name has the smaller number first, as in "5,7-duoprism". For p = q = 4, the design is that of the 8-cell.
+/// sides. Its name is "p,q-duoprism" with the smaller number of sides first, as in "5,7-duoprism". For p = q = 4, the
+/// design is that of the 8-cell.
 Design duoprism(RegularPolygon p, RegularPolygon q);
 
 /// Returns the design of the prism over the antiprism of a regular polygon, such as "pentagonal antiprism prism".
 /// `sides` is the number of sides of the polygon, at least 3. For 3 sides, the design is that of the octahedral prism.
 Design antiprismPrism(int sides);
 
-/// Returns the design of the prism over a polyhedron, such as "truncated cubic prism". For the cube, it is the design
+/// Returns the design of the prism over a polyhedron, such as "truncated cubic prism". For the cube, the design is that
 /// of the 8-cell.
 Design prismOf(const NamedPolyhedron& base);
 
-/// Returns the numbers of elements, computed without building the polytope.
+/// Returns the numbers of elements without building the polytope. If the polytope is constructed by a convex hull, the
+/// numbers are estimates.
 ElementCounts elementCounts(const Design& design);
 
-/// Returns the order of the full symmetry group, which includes reflections.
+/// Returns the order of the full symmetry group, which includes reflections; 0 if the order is not known.
 std::uint64_t symmetryOrder(const Design& design);
 
 /// Returns the diagram in linear notation, or empty if there is none.
@@ -40,9 +44,10 @@ std::string linearNotationOf(const Design& design);
 /// Returns the Schläfli symbol, or empty if there is none.
 std::string schlaefliOf(const Design& design);
 
-/// Builds the polytope, centered at the origin. All edges have length 2, except in duals. Throws std::invalid_argument
-/// if elements of the polytope would coincide, which happens for some star diagrams. Also throws it for a dual that
-/// does not exist because a cell's hyperplane passes through the center (see dual.hpp).
+/// Builds the polytope, centered at the origin. In a uniform polytope, all edges have length 2. Throws
+/// std::invalid_argument if elements of the polytope would coincide, which happens for some star diagrams; if a dual
+/// does not exist because a cell's hyperplane passes through the center (see dual.hpp); or if a construction requires a
+/// convex polytope and gets a nonconvex one. Throws TooLarge (convex_hull.hpp) if a hull exceeds its limits.
 Polytope build(const Design& design);
 
 }  // namespace oval4d::polytopes

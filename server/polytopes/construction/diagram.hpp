@@ -1,6 +1,6 @@
 #pragma once
-// Coxeter–Dynkin diagrams of four mirrors, and what can be computed from a diagram alone: its symmetries, group orders
-// and element counts.
+// Coxeter–Dynkin diagrams of four mirrors, and the properties that follow from a diagram without building its polytope:
+// symmetries, group orders and element counts.
 
 #include <array>
 #include <compare>
@@ -9,15 +9,15 @@
 
 namespace oval4d::polytopes {
 
-/// A branch of a diagram: the mirrors at its two ends meet at the angle π · denominator / numerator. The default is the
-/// right angle, for which no branch is drawn.
+/// A branch of a diagram: the mirrors at its two ends meet at the angle π · denominator / numerator. The default value
+/// stands for a right angle; diagrams omit this branch.
 struct Branch {
     int numerator = 2, denominator = 1;
     auto operator<=>(const Branch&) const = default;
 };
 
-/// The regular polygon {numerator/denominator}, which is a star polygon if the denominator is not 1. It has the type of
-/// a branch, because the branch p between a ringed and an unringed mirror generates the polygon {p}.
+/// The regular polygon {numerator/denominator}, a star polygon if the denominator is not 1. Its type is that of a
+/// branch because the branch p between a ringed and an unringed mirror generates the polygon {p}.
 using RegularPolygon = Branch;
 
 /// A set of mirrors of a diagram: bit i is set if it contains mirror i.
@@ -26,14 +26,15 @@ inline constexpr int kMirrors = 4;
 /// Returns whether the set contains the mirror.
 constexpr bool holds(MirrorSet set, int mirror) { return (set >> static_cast<unsigned>(mirror) & 1U) != 0; }
 
-/// A Coxeter–Dynkin diagram of four mirrors, which describes a uniform polytope: its vertices are the images of the
-/// generating vertex under the reflections in the mirrors. The generating vertex lies at distance 1 from each ringed
-/// mirror, so that all edges have length 2, and on all other mirrors.
+/// A Coxeter–Dynkin diagram of four mirrors. It describes a uniform polytope, whose vertices are the images of one
+/// point, the generating vertex, under the group that the reflections in the mirrors generate. The generating vertex
+/// lies at distance 1 from each ringed mirror, so that all edges have length 2, and on all other mirrors.
 struct Diagram {
-    std::array<std::array<Branch, 4>, 4> branches;  ///< for each pair of mirrors; symmetric; the diagonal is unused
+    std::array<std::array<Branch, 4>, 4> branches;  ///< branches[i][j] joins mirrors i and j; symmetric; the diagonal
+                                                    ///< is unused
     std::array<bool, 4> ringed{};
 
-    /// Returns the diagram that is a chain of the four mirrors, with the branches p, q and r.
+    /// Returns the diagram that is a chain: the branches p, q and r join mirrors 0 and 1, 1 and 2, and 2 and 3.
     static Diagram linear(Branch p, Branch q, Branch r, std::array<bool, 4> ringed);
     auto operator<=>(const Diagram&) const = default;
 };
@@ -52,20 +53,21 @@ std::vector<Permutation> symmetriesOf(const Diagram& diagram);
 /// mirrors.
 Diagram canonical(const Diagram& diagram);
 
-/// Returns the connected components of `set` (by default, of the whole diagram), ordered by their first mirrors.
+/// Returns the connected components of the mirrors in `set` (by default, of the whole diagram), in ascending order of
+/// their smallest mirror numbers.
 std::vector<MirrorSet> componentsOf(const Diagram& diagram, MirrorSet set = 0xf);
 
 /// Returns whether every connected component of `set` contains a ringed mirror. If so, the images of the generating
-/// vertex under the reflections in these mirrors are the vertices of an element of the polytope; its dimension is the
-/// number of mirrors. Otherwise, they span a lower dimension.
+/// vertex under the group of these n mirrors are the vertices of an n-dimensional element of the polytope. Otherwise,
+/// these images span less than n dimensions.
 bool generatesElement(const Diagram& diagram, MirrorSet set);
 
-/// Returns the order of the Coxeter group that the mirrors of `set` generate, or 0 if the group is not finite. The
-/// mirrors may also be those of star polyhedra and star polychora (Coxeter, Regular Polytopes, §11.5 and §14.1).
+/// Returns the order of the Coxeter group that the mirrors of `set` generate; 0 if the group is not finite. Also
+/// supports the fractional branches of star polyhedra and star polychora (Coxeter, Regular Polytopes, §11.5 and §14.1).
 std::uint64_t groupOrder(const Diagram& diagram, MirrorSet set = 0xf);
 
-/// Returns the mirrors that generate the stabilizer of the element that `set` generates. The stabilizer is the group of
-/// symmetries that map the element to itself. The mirrors are those of `set`, and the unringed mirrors that are
+/// Returns the mirrors that generate the stabilizer of the element that `set` generates: the subgroup of the diagram's
+/// Coxeter group that maps the element to itself. These mirrors are those of `set`, and the unringed mirrors that are
 /// perpendicular to all mirrors of `set`.
 MirrorSet stabilizerOf(const Diagram& diagram, MirrorSet set);
 

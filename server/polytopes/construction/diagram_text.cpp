@@ -14,8 +14,6 @@ using Reason = NameError::Reason;
 
 constexpr int kMaxNumber = 1'000'000;  // the maximum number in a text; exceeds any limit on vertices
 
-NameError impossible(std::string message) { return {Reason::impossible, std::move(message)}; }
-
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 // Reads a text from left to right; `rest` is the part not read yet.
@@ -57,7 +55,7 @@ struct Reader {
 };
 
 NameError badBranch() {
-    return impossible(
+    return NameError::impossible(
         "a branch number must be a whole number of at least 2, or a fraction in lowest terms greater than 2, such as "
         "5/2");
 }
@@ -79,23 +77,26 @@ class Builder {
 
     std::variant<Diagram, NameError> checked(std::string_view text) const {
         if (nodes != kMirrors) {
-            return impossible("the diagram of a polychoron has four nodes, as in x5o3o3x, not " +
-                              std::to_string(nodes));
+            return NameError::impossible("the diagram of a polychoron has four nodes, as in x5o3o3x, not " +
+                                         std::to_string(nodes));
         }
         if (groupOrder(diagram) == 0) {
-            return impossible("the mirrors of " + std::string(text) +
-                              " do not generate a finite group; each connected component must be the diagram of a "
-                              "regular or star polygon, polyhedron or polychoron, or D4, x3o3o *b3o");
+            return NameError::impossible(
+                "the mirrors of " + std::string(text) +
+                " do not generate a finite group; each connected component must be the diagram of a "
+                "regular or star polygon, polyhedron or polychoron, or D4, x3o3o *b3o");
         }
         if (!generatesElement(diagram, 0xf)) {
-            return impossible("every connected component of " + std::string(text) + " needs a ringed node, x");
+            return NameError::impossible("every connected component of " + std::string(text) +
+                                         " needs a ringed node, x");
         }
         for (int i = 0; i < kMirrors; ++i) {
             for (int j = 0; j < i; ++j) {
                 const Branch b = diagram.branches[i][j];
                 if (b.denominator % 2 == 0 && diagram.ringed.at(i) && diagram.ringed.at(j)) {
-                    return impossible("a branch " + textOf(b) + " of " + std::string(text) +
-                                      " with both ends ringed generates polygons that cover themselves twice");
+                    return NameError::impossible(
+                        "a branch " + textOf(b) + " of " + std::string(text) +
+                        " with both ends ringed generates polygons that cover themselves twice");
                 }
             }
         }
@@ -160,14 +161,15 @@ std::variant<Diagram, NameError> parseDiagram(std::string_view text) {
         if (reader.take("*")) {
             const int back = reader.rest.empty() ? -1 : reader.rest.front() - 'a';
             if (back < 0 || back >= builder.nodes || back >= kMirrors) {
-                return impossible(
+                return NameError::impossible(
                     "* must be followed by the letter of an earlier node: a for the first, b for the second");
             }
             reader.rest.remove_prefix(1);
             last = back;
             joined = true;
         } else if (builder.nodes > 0 && joined && !isDigit(reader.rest.front())) {
-            return impossible("two nodes must be separated by a branch number or a blank, as in x5o3o3x and x5o x7o");
+            return NameError::impossible(
+                "two nodes must be separated by a branch number or a blank, as in x5o3o3x and x5o x7o");
         }
         if (builder.nodes > 0 && joined) {
             const auto branch = reader.branch();
@@ -176,7 +178,7 @@ std::variant<Diagram, NameError> parseDiagram(std::string_view text) {
         }
         const bool ringed = reader.rest.starts_with('x');
         if (!ringed && !reader.rest.starts_with('o')) {
-            return impossible("the nodes of a diagram are written x (ringed) and o, as in x5o3o3x");
+            return NameError::impossible("the nodes of a diagram are written x (ringed) and o, as in x5o3o3x");
         }
         reader.rest.remove_prefix(1);
         last = builder.nodes;
@@ -192,7 +194,8 @@ std::variant<Diagram, NameError> parseSchlaefli(std::string_view text) {
         const std::size_t brace = reader.rest.find('{');
         const auto rings = brace == std::string_view::npos ? std::nullopt : truncation(reader.rest.substr(0, brace));
         if (!rings) {
-            return impossible("a Schläfli symbol has a form such as {3,3,5}, t0,1{4,3,3}, {5}×{7} or t{4,3}×{}");
+            return NameError::impossible(
+                "a Schläfli symbol has a form such as {3,3,5}, t0,1{4,3,3}, {5}×{7} or t{4,3}×{}");
         }
         reader.rest.remove_prefix(brace + 1);
         const int first = builder.nodes;
@@ -205,12 +208,13 @@ std::variant<Diagram, NameError> parseSchlaefli(std::string_view text) {
             builder.join(builder.nodes - 2, builder.nodes - 1, *branch);
         }
         if ((*rings >> static_cast<unsigned>(builder.nodes - first)) != 0) {
-            return impossible("the numbers before { must be node numbers, from 0 to the last node of the symbol");
+            return NameError::impossible(
+                "the numbers before { must be node numbers, from 0 to the last node of the symbol");
         }
         reader.skipBlanks();
     } while (reader.take("×") || reader.take("x"));
     if (!reader.rest.empty())
-        return impossible("the } of a Schläfli symbol may be followed only by × and another symbol");
+        return NameError::impossible("the } of a Schläfli symbol may be followed only by × and another symbol");
     return builder.checked(text);
 }
 

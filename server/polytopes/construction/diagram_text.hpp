@@ -1,10 +1,11 @@
 #pragma once
-// Parses and writes Coxeter–Dynkin diagrams in linear notation and as Schläfli symbols.
+// Conversion of Coxeter–Dynkin diagrams to and from text: linear notation and Schläfli symbols.
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include "polytopes/construction/diagram.hpp"
@@ -19,17 +20,21 @@ struct NameError {
         too_large,   ///< the polytope has more vertices than allowed
     };
     Reason reason = Reason::unknown;
-    std::string message;  ///< says what is wrong and what is allowed
+    std::string message;  ///< for the user: what is wrong and what is allowed
+
+    /// Returns an error for a known notation that describes no polytope.
+    static NameError impossible(std::string message) { return {Reason::impossible, std::move(message)}; }
 };
 
 /// Parses a diagram in linear notation (after Krieger and Klitzing): nodes x (ringed) and o with branch numbers between
-/// them, as in "x5o3o3x" and "x5/2o5o3o". A blank separates connected components, as in "x5o x7o"; "*b" continues from
-/// the second node, as in "x3o3o *b3o". Returns an error unless there are four nodes, the group is finite, and every
-/// component has a ringed node. Also returns an error if a 2-face would be a polygon that covers itself twice.
+/// them, as in "x5o3o3x" and "x5/2o5o3o". A blank separates connected components, as in "x5o x7o"; after "*b", the next
+/// branch starts at the second node, as in "x3o3o *b3o". Returns an error unless there are four nodes, the group is
+/// finite, and every component has a ringed node. Also returns an error for a branch with an even denominator between
+/// two ringed nodes, because its polygons would cover themselves twice.
 std::variant<Diagram, NameError> parseDiagram(std::string_view text);
 
 /// Parses Schläfli symbols of regular and truncated polytopes and of their products: "{3,3,5}", "t0,1{4,3,3}",
-/// "r{3,3,3}", "{5}×{7}", "t{4,3}×{}"; "x" may replace "×". Returns the same errors as parseDiagram.
+/// "r{3,3,3}", "{5}×{7}", "t{4,3}×{}"; "x" may replace "×". Returns the same errors as parseDiagram().
 std::variant<Diagram, NameError> parseSchlaefli(std::string_view text);
 
 /// Returns the diagram in linear notation, in the order of its mirrors.
@@ -39,10 +44,11 @@ std::string linearNotationOf(const Diagram& diagram);
 /// is not a union of chains.
 std::string schlaefliOf(const Diagram& diagram);
 
-/// Returns "5" or "5/2".
+/// Returns the branch as text: "5" or "5/2".
 std::string textOf(Branch branch);
 
-/// Parses a branch such as "5" or "5/2": an integer from 2 to 1,000,000, or a fraction in lowest terms greater than 2.
+/// Parses a branch such as "5" or "5/2": an integer of at least 2, or a fraction in lowest terms greater than 2. The
+/// numerator is at most 1,000,000. Returns std::nullopt for other texts.
 std::optional<Branch> parseBranch(std::string_view text);
 
 }  // namespace oval4d::polytopes

@@ -126,12 +126,12 @@ Polytope buildGrandAntiprism(std::string name) {
 }
 
 /// A diminished 600-cell. Its element counts follow from the counts of the removed elements.
-class Diminished : public Recipe {
+class Diminished600CellRecipe : public Recipe {
   public:
     using Builder = Polytope (*)(std::string name);
 
-    Diminished(ElementCounts counts, std::uint64_t symmetryOrder, std::string linearNotation, std::string schlaefli,
-               Builder builder)
+    Diminished600CellRecipe(ElementCounts counts, std::uint64_t symmetryOrder, std::string linearNotation,
+                            std::string schlaefli, Builder builder)
         : counts_(counts),
           symmetryOrder_(symmetryOrder),
           linearNotation_(std::move(linearNotation)),
@@ -155,14 +155,14 @@ class Diminished : public Recipe {
 
 // Cells: 600 − 24 · 20 tetrahedra and 24 icosahedra.
 Design snub24Cell() {
-    return {"snub 24-cell", std::make_shared<Diminished>(ElementCounts{96, 432, 480, 144}, 576, "s3s4o3o", "s{3,4,3}",
-                                                         buildSnub24Cell)};
+    return {"snub 24-cell", std::make_shared<Diminished600CellRecipe>(ElementCounts{96, 432, 480, 144}, 576, "s3s4o3o",
+                                                                      "s{3,4,3}", buildSnub24Cell)};
 }
 
 // Cells: 20 antiprisms and 300 tetrahedra.
 Design grandAntiprism() {
-    return {"grand antiprism",
-            std::make_shared<Diminished>(ElementCounts{100, 500, 720, 320}, 400, "", "", buildGrandAntiprism)};
+    return {"grand antiprism", std::make_shared<Diminished600CellRecipe>(ElementCounts{100, 500, 720, 320}, 400, "", "",
+                                                                         buildGrandAntiprism)};
 }
 
 Polytope prismOver(std::string name, const SnubPolyhedron& base) {

@@ -1,5 +1,5 @@
 #pragma once
-// Uniform polychora (4-D polytopes) that Wythoff's construction does not give.
+// Uniform polychora (4-D polytopes) that Wythoff's construction does not produce.
 
 #include <string>
 
@@ -18,7 +18,8 @@ Design snub24Cell();
 /// (Conway and Guy, 1965).
 Design grandAntiprism();
 
-/// Builds the prism of height 2 over a snub polyhedron, with its two bases in the hyperplanes w = ±1.
+/// Builds the prism of height 2 over any polyhedron, with its two bases in the hyperplanes w = ±1. The two bases have
+/// one cell type; the other cells have one type for each orbit of faces of `base`.
 Polytope prismOver(std::string name, const SnubPolyhedron& base);
 
 }  // namespace oval4d::polytopes

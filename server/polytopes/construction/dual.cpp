@@ -38,9 +38,9 @@ glm::dvec4 footOf(const Polytope& polytope, std::uint32_t cell) {
     return foot;
 }
 
-class Dual : public Recipe {
+class DualRecipe : public Recipe {
   public:
-    explicit Dual(Design base) : base_(std::move(base)) {}
+    explicit DualRecipe(Design base) : base_(std::move(base)) {}
 
     const Design& base() const { return base_; }
 
@@ -50,72 +50,76 @@ class Dual : public Recipe {
     }
     std::uint64_t symmetryOrder() const override { return base_.recipe->symmetryOrder(); }
 
-    // The dual has a vertex for each cell of the base, a 2-face for each edge (the loop of the cells around the edge),
-    // and a cell for each vertex.
+    std::uint64_t hullPoints() const override { return base_.recipe->hullPoints(); }
+
     Polytope build(const std::string& name) const override {
         const Polytope base = polytopes::build(base_);
-        std::vector<glm::dvec4> vertices;
-        double least = base.circumradius;
-        for (std::uint32_t c = 0; c < base.cells.size(); ++c) {
-            vertices.push_back(footOf(base, c));
-            least = std::min(least, glm::length(vertices.back()));
-        }
-        constexpr double kNone = 1e-6;
-        if (least < kNone * base.circumradius)
-            throw std::invalid_argument("the hyperplane of a cell of the " + base.name + " passes through its center");
-        for (glm::dvec4& v : vertices) v *= base.circumradius * least / glm::dot(v, v);
-
-        geometry::JaggedArray faces;
-        std::vector<std::vector<std::uint32_t>> facesAt(base.vertices.size());
-        for (std::uint32_t e = 0; e < base.edges.size(); ++e) {
-            std::vector<std::uint32_t> loop;
-            for (const std::uint32_t s : base.edgeFaces[e]) loop.push_back(base.faceCells[s / 2].at(1 - s % 2));
-            faces.add(loop);
-            for (const std::uint32_t v : base.edges[e]) facesAt[v].push_back(e);
-        }
-        geometry::JaggedArray cells;
-        for (const auto& around : facesAt) cells.add(around);
-        return makePolytope(name, std::move(vertices), std::move(faces), std::move(cells));
+        std::vector<glm::dvec4> vertices = polesOf(base);
+        double farthest = 0;
+        for (const glm::dvec4& v : vertices) farthest = std::max(farthest, glm::length(v));
+        for (glm::dvec4& v : vertices) v *= base.circumradius / farthest;
+        return reciprocalOf(base, name, std::move(vertices));
     }
 
   private:
     Design base_;
 };
 
-/// Returns the dual of a regular polytope: its diagram has the ring at the other end. Returns std::nullopt for other
-/// polytopes.
-std::optional<Design> dualOfRegular(const Design& base) {
-    const auto read = parseDiagram(base.recipe->linearNotation());
-    const auto* diagram = std::get_if<Diagram>(&read);
-    if (diagram == nullptr || componentsOf(*diagram).size() != 1) return {};
-    for (const bool reversed : {false, true}) {
-        std::array<bool, 4> ringed{true, false, false, false};
-        if (reversed) std::ranges::reverse(ringed);
-        const bool linear = diagram->branches[0][2].numerator == 2 && diagram->branches[0][3].numerator == 2 &&
-                            diagram->branches[1][3].numerator == 2;
-        if (!linear || diagram->ringed != ringed) continue;
-        Diagram dual = *diagram;
-        std::ranges::reverse(dual.ringed);
-        return designOf(dual);
+}  // namespace
+
+std::vector<glm::dvec4> polesOf(const Polytope& polytope) {
+    constexpr double kNone = 1e-6;
+    std::vector<glm::dvec4> poles;
+    for (std::uint32_t c = 0; c < polytope.cells.size(); ++c) {
+        const glm::dvec4 foot = footOf(polytope, c);
+        if (glm::length(foot) < kNone * polytope.circumradius)
+            throw std::invalid_argument("the hyperplane of a cell of the " + polytope.name +
+                                        " passes through its center");
+        poles.push_back(foot / glm::dot(foot, foot));
     }
-    return {};
+    return poles;
 }
 
-}  // namespace
+Polytope reciprocalOf(const Polytope& base, std::string name, std::vector<glm::dvec4> vertices) {
+    geometry::JaggedArray faces;
+    std::vector<std::vector<std::uint32_t>> facesAt(base.vertices.size());
+    for (std::uint32_t e = 0; e < base.edges.size(); ++e) {
+        std::vector<std::uint32_t> loop;
+        for (const std::uint32_t s : base.edgeFaces[e]) loop.push_back(base.faceCells[s / 2].at(1 - s % 2));
+        faces.add(loop);
+        for (const std::uint32_t v : base.edges[e]) facesAt[v].push_back(e);
+    }
+    geometry::JaggedArray cells;
+    for (const auto& around : facesAt) cells.add(around);
+    return makePolytope(std::move(name), std::move(vertices), std::move(faces), std::move(cells));
+}
+
+std::optional<Diagram> regularDiagram(const Design& design) {
+    const auto read = parseDiagram(design.recipe->linearNotation());
+    const auto* diagram = std::get_if<Diagram>(&read);
+    if (diagram == nullptr || componentsOf(*diagram).size() != 1) return {};
+    const bool linear = diagram->branches[0][2].numerator == 2 && diagram->branches[0][3].numerator == 2 &&
+                        diagram->branches[1][3].numerator == 2;
+    if (!linear) return {};
+    constexpr std::array<bool, 4> kFirst{true, false, false, false};
+    constexpr std::array<bool, 4> kLast{false, false, false, true};
+    if (diagram->ringed == kFirst) return *diagram;
+    if (diagram->ringed == kLast) return permuted(*diagram, {3, 2, 1, 0});
+    return {};
+}
 
 std::optional<DesignOrError> dualNamed(const NameWords& text) {
     if (text.words.front() != "dual" || text.words.size() < 2) return {};
     const std::size_t skipped = text.words[1] == "of" ? 2 : 1;
     DesignOrError described = text.lookup(text.joinedFrom(skipped));
     const auto* base = std::get_if<Design>(&described);
-    if (base == nullptr) {
-        NameError error = std::get<NameError>(described);
-        if (error.message.empty()) error.message = "'" + text.joinedFrom(skipped) + "' is not the name of a polytope";
-        return error;
+    if (base == nullptr) return std::get<NameError>(described);
+    if (const auto* dual = dynamic_cast<const DualRecipe*>(base->recipe.get())) return dual->base();
+    if (auto regular = regularDiagram(*base)) {
+        regular->ringed = {false, false, false, true};
+        return designOf(*regular);
     }
-    if (const auto* dual = dynamic_cast<const Dual*>(base->recipe.get())) return dual->base();
-    if (auto regular = dualOfRegular(*base)) return *regular;
-    return Design{"dual of " + base->name, std::make_shared<Dual>(*base)};
+    return Design{"dual of " + base->name, std::make_shared<DualRecipe>(*base)};
 }
 
 }  // namespace oval4d::polytopes

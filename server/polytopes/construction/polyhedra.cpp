@@ -84,7 +84,7 @@ PolyhedronSignature shapeOf(const Diagram& prism) {
 }
 
 // Returns the diagram of the prism over a polyhedron that is not a snub.
-Diagram prismOf(const NamedPolyhedron& base) {
+Diagram prismDiagram(const NamedPolyhedron& base) {
     return std::get<Diagram>(parseDiagram(std::string(base.linearNotation) + " x"));
 }
 
@@ -107,7 +107,7 @@ const std::vector<PolyhedronSignature>& namedShapes() {
     static const std::vector<PolyhedronSignature> kShapes = [] {
         std::vector<PolyhedronSignature> shapes;
         for (const NamedPolyhedron& named : kNamed)
-            shapes.push_back(isSnub(named) ? shapeOf(buildSnub(named)) : shapeOf(prismOf(named)));
+            shapes.push_back(isSnub(named) ? shapeOf(buildSnub(named)) : shapeOf(prismDiagram(named)));
         return shapes;
     }();
     return kShapes;
@@ -125,7 +125,7 @@ bool isConvex(const NamedPolyhedron& polyhedron) {
 
 std::vector<glm::dvec3> verticesOf(const NamedPolyhedron& polyhedron) {
     if (isSnub(polyhedron)) return buildSnub(polyhedron).vertices;
-    const Diagram prism = prismOf(polyhedron);
+    const Diagram prism = prismDiagram(polyhedron);
     std::vector<glm::dvec3> vertices;
     for (const glm::dvec4& vertex : wythoff({}, prism, mirrorsOf(prism)).vertices) {
         if (vertex.w > 0) vertices.emplace_back(vertex);

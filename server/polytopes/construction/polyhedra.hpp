@@ -21,16 +21,16 @@ struct NamedPolyhedron {
     std::string_view name;            ///< "truncated cube"
     std::string_view adjective;       ///< used in the name of its prism: "truncated cubic"
     std::string_view linearNotation;  ///< its diagram: "x4x3o"; the nodes of a snub polyhedron are s: "s4s3s"
-    std::string_view prism;  ///< Bowers' short name of its prism; empty if the prism has no own catalogue entry
+    std::string_view prism;  ///< Bowers' short name of its prism; empty if the catalogue does not contain the prism
 };
 
 /// Returns all named polyhedra: the Platonic and Archimedean solids, then the Kepler–Poinsot solids.
 std::span<const NamedPolyhedron> namedPolyhedra();
 
-/// Returns whether the polyhedron is convex: all but the Kepler–Poinsot solids are.
+/// Returns whether the polyhedron is convex. Only the Kepler–Poinsot solids are not.
 bool isConvex(const NamedPolyhedron& polyhedron);
 
-/// Returns the vertices of a polyhedron that has edge length 2 and its center at the origin.
+/// Returns the vertices of the polyhedron with edge length 2 and its center at the origin.
 std::vector<glm::dvec3> verticesOf(const NamedPolyhedron& polyhedron);
 
 /// Returns the adjective of a polygon: "pentagonal", "pentagrammic", "17-gonal", "7/2-gonal".
@@ -40,18 +40,18 @@ std::string adjectiveOf(RegularPolygon polygon);
 std::string nounOf(RegularPolygon polygon);
 
 /// Returns the polygon that a word names, such as "5", "5-gonal", "pentagonal", "pentagon", "5/2" or "pentagrammic";
-/// std::nullopt if it names none.
+/// std::nullopt if the word names no polygon. The result for "2" is a polygon of two sides, which callers must reject.
 std::optional<RegularPolygon> polygonNamed(std::string_view word);
 
-/// The properties by which nameOf recognizes a uniform polyhedron, scaled to edge length 2.
+/// The properties by which nameOf() recognizes a uniform polyhedron.
 struct PolyhedronSignature {
-    std::map<RegularPolygon, std::uint32_t> faces;  ///< the number of faces of each polygon
-    std::uint32_t vertices = 0;
-    double circumradius = 0;
+    std::map<RegularPolygon, std::uint32_t> faces;  ///< for each kind of polygon, the number of faces
+    std::uint32_t vertices = 0;                     ///< the number of vertices
+    double circumradius = 0;                        ///< for edge length 2
 };
 
-/// Returns the name of the uniform polyhedron of this shape, such as "truncated cube", "hexagonal prism" or "pentagonal
-/// antiprism", or an empty string if there is none. `tolerance` is the largest relative error of the circumradius.
+/// Returns the name of the uniform polyhedron with these properties, such as "truncated cube", "hexagonal prism" or
+/// "pentagonal antiprism"; empty if there is none. The circumradius may have a relative error of up to `tolerance`.
 std::string nameOf(const PolyhedronSignature& shape, double tolerance);
 
 }  // namespace oval4d::polytopes

@@ -10,31 +10,36 @@ namespace oval4d::polytopes {
 
 struct Polytope;
 
-/// Builds one polytope, and computes its properties without building it. There is a derived class for each family of
+/// Builds one polytope, and returns its properties without building it. There is a derived class for each family of
 /// polytopes.
 class Recipe {
   public:
     virtual ~Recipe() = default;
 
-    /// Returns the numbers of elements.
+    /// Returns the numbers of elements. If build() computes a convex hull, the numbers are estimates.
     virtual ElementCounts counts() const = 0;
 
-    /// Returns the order of the full symmetry group, which includes reflections.
+    /// Returns the order of the full symmetry group, which includes reflections; 0 if it is not known.
     virtual std::uint64_t symmetryOrder() const = 0;
 
-    /// Returns the Coxeter–Dynkin diagram in linear notation; empty if there is none.
+    /// Returns the total number of points of all convex hulls that build() computes, or an estimate; 0 if it computes
+    /// none.
+    virtual std::uint64_t hullPoints() const { return 0; }
+
+    /// Returns the Coxeter–Dynkin diagram in linear notation, such as "x3o4o3o" or, for a snub, "s3s4o3o"; empty if
+    /// there is none.
     virtual std::string linearNotation() const { return {}; }
 
     /// Returns the Schläfli symbol; empty if there is none.
     virtual std::string schlaefli() const { return {}; }
 
-    /// Builds the polytope and gives it this name. The polytope is centered at the origin. Throws std::invalid_argument
-    /// if the polytope cannot be built, for example because elements would coincide.
+    /// Builds the polytope, centered at the origin, and gives it this name. Throws std::invalid_argument if the
+    /// polytope cannot be built, for example because elements would coincide.
     virtual Polytope build(const std::string& name) const = 0;
 };
 
-/// A polytope that can be built: its canonical name and its recipe. All texts that denote the same polytope give a
-/// design with the same name.
+/// A polytope that can be built: its name and its recipe. Designs with equal names build equal polytopes; caches use
+/// the name as their key.
 struct Design {
     std::string name;  ///< "truncated tesseract", "5,7-duoprism"
     std::shared_ptr<const Recipe> recipe;

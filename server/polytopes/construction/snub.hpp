@@ -11,17 +11,19 @@
 
 namespace oval4d::polytopes {
 
-/// A polyhedron of edge length 2 whose vertices are an orbit of a rotation group.
+/// A polyhedron whose faces are grouped into orbits of its symmetry group. snubOf() returns snub polyhedra of edge
+/// length 2; prismOver() accepts any polyhedron in this form.
 struct SnubPolyhedron {
     std::vector<glm::dvec3> vertices;
     geometry::JaggedArray faces;        ///< the vertex loop of each face
-    std::vector<std::uint32_t> orbits;  ///< the orbit of each face: 0 for p-gons, 1 for q-gons, 2 for other triangles
+    std::vector<std::uint32_t> orbits;  ///< the orbit of each face; in a snub of {p, q}: 0 for the p-gons, 1 for the
+                                        ///< q-gons, 2 for the other triangles
 };
 
 /// Builds the snub of {p, q}, such as the snub cube for {4, 3}, the snub dodecahedron for {5, 3}, or the n-antiprism
-/// for {n, 2}. The vertices are the images of one point under the rotations of {p, q}. The faces are the p-gons and
-/// q-gons around the rotation axes (none for p or q = 2), and the triangles between them (Coxeter, Regular Polytopes,
-/// §8.6). Requires that p and q are integers with 1/p + 1/q > 1/2.
+/// for {n, 2}, with edge length 2. The vertices are the images of one point under the rotation group of {p, q}. The
+/// faces are the p-gons and q-gons around the rotation axes (there are none around twofold axes), and the triangles
+/// between them (Coxeter, Regular Polytopes, §8.6). Requires that p and q are integers with 1/p + 1/q > 1/2.
 SnubPolyhedron snubOf(Branch p, Branch q);
 
 }  // namespace oval4d::polytopes

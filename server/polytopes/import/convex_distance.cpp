@@ -13,8 +13,8 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kNoise = 2;    // times HullFrame::noise: the noise of the point plus that of the hull
-constexpr int kMaxRounds = 64;  // a safeguard: the method usually ends after a few rounds
+constexpr double kNoise = 2;        // times HullFrame::noise: the noise of the point plus that of the hull
+constexpr int kMaxIterations = 64;  // a safeguard: the method usually ends after a few rounds
 
 // A corner of the current simplex, which contains the nearest point found so far, and the barycentric weight of the
 // corner in this point.
@@ -88,7 +88,7 @@ bool moveToNearest(std::vector<Corner>& corners) {
 bool liesInHull(const glm::dvec4& point, std::span<const glm::dvec4> others, const HullFrame& frame) {
     if (others.empty()) return false;
     std::vector<Corner> corners{{others[0] - point, 1}};
-    for (int round = 0; round < kMaxRounds; ++round) {
+    for (int round = 0; round < kMaxIterations; ++round) {
         const glm::dvec4 nearest = sumOf(corners);
         const double distance = glm::length(nearest);
         if (!(distance > 0)) return true;

@@ -11,11 +11,13 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "geometry/index.hpp"
+
 namespace oval4d::polytopes {
 
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+using geometry::kNone;
 constexpr double kMaxAmplification =
     16;  // limit of the factor by which a flat's noise is assumed to grow by extrapolation
 constexpr double kAmbiguityFactor = 3;  // deviations up to this many times the expected noise are ambiguous

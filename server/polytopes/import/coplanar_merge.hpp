@@ -1,5 +1,5 @@
 #pragma once
-// Merges simplices of a convex hull that lie in one hyperplane into cells.
+// Merges those simplices of a convex hull that lie in one hyperplane into one cell.
 
 #include <array>
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace oval4d::polytopes {
 
-/// A facet of a four-dimensional convex hull that has only simplices as facets: a tetrahedron.
+/// A facet (a tetrahedron) of a four-dimensional convex hull whose facets are all simplices.
 struct SimplexFacet {
     std::array<std::uint32_t, 4> vertices;   ///< indices of points, in ascending order
     std::array<std::uint32_t, 4> neighbors;  ///< neighbor i shares the 2-face opposite vertex i
@@ -22,15 +22,16 @@ struct SimplexFacet {
 
 /// The 2-faces and cells of a convex hull after merging.
 struct MergedHull {
-    geometry::JaggedArray faces, cells;  ///< in the form that makePolytope expects
-    /// The number of pairs of neighboring cells for which the noise leaves open whether they lie in one hyperplane.
+    geometry::JaggedArray faces, cells;  ///< in the form that makePolytope() expects
+    /// The number of pairs of neighboring cells that are separate, although the noise is almost large enough for them
+    /// to lie in one hyperplane: their separation is uncertain.
     std::size_t ambiguousRidges = 0;
 };
 
-/// Merges neighboring simplices into one cell if their hyperplanes agree within the noise of the points, and likewise
-/// merges the triangles between two cells into one 2-face. Merges fewer simplices if the cell would not be convex
-/// otherwise. The resulting cells form a closed boundary, as the simplices do. `points` are in the coordinates of
-/// `frame`, which also gives their noise (HullFrame::noise).
+/// Merges neighboring simplices into one cell if their hyperplanes agree within the noise of the points
+/// (HullFrame::noise()), and merges the triangles between two cells into one 2-face. If a merged cell would not be
+/// convex, merges fewer simplices. `simplices` form a closed boundary, and so do the resulting cells. `points` are in
+/// the coordinates of `frame`.
 MergedHull mergeCoplanar(std::span<const SimplexFacet> simplices, std::span<const glm::dvec4> points,
                          const HullFrame& frame);
 

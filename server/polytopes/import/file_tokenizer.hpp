@@ -13,11 +13,12 @@ namespace oval4d::polytopes {
 /// The largest absolute value of a coordinate that is accepted.
 inline constexpr double kMaxCoordinate = 1e14;
 
-/// Throws an ImportError with this line and reason. `line` is 0 if the error is not in a single line.
+/// Throws an ImportError with this line and reason. `line` counts from 1; it is 0 if no single line is the cause.
 [[noreturn]] void throwImportError(std::size_t line, std::string reason);
 
-/// Splits a text into words separated by white space. Skips comments, which extend from # to the end of the line. With
-/// `commas`, commas and semicolons also separate words. The text must outlive the tokenizer and the words.
+/// Splits a text into words separated by white space. Skips comments, which extend from # to the end of the line, and a
+/// UTF-8 byte order mark at the start. If `commas` is true, commas and semicolons also separate words. The text must
+/// outlive the tokenizer and the words.
 class FileTokenizer {
   public:
     explicit FileTokenizer(std::string_view text, bool commas = false);
@@ -31,7 +32,7 @@ class FileTokenizer {
     /// Returns the next word on the current line; empty at the end of the line.
     std::string_view nextOnLine();
 
-    /// Skips the rest of the current line.
+    /// Skips the rest of the current line. nextOnLine() then returns an empty word; next() reads the next line.
     void skipLine();
 
   private:
@@ -45,18 +46,20 @@ class FileTokenizer {
     std::size_t at_ = 0, line_ = 1;
 };
 
-/// Returns the word in quotes, for a message: truncated to 24 bytes, with non-ASCII and control characters replaced by
-/// ?.
+/// Returns the word in quotes, for a message. Truncates it after 24 bytes, and replaces each blank, control character
+/// and non-ASCII byte by '?'.
 std::string inQuotes(std::string_view word);
 
-/// Parses a nonnegative integer. Throws an ImportError if the word is not one, or is empty (the end of the file). The
-/// error message describes the expected word as `what`, such as "a number of vertices".
+/// Parses an integer from 0 to 2³² − 1. Throws an ImportError if the word is not such an integer, or is empty (at the
+/// end of the file). `what` describes the expected word in the error message, such as "a number of vertices".
 std::uint32_t parseCount(std::string_view word, std::size_t line, const std::string& what);
 
-/// Parses a coordinate into `value`. Returns false unless the word is a number within ±kMaxCoordinate.
+/// Parses a coordinate into `value`. Returns false if the word is not a number within ±kMaxCoordinate; `value` may then
+/// have changed.
 bool tryParseCoordinate(std::string_view word, double& value);
 
-/// Parses and returns a coordinate. Throws an ImportError unless the word is a number within ±kMaxCoordinate.
+/// Parses and returns a coordinate. Throws an ImportError with this line if the word is not a number within
+/// ±kMaxCoordinate, or is empty (at the end of the file).
 double parseCoordinate(std::string_view word, std::size_t line);
 
 }  // namespace oval4d::polytopes

@@ -11,18 +11,19 @@
 
 namespace oval4d::polytopes {
 
-/// A convex hull, as computed by convexHull.
+/// A convex hull, as computed by convexHull().
 struct Hull {
-    std::vector<glm::dvec4> vertices;    ///< the points that are vertices of the hull, in their given order
-    geometry::JaggedArray faces, cells;  ///< in the form that makePolytope expects
+    std::vector<glm::dvec4> vertices;    ///< the points that are vertices of the hull, in the order of the input
+    geometry::JaggedArray faces, cells;  ///< in the form that makePolytope() expects
     std::size_t ambiguousRidges = 0;     ///< see MergedHull::ambiguousRidges
 };
 
 /// Computes the convex hull of points with Qhull. `rounding` is the maximum rounding error of a coordinate along each
-/// axis; 0 for exact coordinates. Simplices whose hyperplanes agree to within the rounding are merged into one cell. A
-/// point that lies outside the hull of the other points by no more than the rounding is not a vertex. Throws an
-/// ImportError if the points do not span four dimensions, if they are too imprecise, if the hull has more than
-/// `maxCells` cells, or if it has more than 4 · `maxCells` simplices before merging.
+/// axis; 0 for exact coordinates. The noise of a point is this error plus the floating-point errors and the random
+/// perturbation of the computation. Simplices whose hyperplanes agree within the noise become one cell. A point whose
+/// distance from the hull of the other points is within the noise is not a vertex. Throws an ImportError if the points
+/// do not span four dimensions, if they are too imprecise, if the hull has more than `maxCells` cells, or if it has
+/// more than 4 · `maxCells` simplices before merging.
 Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, std::size_t maxCells);
 
 }  // namespace oval4d::polytopes

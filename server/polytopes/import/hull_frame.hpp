@@ -8,30 +8,31 @@
 
 namespace oval4d::polytopes {
 
-/// A frame: an affine map that normalizes points to an extent of about 1 along each axis. Affine maps preserve convex
-/// hulls. Therefore hulls that are computed in the frame do not depend on the position, scale and rotation of the
-/// points, or on how flat the set of points is.
+/// An affine map to coordinates in which a set of points has an extent of about 1 along each axis. Affine maps preserve
+/// convex hulls. Computed in these coordinates, a hull does not depend on the position, scale, rotation and flatness of
+/// the set of points.
 ///
-/// The frame also gives the noise of the points: how far rounding, floating-point errors and a perturbation may have
-/// moved them.
+/// The frame also bounds the noise of the points: the distance by which the rounding of their coordinates,
+/// floating-point errors and a random perturbation may have moved them.
 class HullFrame {
   public:
-    /// Fits the frame to the points. `rounding` is the maximum rounding error of a coordinate along each axis. Throws
-    /// an ImportError if the points do not span four dimensions, or do so only due to the rounding.
+    /// Fits the frame to the points, of which there must be at least one. `rounding` is the maximum rounding error of a
+    /// coordinate along each axis. Throws an ImportError if the points do not span four dimensions, or if the rounding
+    /// may be the only reason why they do.
     HullFrame(std::span<const glm::dvec4> points, const glm::dvec4& rounding);
 
-    /// Returns the coordinates of a point in the frame.
+    /// Converts a point to the coordinates of the frame.
     glm::dvec4 operator()(const glm::dvec4& point) const;
 
-    /// Returns the largest distance by which a point may have been moved along `direction`, a unit vector. The distance
-    /// and the direction are in the coordinates of the frame.
+    /// Returns the maximum distance by which the noise may have moved a point along `direction`, a unit vector. The
+    /// distance and the direction are in the coordinates of the frame.
     double noise(const glm::dvec4& direction) const;
 
-    /// Returns an upper bound of the noise along any direction.
+    /// Returns an upper bound of noise() for all directions.
     double largestNoise() const;
 
-    /// Sets the amplitude of a random perturbation of each coordinate in the frame. The perturbation is part of the
-    /// noise.
+    /// Adds to the noise a random perturbation of each coordinate of the frame by at most `amplitude`. Replaces an
+    /// amplitude set before.
     void setPerturbation(double amplitude) { perturbation_ = amplitude; }
 
   private:

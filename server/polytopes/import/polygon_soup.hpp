@@ -1,5 +1,5 @@
 #pragma once
-// A polygon soup: the elements that a file lists, before it is known whether they form a polytope.
+// A polygon soup: vertices, 2-faces and cells that need not form a valid polytope.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace oval4d::polytopes {
 
-/// Vertices, 2-faces and cells as read from a file, with their positions in the file.
+/// Vertices, 2-faces and cells as read from a file, with the positions of the 2-faces and cells in the file.
 struct PolygonSoup {
     /// The position of an element in the file.
     struct SourcePosition {
@@ -26,16 +26,17 @@ struct PolygonSoup {
     std::vector<SourcePosition> faceSourcePositions, cellSourcePositions;  ///< parallel to `faces` and `cells`
 };
 
-/// Returns the size of a set of points: half the diagonal of its bounding box; 0 for no points. The tolerances of the
-/// import are relative to this size.
+/// Returns half the diagonal of the bounding box of the points; 0 if there are no points. The tolerances of the import
+/// are relative to this size.
 double halfDiagonal(std::span<const glm::dvec4> points);
 
 /// Throws an ImportError, with the element's line number, if a 2-face is not flat or a cell does not lie in a
-/// hyperplane. Deviations of up to 0.5 % of the polytope's size (see halfDiagonal) are allowed. Also throws an
-/// ImportError if all vertices lie in one hyperplane.
+/// hyperplane. Allows deviations of up to 0.5 % of halfDiagonal(). Also throws an ImportError if all vertices lie in
+/// one hyperplane, to within 10⁻⁶ of halfDiagonal().
 void checkFlat(const PolygonSoup& soup);
 
-/// Calls makePolytope. Converts an InvalidPolytope exception to an ImportError with the element's line number.
+/// Builds the polytope by makePolytope(). If makePolytope() throws InvalidPolytope, throws an ImportError with the line
+/// number of the invalid element instead.
 Polytope build(PolygonSoup soup, std::string name);
 
 }  // namespace oval4d::polytopes

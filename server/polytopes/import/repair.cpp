@@ -10,11 +10,13 @@
 
 #include <glm/geometric.hpp>
 
+#include "geometry/index.hpp"
+
 namespace oval4d::polytopes {
 
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+using geometry::kNone;
 
 std::string counted(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + ' ' + (count == 1 ? one : many);

@@ -7,9 +7,9 @@
 
 namespace oval4d::polytopes {
 
-/// Repairs, in place, faults of a file that have only one sensible correction (see importPolytope). Appends one warning
-/// to `warnings` for each kind of fault that was repaired. Merges vertices within `mergeDistance` of each other; a
-/// negative distance merges none.
+/// Repairs in `soup` the faults that have only one sensible correction; importPolytope() lists them. Appends one
+/// warning to `warnings` for each kind of fault that it repairs. Merges vertices whose distance is at most
+/// `mergeDistance`; if `mergeDistance` is negative, merges none.
 void repair(PolygonSoup& soup, double mergeDistance, std::vector<std::string>& warnings);
 
 }  // namespace oval4d::polytopes

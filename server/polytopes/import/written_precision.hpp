@@ -8,18 +8,19 @@
 
 namespace oval4d::polytopes {
 
-/// Infers from the digits of coordinates how they were rounded. Programs write numbers with a fixed number of decimals
-/// or a fixed number of significant digits, and may omit trailing zeros. Therefore the unit of a number's last digit is
-/// estimated in two ways: from the maximum number of decimals in the file, and from the maximum number of significant
-/// digits. The larger estimate is used.
+/// Infers from the digits of the coordinates in a file how they were rounded. Programs write numbers with a fixed
+/// number of decimals or a fixed number of significant digits, and may omit trailing zeros. Therefore the unit of the
+/// last digit before trailing zeros were omitted is estimated in two ways: from the maximum number of decimals in the
+/// file, and from the maximum number of significant digits. The larger estimate is used.
 class WrittenPrecision {
   public:
     /// Adds a coordinate along axis 0 … 3, as text and as a number.
     void add(std::string_view word, int axis, double value);
 
-    /// Returns the maximum rounding error of a coordinate along each axis: half the unit of the last digit. Returns 0
-    /// for all axes if the coordinates count as exact: if `size`, half the diagonal of the points' bounding box, is at
-    /// most 400 units of the last digit. Programs hardly round coordinates to such coarse units, as in 0.5 and 10.5.
+    /// Returns the maximum rounding error of a coordinate along each axis: half the unit of the last digit. `size` is
+    /// half the diagonal of the points' bounding box. If it is at most 400 units of the last digit, the coordinates
+    /// count as exact, and the result is 0 for all axes: programs hardly ever round so coarsely, so that coordinates
+    /// such as 0.5 and 10.5 are probably exact.
     glm::dvec4 maxRoundingError(double size) const;
 
     /// Returns whether every coordinate is written as an integer: without a decimal point and without an exponent.

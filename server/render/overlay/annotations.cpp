@@ -16,6 +16,7 @@ namespace {
 
 // The opacity of the bands behind the parallel coordinates of highlighted vertices.
 constexpr float kHighlightOpacity = 0.35F;
+constexpr float kLevelOpacity = 0.8F;  // of the lines of levels in the histogram of a field
 constexpr double kFocusReach = 0.009;  // half the width of the focus mark, as a fraction of the picture's height
 
 /// Returns a fraction of the picture's height in whole pixels, at least one.
@@ -42,6 +43,41 @@ void paintLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView
     overlay.box(plate, style.background, placement.focus ? 0.8f : 0.6f, corner);
     if (placement.focus) overlay.box(plate, style.focusText, 0.16f, corner);
     overlay.text(x, baseline, size, placement.label, placement.focus ? style.focusText : style.text);
+}
+
+/// Draws the labeled axes of the histogram of a field, the levels, and a mark for the focus slice in the panel of w.
+void paintHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
+    const scene::CoordinatesLayout& layout = scene.coordinates;
+    const scene::Style& style = scene::style();
+    const auto height = static_cast<double>(scene.viewport.height);
+    const auto thickness = static_cast<float>(wholePixels(layout.lineWidth, scene));
+    const auto bottom = static_cast<float>(std::round((layout.zero - layout.amplitude) * height));
+    const auto top = static_cast<float>(std::round((layout.zero + layout.amplitude) * height));
+    const auto leftOf = [&](int k) {
+        return static_cast<float>(std::round((layout.left + k * layout.lineStep) * height));
+    };
+    const auto width = static_cast<float>(layout.panel * height);
+    const int size = wholePixels(style.textHeight * 0.85, scene);
+    const auto digits = static_cast<float>(overlay.font().digitHeight(size));
+    for (const scene::SlicePlacement& placement : scene.placements) {
+        const double reach = scene.histogram.reach[3];
+        if (!placement.focus || std::abs(placement.w) > reach) continue;
+        const double along = (placement.w / reach + 1) / 2 * layout.panel;
+        const auto left =
+            static_cast<float>(std::round((layout.left + 3 * layout.lineStep + along) * height - thickness / 2));
+        overlay.box({left, bottom, left + thickness, top}, style.focusText);
+    }
+    for (int k = 0; k < 4; ++k) {
+        const float left = leftOf(k);
+        for (const scene::HistogramAxes::Level& level : scene.histogram.levels) {
+            const float at = std::round(
+                bottom + static_cast<float>(scene.histogram.height(level.value)) * (top - bottom) - thickness / 2);
+            overlay.box({left, at, left + width, at + thickness}, level.color, kLevelOpacity);
+        }
+        const scene::Color color = style.axes[static_cast<std::size_t>(k)];
+        overlay.box({left, bottom - thickness, left + width, bottom}, color);
+        overlay.text(left + width / 2, bottom - 1.4F * digits, size, std::string_view("xyzw").substr(k, 1), color);
+    }
 }
 
 /// Draws the labeled axes of the density strip, and a mark for the focus slice on the w axis.
@@ -141,8 +177,8 @@ void paintLabels(const scene::Scene& scene, Overlay& overlay) {
 
 void paintCoordinates(const scene::Scene& scene, Overlay& overlay) {
     if (!scene.look.parts.coordinates) return;
-    if (scene.coordinates.density) {
-        paintStripAxes(scene, overlay);
+    if (!scene.coordinates.hasLines()) {
+        (scene.coordinates.density ? paintStripAxes : paintHistogramAxes)(scene, overlay);
         return;
     }
     const scene::CoordinatesLayout& layout = scene.coordinates;

@@ -1,5 +1,6 @@
 #pragma once
-// Draws the annotations of the picture: axes, labels and parallel coordinates.
+// Draws the annotations of a picture: axes, labels and parallel coordinates. The functions add shapes and boxes to
+// lists; the caller draws the lists.
 
 #include "render/overlay/overlay.hpp"
 #include "render/slices/shape_batch.hpp"
@@ -7,15 +8,16 @@
 
 namespace oval4d::render {
 
-/// Draws the labeled x, y and z axes in the upper left corner, as the camera sees them.
+/// Draws the x, y and z axes, with their names, as the camera sees them, at the place that Scene::axes specifies.
 void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay);
 
-/// Draws the label of each slice, which shows its w, in the order of the slices. The focus slice's label is drawn last
-/// and highlighted.
+/// Draws the label of each slice, which shows its w, in the order of the slices, except that the label of the focus
+/// slice is drawn last. This label is highlighted.
 void paintLabels(const scene::Scene& scene, Overlay& overlay);
 
-/// Draws the parallel coordinates of the rotated vertices along the bottom. If a density strip is shown instead of
-/// lines, draws only the strip's axes; DensityStrip draws the strip.
+/// Draws the parallel coordinates of the rotated vertices along the bottom. If a density strip or the histogram of a
+/// field is shown in their place, draws only its axes and marks; DensityStrip draws the rest. Does nothing if none of
+/// these is shown.
 void paintCoordinates(const scene::Scene& scene, Overlay& overlay);
 
 }  // namespace oval4d::render

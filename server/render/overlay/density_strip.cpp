@@ -3,20 +3,13 @@
 #include <array>
 #include <cstddef>
 
-#include <glm/vec2.hpp>
-
 #include "render/color.hpp"
 #include "scene/density_plot.hpp"
+#include "slicing/coordinate_histograms.hpp"
 
 namespace oval4d::render {
 
 namespace {
-
-struct Corner {
-    glm::vec2 at{0};     ///< clip coordinates, −1 … 1
-    glm::vec2 texel{0};  ///< texture coordinates, 0 … 1 from the upper left corner of the density
-    std::uint32_t color = 0;
-};
 
 constexpr std::string_view kVertexSource = R"(
 layout(location = 0) in vec2 at;
@@ -39,52 +32,75 @@ out vec4 pixel;
 void main() { pixel = vec4(color, 1.0) * texture(density, texel).r; }
 )";
 
-constexpr Attribute kAttributes[] = {{2, GL_FLOAT, offsetof(Corner, at)},
-                                     {2, GL_FLOAT, offsetof(Corner, texel)},
-                                     {4, GL_UNSIGNED_BYTE, offsetof(Corner, color)}};
-
 }  // namespace
 
-DensityStrip::DensityStrip() : program_(kVertexSource, kFragmentSource, sizeof(Corner), kAttributes) {
+DensityStrip::DensityStrip()
+    : program_(kVertexSource, kFragmentSource, sizeof(Corner),
+               std::to_array<Attribute>({{2, GL_FLOAT, offsetof(Corner, at)},
+                                         {2, GL_FLOAT, offsetof(Corner, texel)},
+                                         {4, GL_UNSIGNED_BYTE, offsetof(Corner, color)}})) {
     glGenTextures(1, &texture_);
     glBindTexture(GL_TEXTURE_2D, texture_);
     for (const GLenum direction : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
         glTexParameteri(GL_TEXTURE_2D, direction, GL_CLAMP_TO_EDGE);
     for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
         glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, scene::DensityPlot::kColumns, scene::DensityPlot::kRows, 0, GL_RED,
-                 GL_UNSIGNED_BYTE, nullptr);
 }
 
 DensityStrip::~DensityStrip() { glDeleteTextures(1, &texture_); }
 
 void DensityStrip::draw(const scene::Scene& scene) {
-    using scene::DensityPlot;
-    if (!scene.showsDensity()) return;
+    using scene::DensityPlot, slicing::CoordinateHistograms;
+    const bool showsHistogram = scene.showsHistogram();
+    if (!showsHistogram && !scene.showsDensity()) return;
+    load(scene.density, showsHistogram ? CoordinateHistograms::kColumns : DensityPlot::kColumns);
+    corners_.clear();
+    indices_.clear();
+    const scene::CoordinatesLayout& layout = scene.coordinates;
+    for (int k = 0; k < 4; ++k) {
+        const scene::Color color = scene::style().axes[static_cast<std::size_t>(k)];
+        const double x = layout.left + k * layout.lineStep;
+        if (showsHistogram) {
+            const int column = k * CoordinateHistograms::kPanel;
+            addEdge(scene, x, column, color);
+            addEdge(scene, x + layout.panel, column + CoordinateHistograms::kPanel - 1, color);
+            addQuad();
+        } else {
+            addEdge(scene, x + layout.lineWidth / 2, k * DensityPlot::kGap, color);
+            if (k > 0) addQuad();
+        }
+    }
+    program_.draw(corners_.data(), corners_.size(), indices_);
+}
+
+void DensityStrip::load(const std::vector<std::uint8_t>& tones, int columns) {
+    const int rows = static_cast<int>(tones.size()) / columns;
     glBindTexture(GL_TEXTURE_2D, texture_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, DensityPlot::kColumns, DensityPlot::kRows, GL_RED, GL_UNSIGNED_BYTE,
-                    scene.density.data());
+    if (columns_ == columns && rows_ == rows) {
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, columns, rows, GL_RED, GL_UNSIGNED_BYTE, tones.data());
+    } else {
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, columns, rows, 0, GL_RED, GL_UNSIGNED_BYTE, tones.data());
+        columns_ = columns;
+        rows_ = rows;
+    }
+}
 
-    const scene::CoordinatesLayout& layout = scene.coordinates;
-    const scene::Style& style = scene::style();
+// Adds the lower and the upper end of a vertical edge at x, which shows the center of this column of the texture. The
+// ends show the centers of the last and the first row.
+void DensityStrip::addEdge(const scene::Scene& scene, double x, double column, scene::Color color) {
     const double aspect = static_cast<double>(scene.viewport.width) / scene.viewport.height;
-    const auto& colors = style.axes;
-    std::array<Corner, 8> corners;  // the lower and the upper end of each axis
-    for (std::size_t k = 0; k < 4; ++k)
-        for (const std::size_t above : {0u, 1u}) {
-            const double x = layout.left + static_cast<double>(k) * layout.lineStep + layout.lineWidth / 2;
-            const double y = layout.zero + (above != 0 ? 1 : -1) * layout.amplitude;
-            // Coordinates of texel centers: the first and the last row are at the ends of the axes.
-            const double column = static_cast<double>(k) * DensityPlot::kGap + 0.5;
-            const double row = above != 0 ? 0.5 : DensityPlot::kRows - 0.5;
-            corners[2 * k + above] = {{2 * x / aspect - 1, 2 * y - 1},
-                                      {column / DensityPlot::kColumns, row / DensityPlot::kRows},
-                                      rgba(colors[k], 1)};
-        }
-    constexpr std::array<std::uint32_t, 18> kIndices{0, 2, 1, 1, 2, 3, 2, 4, 3, 3, 4, 5, 4, 6, 5, 5, 6, 7};
-    program_.draw(corners.data(), corners.size(), kIndices);
+    for (const bool above : {false, true}) {
+        const double y = scene.coordinates.zero + (above ? 1 : -1) * scene.coordinates.amplitude;
+        const double row = above ? 0.5 : rows_ - 0.5;
+        corners_.push_back({{2 * x / aspect - 1, 2 * y - 1}, {(column + 0.5) / columns_, row / rows_}, rgba(color, 1)});
+    }
+}
+
+// Adds the quadrilateral between the last two edges.
+void DensityStrip::addQuad() {
+    const auto first = static_cast<std::uint32_t>(corners_.size()) - 4;
+    for (const std::uint32_t corner : {0U, 2U, 1U, 1U, 2U, 3U}) indices_.push_back(first + corner);
 }
 
 }  // namespace oval4d::render

@@ -1,13 +1,20 @@
 #pragma once
-// Draws the density strip of the parallel coordinates.
+// Draws density strips and histograms, which replace the lines of parallel coordinates: a density strip if an object
+// has many vertices, a histogram of the values if it is a field.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
 
 #include "render/shader_program.hpp"
 #include "scene/scene.hpp"
 
 namespace oval4d::render {
 
-/// Draws the density strip of a scene as a texture. Its color is interpolated between the colors of adjacent axes.
-/// Requires a current GL context throughout its lifetime.
+/// Draws the density strip of a scene, whose colors are interpolated between the axes, or the panels of the histogram
+/// of a field, each in the color of its axis. Both are drawn as textures. Requires a current GL context throughout its
+/// lifetime.
 class DensityStrip {
   public:
     DensityStrip();
@@ -15,12 +22,25 @@ class DensityStrip {
     DensityStrip(const DensityStrip&) = delete;
     DensityStrip& operator=(const DensityStrip&) = delete;
 
-    /// Draws the strip; does nothing if the scene shows none.
+    /// Draws the strip or the histogram. Does nothing if the scene shows neither.
     void draw(const scene::Scene& scene);
 
   private:
+    struct Corner {
+        glm::vec2 at{0};     // clip coordinates, −1 … 1
+        glm::vec2 texel{0};  // texture coordinates, 0 … 1 from the upper left corner
+        std::uint32_t color = 0;
+    };
+
+    void load(const std::vector<std::uint8_t>& tones, int columns);
+    void addEdge(const scene::Scene& scene, double x, double column, scene::Color color);
+    void addQuad();
+
     ShaderProgram program_;
     GLuint texture_ = 0;
+    int columns_ = 0, rows_ = 0;  // of the texture
+    std::vector<Corner> corners_;
+    std::vector<std::uint32_t> indices_;
 };
 
 }  // namespace oval4d::render

@@ -16,12 +16,12 @@ namespace oval4d::render {
 /// The bitmap of a glyph in the texture, in texels, and its metrics in pixels.
 struct Glyph {
     int x = 0, y = 0, width = 0, height = 0;
-    int left = 0, top = 0;  ///< distances from the pen right to the bitmap's left edge, and up to its top edge
-    int advance = 0;        ///< distance to the pen position of the next glyph
+    int left = 0, top = 0;  ///< the bitmap's left and top edges, to the right of and above the pen position
+    int advance = 0;        ///< the distance to the pen position of the next glyph
 };
 
 /// A font and its glyph atlas, which grows on demand. The texture has one channel, the coverage. Texel (0, 0) has full
-/// coverage, for shapes that are not glyphs. Requires a current GL context throughout its lifetime.
+/// coverage; it is for shapes that are not glyphs. Requires a current GL context throughout its lifetime.
 class Font {
   public:
     /// Throws std::runtime_error if `file` is not a readable font.
@@ -30,8 +30,9 @@ class Font {
     Font(const Font&) = delete;
     Font& operator=(const Font&) = delete;
 
-    /// Returns a glyph, rendering it on first use. `size` is the height of the em square in pixels, clamped to 1 … 512.
-    /// Characters missing from the font give its replacement glyph.
+    /// Returns a glyph; renders it on first use. `size` is the height of the em square in pixels, clamped to 1 … 512. A
+    /// character that the font lacks gives the font's replacement glyph. If the texture is full, the bitmap is empty.
+    /// The reference is valid until clearIfLarge() removes the glyphs.
     const Glyph& glyph(int size, char32_t character);
 
     /// Returns the width of a line of UTF-8 text in pixels.
@@ -40,14 +41,15 @@ class Font {
     /// Returns the height of a digit above the baseline in pixels.
     int digitHeight(int size) { return glyph(size, U'0').top; }
 
-    /// Removes all glyphs if the texture has become large, because many glyphs may have sizes that are no longer used.
-    /// Must be called only between pictures.
+    /// Removes all glyphs if the texture has become large, because many of them may have sizes that are no longer used.
+    /// Must not be called while a picture uses glyphs.
     void clearIfLarge();
 
-    /// Binds the texture, and uploads it if there are new glyphs.
+    /// Binds the texture to the active texture unit. Uploads it if there are new glyphs.
     void bind();
 
-    /// Calls `each(glyph, pen)` for every character of `text`; `pen` is the x position from the start of the line.
+    /// Calls `each(glyph, pen)` for every character of the UTF-8 `text`; `pen` is the x position, in pixels from the
+    /// start of the line.
     template <class Each>
     void layOut(int size, std::string_view text, Each&& each) {
         int pen = 0;
@@ -68,7 +70,7 @@ class Font {
     std::unique_ptr<Face> face_;
     std::map<std::pair<int, char32_t>, Glyph> glyphs_;
     std::vector<std::uint8_t> texels_;
-    int height_ = 0, shelfX_ = 0, shelfY_ = 0, shelfHeight_ = 0;  // of the texture; the shelf being filled
+    int height_ = 0, shelfX_ = 0, shelfY_ = 0, shelfHeight_ = 0;  // height of the texture; last row of glyphs
     bool changed_ = true;                                         // whether `texels_` has glyphs to upload
     GLuint texture_ = 0;
 };

@@ -17,7 +17,7 @@ using slicing::PlanarSection;
 constexpr float kPanelOpacity = 0.22F, kFillOpacity = 0.16F, kAxisOpacity = 0.55F;
 constexpr double kNameHeight = 0.3;  // of an axis' name, as a fraction of its panel
 
-// Draws the panels of one section: with its first axis to the right, and with its second.
+// Draws the two panels of one section: one with its first axis to the right, one with its second.
 class SectionPainter {
   public:
     SectionPainter(const scene::Scene& scene, Overlay& overlay)

@@ -5,8 +5,9 @@
 
 namespace oval4d::render {
 
-/// Draws the matrix of planar sections; does nothing if the scene shows none. Edges have the colors of the cells from
-/// which they were cut. Lines through the focus point show where the other planes meet each plane.
+/// Draws the matrix of planar sections. Does nothing if the scene shows none. The edges of a section have the colors of
+/// the cells from which they were cut. The lines through the focus point in a panel show where the plane of this panel
+/// meets the planes of the other panels in the same row and column.
 void paintMatrix(const scene::Scene& scene, Overlay& overlay);
 
 }  // namespace oval4d::render

@@ -15,13 +15,13 @@
 
 namespace oval4d::render {
 
-/// A corner of a box or of a glyph. The coverage of a pixel is its coverage by a rounded box, times the value of a
-/// texel.
+/// A corner of a box or of a glyph. The opacity of a pixel is that of the color, times the fraction of the pixel that a
+/// box with rounded corners covers, times the value of a texel.
 struct OverlayVertex {
     glm::vec2 at{0};          ///< clip coordinates, −1 … 1
-    glm::vec2 fromCenter{0};  ///< position relative to the center of the box, in pixels
+    glm::vec2 fromCenter{0};  ///< the position relative to the center of the box, in pixels
     glm::vec3 box{0};         ///< half width, half height and corner radius, in pixels
-    glm::vec2 texel{0.5f};    ///< position in the glyph texture; the default has full coverage
+    glm::vec2 texel{0.5f};    ///< the position in the glyph texture; the default has full coverage
     std::uint32_t color = 0;  ///< as returned by rgba()
 };
 
@@ -30,32 +30,33 @@ struct Box {
     float left, bottom, right, top;
 };
 
-/// Collects boxes and lines of text, and draws them; later ones cover earlier ones. Pixel coordinates count from the
-/// lower left corner. Requires a current GL context throughout its lifetime.
+/// Collects boxes, lines, polygons and text, and draws them; later ones cover earlier ones. Pixel coordinates are
+/// counted from the lower left corner. Requires a current GL context throughout its lifetime.
 class Overlay {
   public:
-    /// `font` is the path of a font file. Throws std::runtime_error if it cannot be read.
+    /// `font` is the path of a font file. Throws std::runtime_error if it cannot be read, or if a shader does not
+    /// compile.
     explicit Overlay(const std::string& font);
 
-    /// Starts an empty list for a picture of this size.
+    /// Removes everything that was added, and starts a picture of this size.
     void begin(scene::Viewport viewport);
 
-    /// Adds a box; `cornerRadius` is in pixels. Its edges are antialiased unless they lie on pixel boundaries.
+    /// Adds a box. `cornerRadius` is in pixels. The edges are antialiased unless they lie on pixel boundaries.
     void box(const Box& box, scene::Color color, float opacity = 1, float cornerRadius = 0);
 
     /// Adds a straight line with round ends, `width` pixels wide.
     void line(glm::vec2 from, glm::vec2 to, float width, scene::Color color, float opacity = 1);
 
-    /// Adds the interior of a convex polygon. Its edges are not antialiased; draw lines over them to hide this.
+    /// Adds a convex polygon. Its edges are not antialiased; lines drawn over them hide this.
     void polygon(std::span<const glm::vec2> corners, scene::Color color, float opacity = 1);
 
-    /// Adds a line of text, centered at x and with its baseline at y. `size` is the height of the em square in pixels.
-    /// The text is moved to whole pixels, where it is sharpest.
+    /// Adds a line of UTF-8 text, centered at x, with its baseline at y. `size` is the height of the em square in
+    /// pixels. The text is moved to whole pixels, where it is sharpest.
     void text(float x, float y, int size, std::string_view text, scene::Color color, float opacity = 1);
 
     Font& font() { return font_; }
 
-    /// Draws all boxes and lines of text that were added since begin().
+    /// Draws everything that was added since begin().
     void draw();
 
   private:

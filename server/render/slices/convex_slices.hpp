@@ -14,14 +14,16 @@
 
 namespace oval4d::render {
 
-/// Adds the shapes of convex slices to a batch in back-to-front order. The slices are ordered from far to near. The
-/// order in each slice is: back faces, the bars and balls that belong only to back faces, front faces, the other bars
-/// and balls. This is correct if slices do not overlap in space. Reuses its memory for the next picture.
+/// Adds the shapes of convex slices to a batch, from back to front: the slices from far to near, and in each slice
+/// first the faces that are turned away from the eye, then the bars and balls that belong only to such faces, then the
+/// other faces, then the other bars and balls. This order is correct if slices do not overlap in space. Reuses its
+/// memory for the next picture.
 class ConvexSlicePainter {
   public:
-    /// Adds all visible slices to `out`, as the scene's camera sees them. Calls `painted` after each slice; `painted`
-    /// may draw the shapes in `out` and clear it. If the projection of the whole object is shown, calls
-    /// `paintProjection` when all slices farther away than it are added, and no nearer ones.
+    /// Adds all visible slices to `out`, as the camera of the scene sees them. Calls `painted` after each slice; it may
+    /// draw the shapes in `out` and clear `out`. If the projection of the whole object is shown, calls
+    /// `paintProjection` once, after the slices that are farther from the eye than the projection, and before the
+    /// nearer ones.
     void paint(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted,
                const std::function<void()>& paintProjection);
 

@@ -11,27 +11,28 @@
 
 namespace oval4d::render {
 
-/// Sorts the shapes of slices that need not be convex into layers. Reuses its memory for the next picture.
+/// Sorts the shapes of slices that need not be convex into layers, and converts them to patches. Reuses its memory for
+/// the next picture.
 class NonconvexSlicePainter {
   public:
-    /// The layers in drawing order: opaque faces from near to far; opaque balls and bars from far to near, so that
-    /// their antialiased edges blend with the shapes behind them; faded shapes from far to near, which do not hide
-    /// other shapes.
+    /// The layers, in drawing order. `faces` has the opaque faces, from near to far. `skeleton` has the opaque balls
+    /// and bars, from far to near, so that their antialiased edges blend with the shapes behind them. `faded` has the
+    /// faded shapes, from far to near; they do not hide other shapes.
     struct Layers {
         ShapeBatch faces, skeleton, faded;
         DepthRange depths;  ///< contains the depths of all shapes
     };
 
-    /// Overwrites `out` with all visible slices, as the scene's camera sees them. Faces are drawn from the scene's
-    /// fill.
+    /// Overwrites `out` with the shapes of all visible slices, as the camera of the scene sees them. The faces are the
+    /// patches of Scene::fill.
     void paint(const scene::Scene& scene, Layers& out);
 
   private:
     enum class Kind : std::uint8_t { ball, bar, patch };
     struct Item {
-        float depth;  // distance from the eye along the view axis
+        float depth;  // the distance from the eye along the view axis
         Kind kind;
-        std::uint32_t slice, number;  // number: index of the patch in the fill, or of the vertex or edge in the slice
+        std::uint32_t slice, number;  // number: that of the patch in the fill, or of the vertex or edge in the slice
     };
 
     void collect(const SliceView& slice, DepthRange& depths);

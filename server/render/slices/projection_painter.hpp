@@ -1,5 +1,5 @@
 #pragma once
-// Draws the projection of the whole object, with a depth buffer.
+// Prepares the projection of the whole object for drawing with a depth buffer.
 
 #include <cstdint>
 #include <vector>
@@ -11,27 +11,28 @@
 
 namespace oval4d::render {
 
-/// Prepares the shapes of the projection of the whole object and of the sections in it. Its bars cross in front of each
-/// other everywhere, so they need a depth buffer. Reuses its memory for the next picture.
+/// Sorts the shapes of the projection of the whole object, and of the sections that are shown in it, into layers, and
+/// converts them to patches. Drawing them needs a depth buffer, because bars of the projection cross each other
+/// everywhere in the picture. Reuses its memory for the next picture.
 class ProjectionPainter {
   public:
-    /// The layers in drawing order: the object's opaque balls and bars from far to near, so that their antialiased
-    /// edges blend with the shapes behind them; then faces, sections and faded shapes from far to near, which do not
-    /// hide other shapes.
+    /// The layers, in drawing order, each from far to near. `solid` has the opaque balls and bars of the object;
+    /// because of the order, their antialiased edges blend with the shapes behind them. `translucent` has faces,
+    /// sections and faded shapes, which do not hide other shapes.
     struct Layers {
         ShapeBatch solid, translucent;
         DepthRange depths;  ///< contains the depths of all shapes
     };
 
-    /// Overwrites `out` with the scene's projection, which must be shown, as the scene's camera sees it.
+    /// Overwrites `out` with the projection, as the camera of the scene sees it. The scene must show the projection.
     void paint(const scene::Scene& scene, Layers& out);
 
   private:
     enum class Kind : std::uint8_t { ball, bar, face };
     struct Item {
-        float depth;  // distance from the eye along the view axis
+        float depth;  // the distance from the eye along the view axis
         Kind kind;
-        std::uint32_t part, number;  // number: index of the vertex, edge or face in the projection's elements
+        std::uint32_t part, number;  // number: the index of the vertex, edge or face in the elements
     };
 
     void collect(const scene::Scene& scene, std::uint32_t part);

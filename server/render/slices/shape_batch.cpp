@@ -50,18 +50,13 @@ void ShapeBatch::begin(const scene::Style& style) {
 
 void ShapeBatch::clear() {
     vertices_.clear();
-    indices_.clear();
+    patches_.clear();
 }
 
-void ShapeBatch::quad(const std::array<glm::vec3, 4>& corners, float u, float v, ShapeVertex vertex) {
-    const auto first = static_cast<std::uint32_t>(vertices_.size());
-    for (std::uint32_t i = 0; i < 4; ++i) {
-        vertex.clip = corners[i];
-        vertex.place.x = i & 1 ? u : -u;
-        vertex.place.y = i & 2 ? v : -v;
-        vertices_.push_back(vertex);
-    }
-    for (const std::uint32_t i : {0u, 1u, 2u, 2u, 1u, 3u}) indices_.push_back(first + i);
+void ShapeBatch::add(std::initializer_list<ShapeVertex> vertices, Patch::Form form) {
+    patches_.push_back(
+        {static_cast<std::uint32_t>(vertices_.size()), static_cast<std::uint32_t>(vertices.size()), form});
+    vertices_.insert(vertices_.end(), vertices);
 }
 
 void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color color, float opacity) {
@@ -77,12 +72,13 @@ void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color col
     const float silhouette = radius * size.scale * std::sqrt(distance2 / inside2) * size.reach;
     const glm::vec3 c = projection_.clip(center), dx = projection_.clip(x) * silhouette,
                     dy = projection_.clip(y) * silhouette;
-    quad({c - dx - dy, c + dx - dy, c - dx + dy, c + dx + dy}, size.reach, size.reach,
-         {{},
-          {0, 0, size.half},
-          diffuse_ * glm::vec3(glm::dot(x, light_), glm::dot(y, light_), glm::dot(z, light_)),
-          {glm::dot(x, half_), glm::dot(y, half_), glm::dot(z, half_)},
-          rgba(color, size.alpha * opacity)});
+    const glm::vec3 diffuse = diffuse_ * glm::vec3(glm::dot(x, light_), glm::dot(y, light_), glm::dot(z, light_));
+    const glm::vec3 specular(glm::dot(x, half_), glm::dot(y, half_), glm::dot(z, half_));
+    const std::uint32_t tint = rgba(color, size.alpha * opacity);
+    const auto corner = [&](float u, float v) {
+        return ShapeVertex{c + u * dx + v * dy, {u * size.reach, v * size.reach, size.half}, diffuse, specular, tint};
+    };
+    add({corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)}, Patch::Form::disk);
 }
 
 void ShapeBatch::addBar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity) {
@@ -100,23 +96,17 @@ void ShapeBatch::addBar(const glm::vec3& from, const glm::vec3& to, float radius
 
     const glm::vec3 dx = projection_.clip(x) * (radius * size.scale * std::sqrt(n2 / inside2) * size.reach);
     const glm::vec3 a = projection_.clip(from), b = projection_.clip(to);
-    const ShapeVertex vertex{{},
-                             {0, 0, size.half},
-                             diffuse_ * glm::vec3(glm::dot(x, light_), 0, glm::dot(z, light_)),
-                             {glm::dot(x, half_), 0, glm::dot(z, half_)},
-                             rgba(color, size.alpha * opacity)};
-    const auto first = static_cast<std::uint32_t>(vertices_.size());
-    quad({a - dx, a + dx, b - dx, b + dx}, size.reach, 0, vertex);
+    const glm::vec3 diffuse = diffuse_ * glm::vec3(glm::dot(x, light_), 0, glm::dot(z, light_));
+    const glm::vec3 specular(glm::dot(x, half_), 0, glm::dot(z, half_));
+    const std::uint32_t tint = rgba(color, size.alpha * opacity);
+    const auto corner = [&](const glm::vec3& at, float u, float v) {
+        return ShapeVertex{at + u * dx, {u * size.reach, v * size.reach, size.half}, diffuse, specular, tint};
+    };
+    add({corner(a, -1, 0), corner(a, 1, 0), corner(b, 1, 0), corner(b, -1, 0)}, Patch::Form::strip);
     if (2 * size.half < kMinFootRadius) return;
     // The foot covers the half of the circle at the far end that is turned to the eye and extends beyond the flat end.
     const glm::vec3 foot = a + projection_.clip(z) * (radius * size.reach);
-    const auto last = static_cast<std::uint32_t>(vertices_.size());
-    for (const float side : {-1.0f, 1.0f}) {
-        vertices_.push_back(vertex);
-        vertices_.back().clip = foot + side * dx;
-        vertices_.back().place = {side * size.reach, size.reach, size.half};
-    }
-    for (const std::uint32_t i : {last, last + 1, first, first, last + 1, first + 1}) indices_.push_back(i);
+    add({corner(foot, -1, 1), corner(foot, 1, 1), corner(a, 1, 0), corner(a, -1, 0)}, Patch::Form::disk);
 }
 
 void ShapeBatch::addFace(std::span<const glm::vec3> corners, const glm::vec3& normal, scene::Color color, float opacity,
@@ -129,9 +119,8 @@ void ShapeBatch::addFace(std::span<const glm::vec3> corners, const glm::vec3& no
         vertices_.push_back(vertex);
         vertices_.back().clip = projection_.clip(corner);
     }
+    patches_.push_back({first, count, Patch::Form::face});
     if (soft) soften(first, count);
-    for (std::uint32_t i = 2; i < count; ++i)
-        for (const std::uint32_t k : {0u, i - 1, i}) indices_.push_back(first + k);
 }
 
 /// Antialiases a face: moves its edges half a pixel inward, and adds a rim whose coverage falls to zero half a pixel
@@ -152,21 +141,25 @@ void ShapeBatch::soften(std::uint32_t first, std::uint32_t count) {
         const float length = std::max(glm::length(d), 1e-6f) * (area < 0 ? -1.0f : 1.0f);
         return glm::vec2(-d.y, d.x) / length;
     };
+    const auto outer = [&](std::uint32_t i) { return first + count + i; };
     for (std::uint32_t i = 0; i < count; ++i) {
         const glm::vec2 before = inward(pixels_[(i + count - 1) % count], pixels_[i]);
         const glm::vec2 after = inward(pixels_[i], pixels_[(i + 1) % count]);
         // The miter of a sharp corner is limited to twice the rim's width.
         const glm::vec2 miter = (before + after) / std::max(1 + glm::dot(before, after), 0.5f);
-        ShapeVertex outer = vertices_[first + i];
-        const glm::vec2 step = 0.5f * miter / halfSize * outer.clip.z;
+        ShapeVertex vertex = vertices_[first + i];
+        const glm::vec2 step = 0.5f * miter / halfSize * vertex.clip.z;
         vertices_[first + i].clip += glm::vec3(step, 0);
-        outer.clip -= glm::vec3(step, 0);
-        outer.place.z = -0.5f;
-        vertices_.push_back(outer);
+        vertex.clip -= glm::vec3(step, 0);
+        vertex.place.z = -0.5f;
+        vertices_.push_back(vertex);
     }
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t next = (i + 1) % count;
-        for (const std::uint32_t k : {i, next, count + i, count + i, next, count + next}) indices_.push_back(first + k);
+        const ShapeVertex a = vertices_[first + i], b = vertices_[first + next];
+        const ShapeVertex c = vertices_[outer(next)], d = vertices_[outer(i)];
+        add({a, b, d}, Patch::Form::rim);
+        add({d, b, c}, Patch::Form::rim);
     }
 }
 
@@ -243,16 +236,20 @@ ShapeProgram::ShapeProgram(const scene::Style& style, DepthSource depth)
 
 void ShapeProgram::draw(const ShapeBatch& shapes) { draw(shapes, 0, 0); }
 
-// The depth (−1 … 1) is a linear function of 1 / distance, so that the depths of a plane are linear in screen space.
 void ShapeProgram::drawWithDepth(DepthRange range, const ShapeBatch& shapes) {
-    const float offset = 2 / (1 / range.to - 1 / range.from);
-    draw(shapes, 1 - offset / range.to, offset);
+    const glm::vec2 toDepth = range.toDepth();
+    draw(shapes, toDepth.x, toDepth.y);
 }
 
 void ShapeProgram::draw(const ShapeBatch& shapes, float scale, float offset) {
     program_.use();
     glUniform3f(toDepth_, scale, offset, 2 / shapes.projection().focalLength());
-    program_.draw(shapes.vertices().data(), shapes.vertices().size(), shapes.indices());
+    indices_.clear();
+    for (const Patch& patch : shapes.patches()) {
+        for (std::uint32_t i = 2; i < patch.count; ++i)
+            for (const std::uint32_t k : {0u, i - 1, i}) indices_.push_back(patch.first + k);
+    }
+    program_.draw(shapes.vertices().data(), shapes.vertices().size(), indices_);
 }
 
 }  // namespace oval4d::render

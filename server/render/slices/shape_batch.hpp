@@ -1,9 +1,9 @@
 #pragma once
-// Converts balls, bars and faces to triangles in one vertex format, so that one shader draws them in one call and in
-// any order.
+// Converts balls, bars and faces to flat patches of one vertex format, so that one shader draws all of them in one call
+// and in any order.
 
-#include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -16,13 +16,13 @@
 
 namespace oval4d::render {
 
-/// A vertex of a shape. Every shape is drawn as a flat patch (an impostor) with coordinates (u, v). The normal at (u,
-/// v) is X·u + Y·v + Z·sqrt(1 − u² − v²) for three unit vectors X, Y and Z:
-/// - ball: the patch is the unit disk in (u, v), and Z points to the eye;
+/// A vertex of a shape. Every shape is drawn as flat patches (impostors) with coordinates (u, v). The normal at (u, v)
+/// is X·u + Y·v + Z·sqrt(1 − u² − v²) for three unit vectors X, Y and Z:
+/// - ball: the patch covers the unit disk of (u, v), and Z points to the eye;
 /// - bar: u runs across the bar from −1 to 1, and v = 0;
 /// - face: u = v = 0, so the normal is Z everywhere.
-/// The vertices hold the dot products of X, Y and Z with the light direction L and the half vector H, so the shader
-/// need not compute normals.
+/// The vertices hold the dot products of X, Y and Z with the direction of light L and the half vector H, so that the
+/// shader need not compute normals.
 struct ShapeVertex {
     glm::vec3 clip;       ///< clip coordinates x, y, w
     glm::vec3 place;      ///< u, v and r/2, for the radius r in pixels; coverage = (1 − u² − v²) · r/2 + ½
@@ -31,8 +31,22 @@ struct ShapeVertex {
     std::uint32_t color;  ///< as returned by rgba()
 };
 
-/// A list of shapes, converted to triangles. The caller adds them in drawing order. Positions and radii are in view
-/// coordinates (see Projection); opacities are from 0 to 1.
+/// A convex polygon, whose vertices follow one another in the batch. The vertices differ only in ShapeVertex::clip and
+/// in the members that their `form` names.
+struct Patch {
+    /// The form of the shape, and the members besides `clip` in which the vertices differ.
+    enum class Form : std::uint8_t {
+        face,   ///< a face: no others
+        rim,    ///< a part of the soft edge of a face: place.z
+        strip,  ///< a bar without its foot (see ShapeBatch::addBar()): place.x; place.y is 0
+        disk,   ///< a ball, or the foot of a bar: place.x and place.y
+    };
+    std::uint32_t first, count;  ///< the index of the first vertex; the number of vertices
+    Form form;
+};
+
+/// A list of shapes, converted to patches. The caller must add them in drawing order. Positions and radii are in view
+/// coordinates (see Projection), and opacities from 0 to 1.
 class ShapeBatch {
   public:
     /// Starts an empty list of shapes, lit as `style` specifies.
@@ -41,56 +55,66 @@ class ShapeBatch {
     /// Removes all shapes.
     void clear();
 
-    /// Sets the projection for the shapes that are added from now on.
+    /// Sets the projection of the shapes that are added after this call.
     void setProjection(const Projection& projection) { projection_ = projection; }
 
-    /// Adds a ball. Does nothing if it contains the eye, is behind the eye, or is almost transparent.
+    /// Adds a ball. Does nothing if the ball is not entirely in front of the eye, or is almost transparent.
     void addBall(const glm::vec3& center, float radius, scene::Color color, float opacity = 1);
 
-    /// Adds a cylinder. `from` must be the end that is farther from the eye. The cylinder has a round foot at `from`,
-    /// which joins it to the ball at this end, and is flat at `to`.
+    /// Adds a bar: a cylinder. `from` must be the end that is farther from the eye. There the cylinder has a round
+    /// foot, which joins it to the ball at this end, unless the cylinder is too thin; the other end is flat. Does
+    /// nothing if an end is behind the eye or closer to it than `radius`, if the cylinder is seen along its axis, or if
+    /// it is almost transparent.
     void addBar(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color, float opacity = 1);
 
-    /// Adds a flat convex polygon. `normal` is its unit normal, with either sign. `soft`: whether its edges are
-    /// antialiased over one pixel; this is necessary if no bars cover the edges.
+    /// Adds a flat convex polygon. `normal` is a unit normal; its sign does not matter. If `soft` is true, the edges
+    /// are antialiased over one pixel, which is necessary if no bars cover them.
     void addFace(std::span<const glm::vec3> corners, const glm::vec3& normal, scene::Color color, float opacity,
                  bool soft);
 
     const Projection& projection() const { return projection_; }
     std::span<const ShapeVertex> vertices() const { return vertices_; }
-    std::span<const std::uint32_t> indices() const { return indices_; }
+    std::span<const Patch> patches() const { return patches_; }
 
   private:
-    void quad(const std::array<glm::vec3, 4>& corners, float u, float v, ShapeVertex vertex);
+    void add(std::initializer_list<ShapeVertex> vertices, Patch::Form form);
     void soften(std::uint32_t first, std::uint32_t count);
 
     Projection projection_;
     glm::vec3 light_{0}, half_{0};
     float diffuse_ = 0;
     std::vector<ShapeVertex> vertices_;
-    std::vector<std::uint32_t> indices_;
+    std::vector<Patch> patches_;
     std::vector<glm::vec2> pixels_;
 };
 
 /// A range of distances from the eye along the view axis, in view coordinates.
 struct DepthRange {
     float from = 1, to = 2;
+
+    /// Returns (a, b) such that the depth of a point at distance d is a + b / d, from −1 to 1. In the picture, this
+    /// depth is linear on every plane.
+    glm::vec2 toDepth() const {
+        const float b = 2 / (1 / to - 1 / from);
+        return {1 - b / to, b};
+    }
 };
 
 /// The shader program that draws a ShapeBatch, lit as `style` specifies.
 class ShapeProgram {
   public:
-    /// The depths that are written to the depth buffer.
+    /// The depths that drawWithDepth() writes to the depth buffer.
     enum class DepthSource : std::uint8_t {
         patch,    ///< the depth of the flat patch
         surface,  ///< the depth of the ball or bar that the patch represents; faces are one pixel closer to the eye
     };
     ShapeProgram(const scene::Style& style, DepthSource depth);
 
-    /// Draws the shapes in order. The depth test must be off, because all shapes get the same depth.
+    /// Draws the shapes in order. The depth test must be disabled, because all shapes get the same depth.
     void draw(const ShapeBatch& shapes);
 
-    /// Draws the shapes in order with their depths. The depth buffer covers `range`, which must contain all shapes.
+    /// Draws the shapes in order, with their depths. The depth test must be enabled. The depth buffer covers `range`,
+    /// which must contain the depths of all shapes.
     void drawWithDepth(DepthRange range, const ShapeBatch& shapes);
 
   private:
@@ -98,6 +122,7 @@ class ShapeProgram {
 
     ShaderProgram program_;
     GLint toDepth_;
+    std::vector<std::uint32_t> indices_;
 };
 
 }  // namespace oval4d::render

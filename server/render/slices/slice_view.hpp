@@ -1,5 +1,5 @@
 #pragma once
-// Access to one slice of a scene, for the classes that draw slices.
+// Access to one slice of a scene.
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +14,12 @@
 
 namespace oval4d::render {
 
-/// A reference to one slice of a scene. The arguments v, e and f are indices of vertices, edges and faces in the slice.
+/// A reference to one slice of a scene. The arguments v, e and f are indices of vertices, edges and faces of the slice.
 struct SliceView {
     const slicing::SliceSet& set;
     const scene::Scene& scene;
     const glm::dmat4& toView;  ///< from world coordinates to view coordinates
-    std::size_t number;        ///< index of the slice in the set
+    std::size_t number;        ///< the index of the slice in the set
 
     std::size_t firstVertex() const { return set.vertexBegin[number]; }
     std::size_t firstEdge() const { return set.edgeBegin[number]; }
@@ -29,14 +29,14 @@ struct SliceView {
     std::size_t faces() const { return set.faceBegin[number + 1] - firstFace(); }
     const std::array<std::uint32_t, 2>& edge(std::size_t e) const { return set.edges[firstEdge() + e]; }
 
-    /// Returns the half-open range of indices into SliceSet::corners that is the loop of face f.
+    /// Returns the loop of face f, as a half-open range of indices into SliceSet::corners.
     std::pair<std::size_t, std::size_t> loop(std::size_t f) const {
         return {set.cornerBegin[firstFace() + f], set.cornerBegin[firstFace() + f + 1]};
     }
 
     scene::Color faceColor(std::size_t f) const { return scene.cellColors[scene.cellOfFace(firstFace() + f)]; }
-    /// Returns the color of vertex v, which is `usual` unless it belongs to the highlighted element; likewise for
-    /// edges.
+    /// Returns the color of vertex v or edge e: the highlight color if it belongs to the highlighted element, else
+    /// `usual`.
     scene::Color vertexColor(std::size_t v, scene::Color usual) const {
         return scene.highlight.hasVertex(set.vertexSource[firstVertex() + v]) ? scene::style().highlight : usual;
     }
@@ -72,8 +72,8 @@ class SliceTransform {
     glm::vec3 origin_;
 };
 
-/// The appearance of balls and bars. If only bars are shown, balls with the radius and color of the bars are drawn at
-/// the vertices, so that the joints of bars are round.
+/// The appearance of balls and bars. If only bars are shown, a ball with the radius and the color of bars is drawn at
+/// each vertex, so that bars are joined by round corners.
 struct SkeletonStyle {
     bool balls, bars;
     float ballRadius, barRadius;
@@ -89,7 +89,8 @@ struct SkeletonStyle {
           barColor(scene::style().bar),
           hiddenEndLength(std::sqrt(std::max(ballRadius * ballRadius - barRadius * barRadius, 0.0f))) {}
 
-    /// Adds the part of a bar that is outside the balls at its ends. `from` is the end that is farther from the eye.
+    /// Adds the part of a bar that is outside the balls at its ends, if there is one. `from` must be the end that is
+    /// farther from the eye.
     void addBar(const glm::vec3& from, const glm::vec3& to, scene::Color color, float opacity, ShapeBatch& out) const {
         const float length = glm::length(to - from);
         if (opacity == 0 || length <= 2 * hiddenEndLength) return;

@@ -19,13 +19,33 @@ export async function startBrowser(args = []) {
     return browser;
 }
 
+const kContextOptions = { viewport: { width: 1280, height: 720 } };
+
+// Without a graphics card, pages are composed faster without the emulation of OpenGL, which only WebGL needs then. But 2-D
+// canvases are drawn with other edges, and large WebGL canvases that change all the time are copied.
+const kFaster = "--disable-gpu-compositing";
+
+let accurate;
+
+/** A browser that composes pages as one with a graphics card does. */
+export function accurateBrowser() {
+    accurate ??= startBrowser();
+    return accurate;
+}
+
 let shared;
 
-/** The server and the browser that most tests share. */
+/**
+ * The server and the browser that most tests share, and a browser context with the usual options. In this context, the
+ * page starts faster, because its compiled scripts are cached.
+ */
 export function common() {
     shared ??= (async () => {
         const server = await startServer();
-        return { server, url: server.url, browser: await startBrowser() };
+        const browser = await startBrowser([kFaster]);
+        const context = await browser.newContext(kContextOptions);
+        await context.newPage(); // so that closing a test's page does not leave the context without pages
+        return { server, url: server.url, browser, context };
     })();
     return shared;
 }
@@ -37,7 +57,8 @@ export function common() {
  */
 export async function openPage({ url, browser, picture = true, before, seen, firstVisit = false, ...options } = {}) {
     const usual = await common();
-    const context = await (browser ?? usual.browser).newContext({ viewport: { width: 1280, height: 720 }, ...options });
+    const own = browser !== undefined || firstVisit || seen !== undefined || Object.keys(options).length > 0;
+    const context = own ? await (browser ?? usual.browser).newContext({ ...kContextOptions, ...options }) : usual.context;
     const page = await context.newPage();
     page.setDefaultTimeout(30_000);
     const errors = [];
@@ -48,13 +69,16 @@ export async function openPage({ url, browser, picture = true, before, seen, fir
     if (seen) page.on("response", seen);
     await page.goto(url ?? usual.url);
     if (picture) await presented(page, 0);
-    return { page, context, errors, close: () => context.close() };
+    return { page, context, errors, close: () => (own ? context.close() : page.close()) };
 }
 
 /** Waits until the page has presented this revision or a newer one. */
 export async function presented(page, revision) {
     await page.waitForFunction(
-        (least) => Number(document.getElementById("drawing").dataset.revision ?? -1) >= least,
+        (least) => {
+            const { revision = -1, draft } = document.getElementById("drawing").dataset;
+            return Number(revision) >= least && draft === undefined;
+        },
         revision,
     );
 }
@@ -72,16 +96,31 @@ export async function scriptFor(page, url) {
     return joinSession(url ?? (await common()).url, credentials);
 }
 
+/** Stops the server of a page and starts another one at its port; waits until the page says that its session is new. */
+export async function restart(server, page) {
+    await server.stop();
+    await page.waitForSelector("#connection[data-kind=waiting]");
+    const again = await startServer({ port: server.port });
+    await page.waitForSelector("#connection[data-kind=open]");
+    await page.waitForFunction(() => /new one/.test(document.getElementById("notice").textContent));
+    return again;
+}
+
 /** Waits until the page shows the name of this polytope. */
 export async function named(page, polytope) {
-    await page.waitForFunction((name) => document.querySelector("#polytope b").textContent === name, polytope);
+    await page.waitForFunction((name) => document.querySelector("#polytope b")?.textContent === name, polytope);
+}
+
+/** Waits until the page announces a change of the session by a text that contains `text`. */
+export async function spoken(page, text) {
+    await page.waitForFunction((wanted) => document.getElementById("spoken").textContent.includes(wanted), text);
 }
 
 /** The values of the state that the page displays. */
-export async function readings(page) {
+export async function shownValues(page) {
     return page.evaluate(() => {
-        const outputs = [...document.querySelectorAll("[data-reading]")];
-        const values = Object.fromEntries(outputs.map((output) => [output.dataset.reading, output.textContent]));
+        const outputs = [...document.querySelectorAll("[data-state-field]")];
+        const values = Object.fromEntries(outputs.map((output) => [output.dataset.stateField, output.textContent]));
         return { ...values, polytope: document.querySelector("#polytope b").textContent };
     });
 }

@@ -93,7 +93,10 @@ export async function type(page, stroke) {
 /** Waits until the page has presented this revision or a newer one. */
 export async function presented(page, revision) {
     await page.waitForFunction(
-        (least) => Number(document.getElementById("drawing").dataset.revision ?? -1) >= least,
+        (least) => {
+            const { revision = -1, draft } = document.getElementById("drawing").dataset;
+            return Number(revision) >= least && draft === undefined;
+        },
         {},
         revision,
     );

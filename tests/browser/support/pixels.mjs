@@ -42,3 +42,8 @@ export function covered(picture, background) {
     }
     return count / (picture.width * picture.height);
 }
+
+/** The part of a picture from row `top` down. */
+export function below({ width, height, data }, top) {
+    return { width, height: height - top, data: data.subarray(4 * width * top) };
+}

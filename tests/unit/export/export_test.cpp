@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "fields/formula_field.hpp"
+#include "slicing/slicer.hpp"
 #include "unit/export/support.hpp"
 
 namespace {
@@ -17,7 +19,7 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     const Rotation none;
     const ExportRequest skeleton{.format = formatNamed("stl"), .extent = Extent::oval, .body = Body::skeleton};
     const Hyperplanes oval{-10, 21, 0.5};
-    Limits limits;
+    ExportLimits limits;
     limits.triangles = 1000;
     EXPECT_NE(fileOf(p, none, oval, skeleton, limits).find("1000 are allowed"), std::string::npos);
     limits = {};
@@ -33,6 +35,38 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     const auto given = exported(p, none, oval, skeleton, limits, stop.get_token());
     ASSERT_TRUE(std::holds_alternative<ExportError>(given));
     EXPECT_EQ(std::get<ExportError>(given).cause, ExportError::Cause::too_long);
+}
+
+// The measurements of a field take long. They stop in time, and count their memory.
+TEST(File, ofAFieldIsBounded) {
+    auto read = fields::fieldFromFormula("ball", "x^2 + y^2 + z^2 + w^2 < 1", {glm::dvec4(-1.2), glm::dvec4(1.2)});
+    ASSERT_TRUE(read) << read.error().message;
+    const Object object = std::make_shared<const fields::Field>(std::move(*read));
+    const Rotation none;
+    const Hyperplanes planes{-2, 5, 0.2};
+    SurfaceDetail detail;
+    setEvenDetail(infoOf(object).circumradius, planes, Quality::file, detail);
+    SliceSet slices;
+    Slicer().slice(object, none, planes, {}, detail, slices);
+    scene::Scene scene;
+    scene::Composer().compose(object, none, slices, 0, {}, {}, scene);
+    const auto refusal = [&](const char* format, const ExportLimits& limits, std::stop_token stop = {}) {
+        const auto made = exportScene(scene, object, none, {.format = formatNamed(format), .extent = Extent::oval},
+                                      limits, std::move(stop));
+        return std::holds_alternative<std::string>(made) ? "none" : std::get<ExportError>(made).message;
+    };
+    std::stop_source stop;
+    stop.request_stop();
+    for (const char* format : {"csv", "stl", "vtp"}) {
+        SCOPED_TRACE(format);
+        EXPECT_EQ(refusal(format, {}), "none");
+        EXPECT_NE(refusal(format, {.triangles = 1000}).find("1000"), std::string::npos);
+        EXPECT_NE(refusal(format, {.time = std::chrono::duration<double>(1e-6)}).find("takes longer"),
+                  std::string::npos);
+        EXPECT_NE(refusal(format, {}, stop.get_token()).find("stopping"), std::string::npos);
+        EXPECT_NE(refusal(format, {.reserve = [](std::size_t bytes) { return bytes < 50'000; }}).find("no room"),
+                  std::string::npos);
+    }
 }
 
 /// Returns the points of each body of an OBJ file.

@@ -1,5 +1,6 @@
 #pragma once
-// Helpers shared by the tests of exports: an independent check of meshes, and objects to export.
+// Helpers shared by the tests of exports: a check of meshes that does not use the code under test, and objects to
+// export.
 
 #include <cmath>
 #include <cstdint>
@@ -30,8 +31,9 @@ using namespace exports;
 
 using Key = std::tuple<float, float, float>;
 
-/// Expects a printable mesh, by its float32 coordinates alone, as a slicing program would: every edge lies in two
-/// triangles, once in each direction; the triangles around every point form one ring; the volume is positive.
+/// Expects a mesh that can be printed: every edge lies in two triangles, once in each direction; the triangles around
+/// every point form one ring; the volume is positive. Like the software of a 3-D printer, identifies points by their
+/// float32 coordinates and not by their indices.
 inline void expectPrintable(const Mesh& mesh) {
     ASSERT_FALSE(mesh.triangles.empty());
     ASSERT_EQ(mesh.cells.size(), mesh.triangles.size());
@@ -96,7 +98,7 @@ inline Polygon pentagram() {
 inline const double kPentagramArea =
     10 * 0.5 * std::sin(std::numbers::pi / 5) / (std::numbers::phi * std::numbers::phi);
 
-/// Returns the scene of a polytope's slices, which refers to `slices`.
+/// Returns the scene of a polytope's slices. The scene refers to `slices`, which must outlive it.
 inline scene::Scene composed(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
                              const slicing::SliceSet& slices) {
     scene::Scene scene;
@@ -111,18 +113,18 @@ inline scene::Scene composed(const polytopes::Polytope& polytope, const geometry
 inline std::variant<std::string, ExportError> exported(const polytopes::Polytope& polytope,
                                                        const geometry::Rotation& orientation,
                                                        const geometry::Hyperplanes& planes,
-                                                       const ExportRequest& request, const Limits& limits = {},
+                                                       const ExportRequest& request, const ExportLimits& limits = {},
                                                        std::stop_token stop = {}) {
     slicing::SliceSet slices;
     slicing::PolytopeSlicer().slice(polytope, orientation, planes, slices);
-    return exports::exportScene(composed(polytope, orientation, slices), objectOf(polytope), request, limits,
-                                std::move(stop));
+    return exports::exportScene(composed(polytope, orientation, slices), objectOf(polytope), orientation, request,
+                                limits, std::move(stop));
 }
 
 /// Returns the bytes of the file, or "refused: " and the reason.
 inline std::string fileOf(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
                           const geometry::Hyperplanes& planes, const ExportRequest& request,
-                          const Limits& limits = {}) {
+                          const ExportLimits& limits = {}) {
     auto made = exported(polytope, orientation, planes, request, limits);
     if (auto* refusal = std::get_if<ExportError>(&made)) return "refused: " + refusal->message;
     return std::get<std::string>(std::move(made));

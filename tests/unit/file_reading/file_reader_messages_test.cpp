@@ -27,15 +27,30 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
     session::Limits limits;
     limits.maxVertices = 7;
     limits.maxHullCells = 8;
-    std::string bytes;
-    encodeFile("points", std::string_view("1 2\0 3", 6), "mine", limits, bytes);
-    File file;
-    decodeFile(bytes, file);
-    EXPECT_EQ(file.format, "points");
-    EXPECT_EQ(file.text, std::string("1 2\0 3", 6));
-    EXPECT_EQ(file.name, "mine");
-    EXPECT_EQ(file.limits.maxVertices, 7U);
-    EXPECT_EQ(file.limits.maxHullCells, 8U);
+    limits.maxFieldBytes = 9;
+    session::LoadObject load{"mine", "points", std::string("1 2\0 3", 6)};
+    load.axes = "xyz";
+    load.variable = "a/b";
+    load.values = "x*y";
+    load.valuesVariable = "a/c";
+    for (const bool hasBox : {false, true}) {
+        if (hasBox) load.box = fields::Box{{0, 1, 2, 3}, {4, 5, 6, 7}};
+        std::string bytes;
+        encodeReadRequest(load, limits, true, bytes);
+        ReadRequest file;
+        decodeReadRequest(bytes, file);
+        EXPECT_EQ(file.load.format, load.format);
+        EXPECT_EQ(file.load.data, load.data);
+        EXPECT_EQ(file.load.name, load.name);
+        EXPECT_EQ(file.load.axes, load.axes);
+        EXPECT_EQ(file.load.variable, load.variable);
+        EXPECT_EQ(file.load.values, load.values);
+        EXPECT_EQ(file.load.valuesVariable, load.valuesVariable);
+        EXPECT_EQ(file.load.box, load.box);
+        EXPECT_EQ(file.limits.maxVertices, 7U);
+        EXPECT_EQ(file.limits.maxHullCells, 8U);
+        EXPECT_EQ(file.limits.maxFieldBytes, 9U);
+    }
 }
 
 TEST(ReadingMessages, PolytopesSurviveARoundTripExceptTheirSerial) {
@@ -57,12 +72,12 @@ TEST(ReadingMessages, PolytopesSurviveARoundTripExceptTheirSerial) {
         EXPECT_EQ(polytope.faceCells, sent->faceCells);
         EXPECT_EQ(polytope.typeOfCell, sent->typeOfCell);
         EXPECT_EQ(polytope.convex, sent->convex);
-        EXPECT_LT(encoded(session::LoadedObject{sent, {}}).size(), maxOutcomeBytes(0, {}));
+        EXPECT_LT(encoded(session::LoadedObject{sent, {}}).size(), maxOutcomeBytes({}, {}));
     }
 }
 
 TEST(ReadingMessages, ErrorsAreSafeToSendToClients) {
-    for (const ErrorCode code : {ErrorCode::bad_polytope, ErrorCode::too_large}) {
+    for (const ErrorCode code : {ErrorCode::bad_polytope, ErrorCode::too_large, ErrorCode::bad_expression}) {
         const auto got = decodeOutcome(encoded(Error{code, "line 2: wrong"}), "mine", {});
         ASSERT_FALSE(got);
         EXPECT_EQ(got.error().code, code);

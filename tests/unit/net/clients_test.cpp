@@ -60,10 +60,10 @@ TEST(Client, LimitsNewSessionsPerMinute) {
         return Client::Clock::time_point(std::chrono::duration_cast<Client::Clock::duration>(seconds * 1s));
     };
     int opened = 0;
-    for (int i = 0; i < 100; ++i) opened += client.tryOpenSession(at(0)) ? 1 : 0;
+    for (int i = 0; i < 100; ++i) opened += client.admitNewSession(at(0)) ? 1 : 0;
     EXPECT_EQ(opened, 60);
-    EXPECT_FALSE(client.tryOpenSession(at(0.5)));
-    EXPECT_TRUE(client.tryOpenSession(at(1.5)));
+    EXPECT_FALSE(client.admitNewSession(at(0.5)));
+    EXPECT_TRUE(client.admitNewSession(at(1.5)));
     EXPECT_FALSE(client.idle(at(1.5)));
     EXPECT_TRUE(client.idle(at(100)));
 }

@@ -19,8 +19,8 @@ using Seconds = FairQueue::Seconds;
 using Clock = FairQueue::Clock;
 using LanePtr = FairQueue::LanePtr;
 
-FairQueue::ClientSharePtr newClient() { return std::make_shared<FairQueue::ClientShare>(); }
-LanePtr newLane(const FairQueue::ClientSharePtr& client = newClient()) {
+FairQueue::ClientFlowPtr newClient() { return std::make_shared<FairQueue::ClientFlow>(); }
+LanePtr newLane(const FairQueue::ClientFlowPtr& client = newClient()) {
     return std::make_shared<FairQueue::Lane>(client);
 }
 
@@ -102,7 +102,7 @@ void always(Simulation& in, const LanePtr& lane, Seconds takes) {
 }
 
 /// Like always(), but with a new lane for each job, like a client that opens a session for each picture.
-void alwaysNew(Simulation& in, const FairQueue::ClientSharePtr& client, Seconds takes) {
+void alwaysNew(Simulation& in, const FairQueue::ClientFlowPtr& client, Seconds takes) {
     EXPECT_TRUE(in.post(newLane(client), takes, [&in, client, takes] { alwaysNew(in, client, takes); }));
 }
 
@@ -157,7 +157,7 @@ TEST(FairQueue, WhoHasHadLessIsNext) {
 TEST(FairQueue, NewLanesAreNotAhead) {
     for (const bool same : {false, true}) {
         Simulation pool(1);
-        const FairQueue::ClientSharePtr mine = newClient();
+        const FairQueue::ClientFlowPtr mine = newClient();
         const LanePtr kept = newLane(mine);
         for (int i = 0; i < 6; ++i) alwaysNew(pool, same ? mine : newClient(), 14ms);
         const Latencies seen(pool, kept, 2800us, 103ms, 20s);
@@ -182,7 +182,7 @@ TEST(FairQueue, NewLanesWithLongJobsAreNotAhead) {
 /// The same if the jobs repeatedly take longer than estimated.
 TEST(FairQueue, NewLanesAreChargedByWhatTheirClientsTook) {
     Simulation pool(1);
-    const FairQueue::ClientSharePtr attacker = newClient();
+    const FairQueue::ClientFlowPtr attacker = newClient();
     std::function<void()> again = [&] { EXPECT_TRUE(pool.post(newLane(attacker), 4ms, 28ms, again)); };
     for (int i = 0; i < 6; ++i) again();
     const Latencies seen(pool, newLane(), 5ms, 103ms, 20s);
@@ -195,7 +195,7 @@ TEST(FairQueue, NewLanesAreChargedByWhatTheirClientsTook) {
 TEST(FairQueue, ClientsShareEquallyHoweverManySessionsTheyHave) {
     for (const Seconds takes : {Seconds(10ms), Seconds(200ms)}) {
         Simulation pool(2);
-        const FairQueue::ClientSharePtr many = newClient();
+        const FairQueue::ClientFlowPtr many = newClient();
         const LanePtr one = newLane();
         std::vector<LanePtr> lanes;
         for (int i = 0; i < 100; ++i) lanes.push_back(newLane(many));
@@ -211,7 +211,7 @@ TEST(FairQueue, ClientsShareEquallyHoweverManySessionsTheyHave) {
 
 TEST(FairQueue, SessionsShareEquallyByTimeNotByJobs) {
     Simulation pool(1);
-    const FairQueue::ClientSharePtr client = newClient();
+    const FairQueue::ClientFlowPtr client = newClient();
     const LanePtr small = newLane(client), large = newLane(client);
     for (int i = 0; i < 4; ++i) {
         always(pool, small, 2ms);
@@ -227,7 +227,7 @@ TEST(FairQueue, LongJobsAreNotStarved) {
     for (const std::size_t threads : {1U, 2U, 4U}) {
         Simulation pool(threads);
         for (int i = 0; i < 10; ++i) {
-            const FairQueue::ClientSharePtr each = newClient();
+            const FairQueue::ClientFlowPtr each = newClient();
             for (int k = 0; k < 8; ++k) alwaysNew(pool, each, 10ms);
         }
         pool.run(5s);
@@ -244,7 +244,7 @@ TEST(FairQueue, LongJobsAreNotStarved) {
 TEST(FairQueue, ALongJobOfANewClientWaitsForOneOfEachOtherAtMost) {
     Simulation pool(2);
     for (int i = 0; i < 4; ++i) {
-        const FairQueue::ClientSharePtr each = newClient();
+        const FairQueue::ClientFlowPtr each = newClient();
         for (int k = 0; k < 5; ++k) always(pool, newLane(each), 1s);
     }
     const Latencies seen(pool, newLane(), 10ms, 20ms, 199s);
@@ -364,14 +364,14 @@ TEST(FairQueue, NobodyOwesWhenNobodyWaits) {
 TEST(FairQueue, WaitingWithLongJobsGivesNoLeadForShortOnes) {
     Simulation pool(2);
     const LanePtr victim = newLane();
-    std::vector<FairQueue::ClientSharePtr> attackers;
+    std::vector<FairQueue::ClientFlowPtr> attackers;
     for (int i = 0; i < 10; ++i) {
         attackers.push_back(newClient());
         for (int k = 0; k < 3; ++k) always(pool, newLane(attackers.back()), 1s);
     }
     const Latencies warm(pool, victim, 5ms, 50ms, 60s);
     pool.run(60s);
-    for (const FairQueue::ClientSharePtr& each : attackers) {
+    for (const FairQueue::ClientFlowPtr& each : attackers) {
         for (int k = 0; k < 20; ++k) always(pool, newLane(each), 5ms);
     }
     const Latencies seen(pool, victim, 5ms, 1s, 90s);
@@ -382,7 +382,7 @@ TEST(FairQueue, WaitingWithLongJobsGivesNoLeadForShortOnes) {
 
 TEST(FairQueue, MoreThanMayWaitAreRefused) {
     Simulation pool(1, {10, 4});
-    const FairQueue::ClientSharePtr greedy = newClient();
+    const FairQueue::ClientFlowPtr greedy = newClient();
     for (int i = 0; i < 4; ++i) EXPECT_TRUE(pool.post(newLane(greedy), 10ms));
     EXPECT_FALSE(pool.post(newLane(greedy), 10ms));
     for (int i = 0; i < 6; ++i) EXPECT_TRUE(pool.post(newLane(), 10ms));

@@ -23,7 +23,7 @@ class WorkerPools : public testing::Test {
   protected:
     using Lane = WorkerPool::LanePtr;
 
-    static Lane lane() { return std::make_shared<WorkerPool::Lane>(std::make_shared<WorkerPool::ClientShare>()); }
+    static Lane lane() { return std::make_shared<WorkerPool::Lane>(std::make_shared<WorkerPool::ClientFlow>()); }
 
     static void post(WorkerPool& pool, WorkerPool::Job job, const Lane& in, WorkerPool::Seconds cost = 1ms) {
         EXPECT_TRUE(pool.post(std::move(job), in, cost));

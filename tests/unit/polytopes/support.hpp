@@ -1,6 +1,7 @@
 #pragma once
 // Helpers shared by tests: polytopes by name, polytopes made by hand, rotations.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -11,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
@@ -21,29 +23,30 @@
 
 namespace oval4d::support {
 
-/// Whether the tests are built with a sanitizer, which makes them several times slower. Long property tests then try
-/// fewer inputs, since a sanitizer finds an error of memory or threads with any input that reaches it.
+/// Whether the tests are built with AddressSanitizer or ThreadSanitizer, which make them several times slower. Long
+/// property tests then try fewer inputs: a sanitizer reports an error of memory or threads for any input that reaches
+/// the faulty code.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
 #else
 inline constexpr bool kSanitized = false;
 #endif
 
-/// Returns the one cache of the test program.
+/// Returns the cache that all tests of the program share.
 inline polytopes::PolytopeCache& cache() {
     static polytopes::PolytopeCache kCache;
     return kCache;
 }
 
-/// Returns the design of a name that the catalogue or the name grammar knows. Throws std::bad_variant_access for
-/// others.
+/// Returns polytopes::designNamed() for a name of a polytope with at most 1,000,000 vertices. Throws
+/// std::bad_variant_access for other names.
 inline polytopes::Design designFor(std::string_view name) {
     return std::get<polytopes::Design>(polytopes::designNamed(name, 1'000'000));
 }
 
 inline std::shared_ptr<const polytopes::Polytope> shared(std::string_view name) { return cache().get(designFor(name)); }
 
-/// Returns a polytope that is kept until the program ends.
+/// Returns the polytope with this name. The reference remains valid until the program ends.
 inline const polytopes::Polytope& named(std::string_view name) {
     static std::map<std::string, std::shared_ptr<const polytopes::Polytope>, std::less<>> kept;
     auto& polytope = kept[std::string(name)];
@@ -64,9 +67,21 @@ inline geometry::Rotation ontoW(const glm::dvec4& direction) {
             glm::dquat(1, 0, 0, 0)};
 }
 
+/// Expects that the lists are equally long, and that each point of `one` has a point of `other` at a distance of less
+/// than `tolerance`.
+inline void expectSamePoints(const std::vector<glm::dvec4>& one, const std::vector<glm::dvec4>& other,
+                             double tolerance) {
+    ASSERT_EQ(one.size(), other.size());
+    for (const glm::dvec4& p : one) {
+        const auto nearest = std::ranges::min(other, {}, [&](const glm::dvec4& q) { return glm::distance(p, q); });
+        EXPECT_LT(glm::distance(p, nearest), tolerance);
+    }
+}
+
 using Polygon = std::vector<glm::dvec2>;
 
-/// Returns the Cartesian product of a polygon in xy and one in zw; its cells are prisms over the two polygons.
+/// Returns the Cartesian product of polygon `p` in the xy plane and polygon `q` in the zw plane; its cells are prisms
+/// over the two polygons.
 inline polytopes::Polytope product(const Polygon& p, const Polygon& q) {
     const auto n = static_cast<std::uint32_t>(p.size());
     const auto m = static_cast<std::uint32_t>(q.size());
@@ -106,7 +121,8 @@ inline polytopes::Polytope product(const Polygon& p, const Polygon& q) {
     return polytopes::makePolytope("product", std::move(vertices), std::move(faces), std::move(cells));
 }
 
-/// A 4OFF file of a 5-cell in handwritten style, with a wrong number of edges.
+/// A 4OFF file of a 5-cell that looks as if written by hand: comments, irregular white space, varied number formats,
+/// colors, and a wrong number of edges.
 inline constexpr const char* kPentachoron = R"(#before the header
 4OFF# the edges below are wrong on purpose
 5 10 7 5

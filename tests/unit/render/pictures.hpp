@@ -24,7 +24,7 @@ namespace oval4d::render {
 
 using Rgb = std::array<int, 3>;
 
-/// Returns the pixel in column x of row y, counted from the bottom.
+/// Returns the color of the pixel in column x of row y; rows count from the bottom.
 inline Rgb pixelAt(const image::Image& image, int x, int y) {
     const std::uint8_t* p = &image.pixels[(static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                                            static_cast<std::size_t>(x)) *
@@ -40,7 +40,7 @@ inline int difference(const Rgb& a, const Rgb& b) {
     return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
-/// A polytope with the slices and the scene needed to draw it; the focus slice is at w = 0.
+/// A polytope with its slices and the scene that shows them; the focus slice is at w = 0.
 struct Subject {
     std::shared_ptr<const polytopes::Polytope> polytope;
     slicing::SliceSet slices;
@@ -57,7 +57,7 @@ struct Subject {
     Subject(const Subject&) = delete;
     Subject& operator=(const Subject&) = delete;
 
-    /// Removes everything but the slices from the scene.
+    /// Removes the parallel coordinates, the axes and the labels, so that the scene shows only the slices.
     void slicesOnly() {
         scene.look.parts.coordinates = false;
         scene.axes.length = 0;
@@ -71,7 +71,8 @@ struct Subject {
     }
 };
 
-/// A slice built by a test, seen from z = 10 along −z: one unit is 100 pixels at the center of the picture.
+/// A slice that a test builds from vertices, edges and faces. The camera looks from z = 10 along −z; at the center of
+/// the picture, one unit of the slice is 100 pixels.
 struct HandMade {
     static constexpr int kSize = 201;
     static constexpr double kUnit = 100;

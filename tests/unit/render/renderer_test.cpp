@@ -104,12 +104,13 @@ class RayCaster {
 };
 
 class Transparency : public Pictures,
-                     public testing::WithParamInterface<std::tuple<const char*, scene::View, unsigned>> {};
+                     public testing::WithParamInterface<std::tuple<const char*, scene::View, unsigned, double>> {};
 
 TEST_P(Transparency, FacesAreBlendedInTheirTrueOrder) {
-    const auto& [name, view, seed] = GetParam();
+    const auto& [name, view, seed, zoom] = GetParam();
     scene::Look look;
     look.view = view;
+    look.orbit = {0.4, 0.3, zoom};
     look.parts = {.faces = true, .bars = false, .balls = false, .coordinates = false};
     Subject subject(name, randomRotation(seed), 21, look, {640, 360});
     subject.slicesOnly();
@@ -132,10 +133,13 @@ TEST_P(Transparency, FacesAreBlendedInTheirTrueOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pictures, Transparency,
-                         testing::Values(std::tuple("5-cell", scene::View::oval, 1u),
-                                         std::tuple("5-cell", scene::View::single, 2u),
-                                         std::tuple("8-cell", scene::View::single, 3u),
-                                         std::tuple("24-cell", scene::View::single, 4u)));
+                         testing::Values(std::tuple("5-cell", scene::View::oval, 1u, 1.0),
+                                         std::tuple("5-cell", scene::View::single, 2u, 1.0),
+                                         std::tuple("8-cell", scene::View::single, 3u, 1.0),
+                                         std::tuple("24-cell", scene::View::single, 4u, 1.0),
+                                         // The eye is so close that faces extend behind it.
+                                         std::tuple("8-cell", scene::View::single, 5u, 5.0),
+                                         std::tuple("16-cell", scene::View::single, 6u, 12.0)));
 
 TEST_F(Pictures, MirroredSceneGivesMirroredSilhouette) {
     // The unrotated tesseract's slices are cubes, so the oval is its own mirror image. The lighting is not symmetric,

@@ -23,14 +23,14 @@ using support::objectOf;
 std::vector<Color> painted(const polytopes::Polytope& polytope, Coloring coloring,
                            const geometry::Rotation& orientation = {}) {
     std::vector<Color> colors;
-    scene::CellColors().paint(objectOf(polytope), coloring, orientation, colors);
+    scene::CellPainter().paint(objectOf(polytope), coloring, orientation, colors);
     return colors;
 }
 
 int red(Color color) { return static_cast<int>(color >> 16 & 255); }
 int blue(Color color) { return static_cast<int>(color & 255); }
 
-TEST(CellColors, AreDistinctWhereCellsAreFewAndStable) {
+TEST(CellPainter, AreDistinctWhereCellsAreFewAndStable) {
     for (const char* name : {"5-cell", "8-cell", "16-cell", "24-cell"}) {
         const auto colors = painted(named(name), Coloring::cell);
         EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), named(name).cells.size());
@@ -39,7 +39,7 @@ TEST(CellColors, AreDistinctWhereCellsAreFewAndStable) {
     EXPECT_EQ(painted(named("600-cell"), Coloring::cell).size(), 600U);
 }
 
-TEST(CellColors, ByCellTypeAreOneForEachType) {
+TEST(CellPainter, ByCellTypeAreOneForEachType) {
     const auto polytope = support::rectifiedFiveCell();
     const auto colors = painted(polytope, Coloring::cell_type);
     std::set<std::pair<std::uint32_t, Color>> pairs;
@@ -50,14 +50,14 @@ TEST(CellColors, ByCellTypeAreOneForEachType) {
     EXPECT_EQ(scene::cellTypeColor(1, 2), pairs.rbegin()->second);
 }
 
-TEST(CellColors, PlainIsOne) {
+TEST(CellPainter, PlainIsOne) {
     const auto colors = painted(named("24-cell"), Coloring::plain);
     EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), 1U);
 }
 
-TEST(CellColors, ByWRunFromBlueToAmberAsThePolytopeIsTurned) {
+TEST(CellPainter, ByWRunFromBlueToAmberAsThePolytopeIsTurned) {
     const auto& polytope = named("8-cell");  // one cell at w = −1, one at w = 1, six at 0
-    scene::CellColors cellColors;
+    scene::CellPainter cellColors;
     std::vector<Color> colors;
     for (const double turned : {0.0, std::numbers::pi}) {
         const geometry::Rotation orientation(geometry::Turn{geometry::Plane::xw, turned, {}});
@@ -79,7 +79,7 @@ TEST(CellColors, ByWRunFromBlueToAmberAsThePolytopeIsTurned) {
     }
 }
 
-TEST(CellColors, ByLightDependOnTheNormalAlone) {
+TEST(CellPainter, ByLightDependOnTheNormalAlone) {
     const auto& polytope = named("8-cell");  // its normals are the eight directions of the axes
     std::vector<glm::dvec4> normals;
     std::vector<double> offsets;
@@ -89,7 +89,7 @@ TEST(CellColors, ByLightDependOnTheNormalAlone) {
         return std::ranges::max_element(normals, {}, product) - normals.begin();
     };
     const auto brightness = [](Color color) { return red(color) + blue(color) + int(color >> 8U & 255U); };
-    scene::CellColors cellColors;
+    scene::CellPainter cellColors;
     std::vector<Color> colors;
     cellColors.paint(objectOf(polytope), Coloring::light, {}, colors);
     EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), 8U);
@@ -109,8 +109,8 @@ TEST(CellColors, ByLightDependOnTheNormalAlone) {
     EXPECT_EQ(colors.at(cellToward({0, 0, 0, 1})), lit[3]);
 }
 
-TEST(CellColors, FollowThePolytopeAndTheColoring) {
-    scene::CellColors cellColors;
+TEST(CellPainter, FollowThePolytopeAndTheColoring) {
+    scene::CellPainter cellColors;
     std::vector<Color> colors;
     for (const char* name : {"16-cell", "5-cell", "16-cell"}) {
         for (const Coloring coloring :

@@ -34,6 +34,32 @@ glm::dvec2 project(const Scene& s, const glm::dvec3& world) {
     return {(clip.x / clip.w + 1) / 2 * s.viewport.width, (1 - clip.y / clip.w) / 2 * s.viewport.height};
 }
 
+TEST(Highlight, ColorsTheCellThatIsHighlightedAndNoOther) {
+    const auto& p = named("24-cell");
+    slicing::SliceSet slices;
+    slicing::PolytopeSlicer().slice(p, {}, {-1, 3, 0.5}, slices);
+    for (const auto coloring : {scene::Coloring::cell, scene::Coloring::cell_type, scene::Coloring::plain,
+                                scene::Coloring::w, scene::Coloring::light}) {
+        scene::Composer composer;
+        Scene s;
+        const auto colors = [&](const std::optional<slicing::Element>& highlight) {
+            scene::Look look;
+            look.coloring = coloring;
+            look.highlight = highlight;
+            composer.compose(support::objectOf(p), {}, slices, 0, look, {}, s);
+            return s.cellColors;
+        };
+        const auto without = colors({});
+        for (const unsigned cell : {3U, 3U, 17U}) {
+            auto expected = without;
+            expected[cell] = scene::style().highlight;
+            EXPECT_EQ(colors(slicing::Element{slicing::ElementKind::cell, cell}), expected);
+        }
+        EXPECT_EQ(colors(slicing::Element{slicing::ElementKind::edge, 0}), without);
+        EXPECT_EQ(colors({}), without);
+    }
+}
+
 TEST(Oval, standsOnAParabolaWithTheFocusInTheMiddle) {
     const Scene s = composed("24-cell");
     const auto& focus = s.placements[10];

@@ -38,6 +38,11 @@ TEST(CellTypeFilter, AreHiddenFadedAndShownAgain) {
     line(session, "fade hexagonal prism");
     EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{3}, {1, 2}})) << "all of the name";
     line(session, "show");
+    for (const char* const name : {"6-gonal prism", "6 gonal prism", "Hexagonal Prism"}) {
+        line(session, std::string("hide ") + name);
+        EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{1, 2}, {}})) << name;
+        line(session, "show");
+    }
     EXPECT_EQ(session.current.look.cellTypes, CellTypeFilter{});
 }
 
@@ -92,13 +97,14 @@ TEST(CellTypeFilter, MistakesAreExplainedAndChangeNothing) {
             "the number or the name of a kind of cell is expected; the kinds of the mixed, from 0, are cube, hexagonal "
             "prism");
     refused("hide prism", ErrorCode::bad_expression, "not 'prism'");
+    refused("hide 7-gonal prism", ErrorCode::bad_expression, "not '7-gonal prism'");
     refused("fade 4", ErrorCode::out_of_range, "the mixed has 4 kinds of cells, 0 to 3; there is no 4");
     refused("show 99999999999", ErrorCode::bad_expression, "'99999999999'");
     refused("hide -1", ErrorCode::bad_expression, "'-1'");
     refused("set hidden=0.5", ErrorCode::bad_expression, "hidden: '0.5' is not the number of a kind of cell");
     refused("set faded=7", ErrorCode::out_of_range, "there is no 7");
     refused("set polytope=5-cell hidden=1", ErrorCode::out_of_range, "one kind of cell, 0; there is no 1");
-    refused("color", ErrorCode::bad_expression, "color must be cell, kind, w, plain or light, not ''");
+    refused("color", ErrorCode::bad_expression, "color must be cell, kind, w, plain, light, growth or value, not ''");
     refused("color red", ErrorCode::bad_expression, "not 'red'");
 }
 

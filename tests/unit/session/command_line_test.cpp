@@ -74,6 +74,38 @@ TEST(CommandLine, EverySettingCanBeSet) {
                                      {0.1, 0.25, -std::numbers::pi / 10}}));
 }
 
+TEST(CommandLine, FogIsATransferFunctionOrOff) {
+    Session session;
+    const ErrorCode expression = ErrorCode::bad_expression, range = ErrorCode::out_of_range;
+    const auto refused = [&](const char* text, ErrorCode code, const char* says) {
+        SCOPED_TRACE(text);
+        expectRefused(session, CommandLine{text}, code, says);
+    };
+    refused("fog 0:1,1:0", range, "not a field");
+    line(session, "formula x^2+y^2 < w");
+    const auto fog = [&] { return session.current.look.field.fog; };
+    EXPECT_TRUE(fog().empty());
+    line(session, "fog -1/2:0.5,0:1:ff8000,pi:0");
+    EXPECT_EQ(fog(), (std::vector<slicing::FogPoint>{{-0.5, 0.5}, {0, 1, 0xff8000}, {pi, 0}}));
+    line(session, "set fog=0:0,8:1:00000A levels=1");
+    EXPECT_EQ(fog(), (std::vector<slicing::FogPoint>{{0, 0}, {8, 1, 10}}));
+    for (const char* text : {"fog", "fog 1", "fog on", "fog 0:0,1", "fog 0:1:red,1:0", "fog 0:1:fff,1:0",
+                             "fog 0:1:-fffff,1:0", "fog 0:1:1234567,1:0", "fog 0:1:ff8000:0,1:0", "fog 0:1,"})
+        refused(text, expression, "value:opacity");
+    refused("fog x:1,2:0", expression, "fog: 'x'");
+    refused("fog 0:,1:0", expression, "a number is expected");
+    for (const char* text : {"fog 0:1", "fog 0:1,0:0", "fog 1:0,0:1", "fog 0:1.1,1:0", "fog 0:-0.1,1:0",
+                             "fog 0:0,1e31:1", "fog 0:0,1:0,2:0,3:0,4:0,5:0,6:0,7:0,8:0"})
+        refused(text, range, "2 to 8 points in the order of their values");
+    EXPECT_EQ(fog().size(), 2U);
+    line(session, "fog off");
+    EXPECT_TRUE(fog().empty());
+    line(session, "undo");
+    EXPECT_EQ(fog().size(), 2U);
+    line(session, "formula x^2 < w");
+    EXPECT_TRUE(fog().empty()) << "another field has its own values";
+}
+
 TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     Session session;
     press(session, "r");
@@ -89,7 +121,12 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("polytope 25-cell", ErrorCode::unknown_polytope,
             "no polytope is called '25-cell'; did you mean '24-cell'?");
     refused("polytope tesserakt", ErrorCode::unknown_polytope, "did you mean 'tesseract'?");
-    refused("set", ErrorCode::unknown_command, "the names are polytope, alpha");
+    refused("polytope dual of tesserakt", ErrorCode::unknown_polytope,
+            "'tesserakt' is not the name of a polytope; did you mean 'tesseract'?");
+    refused("polytope rectification of 1001,3-duoprism", ErrorCode::too_large, "at most 1000 are allowed");
+    refused("polytope truncation of great 120-cell", ErrorCode::unknown_polytope, "the great 120-cell is not convex");
+    expectRefused(session, CommandLine{"polytope q"}, ErrorCode::unknown_polytope, "no polytope is called 'q'");
+    refused("set", ErrorCode::unknown_command, "the names are polytope, pace");
     refused("set slcies=3", ErrorCode::unknown_command, "did you mean 'slices'?");
     refused("set slices 31", ErrorCode::bad_expression, "has no '='");
     refused("set slices=30", ErrorCode::out_of_range, "must be odd and from 1 to 201, not 30");
@@ -117,7 +154,7 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("set alpha=0.1 beta=99", ErrorCode::out_of_range, "did you mean 99°?");
     refused("focus 1e8", ErrorCode::out_of_range, "the focus must be from");
     refused("rotate", ErrorCode::bad_expression, "needs planes and angles");
-    refused("rotate xw 1 2", ErrorCode::bad_expression, "one plane needs one angle");
+    refused("rotate xw 1 2", ErrorCode::bad_expression, "one plane needs one angle, not 2; write xw pi/8 or");
     refused("rotate xw,yw 1 2", ErrorCode::bad_expression, "combine xw with yz");
     refused("rotate xw 1e7", ErrorCode::out_of_range, "an angle must be from");
     refused("key", ErrorCode::unknown_key, "needs one key");
@@ -148,7 +185,7 @@ TEST(Query, DescribesAState) {
 }
 
 TEST(Query, MistakesAreExplained) {
-    const auto refused = [](const Query& query, ErrorCode code, const char* says) {
+    const auto refused = [](const QueryParameters& query, ErrorCode code, const char* says) {
         const auto state = stateFromQuery(query, {});
         ASSERT_FALSE(state);
         EXPECT_EQ(state.error().code, code);

@@ -108,7 +108,7 @@ TEST(Turn, MistakesAreExplained) {
     says("xq:1", "no plane is called 'xq'");
     says("xw,xy:1,2",
          "xw and xy share an axis; a double rotation needs planes without a common axis: combine xw with yz");
-    says("xw:1,2", "one plane needs one angle");
+    says("xw:1,2", "one plane needs one angle, not 2; write xw:pi/8 or xw,yz:pi/8,pi/5");
     says("xw,yz:1", "two planes need two angles");
     says("xw:pi/", "a number, a name or '(' is expected");
     says(":", "no plane is called ''");

@@ -8,6 +8,7 @@
 
 #include "polytopes/catalogue/catalogue.hpp"
 #include "protocol_data/embedded_files.hpp"
+#include "session/example_fields.hpp"
 #include "session/key_actions.hpp"
 #include "session/keymap.hpp"
 #include "unit/session/support.hpp"
@@ -237,9 +238,14 @@ TEST(Keys, WalkTheCatalogueRoundAndRound) {
         EXPECT_NEAR(session.current.slices.spacing / infoOf(session.current).circumradius, 0.1, 1e-12);
         press(session, "n");
     }
+    for (const ExampleField& example : exampleFields()) {
+        EXPECT_EQ(infoOf(session.current).name, example.name);
+        EXPECT_NEAR(session.current.slices.spacing / slicing::initialSliceExtent(session.current.object), 0.1, 1e-12);
+        press(session, "n");
+    }
     expectNear(session.current, before, 1e-12);
     press(session, "N");
-    EXPECT_EQ(infoOf(session.current).name, polytopes::catalogue().back().name);
+    EXPECT_EQ(infoOf(session.current).name, exampleFields().back().name);
 }
 
 TEST(Keys, UnknownOnesAreRefused) {

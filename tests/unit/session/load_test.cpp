@@ -1,6 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <numeric>
+#include <vector>
+
+#include "fields/array_field.hpp"
+#include "fields/formula_field.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
+#include "session/example_fields.hpp"
 #include "session/load.hpp"
 #include "session/object_loader.hpp"
 #include "unit/session/support.hpp"
@@ -15,7 +22,7 @@ TEST(Load, ShowsThePolytopeAndKeepsIt) {
     Session session;
     press(session, "rll");
     const State before = session.current;
-    must(session, Load{"mine", "off", kPentachoron});
+    must(session, LoadObject{"mine", "off", kPentachoron});
     EXPECT_EQ(infoOf(session.current).name, "mine");
     EXPECT_EQ(session.current.orientation, before.orientation);
     EXPECT_EQ(session.current.slices.focus, 0);
@@ -34,13 +41,14 @@ TEST(Load, ShowsThePolytopeAndKeepsIt) {
 TEST(Load, RefusesWhatItCannotRead) {
     Session session;
     press(session, "r");
-    expectRefused(session, Load{"mine", "off", "4OFF\n5 10 10 5\nx"}, ErrorCode::bad_polytope,
+    expectRefused(session, LoadObject{"mine", "off", "4OFF\n5 10 10 5\nx"}, ErrorCode::bad_polytope,
                   "line 2: the file is too short");
-    expectRefused(session, Load{"mine", "stl", "solid"}, ErrorCode::unsupported_format,
+    expectRefused(session, LoadObject{"mine", "stl", "solid"}, ErrorCode::unsupported_format,
                   "'stl' cannot be read; allowed formats: off (4OFF), points, cloud");
-    expectRefused(session, Load{"tesseract", "off", kPentachoron}, ErrorCode::bad_polytope, "a name of the catalogue");
-    expectRefused(session, Load{"a\nb", "off", kPentachoron}, ErrorCode::bad_message, "printable");
-    expectRefused(session, Load{"mine", "off", kPentachoron}, ErrorCode::too_large, "at most 4 are allowed",
+    expectRefused(session, LoadObject{"tesseract", "off", kPentachoron}, ErrorCode::bad_polytope,
+                  "a name of the catalogue");
+    expectRefused(session, LoadObject{"a\nb", "off", kPentachoron}, ErrorCode::bad_message, "printable");
+    expectRefused(session, LoadObject{"mine", "off", kPentachoron}, ErrorCode::too_large, "at most 4 are allowed",
                   Limits{.maxVertices = 4});
 }
 
@@ -63,11 +71,11 @@ TEST(Load, TheFirstWordTellsTheFormat) {
     for (const std::string keyword : {"CLOUD", "cloud", "# from a simulation\nCLOUD # of two points"}) {
         const std::string text = keyword + "\n1 0 0 0\n0 1 0 0 0.25\n";
         ASSERT_EQ(detectFormat(text), "cloud");
-        const auto read = readObject("cloud", text, "two points", Limits{});
+        const auto read = readObject({"two points", "cloud", text}, Limits{});
         ASSERT_TRUE(read) << read.error().message;
         EXPECT_EQ(slicing::elementCounts(read->object)[0], 2U);
     }
-    const auto wrong = readObject("points", "CLOUD\n1 0 0 0\n", "two points", Limits{});
+    const auto wrong = readObject({"two points", "points", "CLOUD\n1 0 0 0\n"}, Limits{});
     ASSERT_FALSE(wrong);
     EXPECT_EQ(wrong.error().code, ErrorCode::bad_polytope);
 }
@@ -75,7 +83,7 @@ TEST(Load, TheFirstWordTellsTheFormat) {
 TEST(Load, MayBeReadAhead) {
     Session session;
     Result<std::monostate> done = std::monostate{};
-    const Command load = Load{"mine", "points", "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n.1 .1 .1 .1\n"};
+    const Command load = LoadObject{"mine", "points", "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n.1 .1 .1 .1\n"};
     ObjectLoader reader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, load, reader, done), 1);
     EXPECT_TRUE(done);
@@ -84,7 +92,7 @@ TEST(Load, MayBeReadAhead) {
     EXPECT_EQ(slicing::elementCounts(session.current.object)[3], 5U);
 
     ObjectLoader refuser(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
-    EXPECT_EQ(ordersOf(session, Load{"other", "points", "1 2 3\n"}, refuser, done), 1);
+    EXPECT_EQ(ordersOf(session, LoadObject{"other", "points", "1 2 3\n"}, refuser, done), 1);
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, ErrorCode::bad_polytope);
 }
@@ -117,28 +125,250 @@ TEST(Load, PolytopesAreBuiltAheadOnlyWhereTheyAreNotBuiltYet) {
 TEST(Load, IsLimited) {
     Session session;
     const Limits limits{.maxLoaded = 2};
-    must(session, Load{"a", "off", kPentachoron}, limits);
-    must(session, Load{"b", "off", kPentachoron}, limits);
-    expectRefused(session, Load{"c", "off", kPentachoron}, ErrorCode::too_many, "at most 2 loaded polytopes", limits);
-    must(session, Load{"b", "off", kPentachoron}, limits);
+    must(session, LoadObject{"a", "off", kPentachoron}, limits);
+    must(session, LoadObject{"b", "off", kPentachoron}, limits);
+    expectRefused(session, LoadObject{"c", "off", kPentachoron}, ErrorCode::too_many, "at most 2 loaded polytopes",
+                  limits);
+    must(session, LoadObject{"b", "off", kPentachoron}, limits);
+}
+
+// An array with the samples 0, 1, 2 ….
+slicing::Object arrayOf(const fields::Shape& shape, const fields::Box& box = {glm::dvec4(0), {1, 1, 1, 3}}) {
+    fields::ReadField array;
+    array.shape = shape;
+    array.box = box;
+    std::vector<float> values(fields::sampleCount(shape));
+    std::iota(values.begin(), values.end(), 0.F);
+    array.samples = fields::Samples(std::move(values));
+    auto field = fields::fieldFromArray("run", array);
+    return std::make_shared<const fields::Field>(std::move(*field));
+}
+
+TEST(Load, TimeStepsAreAddedAtTheEndOfW) {
+    const slicing::Object field = arrayOf({2, 2, 2, 4});
+    const auto grown = appendTimeSteps(field, arrayOf({2, 2, 2, 2}), {});
+    ASSERT_TRUE(grown) << grown.error().message;
+    const fields::ArrayFunction& array = *slicing::fieldIn(*grown)->array;
+    EXPECT_EQ(array.shape(), (fields::Shape{2, 2, 2, 6}));
+    EXPECT_EQ(array.box().max, glm::dvec4(1, 1, 1, 5));
+    EXPECT_EQ(array.samples()[31], 31);
+    EXPECT_EQ(array.samples()[32], 0);
+    EXPECT_EQ(array.samples()[47], 15);
+    const auto first = appendTimeSteps(arrayOf({2, 2, 2, 1}, {glm::dvec4(0), {1, 1, 1, 0}}), arrayOf({2, 2, 2, 1}), {});
+    ASSERT_TRUE(first);
+    EXPECT_EQ(slicing::fieldIn(*first)->array->box().max.w, 1);
+    for (const slicing::Object& wrong : {arrayOf({2, 2, 3, 1}), slicing::Object(support::shared("24-cell"))}) {
+        const auto refused = appendTimeSteps(field, wrong, {});
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::bad_field);
+    }
+    EXPECT_TRUE(appendTimeSteps(field, arrayOf({2, 2, 2, 1}), {.maxFieldBytes = 160}));
+    const auto large = appendTimeSteps(field, arrayOf({2, 2, 2, 1}), {.maxFieldBytes = 159});
+    ASSERT_FALSE(large);
+    EXPECT_EQ(large.error().code, ErrorCode::too_large);
+}
+
+TEST(Load, TheHistoryGrowsWithTheField) {
+    const FileReader reader = [](const LoadObject& load, const Limits& /*limits*/) -> Result<LoadedObject> {
+        return LoadedObject{arrayOf({2, 2, 2, load.append ? std::size_t{1} : 4}), {}};
+    };
+    Session session;
+    const auto execute = [&](const LoadObject& load) {
+        ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, reader);
+        Result<std::monostate> done = std::monostate{};
+        EXPECT_EQ(ordersOf(session, load, loader, done), load.append ? 2 : 1);
+        EXPECT_TRUE(done);
+    };
+    LoadObject load{"run", "npy", ""};
+    execute(load);
+    press(session, "r");
+    line(session, "set levels=3 slices=11");
+    press(session, "ru");
+    const Session before = session;
+    load.append = true;
+    execute(load);
+    EXPECT_EQ(session.revision, before.revision + 1);
+    EXPECT_EQ(session.undoSteps.size(), before.undoSteps.size());
+    EXPECT_EQ(session.redoSteps.size(), before.redoSteps.size());
+    for (const State* state : {&session.current, &session.undoSteps.back(), &session.redoSteps.back()}) {
+        EXPECT_EQ(state->object, session.loaded.at("run"));
+        EXPECT_EQ(slicing::fieldIn(state->object)->array->shape()[3], 5U);
+    }
+    EXPECT_EQ(session.undoSteps.front().object, before.undoSteps.front().object);
+    State same = session.current;
+    same.source = before.current.source;
+    same.object = before.current.object;
+    EXPECT_EQ(same, before.current);
+    EXPECT_LT(ownObjectMemory(session), 2 * ownObjectMemory(before));
+    line(session, "polytope 24-cell");
+    const State shown = session.current;
+    execute(load);
+    EXPECT_EQ(session.current, shown);
+    EXPECT_EQ(slicing::fieldIn(session.loaded.at("run"))->array->shape()[3], 6U);
+}
+
+TEST(Load, ASecondFunctionColorsTheSurfaces) {
+    Session session;
+    LoadObject load{"colored", "formula", "x^2 + y^2 < a; a=1"};
+    load.values = "a*x*y";
+    must(session, load);
+    EXPECT_EQ(session.current.look.coloring, scene::Coloring::value);
+    EXPECT_EQ(slicing::fieldIn(session.current.object)->second->formula, "a*x*y");
+    line(session, "color growth");
+    load.data = "x^2 + y^2 < a; a=1.5";
+    must(session, load);
+    EXPECT_EQ(session.current.look.coloring, scene::Coloring::growth) << "the field before was colored, too";
+    line(session, "set pace=2");
+    EXPECT_EQ(slicing::fieldIn(session.current.object)->second, slicing::fieldIn(session.current.source)->second);
+    press(session, "uuu");
+    EXPECT_EQ(session.current.look.coloring, scene::Coloring::value);
+    press(session, "u");
+    EXPECT_EQ(session.current.look.coloring, scene::Coloring::cell);
+    line(session, "formula x - b; b=2 colored by b*y");
+    EXPECT_EQ(slicing::fieldIn(session.current.object)->second->formula, "b*y");
+    EXPECT_EQ(session.current.look.coloring, scene::Coloring::value);
+    expectRefused(session, CommandLine{"formula x colored by y*"}, ErrorCode::bad_expression,
+                  "values: 'y*', position 3");
+    load = {"mine", "off", kPentachoron};
+    load.values = "x";
+    expectRefused(session, load, ErrorCode::bad_message, "only formulas and arrays take the formula of values");
+    load = {"mine", "npy", ""};
+    load.values = "x";
+    load.append = true;
+    const auto moments = checkLoad(load, {});
+    ASSERT_TRUE(moments);
+    EXPECT_NE(moments->message.find("moments have no formula of values"), std::string::npos) << moments->message;
+}
+
+// Adds a second array, which has the negatives of the samples.
+slicing::Object withSecond(const slicing::Object& object) {
+    fields::Field field = *slicing::fieldIn(object);
+    fields::ReadField second;
+    second.shape = field.array->shape();
+    second.box = field.array->box();
+    std::vector<float> samples(field.array->samples().begin(), field.array->samples().end());
+    for (float& sample : samples) sample = -sample;
+    second.samples = fields::Samples(std::move(samples));
+    EXPECT_FALSE(fields::setSecondArray(field, second, "p"));
+    return std::make_shared<const fields::Field>(std::move(field));
+}
+
+TEST(Load, TheSecondFunctionGrowsWithTheField) {
+    const slicing::Object colored = withSecond(arrayOf({2, 2, 2, 4}));
+    const auto longer = appendTimeSteps(colored, withSecond(arrayOf({2, 2, 2, 2})), {});
+    ASSERT_TRUE(longer);
+    const fields::Field& field = *slicing::fieldIn(*longer);
+    EXPECT_EQ(field.second->variable, "p");
+    ASSERT_EQ(field.second->array->shape()[3], 6U);
+    for (std::size_t i = 0; i < 48; ++i) EXPECT_EQ(field.second->array->samples()[i], -field.array->samples()[i]);
+    const auto refused = appendTimeSteps(colored, arrayOf({2, 2, 2, 1}), {});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("values_variable"), std::string::npos) << refused.error().message;
+    fields::Field byFormula = *slicing::fieldIn(arrayOf({2, 2, 2, 4}));
+    EXPECT_FALSE(fields::setSecondFormula(byFormula, "x + t"));
+    const auto kept =
+        appendTimeSteps(slicing::Object(std::make_shared<const fields::Field>(byFormula)), arrayOf({2, 2, 2, 1}), {});
+    ASSERT_TRUE(kept);
+    EXPECT_EQ(slicing::fieldIn(*kept)->second->formula, "x + w");
+    fields::ReadField other;
+    other.shape = {2, 2, 2, 3};
+    other.box = byFormula.array->box();
+    other.samples = fields::Samples(std::vector<float>(24));
+    const auto mismatch = fields::setSecondArray(byFormula, other, "p");
+    ASSERT_TRUE(mismatch);
+    EXPECT_NE(mismatch->message.find("2 × 2 × 2 × 3"), std::string::npos) << mismatch->message;
+}
+
+Set objectNamed(const std::string& name) {
+    Set set;
+    set.object = name;
+    return set;
+}
+
+Set formulaNamed(const std::string& name, const std::string& formula) {
+    Set set = objectNamed(name);
+    set.formula = LoadObject{name, std::string(kFormula), formula};
+    set.formula->box = fields::Box{glm::dvec4(-1), glm::dvec4(1)};
+    return set;
+}
+
+TEST(Formulas, OfASettingAreLoaded) {
+    Session session;
+    Set set = formulaNamed("mine", "x^2 + y^2 + z^2 + w^2");
+    set.levels = std::vector<double>{0.25};
+    must(session, set);
+    EXPECT_EQ(infoOf(session.current).name, "mine");
+    EXPECT_EQ(session.current.look.field.levels, std::vector<double>{0.25});
+    ASSERT_TRUE(session.loaded.contains("mine"));
+    const slicing::Object first = session.current.object;
+
+    must(session, set);
+    EXPECT_TRUE(session.current.object == first) << "the same formula is not loaded again";
+    must(session, Undo{});
+    EXPECT_EQ(infoOf(session.current).name, "5-cell");
+    must(session, objectNamed("mine"));
+    EXPECT_TRUE(session.current.object == first);
+
+    must(session, formulaNamed("mine", "x + y"));
+    EXPECT_EQ(slicing::fieldIn(session.current.object)->formula, "x + y");
+    EXPECT_EQ(session.loaded.size(), 1U);
+}
+
+TEST(Formulas, OfASettingThatIsRefusedAreNotLoaded) {
+    Session session;
+    expectRefused(session, formulaNamed("mine", "x +"), ErrorCode::bad_expression, "position 4");
+    expectRefused(session, formulaNamed("tesseract", "x"), ErrorCode::bad_polytope, "tesseract");
+    Set set = formulaNamed("mine", "x");
+    set.zoom = 1e9;
+    expectRefused(session, set, ErrorCode::out_of_range, "zoom");
+    EXPECT_TRUE(session.loaded.empty());
+    Limits one;
+    one.maxLoaded = 1;
+    must(session, formulaNamed("mine", "x"), one);
+    expectRefused(session, formulaNamed("other", "y"), ErrorCode::too_many, "at most 1", one);
+    must(session, formulaNamed("mine", "y"), one);
+}
+
+// The examples that come with the program are shared, so that their own formulas need not be loaded.
+TEST(Formulas, OfExamplesAreNotLoaded) {
+    Session session;
+    must(session, objectNamed(exampleFields().front().name));
+    const fields::Field& example = *slicing::fieldIn(session.current.object);
+    Set set = formulaNamed(example.name, example.formula);
+    set.formula->box = example.box;
+    must(session, set);
+    EXPECT_TRUE(session.loaded.empty());
+    EXPECT_EQ(slicing::fieldIn(session.current.object), &example);
+}
+
+TEST(Load, NamesAreTextOf64Characters) {
+    const auto checked = [](const std::string& name) { return checkLoad({name, "points", ""}, {}); };
+    std::string wide;
+    for (int i = 0; i < 64; ++i) wide += "π";
+    for (const std::string& good : {std::string("a b"), std::string(64, 'x'), wide}) EXPECT_FALSE(checked(good));
+    for (const std::string& bad : {std::string(), std::string(65, 'x'), wide + "x", std::string("\xff"),
+                                   std::string("a\0b", 3), std::string("\x7f")}) {
+        const auto error = checked(bad);
+        ASSERT_TRUE(error);
+        EXPECT_EQ(error->code, ErrorCode::bad_message);
+    }
 }
 
 TEST(Load, ReadsByWhatItIsGivenAndOnlyWhatItMayRead) {
     std::string seen;
-    const FileReader reader = [&](std::string_view format, std::string_view text, const std::string& name,
-                                  const Limits& /*limits*/) -> Result<LoadedObject> {
-        EXPECT_EQ(format, "points");
-        seen = name + ": " + std::string(text);
+    const FileReader reader = [&](const LoadObject& load, const Limits& /*limits*/) -> Result<LoadedObject> {
+        EXPECT_EQ(load.format, "points");
+        seen = load.name + ": " + load.data;
         return Error{ErrorCode::too_large, "so"};
     };
     ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::immediate, reader);
     Session session;
-    const auto done = apply(session, Load{"mine", "points", "1 2 3"}, Limits{}, loader);
+    const auto done = apply(session, LoadObject{"mine", "points", "1 2 3"}, Limits{}, loader);
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().message, "so");
     EXPECT_EQ(seen, "mine: 1 2 3");
     ObjectLoader other(Limits{}, support::cache(), ObjectLoader::Mode::immediate, reader);
-    EXPECT_FALSE(apply(session, Load{"tesseract", "points", "4 5 6"}, Limits{}, other));
+    EXPECT_FALSE(apply(session, LoadObject{"tesseract", "points", "4 5 6"}, Limits{}, other));
     EXPECT_EQ(seen, "mine: 1 2 3");
 }
 

@@ -16,13 +16,13 @@ namespace oval4d::session {
 
 inline const geometry::ObjectInfo& infoOf(const State& state) { return slicing::infoOf(state.object); }
 
-/// Executes a command immediately, with the cache of the test program.
+/// Executes a command on the calling thread, with the polytope cache of the test program.
 inline Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits = {}) {
     ObjectLoader loader(limits, support::cache());
     return apply(session, command, limits, loader);
 }
 
-inline Result<State> stateFromQuery(const Query& query, const Limits& limits = {}) {
+inline Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits = {}) {
     ObjectLoader loader(limits, support::cache());
     return stateFromQuery(query, limits, loader);
 }

@@ -95,7 +95,7 @@ TEST(TurnToward, RefusesElementsThatDoNotExist) {
     expectRefused(session, CommandLine{"toward"}, ErrorCode::bad_expression, "such as toward cell 3");
     expectRefused(session, CommandLine{"toward cell x"}, ErrorCode::bad_expression, "a whole number from 0, not 'x'");
     expectRefused(session, CommandLine{"toward cell 1 2"}, ErrorCode::bad_expression, "not 'cell 1 2'");
-    must(session, Load{"points", "cloud", "1 0 0 0\n0 1 0 0\n"});
+    must(session, LoadObject{"points", "cloud", "1 0 0 0\n0 1 0 0\n"});
     expectRefused(session, CommandLine{"toward edge"}, ErrorCode::out_of_range, "has no edge");
     line(session, "toward vertex 1");
     finish(session);

@@ -103,13 +103,14 @@ TEST(CloudSlicer, bytesBringItBack) {
     const Object object = randomCloud(64, 5);
     const PointCloud& cloud = *std::get<CloudPtr>(object);
     std::string bytes;
-    encodeObject(object, bytes);
+    MappedFiles files;
+    encodeObject(object, bytes, files);
     const Object whole = decodeObject(bytes);
     EXPECT_EQ(std::get<CloudPtr>(whole)->points, cloud.points);
     EXPECT_EQ(infoOf(whole).serial, cloud.serial);
     std::string parts;
     serialization::ByteWriter writer(parts);
-    writeParts(object, writer);
+    writeParts(object, writer, files);
     serialization::ByteReader reader(parts);
     const Object again = readParts(reader, "again", 64);
     EXPECT_EQ(std::get<CloudPtr>(again)->points, cloud.points);

@@ -12,6 +12,8 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
+#include "fields/array_field.hpp"
+#include "fields/formula_field.hpp"
 #include "slicing/object_bytes.hpp"
 #include "slicing/slicer.hpp"
 #include "unit/slicing/support.hpp"
@@ -92,7 +94,8 @@ TEST(ObjectBytes, ObjectsComeAsTheyWere) {
     std::string bytes;
     for (const char* name : {"5-cell", "24-cell", "120-cell", "{5/2,3,5}"}) {
         const auto sent = shared(name);
-        encodeObject(sent, bytes);
+        MappedFiles files;
+        encodeObject(sent, bytes, files);
         const Object decoded = decodeObject(bytes);
         const Polytope& got = polytopeIn(decoded);
         EXPECT_EQ(std::tie(got.name, got.serial, got.cellTypes), std::tie(sent->name, sent->serial, sent->cellTypes));
@@ -104,7 +107,8 @@ TEST(ObjectBytes, ObjectsComeAsTheyWere) {
 
 TEST(ObjectBytes, BytesCutShortAreRefused) {
     std::string bytes;
-    encodeObject(shared("5-cell"), bytes);
+    MappedFiles files;
+    encodeObject(shared("5-cell"), bytes, files);
     for (std::size_t size = 0; size < bytes.size(); size += 7)
         EXPECT_THROW((void)decodeObject(std::string_view(bytes).substr(0, size)), std::runtime_error);
 }
@@ -112,13 +116,22 @@ TEST(ObjectBytes, BytesCutShortAreRefused) {
 std::string partsOf(const Object& object) {
     std::string bytes;
     serialization::ByteWriter writer(bytes);
-    writeParts(object, writer);
+    MappedFiles files;
+    writeParts(object, writer, files);
     return bytes;
 }
 
 Object read(std::string_view bytes, std::size_t maxVertices = 100'000) {
     serialization::ByteReader reader(bytes);
     return readParts(reader, "mine", maxVertices);
+}
+
+TEST(ObjectBytes, DamagedBooleansAreRefused) {
+    std::string bytes = partsOf(std::make_shared<const fields::Field>(*fields::fieldFromFormula("formula", "x")));
+    EXPECT_NO_THROW((void)read(bytes));
+    ASSERT_EQ(bytes.back(), 0) << "there is no second array";
+    bytes.back() = 2;
+    EXPECT_THROW((void)read(bytes), std::runtime_error);
 }
 
 TEST(ObjectBytes, PartsMakeTheSameObjectWithANameAndSerialOfItsOwn) {
@@ -170,6 +183,49 @@ TEST(ObjectBytes, DamagedPartsAreRefusedOrMakeAnObjectThatCanBeCut) {
         accepted = 0;
     }
     EXPECT_GT(refused, 1000);
+}
+
+std::shared_ptr<const fields::Field> arrayOf(const fields::Shape& shape, float factor, fields::Field* into = nullptr) {
+    fields::ReadField array;
+    array.shape = shape;
+    array.box = {glm::dvec4(-1), glm::dvec4(1, 2, 3, 4)};
+    std::vector<float> samples(fields::sampleCount(shape));
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = factor * static_cast<float>(i);
+    array.samples = fields::Samples(std::move(samples));
+    if (into == nullptr) return std::make_shared<const fields::Field>(*fields::fieldFromArray("run", array));
+    EXPECT_FALSE(fields::setSecondArray(*into, array, "pressure"));
+    return {};
+}
+
+TEST(ObjectBytes, FieldsKeepTheirSecondFunction) {
+    const fields::Shape shape{2, 3, 4, 5};
+    fields::Field twoArrays = *arrayOf(shape, 1), withFormula = twoArrays;
+    arrayOf(shape, -1, &twoArrays);
+    EXPECT_FALSE(fields::setSecondFormula(withFormula, "x + a; a=2"));
+    const fields::Field formula =
+        *fields::fieldFromFormula("formula", "p - a; a=2, p=x*y", fields::kFormulaBox, "p + a*z");
+    for (const fields::Field& field : {twoArrays, withFormula, formula}) {
+        const Object object = std::make_shared<const fields::Field>(field);
+        std::string bytes, parts;
+        MappedFiles files;
+        encodeObject(object, bytes, files);
+        serialization::ByteWriter writer(parts);
+        writeParts(object, writer, files);
+        serialization::ByteReader reader(parts);
+        for (const Object& copy : {decodeObject(bytes), readParts(reader, "copy", 100)}) {
+            const fields::Field& back = *fieldIn(copy);
+            ASSERT_TRUE(back.second);
+            EXPECT_EQ(back.second->formula, field.second->formula);
+            EXPECT_EQ(back.second->variable, field.second->variable);
+            EXPECT_EQ(back.coloringRange->get(), field.coloringRange->get());
+            EXPECT_EQ(memoryOf(copy), memoryOf(object));
+        }
+        for (std::size_t size = 0; size < parts.size(); ++size) {
+            serialization::ByteReader cut(std::string_view(parts).substr(0, size));
+            EXPECT_THROW(readParts(cut, "cut", 100), std::runtime_error);
+        }
+    }
+    EXPECT_GT(memoryOf(std::make_shared<const fields::Field>(twoArrays)), memoryOf(arrayOf(shape, 1)));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// Checks that every slice of a convex polytope must pass.
+// Expectations that every slice of a convex polytope must meet.
 
 #include <algorithm>
 #include <cstddef>
@@ -27,7 +27,7 @@ inline ElementsOfSlice sliceCounts(const slicing::SliceSet& s, int i = 0) {
     return {s.vertexCount(i), s.edgeCount(i), s.faceCount(i)};
 }
 
-/// Expects a slice, which must have a volume, to be a closed convex polyhedron with correct incidences.
+/// Expects that a slice is a closed convex polyhedron with correct incidences. The slice must have a volume.
 inline void expectClosedConvexSolid(const slicing::SliceSet& s, int slice) {
     const ElementsOfSlice c = sliceCounts(s, slice);
     ASSERT_EQ(c.vertices + c.faces, c.edges + 2) << c;
@@ -62,7 +62,7 @@ inline void expectClosedConvexSolid(const slicing::SliceSet& s, int slice) {
     for (const auto& [edge, sum] : passes) ASSERT_EQ(sum, 0) << "edge " << edge;
 }
 
-/// Expects the source numbers of a slice to name the 4-D elements that its elements were cut from.
+/// Expects that the source numbers of a slice's elements are those of the 4-D elements from which they were cut.
 inline void expectCorrectSources(const polytopes::Polytope& p, const slicing::SliceSet& s, int slice) {
     const auto place = [&](std::uint32_t v) { return glm::dvec4(s.vertices[v], s.planes.w(slice)); };
     const auto verticesOfEdgeOrVertex = [&](std::uint32_t source) {

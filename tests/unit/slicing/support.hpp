@@ -30,7 +30,7 @@ inline polytopes::Polytope rectifiedFiveCell() {
     return polytope;
 }
 
-/// Returns the slice at any w.
+/// Returns the one slice of `p`, rotated by `orientation`, at this w.
 inline slicing::SliceSet cutAt(const polytopes::Polytope& p, const geometry::Rotation& orientation, double w) {
     slicing::SliceSet out;
     slicing::PolytopeSlicer slicer;
@@ -43,7 +43,7 @@ inline glm::dvec3 corner(const slicing::SliceSet& s, int slice, std::uint32_t at
     return s.vertices[s.vertexBegin[slice] + s.corners[at]];
 }
 
-/// Returns the signed volume of a slice, weighted by the winding number.
+/// Returns the signed volume of a slice: the integral of the winding number of its faces.
 inline double volumeOf(const slicing::SliceSet& s, int slice) {
     double sum = 0;
     for (std::uint32_t f = s.faceBegin[slice]; f < s.faceBegin[slice + 1]; ++f) {
@@ -56,9 +56,9 @@ inline double volumeOf(const slicing::SliceSet& s, int slice) {
     return sum;
 }
 
-/// Returns the hypervolume as the integral of the slices' volumes over w. Between two levels of vertices the volume of
-/// the section is a cubic polynomial in w, which Simpson's rule integrates exactly. So the degenerate sections at the
-/// levels themselves must be correct, too.
+/// Returns the hypervolume as the integral of the slices' volumes over w. Between two neighboring w of vertices, the
+/// volume of the section is a cubic polynomial in w, which Simpson's rule integrates exactly. The rule also evaluates
+/// the degenerate sections through vertices, so that the result is correct only if these are correct, too.
 inline double hypervolumeBySlices(const polytopes::Polytope& p, const geometry::Rotation& orientation) {
     std::vector<double> levels;
     for (const auto& v : p.vertices) levels.push_back(orientation(v).w);

@@ -2,6 +2,8 @@
 #include <map>
 #include <optional>
 
+#include "fields/array_field.hpp"
+#include "fields/formula_field.hpp"
 #include "store/cbor.hpp"
 #include "unit/store/support.hpp"
 
@@ -87,6 +89,7 @@ TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
     while (flags.size() > 4) flags.erase(4);  // 0.1.0 knew faces, bars, balls and coordinates,
     while (look.size() > 6) look.erase(6);    // and no projection,
     record.at(3).at(4).erase(3);              // no offset,
+    record.at(3).erase(9);                    // no frame of reference,
     record.at(3).erase(8);                    // and no turn toward an element
     const Session back = decode(encodeCbor(record), "", table.objectOf, support::cache());
     EXPECT_FALSE(back.current.look.parts.bars);
@@ -95,6 +98,70 @@ TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
     EXPECT_EQ(back.current.look.projection, scene::ProjectionSettings{});
     EXPECT_EQ(back.current.slices.offset, 0);
     EXPECT_FALSE(back.current.ongoingTurnToward);
+    EXPECT_EQ(back.current.referenceFrame, geometry::ReferenceFrame{});
+    EXPECT_EQ(back.current.object, back.current.source);
+}
+
+TEST(Codec, MakesTheImageOfAnObjectOnce) {
+    Session session;
+    for (const char* text : {"polytope 24-cell", "boost x 0.6", "set spacing=0.1", "focus 3", "boost x 0.5", "focus 4"})
+        session::line(session, text);
+    ObjectTable table;
+    const Session back = decode(encodeWhole(session, 10, table.keyOf), "", table.objectOf, support::cache());
+    ASSERT_TRUE(same(session, back));
+    ASSERT_EQ(back.undoSteps.size(), 6U);
+    EXPECT_EQ(back.undoSteps[2].object, back.undoSteps[4].object);
+    EXPECT_EQ(back.undoSteps[5].object, back.current.object);
+    EXPECT_NE(back.undoSteps[4].object, back.undoSteps[5].object);
+    EXPECT_EQ(back.current.source, session.current.source) << "the object itself comes from the catalogue";
+    EXPECT_EQ(session::ownObjectMemory(back), session::ownObjectMemory(session));
+}
+
+TEST(Codec, BuildsComposedPolytopesFromTheirNames) {
+    Session session;
+    for (const char* text :
+         {"polytope pyramid of dual of cuboctahedron",
+          "polytope hull of truncation of omnitruncated 5-cell of circumradius 2.5 and intersection of "
+          "runcitruncated tesseract and rectification of 5,7-duoprism",
+          "polytope dual of bipyramid of 7-gonal antiprism"})
+        session::line(session, text);
+    ObjectTable table;
+    polytopes::PolytopeCache cache;  // which has none of them
+    const Session back = decode(encodeWhole(session, 10, table.keyOf), "", table.objectOf, cache);
+    EXPECT_EQ(table.size(), 0U) << "their names suffice";
+    ASSERT_EQ(back.undoSteps.size(), session.undoSteps.size());
+    const auto expectSame = [](const slicing::Object& one, const slicing::Object& other) {
+        EXPECT_EQ(slicing::infoOf(one).name, slicing::infoOf(other).name);
+        EXPECT_EQ(slicing::elementCounts(one), slicing::elementCounts(other));
+    };
+    expectSame(back.current.object, session.current.object);
+    for (std::size_t i = 0; i < back.undoSteps.size(); ++i)
+        expectSame(back.undoSteps[i].object, session.undoSteps[i].object);
+}
+
+TEST(Codec, KeepsTheFogOfAField) {
+    Session session;
+    for (const char* text : {"formula x^2+y^2 < w", "fog -1:0.5,0:1:ff8000,2:0"}) session::line(session, text);
+    ObjectTable table;
+    const auto decoded = [&](const std::string& bytes) { return decode(bytes, "", table.objectOf, support::cache()); };
+    const std::string bytes = encodeWhole(session, 10, table.keyOf);
+    EXPECT_EQ(decoded(bytes).current.look, session.current.look);
+    EXPECT_TRUE(decoded(bytes).undoSteps.back().look.field.fog.empty());
+    auto record = nlohmann::json::from_cbor(bytes);
+    nlohmann::json& field = record.at(3).at(5).at(10);
+    nlohmann::json& fog = field.at(2);
+    const nlohmann::json points = fog;
+    for (const nlohmann::json& bad : {nlohmann::json::array({points[0]}),
+                                      {points[1], points[0]},
+                                      {{0, 2, 0}, {1, 0, 0}},
+                                      {{0, 1, 1 << 24U}, {1, 0, 0}},
+                                      {{0, 1}, {1, 0}},
+                                      {{0, "1", 0}, {1, 0, 0}}}) {
+        fog = bad;
+        EXPECT_THROW(decoded(encodeCbor(record)), UnreadableRecord) << bad;
+    }
+    field.erase(2);
+    EXPECT_TRUE(decoded(encodeCbor(record)).current.look.field.fog.empty()) << "earlier versions knew no fog";
 }
 
 TEST(Codec, LimitsUndoSteps) {
@@ -150,6 +217,9 @@ TEST(Codec, RefusesInvalidValues) {
     refused([](State& state) { state.turning = true; });
     refused([](State& state) { state.lastTurn = geometry::Turn{geometry::Plane::xy, 1e7, {}}; });
     refused([](State& state) { state.look.cellTypes = {{0}, {0}}; });
+    refused([](State& state) { state.referenceFrame.pace = 0; });
+    refused([](State& state) { state.referenceFrame.follow.y = 1e4; });
+    refused([](State& state) { state.referenceFrame.boost = glm::dvec3(0.7); });
     session.pendingKey = "\xff";
     refused([](State&) {});
     session.pendingKey.clear();
@@ -207,6 +277,33 @@ TEST(Codec, SurvivesDamage) {
         }
     }
     EXPECT_GT(unreadable, 1000);
+}
+
+TEST(Codec, FieldsKeepTheirSecondFunction) {
+    fields::ReadField array;
+    array.shape = {2, 2, 2, 3};
+    array.box = {glm::dvec4(-1), glm::dvec4(1)};
+    std::vector<float> samples(24);
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>(i);
+    array.samples = fields::Samples(std::move(samples));
+    fields::Field twoArrays = *fields::fieldFromArray("run", array), withFormula = twoArrays;
+    EXPECT_FALSE(fields::setSecondArray(twoArrays, array, "p"));
+    EXPECT_FALSE(fields::setSecondFormula(withFormula, "x + a; a=2"));
+    const fields::Field formula = *fields::fieldFromFormula("formula", "q - a; a=2, q=x*y", fields::kFormulaBox, "a*q");
+    for (const fields::Field& field : {twoArrays, withFormula, formula}) {
+        const std::string record = encodeObjectRecord(std::make_shared<const fields::Field>(field));
+        const slicing::Object back = decodeObjectRecord(record);
+        EXPECT_EQ(encodeObjectRecord(back), record);
+        const fields::Field& copy = *slicing::fieldIn(back);
+        ASSERT_TRUE(copy.second);
+        EXPECT_EQ(copy.second->formula, field.second->formula);
+        EXPECT_EQ(copy.second->variable, field.second->variable);
+        EXPECT_EQ(copy.second->array != nullptr, field.second->array != nullptr);
+    }
+    EXPECT_THROW(
+        decodeObjectRecord(encodeCbor({kRecordVersion, "a", "x", nlohmann::json::parse("[[0,0,0,0],[1,1,1,1]]"),
+                                       nlohmann::json::array(), "y*", "field"})),
+        std::runtime_error);
 }
 
 }  // namespace

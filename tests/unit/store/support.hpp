@@ -1,8 +1,9 @@
 #pragma once
-// Shared by the tests of the stores: random sessions, and their comparison after decoding.
+// Helpers shared by the tests of the stores: random sessions, and their comparison after decoding.
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <string>
 #include <vector>
@@ -13,17 +14,24 @@
 
 namespace oval4d::store {
 
-/// Replaces `other` by `one` if their encodings are equal.
+/// Makes `other` refer to the same object as `one` if the encodings of the two objects are equal.
 inline void share(const slicing::Object& one, slicing::Object& other) {
     if (encodeObjectRecord(one) == encodeObjectRecord(other)) other = one;
 }
 
-/// Whether the sessions are equal, even if they refer to equal objects that were built separately.
+/// Makes `other` refer to the objects of `one` that are equal to its own. A state has a source object and the image of
+/// this object in the frame of reference; the images are equal if the sources and the frames are.
+inline void share(const session::State& one, session::State& other) {
+    share(one.source, other.source);
+    if (one.source == other.source && one.referenceFrame == other.referenceFrame) other.object = one.object;
+}
+
+/// Returns whether the sessions are equal. Objects that were built separately are equal if their encodings are equal.
 inline bool same(const session::Session& one, session::Session other) {
     if (one.undoSteps.size() != other.undoSteps.size() || one.redoSteps.size() != other.redoSteps.size()) return false;
-    share(one.current.object, other.current.object);
-    for (std::size_t i = 0; i < one.undoSteps.size(); ++i) share(one.undoSteps[i].object, other.undoSteps[i].object);
-    for (std::size_t i = 0; i < one.redoSteps.size(); ++i) share(one.redoSteps[i].object, other.redoSteps[i].object);
+    share(one.current, other.current);
+    for (std::size_t i = 0; i < one.undoSteps.size(); ++i) share(one.undoSteps[i], other.undoSteps[i]);
+    for (std::size_t i = 0; i < one.redoSteps.size(); ++i) share(one.redoSteps[i], other.redoSteps[i]);
     for (auto& [name, object] : other.loaded) {
         const auto found = one.loaded.find(name);
         if (found != one.loaded.end()) share(found->second, object);
@@ -31,8 +39,8 @@ inline bool same(const session::Session& one, session::Session other) {
     return one == other;
 }
 
-/// The convex hull of random points, a different one for each seed, as a load command.
-inline session::Load ownObject(const std::string& name, std::uint32_t seed) {
+/// Returns a command that loads the convex hull of 12 random points, which depend only on `seed`.
+inline session::LoadObject ownObject(const std::string& name, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> coordinate(-1, 1);
     std::string text;
@@ -56,7 +64,8 @@ inline void wander(session::Session& session, std::mt19937& random, int steps) {
             case 1:
                 set.azimuth = angle(random);
                 set.zoom = 1.5;
-                set.coloring = static_cast<scene::Coloring>(random() % 4);
+                set.coloring = static_cast<scene::Coloring>(random() % 7);
+                set.caps = static_cast<scene::CapStyle>(random() % 3);
                 set.hidden = {{0}};
                 command = set;
                 break;
@@ -73,6 +82,13 @@ inline void wander(session::Session& session, std::mt19937& random, int steps) {
             case 5:
                 set.offset = 0.1 * angle(random);
                 set.focusPoint = glm::dvec4(angle(random), angle(random), angle(random), 0);
+                command = set;
+                break;
+            case 6:
+                if (random() % 3 != 0) break;
+                set.pace = std::exp(angle(random) / 4);
+                set.follow = glm::dvec3(angle(random), 0, angle(random));
+                set.boost = glm::dvec3(angle(random), angle(random), 0) / 10.0;
                 command = set;
                 break;
             default:

@@ -23,7 +23,7 @@ struct StoreControl {
 class FaultyStore final : public Store {
   public:
     explicit FaultyStore(std::shared_ptr<StoreControl> control) : control_(std::move(control)) {}
-    WriteTiming writeTiming() const override { return WriteTiming::at_once; }
+    WritePolicy writePolicy() const override { return WritePolicy::at_once; }
     std::string name() const override { return "faulty"; }
     std::optional<std::string> tokenHash(const std::string& id) override { return checked().tokenHash(id); }
     std::optional<Record> claim(const std::string& id) override { return checked().claim(id); }

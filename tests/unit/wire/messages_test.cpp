@@ -1,11 +1,16 @@
 #include <array>
 #include <numbers>
 #include <random>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "image/png.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
 #include "protocol_data/embedded_files.hpp"
+#include "session/example_fields.hpp"
+#include "session/load.hpp"
 #include "session/session.hpp"
 #include "unit/wire/support.hpp"
 #include "wire/messages.hpp"
@@ -29,6 +34,9 @@ Session randomSession(unsigned seed) {
     EXPECT_TRUE(apply(session, session::CommandLine{"set azimuth=0.1 elevation=-0.2 zoom=1.5 step=0.01"}));
     const std::array looks{"color cell", "color kind", "color w", "set color=plain hidden=0", "fade 0"};
     EXPECT_TRUE(apply(session, session::CommandLine{looks.at(seed % looks.size())}));
+    if (seed % 3 == 0) {
+        EXPECT_TRUE(apply(session, session::CommandLine{"set pace=2 follow=0.3,0,-0.1 boost=0,0.5,0"}));
+    }
     if (seed % 2 == 0) {
         EXPECT_TRUE(apply(session, session::Key{" "}));
     }
@@ -43,6 +51,7 @@ void expectSame(const State& a, const State& b) {
     }
     State likeA = b;
     likeA.orientation = a.orientation;
+    likeA.object = a.object;  // the image of the same object in the same frame
     EXPECT_EQ(likeA, a) << "all but the orientation's last bits";
 }
 
@@ -57,6 +66,9 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
                               "kinds":[{"name":"tetrahedron","cells":5}]})");
     polytope["kinds"][0]["color"] = scene::cellTypeColor(0, 1);
     EXPECT_EQ(message.at("polytope"), polytope);
+    EXPECT_EQ(message.at("pace"), 1);
+    EXPECT_EQ(message.at("follow"), json::parse("[0,0,0]"));
+    EXPECT_EQ(message.at("boost"), json::parse("[0,0,0]"));
     EXPECT_EQ(message.at("orientation").at(0).at(3), session.current.orientation.matrix()[3][0]) << "rows";
     EXPECT_EQ(message.at("alpha"), std::numbers::pi / 36);
     EXPECT_EQ(message.at("step"), std::numbers::pi / 180);
@@ -75,6 +87,9 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
     EXPECT_EQ(message.at("last").at("angles").at(0), std::numbers::pi / 8);
     EXPECT_TRUE(fitting(wire::stateMessage(session::initialState(), {}, 0)).at("last").is_null());
     EXPECT_FALSE(fitting(wire::stateMessage(session::initialState(), {}, 0)).contains("id"));
+    EXPECT_FALSE(fitting(wire::stateMessage(session::initialState(), {}, 0)).contains("draft"));
+    EXPECT_EQ(fitting(wire::stateMessage(session::initialState(), {}, 0, {}, slicing::Quality::draft)).at("draft"),
+              true);
 }
 
 TEST(StateMessage, SetInANewSessionGivesTheSameState) {
@@ -93,6 +108,49 @@ TEST(StateMessage, SetInANewSessionGivesTheSameState) {
         ASSERT_TRUE(apply(same, *set));
         EXPECT_TRUE(same == session) << "its own state changes nothing in a session";
     }
+}
+
+TEST(StateMessage, RestoresAFormulaInANewSession) {
+    Session session;
+    session::LoadObject load{"mine", "formula", "x^2 + y^2 + a*z^2 + w^2; a=0.5"};
+    load.box = fields::Box{glm::dvec4(-1), glm::dvec4(1, 1, 1, 2)};
+    load.values = "x*y";
+    ASSERT_TRUE(apply(session, load));
+    session::Set look;
+    look.levels = std::vector<double>{0.25, 0.5};
+    look.pace = 2;
+    ASSERT_TRUE(apply(session, look));
+    const auto set = setFromState(wire::stateMessage(session.current, {}, session.revision));
+    ASSERT_TRUE(set) << set.error().message;
+    Session fresh;
+    const auto done = apply(fresh, *set);
+    ASSERT_TRUE(done) << done.error().message;
+    const fields::Field *before = slicing::fieldIn(session.current.object),
+                        *after = slicing::fieldIn(fresh.current.object);
+    ASSERT_NE(after, nullptr);
+    EXPECT_EQ(after->formula, before->formula);
+    EXPECT_EQ(after->box, before->box);
+    EXPECT_EQ(after->second->formula, "x*y");
+    EXPECT_EQ(fresh.current.look.field, session.current.look.field);
+    EXPECT_EQ(fresh.current.slices, session.current.slices);
+    EXPECT_EQ(fresh.current.referenceFrame, session.current.referenceFrame);
+}
+
+TEST(StateMessage, IsFoundInFiles) {
+    const std::string text = wire::stateMessage(randomSession(4).current, {}, 7);
+    image::PngEncoder encoder;
+    std::vector<std::uint8_t> file;
+    encoder.encode(image::Image{1, 1, std::vector<std::uint8_t>(4)}, text, file);
+    const std::string picture(file.begin(), file.end());
+    for (const std::string& each : {text, " \n" + text, picture}) {
+        EXPECT_TRUE(mayContainState(each));
+        EXPECT_TRUE(setFromFile(each));
+    }
+    for (const std::string_view other : {"", " ", "OFF", "4OFF\n{", "\x93NUMPY"}) EXPECT_FALSE(mayContainState(other));
+    const auto none = setFromFile(picture.substr(0, 33));
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().code, ErrorCode::bad_message);
+    EXPECT_NE(none.error().message.find("contains no state"), std::string::npos);
 }
 
 TEST(StateMessage, BecomesASetByItsType) {
@@ -169,10 +227,15 @@ TEST(StateMessage, WritesIntegersWithoutExponent) {
     EXPECT_NE(message.find(R"("spacing":100000,)"), std::string::npos) << message;
 }
 
-TEST(OtherMessages, TheCatalogueIsTheGeometrys) {
+TEST(OtherMessages, TheCatalogueIsTheGeometrysAndTheExamples) {
     const json catalogue = fitting(wire::catalogueMessage(2)).at("polytopes");
-    ASSERT_EQ(catalogue.size(), polytopes::catalogue().size());
-    for (std::size_t i = 0; i < catalogue.size(); ++i) {
+    const std::size_t polytopes = polytopes::catalogue().size(), examples = session::exampleFields().size();
+    ASSERT_EQ(catalogue.size(), polytopes + examples);
+    for (std::size_t i = 0; i < examples; ++i) {
+        EXPECT_EQ(catalogue[polytopes + i].at("name"), session::exampleFields()[i].name);
+        EXPECT_EQ(catalogue[polytopes + i].at("family"), "fields");
+    }
+    for (std::size_t i = 0; i < polytopes; ++i) {
         const polytopes::Polytope& polytope = *support::shared(polytopes::catalogue()[i].name);
         EXPECT_EQ(catalogue[i].at("name"), polytope.name);
         EXPECT_EQ(catalogue[i].at("vertices"), polytope.vertices.size());
@@ -190,7 +253,7 @@ TEST(OtherMessages, TheCatalogueIsTheGeometrys) {
 TEST(OtherMessages, TheCatalogueEndsWithWhatWasLoaded) {
     const std::vector<slicing::Object> loaded{Session{}.current.object};
     const json catalogue = fitting(wire::catalogueMessage({}, loaded)).at("polytopes");
-    ASSERT_EQ(catalogue.size(), polytopes::catalogue().size() + 1);
+    ASSERT_EQ(catalogue.size(), polytopes::catalogue().size() + session::exampleFields().size() + 1);
     EXPECT_EQ(catalogue.back(), json::parse(R"({"name":"5-cell","family":"loaded","aliases":[],"diagram":"",
                               "schlaefli":"","vertices":5,"edges":10,"faces":10,"cells":5})"));
 }

@@ -44,7 +44,8 @@ TEST(Parse, Commands) {
     parsedCommand<session::Reset>(R"({"type":"reset"})");
     EXPECT_EQ(parsedCommand<session::CommandLine>(R"({"type":"command","line":"polytope 600-cell"})").line,
               "polytope 600-cell");
-    const auto load = parsedCommand<session::Load>(R"({"type":"load","name":"mine","format":"off","data":"4OFF\n"})");
+    const auto load =
+        parsedCommand<session::LoadObject>(R"({"type":"load","name":"mine","format":"off","data":"4OFF\n"})");
     EXPECT_EQ(load.name, "mine");
     EXPECT_EQ(load.format, "off");
     EXPECT_EQ(load.data, "4OFF\n");
@@ -77,13 +78,17 @@ std::optional<bool> part(const session::Set& set, std::string_view name) {
 TEST(Parse, SetsEverySetting) {
     const auto set = parsedCommand<session::Set>(
         R"({"type":"set","polytope":{"name":"24-cell","cells":24},"orientation":[[1,0,0,0],[0,0,-1,0],[0,1,0,0],[0,0,0,1]],
+            "pace":2,"follow":[0.1,0.2,0.3],"boost":[0,0.5,0],
             "alpha":0.1,"beta":-0.2,"step":0.01,"slices":{"count":21.0,"spacing":0.5,"focus":-3},"view":"single","turning":true,
             "shown":{"faces":false,"balls":true},"camera":{"azimuth":1,"elevation":2,"zoom":3},
-            "color":"w","hidden":[3,1],"faded":[],
+            "color":"w","hidden":[3,1],"faded":[],"fog":[{"value":0,"opacity":0.5},{"value":1,"opacity":1,"color":255}],
             "last":{"planes":["xw"],"angles":[0.3]}})");
     EXPECT_EQ(set.object, "24-cell");
     ASSERT_TRUE(set.orientation);
     EXPECT_EQ(*set.orientation * glm::dvec4(0, 0, 1, 0), glm::dvec4(0, -1, 0, 0)) << "rows, not columns";
+    EXPECT_EQ(set.pace, 2);
+    EXPECT_EQ(set.follow, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(set.boost, glm::dvec3(0, 0.5, 0));
     EXPECT_EQ(set.alpha, 0.1);
     EXPECT_EQ(set.beta, -0.2);
     EXPECT_EQ(set.step, 0.01);
@@ -102,6 +107,7 @@ TEST(Parse, SetsEverySetting) {
     EXPECT_EQ(set.coloring, scene::Coloring::w);
     EXPECT_EQ(set.hidden, (std::vector<std::uint32_t>{3, 1}));
     EXPECT_EQ(set.faded, std::vector<std::uint32_t>{});
+    EXPECT_EQ(set.fog, (std::vector<slicing::FogPoint>{{0, 0.5}, {1, 1, 255}}));
     EXPECT_EQ(set.lastTurn, (geometry::Turn{geometry::Plane::xw, 0.3, {}}));
     EXPECT_EQ(parsedCommand<session::Set>(R"({"type":"set","polytope":"5-cell"})").object, "5-cell");
 }

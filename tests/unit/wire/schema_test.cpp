@@ -89,9 +89,9 @@ TEST(Tables, EveryExampleOfTheSpecificationFitsItsSchema) {
         EXPECT_TRUE(example.empty()) << "not JSON: " << example;
         at = end + 3;
     }
-    const std::set<std::string> all{"hello",  "key",   "rotate",  "toward", "set",       "load",    "undo",
-                                    "redo",   "reset", "command", "get",    "shown",     "welcome", "state",
-                                    "slices", "at",    "done",    "error",  "catalogue", "keymap"};
+    const std::set<std::string> all{"hello",  "key",   "rotate",   "toward", "set",   "load",      "undo",
+                                    "redo",   "reset", "command",  "get",    "shown", "welcome",   "state",
+                                    "slices", "at",    "critical", "done",   "error", "catalogue", "keymap"};
     EXPECT_EQ(seen, all) << "an example of each message";
 }
 

@@ -18,12 +18,16 @@ using slicing::SliceSet;
 
 /// The slices and the scene of a session's state. The scene refers to `slices`.
 struct Picture {
-    std::shared_ptr<const polytopes::Polytope> polytope;
+    std::shared_ptr<const polytopes::Polytope> polytope;  // null for other objects
     SliceSet slices;
     scene::Scene scene;
 
-    explicit Picture(const session::State& state) : polytope(std::get<slicing::PolytopePtr>(state.object)) {
-        slicing::Slicer().slice(state.object, state.orientation, state.hyperplanes(), slices);
+    explicit Picture(const session::State& state) {
+        if (const auto* p = std::get_if<slicing::PolytopePtr>(&state.object)) polytope = *p;
+        slicing::SurfaceDetail detail;
+        detail.fogSteps.assign(static_cast<std::size_t>(state.slices.count),
+                               slicing::infoOf(state.object).circumradius / 8);
+        slicing::Slicer().slice(state.object, state.orientation, state.hyperplanes(), state.look.field, detail, slices);
         scene::Composer composer;
         composer.limitFill(0);
         composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, {1280, 720}, scene);
@@ -158,6 +162,82 @@ TEST(SlicesMessage, HasTheDensityOfManyVertices) {
 
     const json hidden = fitting(messageOf(pictureOf({"polytope 120-cell", "set coordinates=off"}), Encoding::json));
     EXPECT_FALSE(hidden.contains("density"));
+}
+
+TEST(SlicesMessage, HasTheHistogramOfAField) {
+    const std::vector<std::string> lines{"formula x^2+y^2+z^2 < 0.1 + w^2", "set faces=off", "set levels=0,1",
+                                         "rotate xw,yz 0.7 1.1"};
+    const Picture picture = pictureOf(lines);
+    const json message = fitting(messageOf(picture, Encoding::json));
+    EXPECT_FALSE(message.contains("coordinates"));
+    const json& layout = message.at("scene").at("coordinates");
+    EXPECT_EQ(layout.at("columns"), slicing::CoordinateHistograms::kColumns);
+    EXPECT_EQ(layout.at("panel"), picture.scene.coordinates.panel);
+    EXPECT_GT(layout.at("panel"), 0);
+    std::vector<std::uint8_t> tones;
+    for (const json& row : message.at("density")) {
+        ASSERT_EQ(row.size(), std::size_t{slicing::CoordinateHistograms::kColumns});
+        for (const json& tone : row) tones.push_back(tone.get<std::uint8_t>());
+    }
+    EXPECT_EQ(tones, picture.scene.density);
+    const json& histogram = message.at("histogram");
+    EXPECT_EQ(histogram.at("range"), (json{picture.scene.histogram.least, picture.scene.histogram.greatest}));
+    EXPECT_EQ(histogram.at("reach"), json(picture.scene.histogram.reach));
+    ASSERT_EQ(histogram.at("levels").size(), 2U);
+    EXPECT_EQ(histogram.at("levels")[1].at("value"), 1);
+
+    const json cbor = json::from_cbor(messageOf(picture, Encoding::cbor), true, true, json::cbor_tag_handler_t::store);
+    EXPECT_EQ(std::vector<std::uint8_t>(cbor.at("density").get_binary()), tones);
+    EXPECT_EQ(cbor.at("histogram"), histogram);
+    EXPECT_FALSE(cbor.contains("coordinates"));
+
+    std::vector<std::string> without = lines;
+    without.emplace_back("set coordinates=off");
+    const json hidden = fitting(messageOf(pictureOf(without), Encoding::json));
+    EXPECT_FALSE(hidden.contains("density"));
+    EXPECT_FALSE(hidden.contains("histogram"));
+}
+
+TEST(SlicesMessage, HasTheFogOfAField) {
+    const Picture picture =
+        pictureOf({"formula x^2+y^2+z^2 < 0.1 + w^2", "fog -1:0.9,0:0.3:ff8000,2:0", "rotate xw 0.7"});
+    const json message = fitting(messageOf(picture, Encoding::json));
+    EXPECT_EQ(message.at("scene").at("fog").at("table"), json(picture.scene.fog));
+    std::vector<std::uint8_t> values;
+    std::vector<std::uint32_t> sizes;
+    std::size_t foggy = 0;
+    for (std::size_t i = 0; i < message.at("slices").size(); ++i) {
+        const json& slice = message.at("slices")[i];
+        const slicing::SliceFog& fog = picture.slices.fogs[i];
+        for (int axis = 0; axis < 3; ++axis) sizes.push_back(static_cast<std::uint32_t>(fog.size[axis]));
+        ASSERT_EQ(slice.contains("fog"), !fog.empty());
+        if (fog.empty()) continue;
+        ++foggy;
+        const json& sent = slice.at("fog");
+        EXPECT_EQ(sent.at("size"), (json{fog.size.x, fog.size.y, fog.size.z}));
+        EXPECT_EQ(sent.at("step"), fog.step);
+        expectPoint(sent.at("min"), &fog.min.x, 3);
+        ASSERT_EQ(sent.at("walls").size(), fog.walls.size());
+        for (std::size_t k = 0; k < fog.walls.size(); ++k) {
+            const glm::dvec4 wall(fog.walls[k].normal, fog.walls[k].offset);
+            expectPoint(sent.at("walls")[k], &wall.x, 4);
+        }
+        std::vector<std::uint8_t> own;
+        for (const json& row : sent.at("values")) {
+            EXPECT_EQ(row.size(), static_cast<std::size_t>(fog.size.x));
+            for (const json& value : row) own.push_back(value.get<std::uint8_t>());
+        }
+        EXPECT_EQ(own, fog.values);
+        values.insert(values.end(), own.begin(), own.end());
+    }
+    EXPECT_GT(foggy, 5U);
+    const json cbor = json::from_cbor(messageOf(picture, Encoding::cbor), true, true, json::cbor_tag_handler_t::store);
+    const json& columns = cbor.at("slices").at("fog");
+    EXPECT_EQ(std::vector<std::uint8_t>(columns.at("values").get_binary()), values);
+    EXPECT_EQ(columns.at("size").get_binary().size(), sizes.size()) << "a byte each";
+    const json none = fitting(messageOf(pictureOf({"formula x^2+y^2+z^2 < 0.1 + w^2"}), Encoding::json));
+    EXPECT_FALSE(none.at("scene").contains("fog"));
+    EXPECT_FALSE(none.at("slices")[10].contains("fog"));
 }
 
 TEST(SlicesMessage, EmptySlicesAreEmptyLists) {

@@ -26,7 +26,7 @@ C parsedCommand(std::string_view text) {
     return std::get<C>(std::get<session::Command>(parsed(text).body));
 }
 
-/// Returns the text of a schema with references to other schemas replaced by their content.
+/// Returns a schema of the protocol in which references to other schema files are replaced by their content.
 inline nlohmann::json schemaText(const std::string& file) {
     const auto resolve = [](const auto& self, nlohmann::json& schema) -> void {
         if (schema.is_object() && schema.contains("$ref") && schema.at("$ref").get<std::string>()[0] != '#') {
@@ -43,7 +43,8 @@ inline nlohmann::json schemaText(const std::string& file) {
     return schema;
 }
 
-/// Expects JSON that conforms to the schema of its type; returns it.
+/// Parses a message and returns it. Expects that the message conforms to the schema of its type. Throws an exception if
+/// the text is not JSON or has no type.
 inline nlohmann::json fitting(std::string_view text) {
     nlohmann::json message = nlohmann::json::parse(text);
     const auto fault = validationError(message.at("type").get<std::string>(), message);

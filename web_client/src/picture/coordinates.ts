@@ -1,12 +1,14 @@
-// Draws the parallel coordinates at the bottom: four lines for each vertex, or the density of lines for many vertices.
+// Draws the parallel coordinates at the bottom: four lines for each vertex, or the density of lines for many vertices. Of
+// a field, draws the histogram of its values along each axis instead.
 
-import type { Slices, Viewport } from "@oval4d/protocol";
+import type { Histogram, Slices, Viewport } from "@oval4d/protocol";
 
 import { DensityImage } from "./density_image";
 import type { HighlightedElements } from "./highlighted_elements";
 import { cssColor, kMinTextSize, setFont } from "./pen";
 
 const kHighlightOpacity = 0.35; // of the bands behind highlighted vertices
+const kLevelOpacity = 0.8; // of the lines of levels in a histogram
 const kFocusMark = 0.009; // half the width of the focus mark, as a fraction of the viewport's height
 
 const density = new DensityImage();
@@ -17,7 +19,8 @@ export function drawCoordinates(
     viewport: Viewport,
     highlighted: HighlightedElements,
 ): void {
-    if (picture.scene.coordinates.columns > 0) drawDensityStrip(pen, picture, viewport);
+    if (picture.histogram) drawHistogram(pen, picture, picture.histogram, viewport);
+    else if (picture.scene.coordinates.columns > 0) drawDensityStrip(pen, picture, viewport);
     else drawLines(pen, picture, viewport, highlighted);
 }
 
@@ -106,4 +109,41 @@ function drawDensityStrip(pen: CanvasRenderingContext2D, picture: Slices, { heig
     const level = Math.round(zero - (focus.w / circumradius) * amplitude);
     pen.fillStyle = cssColor(colors.focus);
     pen.fillRect(centerOf(3) - kFocusMark * height, level - thickness / 2, 2 * kFocusMark * height, thickness);
+}
+
+function drawHistogram(
+    pen: CanvasRenderingContext2D,
+    picture: Slices,
+    { reach, range: [least, greatest], levels }: Histogram,
+    { height }: Viewport,
+): void {
+    const { colors, coordinates: layout, text } = picture.scene;
+    const [zero, amplitude] = [(1 - layout.zero) * height, layout.amplitude * height];
+    const [top, bottom] = [Math.round(zero - amplitude), Math.round(zero + amplitude)];
+    const leftOf = (k: number): number => (layout.left + k * layout.line_step) * height;
+    const width = layout.panel * height;
+    density.update(picture);
+    for (let k = 0; k < 4; ++k) density.drawPanel(pen, k, leftOf(k), zero - amplitude, width, 2 * amplitude);
+
+    const thickness = Math.max(1, Math.round(layout.line_width * height));
+    const focus = picture.slices.find((slice) => slice.focus);
+    if (focus && Math.abs(focus.w) <= reach[3]) {
+        pen.fillStyle = cssColor(colors.focus);
+        const left = Math.round(leftOf(3) + ((focus.w / reach[3] + 1) / 2) * width - thickness / 2);
+        pen.fillRect(left, top, thickness, bottom - top);
+    }
+    const digits = setFont(pen, Math.max(0.85 * text * height, kMinTextSize * devicePixelRatio));
+    for (let k = 0; k < 4; ++k) {
+        const left = Math.round(leftOf(k));
+        pen.globalAlpha = kLevelOpacity;
+        for (const { value, color } of levels) {
+            const level = bottom - ((value - least) / (greatest - least)) * (bottom - top);
+            pen.fillStyle = cssColor(color);
+            pen.fillRect(left, Math.round(level - thickness / 2), width, thickness);
+        }
+        pen.globalAlpha = 1;
+        pen.fillStyle = cssColor(colors.axes[k]!);
+        pen.fillRect(left, bottom, width, thickness);
+        pen.fillText("xyzw"[k]!, left + width / 2, Math.round(bottom + 1.4 * digits));
+    }
 }

@@ -1,4 +1,4 @@
-// The density strip of the parallel coordinates as an image that is updated in place.
+// The density strip of the parallel coordinates, or the histogram of a field, as an image that is updated in place.
 
 import type { Slices } from "@oval4d/protocol";
 
@@ -8,7 +8,10 @@ export class DensityImage {
     private pixels: ImageData | undefined;
     private density: Uint8Array | undefined;
 
-    /** Converts the density to pixels. Between two axes, the color is interpolated between the colors of the axes. */
+    /**
+     * Converts the density to pixels. Between two axes of a strip, the color is interpolated between the colors of the
+     * axes; a panel of a histogram has the color of its axis.
+     */
     update({ density, scene: { colors, coordinates } }: Slices): void {
         if (density === this.density) return;
         this.density = density;
@@ -19,11 +22,12 @@ export class DensityImage {
             this.pixels = this.pen.createImageData(columns, rows);
         }
         const { data } = this.pixels;
-        const gap = (columns - 1) / 3;
+        const isHistogram = coordinates.panel > 0;
+        const gap = isHistogram ? columns / 4 : (columns - 1) / 3;
         for (let column = 0; column < columns; ++column) {
-            const k = Math.min(Math.floor(column / gap), 2);
-            const part = column / gap - k;
-            const [from, to] = [colors.axes[k]!, colors.axes[k + 1]!];
+            const k = Math.min(Math.floor(column / gap), isHistogram ? 3 : 2);
+            const part = isHistogram ? 0 : column / gap - k;
+            const [from, to] = [colors.axes[k]!, colors.axes[k + 1] ?? 0];
             for (let channel = 0; channel < 3; ++channel) {
                 const shift = 16 - 8 * channel;
                 const value = (1 - part) * ((from >> shift) & 255) + part * ((to >> shift) & 255);
@@ -32,6 +36,13 @@ export class DensityImage {
         }
         for (let i = 0; i < density.length; ++i) data[4 * i + 3] = density[i]!;
         this.pen.putImageData(this.pixels, 0, 0);
+    }
+
+    /** Draws panel k of a histogram; the centers of its outermost pixels lie on the edges of the rectangle. */
+    drawPanel(pen: CanvasRenderingContext2D, k: number, x: number, y: number, width: number, height: number): void {
+        const columns = this.canvas.width / 4;
+        const left = k * columns + 0.5;
+        pen.drawImage(this.canvas, left, 0.5, columns - 1, this.canvas.height - 1, x, y, width, height);
     }
 
     /** Draws the image such that the centers of its outermost pixels lie on the edges of the rectangle. */

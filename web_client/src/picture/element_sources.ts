@@ -1,5 +1,5 @@
-// What shows an element of the polytope, as far as a picture tells: its pieces in the slices and in the projection, and
-// its vertices. Source numbers are explained at `of` in protocol/README.md.
+// Finds the parts of a picture that show an element of the polytope: its pieces in the slices and in the projection,
+// and its vertices, if the picture determines them. Source numbers are explained at `of` in protocol/README.md.
 //
 // The vertices of an element of a convex polytope follow from the hyperplanes of its cells: a slice of a cell lies in a
 // plane, and the hyperplane of the cell contains this plane and has the whole polytope on one side.
@@ -11,7 +11,7 @@ import type { Counts, HighlightedElements } from "./highlighted_elements";
 import { areaVector } from "./polygon";
 
 const kFlat = 1e-5; // circumradii: the distance within which a vertex lies in a hyperplane
-const kLevel = 1e-4; // circumradii: a vertex nearer to the slice says nothing about the slope of a hyperplane
+const kLevel = 1e-4; // circumradii: a vertex nearer to the slice does not determine the slope of a hyperplane
 
 /** The hyperplane a · x + b · y + c · z + m · w = offset, with a unit vector (a, b, c). */
 type Hyperplane = readonly [a: number, b: number, c: number, m: number, offset: number];
@@ -40,12 +40,12 @@ export class ElementSources {
         private readonly picture: Slices,
         private readonly counts: Counts,
     ) {
-        // Slices that are not drawn tell as much.
+        // Includes slices that are not drawn, because they determine the elements in the same way.
         this.slices = picture.slices.filter((slice) => slice.vertices.length > 0);
         this.bodies = [...this.slices, ...(picture.projection?.parts ?? [])];
     }
 
-    /** What shows the element. */
+    /** The parts of the picture that show the element. */
     showing(element: PolytopeElement): HighlightedElements {
         const ownVertices = this.verticesOf(element);
         const { number } = element;
@@ -67,7 +67,7 @@ export class ElementSources {
         return { vertices, edges, ownVertices, ...(element.element === "cell" && { cell: number }) };
     }
 
-    /** The vertices of an element, as indices into `coordinates`; empty if the picture does not tell. */
+    /** The vertices of an element, as indices into `coordinates`; empty if the picture does not determine them. */
     private verticesOf({ element, number }: PolytopeElement): ReadonlySet<number> {
         const { edges: edgeCount, faces: faceCount, cells: cellCount } = this.counts;
         if (element === "vertex") return new Set([number]);
@@ -122,7 +122,7 @@ export class ElementSources {
         return [];
     }
 
-    /** Adds the edges at a vertex that slices cut. All cells around such an edge have the vertex. */
+    /** Adds the edges at a vertex that slices cut. All cells around such an edge contain the vertex. */
     private addEdgesAt(vertex: number, sources: Set<number>): void {
         for (const { vertices, faces, of } of this.slices) {
             const candidates = new Uint8Array(vertices.length / 3);
@@ -159,7 +159,7 @@ export class ElementSources {
             if (!of.faces.includes(cell)) continue;
             const isCorner = new Uint8Array(vertices.length / 3);
             for (let f = 0; f < of.faces.length; ++f) {
-                if (of.faces[f] !== cell) continue; // a star has several loops
+                if (of.faces[f] !== cell) continue; // the slice of a star-shaped cell consists of several loops
                 for (const corner of faces.corners.subarray(faces.begin[f], faces.begin[f + 1])) isCorner[corner] = 1;
             }
             isCorner.forEach((isIn, v) => isIn && this.addCutEdge(of.vertices[v]!, sources));
@@ -179,7 +179,7 @@ export class ElementSources {
         }
     }
 
-    /** Adds the edges whose two vertices are of this set. */
+    /** Adds the edges whose two vertices are in this set. */
     private addEdgesBetween(own: ReadonlySet<number>, sources: Set<number>): void {
         const { edges: edgeCount, faces: faceCount } = this.counts;
         for (const { edges, of } of this.bodies) {
@@ -200,7 +200,7 @@ export class ElementSources {
         return this.picture.scene.circumradius;
     }
 
-    /** The hyperplane of a cell that a slice cuts; undefined if the picture does not tell. */
+    /** The hyperplane of a cell that a slice cuts; undefined if the picture does not determine it. */
     private hyperplaneOf(cell: number): Hyperplane | undefined {
         if (!this.cells.has(cell)) this.cells.set(cell, this.findHyperplane(cell));
         return this.cells.get(cell);

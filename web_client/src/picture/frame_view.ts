@@ -1,10 +1,10 @@
 // Frame mode: shows pictures that the server has rendered.
 
-import { Decoder } from "./decoder";
+import { ImageDecoder } from "./image_decoder";
 
 export class FrameView {
     private readonly context: ImageBitmapRenderingContext;
-    private decoder: Decoder | undefined;
+    private decoder: ImageDecoder | undefined;
     private bitmap: ImageBitmap | undefined;
 
     constructor(private readonly canvas: HTMLCanvasElement) {
@@ -13,7 +13,7 @@ export class FrameView {
 
     /** Decodes the frame that draw() shows next, in a worker. Transfers the buffer: the caller can no longer use it. */
     async decode(png: Uint8Array): Promise<void> {
-        this.decoder ??= new Decoder();
+        this.decoder ??= new ImageDecoder();
         const bitmap = await this.decoder.decode(png as Uint8Array<ArrayBuffer>);
         this.bitmap?.close();
         this.bitmap = bitmap;

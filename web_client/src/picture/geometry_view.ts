@@ -6,6 +6,7 @@ import { Mesh as Drawing, RawShaderMaterial, Scene, Vector3, Vector4, WebGLRende
 import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
 
 import { FillMesh } from "./fill_mesh";
+import { FogPainter } from "./fog_painter";
 import { Lens } from "./lens";
 import { type Counts, type HighlightedElements, allHighlighted } from "./highlighted_elements";
 import { Mesh } from "./mesh";
@@ -13,6 +14,7 @@ import { drawOverlay } from "./overlay";
 import { ProjectionMesh } from "./projection_mesh";
 import { SliceLayout } from "./slice_layout";
 import { fragmentShader, vertexShader } from "./shaders";
+import { SurfacePainter } from "./surface_painter";
 
 ColorManagement.enabled = false; // colors are sRGB values, shown unchanged
 
@@ -40,6 +42,8 @@ export class GeometryView {
         new Drawing(this.projectionMesh.solid, this.material("solid", this.projectionUniforms)),
         new Drawing(this.projectionMesh.translucent, this.material("blended", this.projectionUniforms)),
     ] as const;
+    private readonly surfacePainter: SurfacePainter;
+    private readonly fogPainter: FogPainter;
     private readonly pen: CanvasRenderingContext2D;
     private picture: Slices | undefined;
     private pictureOrbit: Orbit | undefined;
@@ -59,6 +63,12 @@ export class GeometryView {
         this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: false, stencil: false });
         this.renderer.autoClear = false;
         this.renderer.outputColorSpace = LinearSRGBColorSpace;
+        this.surfacePainter = new SurfacePainter(this.renderer);
+        this.fogPainter = new FogPainter(this.renderer);
+        canvas.addEventListener("webglcontextrestored", () => {
+            this.surfacePainter.restore();
+            this.fogPainter.restore();
+        });
         this.pen = overlay.getContext("2d")!;
         const drawings = [
             new Drawing(this.mesh.geometry, this.flat),
@@ -102,9 +112,11 @@ export class GeometryView {
         this.layout = new SliceLayout(picture, orbit);
         const highlighted = (this.highlighted = allHighlighted(picture, this.pointed));
         const filled = this.fillMesh.update(picture, highlighted);
-        this.mesh.update(picture, !filled, highlighted);
+        const isField = this.surfacePainter.update(picture) || picture.scene.fog !== undefined;
+        this.fogPainter.update(picture);
+        this.mesh.update(picture, !filled && !isField, highlighted);
         this.fillDrawing.visible = filled;
-        this.drawing.material = filled ? this.solid : this.flat;
+        this.drawing.material = filled || isField ? this.solid : this.flat;
         this.sortedOrbit = undefined;
         const { light, ball, bar } = picture.scene;
         this.uniforms.light.value.fromArray(light.direction).normalize();
@@ -116,7 +128,7 @@ export class GeometryView {
         this.projectionUniforms.barRadius.value = this.projectionMesh.barRadius;
     }
 
-    /** Lights what shows the element under the pointer, until it is called again. */
+    /** Highlights the element under the pointer, until the next call. */
     light(pointed: HighlightedElements | undefined): void {
         this.pointed = pointed;
         if (!this.picture) return;
@@ -159,7 +171,16 @@ export class GeometryView {
         const { renderer, mesh, drawing, projectionDrawings } = this;
         renderer.clear();
         if (!this.picture!.projection || drawing.material === this.solid) {
+            const { fogPainter, surfacePainter, lens } = this;
+            if (fogPainter.isShown) {
+                fogPainter.drawDepths(this.overlay, "frame", () => renderer.render(this.scene, this.camera));
+                fogPainter.drawDepths(this.overlay, "surfaces", () => surfacePainter.draw("opaque", lens));
+            }
+            surfacePainter.draw("opaque", lens);
+            if (fogPainter.isShown) this.drawFog("behind");
             renderer.render(this.scene, this.camera);
+            if (fogPainter.isShown) this.drawFog("before");
+            else surfacePainter.draw("translucent", lens);
             return;
         }
         const passes = [["farther", true], ["all", false], ["nearer", true]] as const;
@@ -172,10 +193,22 @@ export class GeometryView {
         drawing.visible = true;
     }
 
+    /** Draws a part of the fog of each slice, from far to near; the slice's translucent surfaces before the last part. */
+    private drawFog(part: "behind" | "before"): void {
+        this.fogPainter.begin(this.lens);
+        const depths = new Map(this.picture!.slices.map((slice) => [slice, this.lens.depthOf(slice.position)]));
+        for (const [slice] of [...depths].sort(([, a], [, b]) => b - a)) {
+            if (part === "before") this.surfacePainter.draw("translucent", this.lens, slice);
+            this.fogPainter.draw(slice, this.lens, part);
+        }
+    }
+
     dispose(): void {
         this.mesh.geometry.dispose();
         this.fillMesh.geometry.dispose();
         this.projectionMesh.dispose();
+        this.surfacePainter.dispose();
+        this.fogPainter.dispose();
         this.renderer.dispose();
     }
 }

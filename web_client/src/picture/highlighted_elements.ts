@@ -6,18 +6,18 @@ import type { SceneDescription, Slices, State } from "@oval4d/protocol";
 /** The polytope's numbers of elements. */
 export type Counts = Pick<State["polytope"], "edges" | "faces" | "cells">;
 
-/** What shows one element or more. */
+/** The parts of a picture that show the highlighted elements. */
 export interface HighlightedElements {
     /** Values of `of.vertices` and `of.edges`, in slices and in the projection. */
     vertices: ReadonlySet<number>;
     edges: ReadonlySet<number>;
     /** Vertices of the polytope, as indices into `coordinates`. */
     ownVertices: ReadonlySet<number>;
-    /** The cell whose faces are lit. The server colors the faces of a kept cell. */
+    /** The cell whose faces are highlighted. The server colors the faces of a kept cell. */
     cell?: number;
 }
 
-/** What shows the kept element and the element under the pointer. */
+/** The parts of a picture that show the kept element and the element under the pointer. */
 export function allHighlighted({ highlight }: Slices, pointed: HighlightedElements | undefined): HighlightedElements {
     return {
         vertices: new Set([...(highlight?.vertices ?? []), ...(pointed?.vertices ?? [])]),

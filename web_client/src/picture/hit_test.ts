@@ -28,7 +28,8 @@ interface Body {
 }
 
 export const kReach = 4; // pixels on the page: the least radius of balls and bars for the pointer
-// A ball rises above the faces around it, and also covers the bars that end in it: multiples of its radius.
+// How far balls and bars extend toward the viewer, in multiples of their radius. Thus a ball is nearer than the faces
+// around it and than the bars that end in it.
 const kBallRise = 3;
 const kBarRise = 2;
 
@@ -37,7 +38,7 @@ let seen = new Float32Array(0);
 const kStride = 5;
 
 /**
- * The element at a point, in pixels of the lens: of the nearest body that has one there, the nearest element. `ratio` is
+ * The element at a point, in pixels of the lens: the nearest element of the nearest body that has one there. `ratio` is
  * the number of these pixels per pixel of the page.
  */
 export function hitAt(picture: Slices, lens: Lens, x: number, y: number, ratio: number): Hit | undefined {
@@ -58,7 +59,7 @@ function bodiesOf({ slices, scene, projection }: Slices, { eye }: Lens): Body[] 
     for (const slice of slices) {
         const { position, vertices, drawn } = slice;
         if (!drawn || vertices.length === 0) continue;
-        const look = { ball, bar, hasFaces: shown.faces };
+        const look = { ball, bar, hasFaces: shown.faces && !scene.surfaces }; // the domain of a field has none
         bodies.push({ elements: slice, slice, position, scale, ...look, distance: distance(position) });
     }
     for (const part of projection?.parts ?? []) {

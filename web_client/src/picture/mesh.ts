@@ -83,7 +83,7 @@ export class Mesh {
         this.select("all");
     }
 
-    /** Selects the slices to be drawn: all, or those behind or before the position of the projection. */
+    /** Selects the slices to be drawn: all, or those behind or in front of the position of the projection. */
     select(slices: "all" | "farther" | "nearer"): void {
         const { farther } = this.order;
         if (slices === "all") this.geometry.setDrawRange(0, this.count);

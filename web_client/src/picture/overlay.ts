@@ -1,5 +1,5 @@
-// Draws the axes, the labels, the parallel coordinates and the matrix of planar sections over the picture. Positions are rounded to canvas pixels, so
-// that lines are sharp.
+// Draws the axes, the labels, the parallel coordinates and the matrix of planar sections over the picture. Positions
+// are rounded to canvas pixels, so that lines are sharp.
 
 import type { SceneDescription, Slice, Slices, Viewport } from "@oval4d/protocol";
 

@@ -45,7 +45,9 @@ export class SliceLayout {
         return found;
     }
 
-    /** What is drawn at a point of the picture, in pixels, of which a pixel of the page has `ratio`. */
+    /**
+     * What is drawn at a point of the picture, in pixels. `ratio` is the number of these pixels per pixel of the page.
+     */
     hitAt(x: number, y: number, orbit: Orbit, size: Viewport, ratio: number): Hit | undefined {
         const { matrix, scene } = this.picture;
         const panel = this.panelAt(x, y, size);

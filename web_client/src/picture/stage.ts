@@ -14,9 +14,9 @@ export type Mode = "geometry" | "frames";
 export interface StageEvents {
     presented(revision: number, by: Mode): void;
     resized(size: Viewport): void;
-    /** The newest slices are drawn next. */
+    /** Called before the newest slices are drawn. */
     beforeDraw(): void;
-    /** The WebGL context was lost, or restored after a loss. */
+    /** Called when the WebGL context is lost, or restored after a loss. */
     graphicsChanged(isAvailable: boolean): void;
 }
 
@@ -38,6 +38,7 @@ export class Stage {
     private isContextLost = false;
     private readonly frames: FrameView;
     private readonly canvases: Record<"solids" | "overlay" | "frame", HTMLCanvasElement>;
+    private isDraft = false; // whether a finer picture will follow the newest one
     private unpresentedRevision: number | undefined; // of the picture that the next drawing presents
     private drawn: { revision: number; by: Mode } = { revision: 0, by: "frames" };
     private readonly painted = new MessageChannel(); // its message is a task after the rendering of the animation frame
@@ -85,7 +86,7 @@ export class Stage {
         return this.currentMode === "geometry" ? this.geometry?.layout : undefined;
     }
 
-    /** Lights what shows the element under the pointer; the caller then draws. */
+    /** Highlights the element under the pointer; the caller then draws. */
     light(pointed: HighlightedElements | undefined): void {
         this.geometry?.light(pointed);
     }
@@ -94,6 +95,7 @@ export class Stage {
         if (this.currentMode !== "geometry" || !this.geometry) return;
         this.geometry.update(slices, orbit, counts);
         this.unpresentedRevision = slices.revision;
+        this.isDraft = slices.draft ?? false;
         this.redraw();
     }
 
@@ -103,6 +105,7 @@ export class Stage {
         await this.frames.decode(png);
         if (this.currentMode !== "frames") return;
         this.unpresentedRevision = state.revision;
+        this.isDraft = state.draft ?? false;
         this.redraw();
     }
 
@@ -139,6 +142,7 @@ export class Stage {
         const { revision, by } = this.drawn;
         this.root.dataset["revision"] = String(revision);
         this.root.dataset["drawnBy"] = by;
+        this.root.toggleAttribute("data-draft", this.isDraft);
         this.events.presented(revision, by);
     }
 

@@ -76,7 +76,8 @@ TEST(RequestTarget, DecodesPathAndQuery) {
     const auto target = parseRequestTarget("/a%20b?rotate=xw,yz:pi/8,0.1+2^3&rotate=%78y:1&&flag&empty=");
     ASSERT_TRUE(target);
     EXPECT_EQ(target->path, "/a b");
-    const session::Query expected{{"rotate", "xw,yz:pi/8,0.1+2^3"}, {"rotate", "xy:1"}, {"flag", ""}, {"empty", ""}};
+    const session::QueryParameters expected{
+        {"rotate", "xw,yz:pi/8,0.1+2^3"}, {"rotate", "xy:1"}, {"flag", ""}, {"empty", ""}};
     EXPECT_EQ(target->query, expected);
 }
 
@@ -93,7 +94,7 @@ TEST(RequestTarget, AcceptsAbsoluteForm) {
         EXPECT_EQ(target->authority, authority) << text;
         EXPECT_EQ(target->path, path) << text;
     }
-    EXPECT_EQ(parseRequestTarget("http://host?b=c")->query, (session::Query{{"b", "c"}}));
+    EXPECT_EQ(parseRequestTarget("http://host?b=c")->query, (session::QueryParameters{{"b", "c"}}));
 }
 
 TEST(RequestTarget, RejectsMalformedTargets) {

@@ -177,6 +177,13 @@ TEST(CatalogueFamilies, areComplete) {
     for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(catalogue()[i].name, first.at(i));
 }
 
+TEST(CatalogueNames, onlySimilarNamesAreSuggested) {
+    for (const char* const text : {"", "z", "q", "qj", "teapot", "wvqzk", "snub", "a b c d e f g h i j k l m n o p"})
+        EXPECT_EQ(nearestName(text), "") << text;
+    EXPECT_EQ(nearestName("tessaract"), "tesseract");
+    EXPECT_EQ(nearestName("icositetrakoron"), "icositetrachoron");
+}
+
 TEST(CatalogueNames, nearMissesAreSuggested) {
     EXPECT_EQ(nearestName("25-cell"), "24-cell");
     EXPECT_EQ(nearestName("teseract"), "tesseract");

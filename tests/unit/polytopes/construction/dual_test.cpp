@@ -11,32 +11,16 @@
 #include "polytopes/catalogue/catalogue.hpp"
 #include "polytopes/construction/design.hpp"
 #include "polytopes/polytope.hpp"
+#include "unit/polytopes/support.hpp"
 
 namespace oval4d::polytopes {
 namespace {
 
-constexpr std::size_t kMaxVertices = 100'000;
-
-Design designOfName(const std::string& name) {
-    const auto named = designNamed(name, kMaxVertices);
-    if (const auto* error = std::get_if<NameError>(&named)) throw std::runtime_error(name + ": " + error->message);
-    return std::get<Design>(named);
-}
-
-/// Whether each point has a partner in the other list, and the lists are equally long.
-void expectSamePoints(const std::vector<glm::dvec4>& one, const std::vector<glm::dvec4>& other, double tolerance) {
-    ASSERT_EQ(one.size(), other.size());
-    for (const glm::dvec4& p : one) {
-        const auto nearest = std::ranges::min(other, {}, [&](const glm::dvec4& q) { return glm::distance(p, q); });
-        EXPECT_LT(glm::distance(p, nearest), tolerance);
-    }
-}
-
 class DualOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(DualOf, isItsPolarReciprocal) {
-    const Polytope base = build(designOfName(GetParam()));
-    const Design design = designOfName(std::string("dual of ") + GetParam());
+    const Polytope base = build(support::designFor(GetParam()));
+    const Design design = support::designFor(std::string("dual of ") + GetParam());
     const Polytope dual = build(design);
     EXPECT_EQ(dual.name, design.name);
     EXPECT_EQ(dual.vertices.size(), base.cells.size());
@@ -45,7 +29,7 @@ TEST_P(DualOf, isItsPolarReciprocal) {
     EXPECT_EQ(dual.cells.size(), base.vertices.size());
     EXPECT_EQ(elementCounts(design).vertices, dual.vertices.size());
     EXPECT_EQ(elementCounts(design).cells, dual.cells.size());
-    EXPECT_EQ(symmetryOrder(design), symmetryOrder(designOfName(GetParam())));
+    EXPECT_EQ(symmetryOrder(design), symmetryOrder(support::designFor(GetParam())));
     EXPECT_EQ(dual.convex, base.convex);
     EXPECT_NEAR(dual.circumradius, base.circumradius, 1e-9 * base.circumradius);
     // v · p is the same for all incident pairs of a vertex of the dual and a vertex of the base, and for convex
@@ -69,8 +53,8 @@ TEST_P(DualOf, isItsPolarReciprocal) {
 }
 
 TEST_P(DualOf, hasTheBaseAsItsDual) {
-    const Design twice = designOfName(std::string("dual of dual of ") + GetParam());
-    EXPECT_EQ(twice.name, designOfName(GetParam()).name);
+    const Design twice = support::designFor(std::string("dual of dual of ") + GetParam());
+    EXPECT_EQ(twice.name, support::designFor(GetParam()).name);
 }
 
 INSTANTIATE_TEST_SUITE_P(Uniform, DualOf,
@@ -81,8 +65,8 @@ INSTANTIATE_TEST_SUITE_P(Uniform, DualOf,
 
 TEST(Dual, ofTheDualIsThePolytopeItself) {
     // A dual that is not recognized by its name: reciprocate the built dual once more.
-    const Polytope base = build(designOfName("truncated tesseract"));
-    const Polytope dual = build(designOfName("dual of truncated tesseract"));
+    const Polytope base = build(support::designFor("truncated tesseract"));
+    const Polytope dual = build(support::designFor("dual of truncated tesseract"));
     std::vector<glm::dvec4> again;
     const double squared = glm::dot(dual.vertices[0], base.vertices[base.faces[base.cells[0][0]][0]]);
     for (std::size_t c = 0; c < dual.cells.size(); ++c) again.push_back(base.vertices[c]);
@@ -93,7 +77,7 @@ TEST(Dual, ofTheDualIsThePolytopeItself) {
             }
         }
     }
-    expectSamePoints(again, base.vertices, 1e-12);
+    support::expectSamePoints(again, base.vertices, 1e-12);
 }
 
 TEST(Dual, ofARegularPolytopeIsRegular) {
@@ -104,19 +88,19 @@ TEST(Dual, ofARegularPolytopeIsRegular) {
                                      {"120-cell", "600-cell"},
                                      {"hexacosichoron", "120-cell"},
                                      {"{5,5/2,5}", "great 120-cell"}}) {
-        EXPECT_EQ(designOfName(std::string("dual of ") + name).name, designOfName(dual).name) << name;
+        EXPECT_EQ(support::designFor(std::string("dual of ") + name).name, support::designFor(dual).name) << name;
     }
-    EXPECT_EQ(designOfName("Dual  Rectified 5-cell").name, "dual of rectified 5-cell");
+    EXPECT_EQ(support::designFor("Dual  Rectified 5-cell").name, "dual of rectified 5-cell");
     EXPECT_EQ(findEntry("dual of 8-cell")->name, "16-cell");
 }
 
 TEST(Dual, ofSomethingUnknownIsUnknown) {
-    const auto unknown = designNamed("dual of teapot", kMaxVertices);
+    const auto unknown = designNamed("dual of teapot", 100'000);
     ASSERT_TRUE(std::holds_alternative<NameError>(unknown));
     EXPECT_EQ(std::get<NameError>(unknown).message, "'teapot' is not the name of a polytope");
-    EXPECT_TRUE(std::holds_alternative<NameError>(designNamed("dual of", kMaxVertices)));
-    EXPECT_TRUE(std::holds_alternative<NameError>(designNamed("dual", kMaxVertices)));
-    const auto large = designNamed("dual of 400,400-duoprism", kMaxVertices);
+    EXPECT_TRUE(std::holds_alternative<NameError>(designNamed("dual of", 100'000)));
+    EXPECT_TRUE(std::holds_alternative<NameError>(designNamed("dual", 100'000)));
+    const auto large = designNamed("dual of 400,400-duoprism", 100'000);
     ASSERT_TRUE(std::holds_alternative<NameError>(large));
     EXPECT_EQ(std::get<NameError>(large).reason, NameError::Reason::too_large);
 }

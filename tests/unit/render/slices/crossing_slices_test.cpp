@@ -166,7 +166,7 @@ TEST(Crossing, FadedFacesLetTheOthersThrough) {
     EXPECT_LT(ink(faded), 0.95 * most);
 }
 
-TEST(Crossing, ConvexPicturesAreTheSameAfterwards) {
+TEST(Crossing, ConvexPicturesAreTheSameAfterward) {
     Renderer renderer;
     const Subject convex("8-cell", randomRotation(23), 5, {}, {320, 240});
     const image::Image before = convex.draw(renderer);

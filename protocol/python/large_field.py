@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Prepares an array that is larger than memory for the data folder of oval4d servers: as a Zarr folder with coarser
+levels (OME-Zarr 0.4), or as one .npy file that servers map without a copy. Needs python3-dask and python3-zarr.
+
+    large_field.py run.zarr large/run        # a folder of levels; the source may also be .npy, or path/to/folder::array
+    large_field.py run.zarr large/run.npy
+"""
+import json
+import sys
+from pathlib import Path
+
+import dask.array
+import numpy
+import zarr
+
+CHUNK = (1, 128, 128, 128)  # t z y x, 8 MB; a chunk is read as a whole
+SMALLEST = 1 << 24          # samples below which there is no coarser level
+
+
+def source_of(name):
+    """Returns the source as a lazy array t z y x of 32-bit floats. Other sources: dask.array.from_array(h5py_dataset)."""
+    path, _, variable = name.partition("::")
+    if path.endswith(".npy"):
+        array = dask.array.from_array(numpy.load(path, mmap_mode="r"), chunks=CHUNK)
+    else:
+        array = dask.array.from_zarr(path, component=variable or None)
+    assert array.ndim == 4, f"the array has {array.ndim} dimensions; t, z, y and x are needed"
+    return array.astype("<f4")
+
+
+def coarser(array):
+    """Returns the means of 2 × 2 × 2 × 2 samples; an odd sample at the end of an axis is left out."""
+    axes = {axis: 2 for axis, size in enumerate(array.shape) if size > 1}
+    return dask.array.coarsen(numpy.mean, array, axes, trim_excess=True).astype("<f4")
+
+
+def write_levels(array, folder):
+    """Writes each level from the one before, so that the source is read once."""
+    group = zarr.open_group(zarr.NestedDirectoryStore(folder), mode="w")  # a folder for each index of the chunks
+    first, levels, steps = numpy.zeros(4), [], numpy.ones(4)
+    while True:
+        path = str(len(levels))
+        chunk = tuple(map(min, CHUNK, array.shape))
+        level = group.create_dataset(path, shape=array.shape, chunks=chunk, dtype="<f4")
+        dask.array.store(array.rechunk(chunk), level, lock=False)
+        levels.append({"path": path, "coordinateTransformations": [
+            {"type": "scale", "scale": steps.tolist()}, {"type": "translation", "translation": first.tolist()}]})
+        print(path, array.shape, flush=True)
+        if array.size <= SMALLEST:
+            break
+        halved = numpy.array([2 if size > 1 else 1 for size in array.shape])
+        first, steps = first + steps * (halved - 1) / 2, steps * halved  # a mean lies between its samples
+        array = coarser(dask.array.from_array(level, chunks=chunk))
+    group.attrs["multiscales"] = [{"version": "0.4", "axes": [
+        {"name": "t", "type": "time"}, *({"name": name, "type": "space"} for name in "zyx")], "datasets": levels}]
+
+
+def write_npy(array, file):
+    out = numpy.lib.format.open_memmap(file, mode="w+", dtype="<f4", shape=array.shape)
+    dask.array.store(array, out, lock=False)
+    out.flush()
+    print(json.dumps({"shape": array.shape, "bytes": Path(file).stat().st_size}))
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    source, target = sys.argv[1:]
+    (write_npy if target.endswith(".npy") else write_levels)(source_of(source), target)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,110 @@
+#include "export/formats/vti.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/gtc/type_precision.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "export/formats/text.hpp"
+#include "export/formats/vtk_xml.hpp"
+#include "fields/field.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+/// A regular lattice in a slice: points origin + spacing · (i, j, k).
+struct Image {
+    glm::dvec3 origin{0}, spacing{1};
+    glm::ivec3 points{1};
+
+    std::size_t size() const { return static_cast<std::size_t>(points.x) * points.y * points.z; }
+};
+
+/// Returns the lattice in the bounding box of the domain's slice, whose cells are at most `step` wide.
+Image imageOf(const slicing::SliceSet& slices, double step) {
+    glm::dvec3 low = slices.vertices.front(), high = low;
+    for (const glm::dvec3& vertex : slices.vertices) {
+        low = glm::min(low, vertex);
+        high = glm::max(high, vertex);
+    }
+    Image image;
+    image.origin = low;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double size = high[axis] - low[axis];
+        const int cells = std::max(1, static_cast<int>(std::ceil(size / step - 1e-9)));
+        image.points[axis] = size > 0 ? cells + 1 : 1;
+        image.spacing[axis] = size > 0 ? size / cells : step;
+    }
+    return image;
+}
+
+/// Returns the values at the points of the image, x fastest; NaN outside of the domain.
+std::vector<float> sample(const fields::Field& field, const Image& image, const glm::dmat4& toFunction, double w,
+                          const Budget& budget) {
+    std::vector<float> values(image.size());
+    const auto row = static_cast<std::size_t>(image.points.x);
+    std::array<std::vector<float>, 4> at;
+    for (auto& coordinates : at) coordinates.resize(row);
+    const glm::dvec4 tolerance = 1e-9 * (field.box.max - field.box.min);
+    std::vector<bool> isOutside(row);
+    float* out = values.data();
+    for (int k = 0; k < image.points.z; ++k) {
+        budget.checkTime();
+        for (int j = 0; j < image.points.y; ++j, out += row) {
+            for (std::size_t i = 0; i < row; ++i) {
+                const glm::dvec3 p = image.origin + image.spacing * glm::dvec3(static_cast<double>(i), j, k);
+                const glm::dvec4 q = field.center + toFunction * glm::dvec4(p, w);
+                isOutside[i] = glm::any(glm::lessThan(q, field.box.min - tolerance)) ||
+                               glm::any(glm::greaterThan(q, field.box.max + tolerance));
+                for (std::size_t axis = 0; axis < 4; ++axis)
+                    at[axis][i] = static_cast<float>(q[static_cast<int>(axis)]);
+            }
+            field.function->evaluate({at[0], at[1], at[2], at[3]}, std::span(out, row));
+            for (std::size_t i = 0; i < row; ++i) {
+                if (isOutside[i]) out[i] = std::numeric_limits<float>::quiet_NaN();
+            }
+        }
+    }
+    return values;
+}
+
+}  // namespace
+
+std::string vti(const SceneInput& source) {
+    constexpr int kCells = 128;  // across the diameter of the circumscribed sphere
+    const slicing::SliceSet& slices = *source.scene.slices;
+    const auto refuse = [](std::string message) {
+        throw ExportRefused{{ExportError::Cause::no_body, std::move(message)}};
+    };
+    if (source.extent != Extent::focus) refuse("a vti file contains one slice: choose the focus slice");
+    if (slices.vertices.empty()) {
+        refuse("the slice at " + labelOfW(slices.planes.w(0), slices.planes.spacing) +
+               " is empty: move the focus or turn the field");
+    }
+    const fields::Field& field = *slicing::fieldIn(source.object);
+    const Image image = imageOf(slices, 2 * field.circumradius / kCells);
+    source.budget.checkBytes(3 * sizeof(float) * image.size());  // the values, and about 4/3 of their size in Base64
+    const glm::dmat4 toFunction = field.toFunction * source.orientation.inverse().matrix();
+    const std::vector<float> values = sample(field, image, toFunction, slices.planes.w(0), source.budget);
+
+    std::string extent;
+    for (int axis = 0; axis < 3; ++axis) extent += (axis > 0 ? " 0 " : "0 ") + std::to_string(image.points[axis] - 1);
+    std::string attributes = " WholeExtent=\"" + extent + "\" Origin=\"";
+    append(attributes, image.origin);
+    attributes += "\" Spacing=\"";
+    append(attributes, image.spacing);
+    attributes += "\"";
+    std::string elements = "<Piece Extent=\"" + extent + "\">\n<PointData Scalars=\"value\">\n";
+    appendVtkArray(elements, "value", 1, std::span<const float>(values));
+    elements += "</PointData>\n<CellData></CellData>\n</Piece>\n";
+    return vtkFile("ImageData", attributes, elements);
+}
+
+}  // namespace oval4d::exports

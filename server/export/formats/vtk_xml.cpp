@@ -1,0 +1,34 @@
+#include "export/formats/vtk_xml.hpp"
+
+#include <sodium.h>
+
+#include "export/formats/text.hpp"
+
+namespace oval4d::exports {
+
+std::string vtkFile(std::string_view type, std::string_view attributes, std::string_view elements) {
+    std::string out = "<?xml version=\"1.0\"?>\n<VTKFile type=\"";
+    out.append(type).append("\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<");
+    out.append(type).append(attributes).append(">\n").append(elements);
+    return out.append("</").append(type).append(">\n</VTKFile>\n");
+}
+
+void appendVtkArray(std::string& out, std::string_view type, std::string_view name, int components,
+                    std::string_view bytes) {
+    // The size of the data comes first, and is encoded together with them.
+    std::string data;
+    data.reserve(sizeof(std::uint64_t) + bytes.size());
+    put(data, std::uint64_t{bytes.size()});
+    data.append(bytes);
+    out.append("<DataArray type=\"").append(type).append("\" Name=\"").append(xmlEscaped(name));
+    out.append("\" NumberOfComponents=\"").append(std::to_string(components)).append("\" format=\"binary\">\n");
+    const std::size_t begin = out.size();
+    const std::size_t size = sodium_base64_encoded_len(data.size(), sodium_base64_VARIANT_ORIGINAL);  // with a 0
+    out.resize(begin + size);
+    sodium_bin2base64(out.data() + begin, size, reinterpret_cast<const unsigned char*>(data.data()), data.size(),
+                      sodium_base64_VARIANT_ORIGINAL);
+    out.resize(begin + size - 1);
+    out.append("\n</DataArray>\n");
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,45 @@
+#pragma once
+// Parts of VTK's XML files (K. Martin et al., "VTK File Formats", in The VTK User's Guide).
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "export/formats/little_endian.hpp"
+
+namespace oval4d::exports {
+
+/// Returns a complete file with a data set of the type `type`, such as "PolyData". `attributes` and `elements` are the
+/// XML attributes and the content of the element of the data set.
+std::string vtkFile(std::string_view type, std::string_view attributes, std::string_view elements);
+
+/// Appends a DataArray element with `bytes` in Base64. `bytes` must be little-endian numbers of the type `type`, such
+/// as "Float32"; `components` is the number of numbers in a tuple.
+void appendVtkArray(std::string& out, std::string_view type, std::string_view name, int components,
+                    std::string_view bytes);
+
+/// Appends a DataArray element with these numbers, as tuples of `components` numbers.
+template <typename Number>
+void appendVtkArray(std::string& out, std::string_view name, int components, std::span<const Number> numbers) {
+    constexpr bool kReal = std::is_floating_point_v<Number>;
+    constexpr std::size_t kBits = 8 * sizeof(Number);
+    std::string bytes;
+    bytes.reserve(numbers.size_bytes());
+    for (const Number number : numbers) {
+        if constexpr (kReal && sizeof(Number) == 8) {
+            put(bytes, std::bit_cast<std::uint64_t>(number));
+        } else if constexpr (kReal) {
+            put(bytes, number);
+        } else {
+            put(bytes, static_cast<std::make_unsigned_t<Number>>(number));
+        }
+    }
+    const std::string kind = kReal ? "Float" : std::is_signed_v<Number> ? "Int" : "UInt";
+    appendVtkArray(out, kind + std::to_string(kBits), name, components, bytes);
+}
+
+}  // namespace oval4d::exports

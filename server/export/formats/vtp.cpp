@@ -1,0 +1,164 @@
+#include "export/formats/vtp.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "export/formats/vtk_xml.hpp"
+#include "fields/field.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+/// The arrays of the file.
+struct PolyData {
+    std::vector<float> points, normals;               // three numbers for each point
+    std::vector<float> values, secondValues, growth;  // secondValues is empty if there is no second function
+    std::vector<std::int64_t> corners, ends;
+    std::vector<std::int32_t> n, cell;
+    std::vector<double> w, level;
+    std::vector<std::uint8_t> cap;
+};
+
+void appendVector(std::vector<float>& out, const glm::dvec3& v) {
+    for (int i = 0; i < 3; ++i) out.push_back(static_cast<float>(v[i]));
+}
+
+glm::dvec3 placeOf(const SceneInput& source, int slice) {
+    if (source.extent != Extent::oval) return glm::dvec3(0);
+    return source.scene.placements[static_cast<std::size_t>(slice)].position / source.scene.scale;
+}
+
+void addFaces(const SceneInput& source, int slice, PolyData& out) {
+    const slicing::SliceSet& slices = *source.scene.slices;
+    const glm::dvec3 place = placeOf(source, slice);
+    const auto i = static_cast<std::size_t>(slice);
+    const auto first = static_cast<std::int64_t>(out.points.size() / 3);
+    for (std::uint32_t v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v)
+        appendVector(out.points, slices.vertices[v] + place);
+    for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
+        for (std::uint32_t c = slices.cornerBegin[f]; c < slices.cornerBegin[f + 1]; ++c)
+            out.corners.push_back(first + slices.corners[c]);
+        out.ends.push_back(static_cast<std::int64_t>(out.corners.size()));
+        out.cell.push_back(static_cast<std::int32_t>(source.scene.cellOfFace(f)));
+        out.n.push_back(slices.planes.first + slice);
+        out.w.push_back(slices.planes.w(slice));
+    }
+}
+
+/// Adds the points of a surface, and returns the number of the first one.
+std::int64_t addPoints(const slicing::SliceSurface& surface, const glm::dvec3& place, PolyData& out) {
+    const auto first = static_cast<std::int64_t>(out.points.size() / 3);
+    for (std::size_t p = 0; p < surface.points.size(); ++p) {
+        appendVector(out.points, glm::dvec3(surface.points[p]) + place);
+        appendVector(out.normals, glm::dvec3(surface.normals[p]));
+        out.values.push_back(surface.values[p]);
+        if (!surface.secondValues.empty()) out.secondValues.push_back(surface.secondValues[p]);
+        out.growth.push_back(std::isfinite(surface.growth[p]) ? surface.growth[p]
+                                                              : std::numeric_limits<float>::quiet_NaN());
+    }
+    return first;
+}
+
+/// Adds the points of caps once more, with the mean normals of the caps. Returns the number of the copy of each point.
+std::vector<std::int64_t> addCapPoints(const slicing::SliceSurface& surface, std::int64_t first, PolyData& out) {
+    std::vector<std::int64_t> copies(surface.points.size(), -1);
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        if (!surface.isCap(t)) continue;
+        const auto& [a, b, c] = surface.triangles[t];
+        const glm::dvec3 across = glm::cross(glm::dvec3(surface.points[b] - surface.points[a]),
+                                             glm::dvec3(surface.points[c] - surface.points[a]));
+        for (const std::uint32_t corner : surface.triangles[t]) {
+            if (copies[corner] < 0) {
+                copies[corner] = static_cast<std::int64_t>(out.values.size());
+                const auto from = static_cast<std::size_t>(first) + corner;
+                for (std::size_t k = 0; k < 3; ++k) out.points.push_back(out.points[3 * from + k]);
+                appendVector(out.normals, glm::dvec3(0));
+                out.values.push_back(out.values[from]);
+                if (!surface.secondValues.empty()) out.secondValues.push_back(out.secondValues[from]);
+                out.growth.push_back(out.growth[from]);
+            }
+            for (std::size_t k = 0; k < 3; ++k) {
+                out.normals[3 * static_cast<std::size_t>(copies[corner]) + k] +=
+                    static_cast<float>(across[static_cast<int>(k)]);
+            }
+        }
+    }
+    for (const std::int64_t copy : copies) {
+        if (copy < 0) continue;
+        float* const normal = out.normals.data() + 3 * copy;
+        const float length = std::hypot(normal[0], normal[1], normal[2]);
+        for (int k = 0; k < 3; ++k) normal[k] = length > 0 ? normal[k] / length : static_cast<float>(k == 2);
+    }
+    return copies;
+}
+
+void addSurface(const SceneInput& source, int slice, PolyData& out) {
+    const slicing::SliceSet& slices = *source.scene.slices;
+    const slicing::SliceSurface& surface = slices.surfaces[static_cast<std::size_t>(slice)];
+    const std::int64_t first = addPoints(surface, placeOf(source, slice), out);
+    const std::vector<std::int64_t> copies = addCapPoints(surface, first, out);
+    const auto& levels = source.scene.look.field.levels;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        for (const std::uint32_t corner : surface.triangles[t])
+            out.corners.push_back(surface.isCap(t) ? copies[corner] : first + corner);
+        out.ends.push_back(static_cast<std::int64_t>(out.corners.size()));
+        out.level.push_back(levels[surface.level(t)]);
+        out.cap.push_back(surface.isCap(t) ? 1 : 0);
+        out.n.push_back(slices.planes.first + slice);
+        out.w.push_back(slices.planes.w(slice));
+    }
+}
+
+template <typename Number>
+void appendArray(std::string& out, std::string_view name, const std::vector<Number>& numbers, int components = 1) {
+    appendVtkArray(out, name, components, std::span<const Number>(numbers));
+}
+
+std::string written(const PolyData& data, bool isField, bool hasSecond) {
+    std::string out = "<Piece NumberOfPoints=\"" + std::to_string(data.points.size() / 3) +
+                      "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+                      std::to_string(data.ends.size()) + "\">\n";
+    if (isField) {
+        out += "<PointData Scalars=\"value\" Normals=\"normals\">\n";
+        appendArray(out, "value", data.values);
+        if (hasSecond) appendArray(out, "second_value", data.secondValues);
+        appendArray(out, "normals", data.normals, 3);
+        appendArray(out, "growth", data.growth);
+        out += "</PointData>\n<CellData Scalars=\"level\">\n";
+        appendArray(out, "level", data.level);
+        appendArray(out, "cap", data.cap);
+    } else {
+        out += "<CellData Scalars=\"cell\">\n";
+        appendArray(out, "cell", data.cell);
+    }
+    appendArray(out, "n", data.n);
+    appendArray(out, "w", data.w);
+    out += "</CellData>\n<Points>\n";
+    appendArray(out, "points", data.points, 3);
+    out += "</Points>\n<Polys>\n";
+    appendArray(out, "connectivity", data.corners);
+    appendArray(out, "offsets", data.ends);
+    return out + "</Polys>\n</Piece>\n";
+}
+
+}  // namespace
+
+std::string vtp(const SceneInput& source) {
+    const fields::Field* const field = slicing::fieldIn(source.object);
+    const bool isField = field != nullptr;
+    PolyData data;
+    for (int i = 0; i < source.scene.slices->planes.count; ++i) {
+        source.budget.checkTime();
+        source.budget.checkTriangles(data.ends.size());
+        isField ? addSurface(source, i, data) : addFaces(source, i, data);
+    }
+    return vtkFile("PolyData", "", written(data, isField, isField && field->second != nullptr));
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,19 @@
+#pragma once
+// Bodies for the surfaces of fields.
+
+#include <cstddef>
+
+#include "export/budget.hpp"
+#include "export/mesh/mesh.hpp"
+#include "scene/scene.hpp"
+
+namespace oval4d::exports {
+
+/// Returns the body that the surface of one level and its caps enclose in slice i of a field. Its points have the
+/// colors of the picture, and the values of the function. The slice must have its surfaces. `level` is an index into
+/// scene.surfaces.levels. `scale` is in millimeters per unit of the object. Returns an empty mesh if the rounded body
+/// has no volume (see hasVolume()). Throws ExportRefused like snapSurface().
+Mesh fieldBodyOf(const scene::Scene& scene, int i, std::size_t level, double scale, const Grid& grid,
+                 const Budget& budget);
+
+}  // namespace oval4d::exports

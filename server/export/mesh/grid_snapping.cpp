@@ -1,0 +1,287 @@
+#include "export/mesh/grid_snapping.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <tuple>
+#include <unordered_set>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/gtc/type_precision.hpp>
+
+#include "geometry/index.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+using geometry::kNone;
+
+// Half-edge 3t + i leads from corner i of triangle t to the next corner.
+std::uint32_t triangleOf(std::uint32_t edge) { return edge / 3; }
+std::uint32_t nextOf(std::uint32_t edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
+std::uint32_t previousOf(std::uint32_t edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
+
+/// A closed surface as half-edges. Each half-edge has a twin, which leads the opposite way.
+class HalfEdges {
+  public:
+    HalfEdges(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
+              const Grid& grid, const Budget& budget)
+        : grid_(grid), budget_(budget) {
+        for (const auto& triangle : triangles) origins_.insert(origins_.end(), triangle.begin(), triangle.end());
+        removed_.assign(triangles.size(), false);
+        pairTwins();
+        budget_.checkTime();
+        separateFans(points);
+    }
+
+    /// Removes connected parts that are smaller than `least` grid steps along all axes.
+    void removeSmallParts(int least) {
+        std::vector<bool> seen(removed_.size());
+        std::vector<std::uint32_t> part;
+        for (std::uint32_t start = 0; start < removed_.size(); ++start) {
+            if (seen[start]) continue;
+            part.assign(1, start);
+            seen[start] = true;
+            glm::ivec3 low = at_[origins_[3 * start]], high = low;
+            for (std::size_t i = 0; i < part.size(); ++i) {
+                for (std::uint32_t edge = 3 * part[i]; edge < 3 * part[i] + 3; ++edge) {
+                    low = glm::min(low, at_[origins_[edge]]);
+                    high = glm::max(high, at_[origins_[edge]]);
+                    const std::uint32_t next = triangleOf(twins_[edge]);
+                    if (!seen[next]) part.push_back(next);
+                    seen[next] = true;
+                }
+            }
+            const glm::ivec3 size = high - low;
+            if (std::max({size.x, size.y, size.z}) >= least) continue;
+            for (const std::uint32_t triangle : part) removed_[triangle] = true;
+        }
+    }
+
+    /// Collapses edges whose ends coincide.
+    void collapseEdges() {
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (std::uint32_t edge = 0; edge < origins_.size(); ++edge) {
+                if (!removed_[triangleOf(edge)] && at_[origins_[edge]] == at_[endOf(edge)]) changed |= collapse(edge);
+            }
+            budget_.checkTime();
+        }
+    }
+
+    /// Flips the longest edges of triangles whose corners lie on a line.
+    void flipDegenerate() {
+        constexpr int kRounds = 4;
+        for (int round = 0; round < kRounds; ++round) {
+            for (std::uint32_t t = 0; t < removed_.size(); ++t) {
+                if (removed_[t] || !isFlat(3 * t)) continue;
+                std::uint32_t longest = 3 * t;
+                for (std::uint32_t edge = 3 * t + 1; edge < 3 * t + 3; ++edge)
+                    longest = lengthOf(edge) > lengthOf(longest) ? edge : longest;
+                flip(longest);
+            }
+            budget_.checkTime();
+        }
+    }
+
+    /// Moves points that coincide with others to the nearest free points of the grid.
+    void separatePoints() {
+        std::unordered_set<std::uint64_t> taken;
+        for (std::uint32_t point = 0; point < at_.size(); ++point) {
+            if (outgoing_[point] == kNone || removed_[triangleOf(outgoing_[point])]) continue;
+            if (taken.insert(keyOf(at_[point])).second) continue;
+            at_[point] = nearestFree(at_[point], taken);
+            taken.insert(keyOf(at_[point]));
+        }
+    }
+
+    SnappedSurface result() const {
+        SnappedSurface result;
+        std::vector<std::uint32_t> number(at_.size(), kNone);
+        const auto numberOf = [&](std::uint32_t point) {
+            if (number[point] == kNone) {
+                number[point] = static_cast<std::uint32_t>(result.source.size());
+                result.mesh.points.push_back(glm::dvec3(at_[point]) * grid_.step());
+                result.source.push_back(sources_[point]);
+            }
+            return number[point];
+        };
+        for (std::uint32_t t = 0; t < removed_.size(); ++t) {
+            if (removed_[t]) continue;
+            const std::uint32_t a = numberOf(origins_[3 * t]), b = numberOf(origins_[3 * t + 1]);
+            result.mesh.add(a, b, numberOf(origins_[3 * t + 2]), kNoCell);
+        }
+        return result;
+    }
+
+  private:
+    std::uint32_t endOf(std::uint32_t edge) const { return origins_[nextOf(edge)]; }
+    /// Returns the next half-edge with the same origin, counterclockwise.
+    std::uint32_t turned(std::uint32_t edge) const { return twins_[previousOf(edge)]; }
+
+    void pairTwins() {
+        struct Side {
+            std::uint64_t ends;  // the smaller one first
+            std::uint32_t edge;
+            bool upward;
+        };
+        std::vector<Side> sides;
+        sides.reserve(origins_.size());
+        for (std::uint32_t edge = 0; edge < origins_.size(); ++edge) {
+            const auto [low, high] = std::minmax({origins_[edge], endOf(edge)});
+            sides.push_back({std::uint64_t{low} << 32U | high, edge, origins_[edge] == low});
+        }
+        // Sorts half-edges with the same ends next to each other, grouped by direction.
+        std::ranges::sort(sides, [](const Side& a, const Side& b) {
+            return std::tuple(a.ends, a.upward, a.edge) < std::tuple(b.ends, b.upward, b.edge);
+        });
+        twins_.assign(origins_.size(), kNone);
+        for (auto first = sides.begin(); first != sides.end();) {
+            const auto last = std::find_if(first, sides.end(), [&](const Side& s) { return s.ends != first->ends; });
+            const auto up = std::find_if(first, last, [](const Side& side) { return side.upward; });
+            if (up - first != last - up) throw std::invalid_argument("the surface is not closed");
+            for (auto down = first, to = up; to != last; ++down, ++to) {
+                twins_[down->edge] = to->edge;
+                twins_[to->edge] = down->edge;
+            }
+            first = last;
+        }
+    }
+
+    // Gives the half-edges around each fan of triangles a point of their own.
+    void separateFans(std::span<const glm::dvec3> points) {
+        std::vector<bool> seen(origins_.size());
+        std::vector<std::uint32_t> pointOf(origins_.size());
+        for (std::uint32_t edge = 0; edge < origins_.size(); ++edge) {
+            if (seen[edge]) continue;
+            const auto point = static_cast<std::uint32_t>(at_.size());
+            for (std::uint32_t around = edge; !seen[around]; around = turned(around)) {
+                seen[around] = true;
+                pointOf[around] = point;
+            }
+            sources_.push_back(origins_[edge]);
+            at_.emplace_back(glm::round(grid_.snap(points[origins_[edge]]) / grid_.step()));
+            outgoing_.push_back(edge);
+        }
+        origins_ = std::move(pointOf);
+    }
+
+    void findNeighbors(std::uint32_t edge, std::vector<std::uint32_t>& out) const {
+        out.clear();
+        std::uint32_t around = edge;
+        do {
+            out.push_back(endOf(around));
+            around = turned(around);
+        } while (around != edge);
+        std::ranges::sort(out);
+    }
+
+    // Joins the ends of an edge, if no points except the two opposite to the edge are neighbors of both ends, and this
+    // part of the surface is not a tetrahedron.
+    bool collapse(std::uint32_t edge) {
+        const std::uint32_t twin = twins_[edge], kept = origins_[edge], lost = origins_[twin];
+        findNeighbors(edge, neighbors_);
+        findNeighbors(twin, otherNeighbors_);
+        common_.clear();
+        std::ranges::set_intersection(neighbors_, otherNeighbors_, std::back_inserter(common_));
+        if (common_.size() != 2 || (neighbors_.size() == 3 && otherNeighbors_.size() == 3)) return false;
+        std::uint32_t around = twin;
+        do {
+            origins_[around] = kept;
+            around = turned(around);
+        } while (around != twin);
+        outgoing_[lost] = kNone;
+        for (const std::uint32_t side : {edge, twin}) {
+            const std::uint32_t a = twins_[nextOf(side)], b = twins_[previousOf(side)];
+            twins_[a] = b;
+            twins_[b] = a;
+            outgoing_[origins_[a]] = a;
+            outgoing_[origins_[b]] = b;
+            removed_[triangleOf(side)] = true;
+        }
+        return true;
+    }
+
+    glm::i64vec3 vectorOf(std::uint32_t edge) const {
+        return glm::i64vec3(at_[endOf(edge)]) - glm::i64vec3(at_[origins_[edge]]);
+    }
+    std::int64_t lengthOf(std::uint32_t edge) const {
+        const glm::i64vec3 v = vectorOf(edge);
+        return v.x * v.x + v.y * v.y + v.z * v.z;
+    }
+    static bool areParallel(const glm::i64vec3& a, const glm::i64vec3& b) {
+        return a.y * b.z == a.z * b.y && a.z * b.x == a.x * b.z && a.x * b.y == a.y * b.x;
+    }
+    bool isFlat(std::uint32_t edge) const { return areParallel(vectorOf(edge), vectorOf(nextOf(edge))); }
+
+    // Replaces an edge by one between the two points opposite to it, unless they are already neighbors or a new
+    // triangle would be degenerate.
+    void flip(std::uint32_t h) {
+        const std::uint32_t g = twins_[h], h1 = nextOf(h), h2 = previousOf(h), g1 = nextOf(g), g2 = previousOf(g);
+        const std::uint32_t p = origins_[h], r = origins_[g], q = origins_[h2], s = origins_[g2];
+        findNeighbors(h2, neighbors_);
+        if (q == s || std::ranges::binary_search(neighbors_, s)) return;
+        const auto isLine = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+            return areParallel(glm::i64vec3(at_[b]) - glm::i64vec3(at_[a]),
+                               glm::i64vec3(at_[c]) - glm::i64vec3(at_[a]));
+        };
+        if (isLine(q, p, s) || isLine(q, s, r)) return;
+        const std::array<std::uint32_t, 4> outer{twins_[h1], twins_[h2], twins_[g1], twins_[g2]};
+        const auto set = [&](std::uint32_t edge, std::uint32_t origin, std::uint32_t twin) {
+            origins_[edge] = origin;
+            twins_[edge] = twin;
+            twins_[twin] = edge;
+            outgoing_[origin] = edge;
+        };
+        set(h, s, g);
+        set(h1, q, outer[1]);
+        set(h2, p, outer[2]);
+        set(g, q, h);
+        set(g1, s, outer[3]);
+        set(g2, r, outer[0]);
+    }
+
+    static std::uint64_t keyOf(const glm::ivec3& at) {
+        constexpr std::int64_t kMiddle = 1 << 20;
+        const glm::u64vec3 shifted(glm::i64vec3(at) + kMiddle);
+        return shifted.x << 42U | shifted.y << 21U | shifted.z;
+    }
+    static glm::ivec3 nearestFree(const glm::ivec3& at, const std::unordered_set<std::uint64_t>& taken) {
+        for (int reach = 1;; ++reach) {
+            for (int z = -reach; z <= reach; ++z) {
+                for (int y = -reach; y <= reach; ++y) {
+                    for (int x = -reach; x <= reach; ++x) {
+                        const glm::ivec3 other = at + glm::ivec3(x, y, z);
+                        if (!taken.contains(keyOf(other))) return other;
+                    }
+                }
+            }
+        }
+    }
+
+    const Grid& grid_;
+    const Budget& budget_;
+    std::vector<std::uint32_t> origins_, twins_;  // of the half-edges
+    std::vector<bool> removed_;                   // per triangle
+    std::vector<glm::ivec3> at_;                  // of the points, in grid steps
+    std::vector<std::uint32_t> sources_;          // of the points
+    std::vector<std::uint32_t> outgoing_;         // a half-edge from each point; kNone for points that were collapsed
+    std::vector<std::uint32_t> neighbors_, otherNeighbors_, common_;
+};
+
+}  // namespace
+
+SnappedSurface snapSurface(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
+                           const Grid& grid, const Budget& budget) {
+    constexpr int kLeastSteps = 4;
+    HalfEdges surface(points, triangles, grid, budget);
+    surface.removeSmallParts(kLeastSteps);
+    surface.collapseEdges();
+    surface.flipDegenerate();
+    surface.separatePoints();
+    return surface.result();
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,35 @@
+#pragma once
+// Rounds closed surfaces to the grid.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "export/budget.hpp"
+#include "export/mesh/mesh.hpp"
+
+namespace oval4d::exports {
+
+/// The result of snapSurface().
+struct SnappedSurface {
+    Mesh mesh;                          ///< all points lie on the grid; all triangles have the cell kNoCell
+    std::vector<std::uint32_t> source;  ///< for each point of the mesh, the index of the point from which it was made
+};
+
+/// Rounds a closed surface to the grid, and keeps it closed: the mesh is 2-manifold, and no two of its points are
+/// equal. `points` are in millimeters; each edge of `triangles` must occur equally often in both directions.
+///
+/// - If several fans of triangles share a point, each fan gets a point of its own.
+/// - Edges whose ends coincide on the grid are collapsed, unless that would join different parts of the surface (the
+///   link condition: T. Dey et al., "Topology preserving edge contraction", 1999).
+/// - Triangles whose corners lie on a line are removed by flipping their longest edge, where possible.
+/// - Other points that coincide are moved to the nearest free points of the grid.
+/// - Connected parts that are smaller than 4 grid steps along all axes are removed.
+///
+/// Throws ExportRefused if the time limit is exceeded or a stop is requested, and std::invalid_argument if the surface
+/// is not closed.
+SnappedSurface snapSurface(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
+                           const Grid& grid, const Budget& budget);
+
+}  // namespace oval4d::exports

@@ -1,0 +1,121 @@
+#include "fields/array/array_function.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "fields/array/downsampling.hpp"
+#include "fields/array/interpolation.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+Samples checked(Samples samples, const Shape& shape, bool eager) {
+    if (samples.values().size() != sampleCount(shape))
+        throw std::invalid_argument("the number of samples does not match the shape of the array");
+    samples.expect(eager ? Samples::Access::sequential : Samples::Access::random);
+    return samples;
+}
+
+// Returns the indices of the first and the last sample on which the values at coordinates from `min` to `max` depend.
+// LatticeAxis::continuousIndex() is monotonic, so the position of every 32-bit float in the interval lies between those
+// of the rounded ends.
+std::pair<std::size_t, std::size_t> samplesBetween(const LatticeAxis& axis, double min, double max) {
+    const auto position = [&](double coordinate) { return axis.continuousIndex(static_cast<float>(coordinate)); };
+    const float first = std::isnan(min) || std::isnan(max) ? 0 : std::floor(position(min));
+    const float last = std::isnan(min) || std::isnan(max) ? axis.last : std::ceil(position(max));
+    return {static_cast<std::size_t>(first), static_cast<std::size_t>(std::max(first, last))};
+}
+
+}  // namespace
+
+ArrayFunction::ArrayFunction(const Shape& shape, const Box& box, Samples samples, std::size_t eagerSamples)
+    : lattice_(shape, box),
+      eagerSamples_(eagerSamples),
+      samples_(checked(std::move(samples), shape, sampleCount(shape) <= eagerSamples)),
+      bricks_({lattice_, samples_.values().data()}, isEager()),
+      coarser_(isEager() && this->samples().size() > kCoarsestSamples ? downsampled() : nullptr) {
+    samples_.expect(Samples::Access::random);
+    releasePages();
+}
+
+void ArrayFunction::evaluate(const PointBatch& points, std::span<float> values) const {
+    interpolate({lattice_, samples_.values().data()}, points, values, fastestInstructions());
+}
+
+void ArrayFunction::evaluateWithGradient(const PointBatch& points, std::span<float> values,
+                                         const GradientBatch& gradients) const {
+    interpolateWithGradient({lattice_, samples_.values().data()}, points, values, gradients, fastestInstructions());
+}
+
+Bounds ArrayFunction::boundsIn(const Box& region) const {
+    SampleRange range{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto axis = static_cast<glm::length_t>(i);
+        std::tie(range.first[i], range.last[i]) = samplesBetween(lattice_.axes[i], region.min[axis], region.max[axis]);
+    }
+    Bounds bounds = bricks_.boundsOf(range);
+    if (!(bounds.min < bounds.max)) return bounds;
+    // Each of the four interpolations that give a value adds an error of at most 4.3 · 2⁻²⁴ of the range, or
+    // underflows. If the difference of two samples overflows, there is no value.
+    const double extent = bounds.max - bounds.min, rounding = extent * 0x1p-19 + 0x1p-146;
+    if (extent > double{std::numeric_limits<float>::max()}) bounds.total = false;
+    bounds.min -= rounding;
+    bounds.max += rounding;
+    return bounds;
+}
+
+Shape ArrayFunction::selectionSize() const {
+    return selectionShape(shape(), std::min(kSelectedSamples, eagerSamples_));
+}
+
+const ArrayFunction& ArrayFunction::selection() const {
+    std::call_once(selected_, [&] {
+        const Shape size = selectionSize();
+        selection_ = std::make_shared<ArrayFunction>(size, box(), Samples(selectSamples(shape(), samples_, size)));
+        releasePages();
+    });
+    return *selection_;
+}
+
+const ScalarFunction& ArrayFunction::forSteps(std::span<const glm::dvec4> steps) const {
+    if (!isEager()) return selection().forSteps(steps);
+    const bool areLong = std::ranges::all_of(steps, [this](const glm::dvec4& step) {
+        double cells = 0;  // the square of the step's length in cells
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double along = step[static_cast<glm::length_t>(i)] * lattice_.axes[i].scale;
+            cells += along * along;
+        }
+        return cells >= 4;
+    });
+    return coarser_ != nullptr && areLong ? coarser_->forSteps(steps) : *this;
+}
+
+void ArrayFunction::releasePages() const {
+    // To read the pages again takes longer than to interpolate; a smaller array may stay in memory.
+    if (!isEager() && samples_.file()) samples_.file()->releasePages();
+}
+
+std::size_t ArrayFunction::memory() const {
+    std::size_t coarser = coarser_ == nullptr ? 0 : coarser_->memory();
+    if (!isEager()) {
+        const std::size_t bytes = sampleCount(selectionSize()) * sizeof(float);
+        coarser = bytes + bytes / 10;  // with its own bricks and coarser versions
+    }
+    return samples_.memory() + bricks_.memory() + coarser;
+}
+
+std::shared_ptr<const ArrayFunction> ArrayFunction::downsampled() const {
+    const Shape coarse = downsampledShape(lattice_.shape);
+    samples_.expect(Samples::Access::sequential);
+    Samples means(downsample(lattice_.shape, samples_.values()));
+    samples_.expect(Samples::Access::random);
+    return std::make_shared<ArrayFunction>(coarse, lattice_.box, std::move(means), eagerSamples_);
+}
+
+}  // namespace oval4d::fields

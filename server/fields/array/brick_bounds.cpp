@@ -1,0 +1,257 @@
+#include "fields/array/brick_bounds.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <new>
+
+#include "fields/array/cell.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+constexpr std::size_t kCells = BrickBounds::kCells;
+constexpr std::size_t kRun = 64;  // the number of bricks along x that are read at once
+constexpr float kInfinityF = std::numeric_limits<float>::infinity();
+
+// An entry packs the minimum and the maximum of a brick into 8 bytes, so that threads can write it atomically. The
+// lowest bit of the maximum is set if and only if a sample is missing; where this changes the maximum, it is rounded
+// up. No entry is 0, because 0 means "unknown".
+std::uint64_t pack(const SampleStatistics& brick) {
+    const bool missing = brick.missing > 0;
+    float max = brick.max;
+    if ((std::bit_cast<std::uint32_t>(max) & 1U) != (missing ? 1U : 0U)) max = std::nextafter(max, kInfinityF);
+    const float min = brick.min == 0 ? -0.F : brick.min;
+    return std::uint64_t{std::bit_cast<std::uint32_t>(min)} << 32U | std::bit_cast<std::uint32_t>(max);
+}
+
+void join(Bounds& bounds, std::uint64_t entry) {
+    const auto high = static_cast<std::uint32_t>(entry);
+    bounds.min = std::min(bounds.min, double{std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32U))});
+    bounds.max = std::max(bounds.max, double{std::bit_cast<float>(high)});
+    if ((high & 1U) != 0) bounds.total = false;
+}
+
+void add(SampleStatistics& statistics, const SampleStatistics& other) {
+    statistics.min = std::min(statistics.min, other.min);
+    statistics.max = std::max(statistics.max, other.max);
+    statistics.missing += other.missing;
+}
+
+void add(SampleStatistics& statistics, float sample) {
+    if (!isFinite(sample)) {
+        ++statistics.missing;
+        return;
+    }
+    statistics.min = std::min(statistics.min, sample);
+    statistics.max = std::max(statistics.max, sample);
+}
+
+const float* rowAt(const SampledLattice& from, const std::array<std::size_t, 4>& at) {
+    const auto& axes = from.lattice.axes;
+    return from.samples + at[0] + at[1] * axes[1].stride + at[2] * axes[2].stride + at[3] * axes[3].stride;
+}
+
+// Calls `visit` for each row along x, with a pointer to its first sample and the indices of that sample.
+template <typename Visit>
+void visitRows(const SampledLattice& from, const SampleRange& range, const Visit& visit) {
+    auto at = range.first;
+    for (at[3] = range.first[3]; at[3] <= range.last[3]; ++at[3]) {
+        for (at[2] = range.first[2]; at[2] <= range.last[2]; ++at[2]) {
+            for (at[1] = range.first[1]; at[1] <= range.last[1]; ++at[1]) visit(rowAt(from, at), at);
+        }
+    }
+}
+
+SampleRange rangeOf(const Lattice& lattice, const std::array<std::size_t, 4>& brick) {
+    SampleRange range{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        range.first[i] = brick[i] * kCells;
+        range.last[i] = std::min(range.first[i] + kCells, lattice.shape[i] - 1);
+    }
+    return range;
+}
+
+SampleStatistics statisticsOf(const SampledLattice& from, const SampleRange& range) {
+    SampleStatistics statistics;
+    const std::size_t count = range.last[0] - range.first[0] + 1;
+    visitRows(from, range, [&](const float* row, const auto& /*at*/) {
+        for (std::size_t i = 0; i < count; ++i) add(statistics, row[i]);
+    });
+    return statistics;
+}
+
+// Reads bricks that follow one another along x; `range` contains all of them. Bricks with missing samples are then read
+// again to count these.
+void readRun(const SampledLattice& from, const SampleRange& range, std::span<SampleStatistics> bricks) {
+    std::array<float, kRun * kCells + 1> low, high, sum;  // sum: of zeros, or NaN if there is a missing sample
+    const std::size_t count = range.last[0] - range.first[0] + 1;
+    std::fill_n(low.begin(), count, kInfinityF);
+    std::fill_n(high.begin(), count, -kInfinityF);
+    std::fill_n(sum.begin(), count, 0.F);
+    visitRows(from, range, [&](const float* row, const auto& /*at*/) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const float sample = row[i];
+            low[i] = sample < low[i] ? sample : low[i];
+            high[i] = sample > high[i] ? sample : high[i];
+            sum[i] += sample - sample;
+        }
+    });
+    for (std::size_t brick = 0; brick < bricks.size(); ++brick) {
+        const std::size_t begin = brick * kCells, end = std::min(begin + kCells, count - 1);
+        SampleStatistics& statistics = bricks[brick] = {};
+        float zero = 0;
+        for (std::size_t i = begin; i <= end; ++i) {
+            statistics.min = std::min(statistics.min, low[i]);
+            statistics.max = std::max(statistics.max, high[i]);
+            zero += sum[i];
+        }
+        if (zero == 0) continue;
+        SampleRange one = range;
+        one.first[0] = range.first[0] + begin;
+        one.last[0] = range.first[0] + end;
+        statistics = statisticsOf(from, one);
+    }
+}
+
+// Returns the number of missing samples of a brick, without those that it shares with an earlier brick.
+std::size_t ownMissing(const SampledLattice& from, const std::array<std::size_t, 4>& brick) {
+    SampleRange range = rangeOf(from.lattice, brick);
+    for (std::size_t i = 0; i < 4; ++i) range.first[i] += brick[i] > 0 ? 1 : 0;
+    return statisticsOf(from, range).missing;
+}
+
+}  // namespace
+
+BrickBounds::BrickBounds(const SampledLattice& from, bool eager) : from_(from), eager_(eager) {
+    Level bricks;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t cells = from.lattice.shape[i] - 1;
+        bricks.size[i] = std::max<std::size_t>(1, (cells + kCells - 1) / kCells);
+    }
+    const std::size_t count = bricks.size[0] * bricks.size[1] * bricks.size[2] * bricks.size[3];
+    if (eager) {
+        bricks.entries = eagerEntries_.emplace_back(count);
+        levels_.push_back(bricks);
+        readAll();
+        while (levels_.back().entries.size() > 1) joinBricks();
+        return;
+    }
+    slotCount_ = std::min(std::bit_ceil(count), kMaxLazyBytes / sizeof(Slot));
+    // Unlike new, calloc takes memory only as it is written.
+    slots_.reset(static_cast<Slot*>(std::calloc(slotCount_, sizeof(Slot))));  // NOLINT(cppcoreguidelines-no-malloc)
+    if (!slots_) throw std::bad_alloc();
+    levels_.push_back(bricks);
+    readSelection();
+}
+
+void BrickBounds::readAll() {
+    const Level& level = levels_.front();
+    const Index& size = level.size;
+    std::array<SampleStatistics, kRun> run;
+    auto entry = level.entries.begin();
+    for (std::size_t row = 0; row < size[1] * size[2] * size[3]; ++row) {
+        Index brick{0, row % size[1], row / size[1] % size[2], row / size[1] / size[2]};
+        for (; brick[0] < size[0]; brick[0] += kRun) {
+            const std::size_t count = std::min(kRun, size[0] - brick[0]);
+            SampleRange range = rangeOf(from_.lattice, brick);
+            range.last[0] = std::min(range.first[0] + count * kCells, from_.lattice.shape[0] - 1);
+            readRun(from_, range, std::span(run).first(count));
+            for (std::size_t i = 0; i < count; ++i) {
+                *entry++ = pack(run[i]);
+                if (run[i].missing > 0)
+                    run[i].missing = ownMissing(from_, {brick[0] + i, brick[1], brick[2], brick[3]});
+                add(statistics_, run[i]);
+            }
+        }
+    }
+}
+
+void BrickBounds::readSelection() {
+    constexpr std::size_t kRuns = 4096, kSamples = 64;
+    constexpr double kGoldenRatio = 0.6180339887498949;  // distributes the runs evenly, and not at a fixed distance
+    const std::size_t count = sampleCount(from_.lattice.shape), length = std::min(kSamples, count);
+    for (std::size_t run = 0; run < kRuns; ++run) {
+        const double part = std::fmod(static_cast<double>(run) * kGoldenRatio, 1.);
+        const auto begin = static_cast<std::size_t>(part * static_cast<double>(count - length));
+        for (std::size_t i = begin; i < begin + length; ++i) add(statistics_, from_.samples[i]);
+    }
+}
+
+// Adds a level to the pyramid.
+void BrickBounds::joinBricks() {
+    const Level fine = levels_.back();
+    Level coarse;
+    for (std::size_t i = 0; i < 4; ++i) coarse.size[i] = (fine.size[i] + 1) / 2;
+    std::vector<Bounds> joined(coarse.size[0] * coarse.size[1] * coarse.size[2] * coarse.size[3]);
+    auto entry = fine.entries.begin();
+    for (std::size_t l = 0; l < fine.size[3]; ++l) {
+        for (std::size_t k = 0; k < fine.size[2]; ++k) {
+            for (std::size_t j = 0; j < fine.size[1]; ++j) {
+                const std::size_t row = ((l / 2 * coarse.size[2] + k / 2) * coarse.size[1] + j / 2) * coarse.size[0];
+                for (std::size_t i = 0; i < fine.size[0]; ++i) join(joined[row + i / 2], *entry++);
+            }
+        }
+    }
+    coarse.entries = eagerEntries_.emplace_back(joined.size());
+    std::transform(joined.begin(), joined.end(), coarse.entries.begin(), [](const Bounds& bounds) {
+        return pack({static_cast<float>(bounds.min), static_cast<float>(bounds.max), bounds.total ? 0U : 1U});
+    });
+    levels_.push_back(coarse);
+}
+
+std::uint64_t BrickBounds::entryAt(const Level& level, const Index& brick) const {
+    const std::size_t index =
+        ((brick[3] * level.size[2] + brick[2]) * level.size[1] + brick[1]) * level.size[0] + brick[0];
+    if (eager_) return level.entries[index];
+    constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U;  // of 2⁶⁴; distributes neighbors
+    Slot& slot = slots_[(index * kGoldenRatio >> 32U) & (slotCount_ - 1)];
+    const std::atomic_ref<std::uint64_t> check(slot.check), entry(slot.entry);
+    std::uint64_t known = entry.load(std::memory_order_relaxed);
+    if (known != 0 && (check.load(std::memory_order_relaxed) ^ known) == index) return known;
+    known = pack(statisticsOf(from_, rangeOf(from_.lattice, brick)));  // several threads may do this at the same time
+    entry.store(known, std::memory_order_relaxed);
+    check.store(known ^ index, std::memory_order_relaxed);
+    return known;
+}
+
+Bounds BrickBounds::boundsOf(const SampleRange& range) const {
+    Index first{}, last{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        first[i] = std::min(range.first[i] / kCells, levels_.front().size[i] - 1);
+        last[i] = range.last[i] == 0 ? 0 : std::max(first[i], (range.last[i] - 1) / kCells);
+    }
+    const auto entries = [&] {
+        std::size_t product = 1;
+        for (std::size_t i = 0; i < 4; ++i) product *= std::min(last[i] - first[i] + 1, kMaxEntries + 1);
+        return product;
+    };
+    auto level = levels_.begin();
+    while (entries() > (eager_ ? kMaxEntries : kMaxLazyBricks)) {
+        if (++level == levels_.end()) return {-double{kInfinityF}, double{kInfinityF}, false};
+        for (std::size_t i = 0; i < 4; ++i) {
+            first[i] /= 2;
+            last[i] /= 2;
+        }
+    }
+    Bounds bounds;
+    Index at{};
+    for (at[3] = first[3]; at[3] <= last[3]; ++at[3]) {
+        for (at[2] = first[2]; at[2] <= last[2]; ++at[2]) {
+            for (at[1] = first[1]; at[1] <= last[1]; ++at[1]) {
+                for (at[0] = first[0]; at[0] <= last[0]; ++at[0]) join(bounds, entryAt(*level, at));
+            }
+        }
+    }
+    return bounds;
+}
+
+std::size_t BrickBounds::memory() const {
+    std::size_t bytes = 0;
+    for (const auto& entries : eagerEntries_) bytes += entries.size() * sizeof(std::uint64_t);
+    return bytes + slotCount_ * sizeof(Slot);
+}
+
+}  // namespace oval4d::fields

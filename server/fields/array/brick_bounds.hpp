@@ -1,0 +1,92 @@
+#pragma once
+// Bounds of an array's values in regions, from the minimum and maximum of each brick of 4 × 4 × 4 × 4 cells.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fields/array/interpolation.hpp"
+#include "fields/scalar_function.hpp"
+
+namespace oval4d::fields {
+
+/// The least and the greatest sample, and the number of missing samples (NaN or infinite).
+struct SampleStatistics {
+    float min = std::numeric_limits<float>::infinity();  ///< greater than `max` if no sample has a value
+    float max = -std::numeric_limits<float>::infinity();
+    std::size_t missing = 0;
+};
+
+/// A part of a lattice: the indices of its first and last samples along x, y, z, w, both inclusive.
+struct SampleRange {
+    std::array<std::size_t, 4> first, last;
+};
+
+/// Bounds of the samples in each brick of 4 × 4 × 4 × 4 cells. Neighboring bricks share the samples on their common
+/// face.
+///
+/// Small arrays are read once, by the constructor. A pyramid of coarser bricks, each of which joins up to 2⁴ bricks of
+/// the level below, then answers queries of any size from at most kMaxEntries entries. Large arrays may be files that
+/// are larger than the memory; a brick of them is read when a query first needs it. A query that would need more than
+/// kMaxLazyBricks gets no bounds, because it would have to read a large part of the file. The bounds of these bricks
+/// are kept in a cache of at most kMaxLazyBytes, in which a brick may replace another one. Thread-safe.
+class BrickBounds {
+  public:
+    static constexpr std::size_t kCells = 4;         ///< cells of a brick along each axis
+    static constexpr std::size_t kMaxEntries = 256;  ///< the maximum number of entries that a query reads
+    static constexpr std::size_t kMaxLazyBricks = 64;
+    static constexpr std::size_t kMaxLazyBytes = std::size_t{32} << 20U;
+
+    /// The lattice and the samples must outlive this object. `eager`: whether the constructor reads all samples.
+    BrickBounds(const SampledLattice& from, bool eager);
+    ~BrickBounds() = default;
+    BrickBounds(const BrickBounds&) = delete;
+    BrickBounds& operator=(const BrickBounds&) = delete;
+
+    /// Returns bounds of the samples in `range`, which must lie within the lattice. In the result, `total` is false if
+    /// a sample may be missing.
+    Bounds boundsOf(const SampleRange& range) const;
+
+    /// Returns the statistics of all samples if the constructor has read them, else of a selection of samples.
+    const SampleStatistics& statistics() const { return statistics_; }
+
+    /// Returns the memory used, in bytes; for bricks that are read on demand, its upper bound.
+    std::size_t memory() const;
+
+  private:
+    using Index = std::array<std::size_t, 4>;  // of a brick in its level, along x, y, z, w
+
+    struct Level {
+        Index size;  // the number of bricks along each axis
+        std::span<std::uint64_t> entries;
+    };
+
+    void readAll();
+    void readSelection();
+    void joinBricks();
+    std::uint64_t entryAt(const Level& level, const Index& brick) const;
+
+    const SampledLattice from_;
+    const bool eager_;
+    SampleStatistics statistics_;
+    std::vector<std::vector<std::uint64_t>> eagerEntries_;
+    // A cache of the bricks that were read, in the manner of R. Hyatt and T. Mann, "A lockless transposition table
+    // implementation for parallel search": `check` is the brick's index XOR its entry, so that a slot whose halves were
+    // written by different threads matches no index.
+    struct Slot {
+        std::uint64_t check, entry;
+    };
+    struct Free {
+        void operator()(Slot* slots) const { std::free(slots); }  // NOLINT(cppcoreguidelines-no-malloc): of calloc
+    };
+    std::unique_ptr<Slot[], Free> slots_;  // zero-initialized; no brick has the entry 0; null if eager
+    std::size_t slotCount_ = 0;            // a power of 2
+    std::vector<Level> levels_;            // from fine to coarse; only the first one unless eager_
+};
+
+}  // namespace oval4d::fields

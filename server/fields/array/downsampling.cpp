@@ -1,0 +1,158 @@
+#include "fields/array/downsampling.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "fields/array/cell.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+// The weight with which a fine sample contributes to the coarse sample with the index `coarse`.
+struct Weight {
+    std::uint32_t coarse;
+    float weight;
+};
+
+// The weights of each fine sample along an axis: those of sample i are items[begin[i]] … items[begin[i + 1] − 1].
+struct AxisWeights {
+    std::vector<std::uint32_t> begin{0};  // one entry more than there are fine samples
+    std::vector<Weight> items;
+
+    std::size_t size() const { return begin.size() - 1; }
+    std::span<const Weight> operator[](std::size_t i) const {
+        return std::span(items).subspan(begin[i], begin[i + 1] - begin[i]);
+    }
+};
+
+// The integral of the hat function max(0, 1 − |x|) from −∞ to x.
+double hatIntegral(double x) {
+    if (x <= -1) return 0;
+    if (x >= 1) return 1;
+    return x < 0 ? 0.5 * (1 + x) * (1 + x) : 1 - 0.5 * (1 - x) * (1 - x);
+}
+
+// Returns the weights for an axis with these numbers of samples. The weights of each coarse sample sum to 1.
+AxisWeights weightsOf(std::size_t fine, std::size_t coarse) {
+    AxisWeights weights;
+    const double length =
+        coarse == fine ? 1 : static_cast<double>(fine - 1) / static_cast<double>(std::max<std::size_t>(coarse, 2) - 1);
+    const auto weight = [&](std::size_t i, std::size_t j) {
+        const bool end = j == 0 || j + 1 == coarse;
+        if (coarse == fine || end) return i == (j == 0 ? 0 : fine - coarse + j) ? 1. : 0.;
+        const double offset = static_cast<double>(j) * length - static_cast<double>(i);
+        return (hatIntegral(offset + length / 2) - hatIntegral(offset - length / 2)) / length;
+    };
+    for (std::size_t i = 0; i < fine; ++i) {
+        const auto nearest = static_cast<std::size_t>(std::lround(static_cast<double>(i) / length));
+        for (std::size_t j = nearest - std::min<std::size_t>(nearest, 2); j < std::min(coarse, nearest + 3); ++j) {
+            const auto each = static_cast<float>(weight(i, j));
+            if (each > 0) weights.items.push_back({static_cast<std::uint32_t>(j), each});
+        }
+        weights.begin.push_back(static_cast<std::uint32_t>(weights.items.size()));
+    }
+    return weights;
+}
+
+// For each sample of a coarse row: the weighted sum of fine samples, and the sum of their weights.
+struct RowSums {
+    std::vector<float> values, weights;
+
+    void assign(const float* row, const AxisWeights& weightsOfX) {
+        std::fill(values.begin(), values.end(), 0.F);
+        std::fill(weights.begin(), weights.end(), 0.F);
+        for (std::size_t i = 0; i < weightsOfX.size(); ++i) {
+            if (!isFinite(row[i])) continue;
+            for (const Weight& each : weightsOfX[i]) {
+                values[each.coarse] += row[i] * each.weight;
+                weights[each.coarse] += each.weight;
+            }
+        }
+    }
+};
+
+void addTimes(std::span<const float> row, float weight, float* to) {
+    for (std::size_t i = 0; i < row.size(); ++i) to[i] += weight * row[i];
+}
+
+// Announces the samples at these distances from `first`.
+void prefetchRow(const Samples& samples, std::size_t first, std::span<const std::size_t> places) {
+    if (!samples.file()) return;
+    constexpr std::size_t kPage = 4096 / sizeof(float);
+    const std::size_t length = places.back() - places.front() + 1;
+    if (length <= 2 * kPage * places.size()) return samples.prefetch(first, length);
+    for (const std::size_t place : places) samples.prefetch(first + place, 1);
+}
+
+}  // namespace
+
+Shape downsampledShape(const Shape& shape) {
+    Shape coarse{};
+    std::transform(shape.begin(), shape.end(), coarse.begin(), [](std::size_t samples) { return samples / 2 + 1; });
+    return coarse;
+}
+
+std::vector<float> downsample(const Shape& shape, std::span<const float> samples) {
+    const Shape size = downsampledShape(shape);
+    std::array<AxisWeights, 4> weights;
+    for (std::size_t i = 0; i < 4; ++i) weights[i] = weightsOf(shape[i], size[i]);
+    std::vector<float> sums(sampleCount(size)), weightSums(sums.size());
+    RowSums row{std::vector<float>(size[0]), std::vector<float>(size[0])};
+    const float* from = samples.data();
+    for (std::size_t l = 0; l < shape[3]; ++l) {
+        for (std::size_t k = 0; k < shape[2]; ++k) {
+            for (std::size_t j = 0; j < shape[1]; ++j) {
+                row.assign(from, weights[0]);
+                from += shape[0];
+                for (const Weight& w : weights[3][l]) {
+                    for (const Weight& z : weights[2][k]) {
+                        for (const Weight& y : weights[1][j]) {
+                            const float weight = w.weight * z.weight * y.weight;
+                            const std::size_t at = ((w.coarse * size[2] + z.coarse) * size[1] + y.coarse) * size[0];
+                            addTimes(row.values, weight, &sums[at]);
+                            addTimes(row.weights, weight, &weightSums[at]);
+                        }
+                    }
+                }
+            }
+        }
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = weightSums[i] > 0 ? sums[i] / weightSums[i] : kNoValue;
+    return sums;
+}
+
+Shape selectionShape(Shape shape, std::size_t maxSamples) {
+    while (sampleCount(shape) > maxSamples) {
+        std::size_t& longest = *std::max_element(shape.begin(), shape.end());
+        longest = (longest + 1) / 2;
+    }
+    return shape;
+}
+
+std::vector<float> selectSamples(const Shape& shape, const Samples& samples, const Shape& size) {
+    std::array<std::vector<std::size_t>, 4> places;  // for each axis, the distances in memory from the first sample
+    std::size_t stride = 1;
+    for (std::size_t axis = 0; axis < 4; stride *= shape[axis++]) {
+        const std::size_t last = size[axis] - 1;
+        for (std::size_t i = 0; i <= last; ++i)
+            places[axis].push_back(last == 0 ? 0 : (i * (shape[axis] - 1) + last / 2) / last * stride);
+    }
+    std::vector<float> selected;
+    selected.reserve(sampleCount(size));
+    const std::span<const float> from = samples.values();
+    for (const std::size_t w : places[3]) {
+        for (const std::size_t z : places[2]) {
+            // The system reads these rows at the same time, which takes much less time than one after the other.
+            for (const std::size_t y : places[1]) prefetchRow(samples, w + z + y, places[0]);
+            for (const std::size_t y : places[1]) {
+                for (const std::size_t x : places[0]) selected.push_back(from[w + z + y + x]);
+            }
+        }
+    }
+    return selected;
+}
+
+}  // namespace oval4d::fields

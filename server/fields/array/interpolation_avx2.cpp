@@ -1,0 +1,234 @@
+#include "fields/array/interpolation_avx2.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "fields/array/cell.hpp"
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+namespace oval4d::fields::avx2 {
+
+#if defined(__x86_64__)
+
+namespace {
+
+// Only AVX2, without FMA: products are rounded before they are added, as in the portable code.
+#define OVAL4D_AVX2 [[gnu::target("avx2")]]
+
+constexpr std::size_t kLanes = ScalarFunction::kLanes;
+
+// While a group of 8 points is computed, the samples of the group kAhead groups later are prefetched. This is done only
+// for every second point, because neighboring points often share cache lines.
+constexpr std::size_t kAhead = 4;
+
+// The members of LatticeAxis, each copied to all lanes.
+struct Axis {
+    __m256 origin, scale, shift, last, lastCell;
+    __m256d stride;
+};
+
+// The cells of eight points: for each point, the index of the cell's first sample, the position in the cell, and
+// whether a coordinate of the point is NaN.
+struct Cells {
+    std::array<std::int64_t, kLanes> first;
+    __m256 t[4], nan;
+};
+
+// The samples of one row of four cells each, or numbers interpolated from them. Each pair of numbers belongs to one
+// cell: the number at the lower x, then the one at the upper x.
+using Pairs = __m256;
+
+// What remains of four cells after interpolation along w, z and y.
+struct Reduced {
+    Pairs value, dy, dz, dw;
+};
+
+OVAL4D_AVX2 inline __m256 mix(__m256 a, __m256 b, __m256 t) {
+    return _mm256_add_ps(a, _mm256_mul_ps(t, _mm256_sub_ps(b, a)));
+}
+
+// Converts whole numbers from 0 to 2^51 to integers: after 2^52 is added, the low bits of the sum are the integer.
+OVAL4D_AVX2 inline void putIntegers(__m256d numbers, std::int64_t* to) {
+    const __m256d rounder = _mm256_set1_pd(0x1p52);
+    const __m256d integers = _mm256_xor_pd(_mm256_add_pd(numbers, rounder), rounder);
+    std::memcpy(to, &integers, sizeof integers);
+}
+
+// Finds the cells of the points from index `begin` on.
+OVAL4D_AVX2 inline void locate(const Axis* axes, const PointBatch& points, std::size_t begin, Cells& cells) {
+    const __m256 at[4] = {_mm256_loadu_ps(&points.x[begin]), _mm256_loadu_ps(&points.y[begin]),
+                          _mm256_loadu_ps(&points.z[begin]), _mm256_loadu_ps(&points.w[begin])};
+    cells.nan = _mm256_or_ps(_mm256_cmp_ps(at[0], at[1], _CMP_UNORD_Q), _mm256_cmp_ps(at[2], at[3], _CMP_UNORD_Q));
+    __m256d low = _mm256_setzero_pd(), high = low;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Axis& axis = axes[i];
+        __m256 position = _mm256_add_ps(_mm256_mul_ps(_mm256_sub_ps(at[i], axis.origin), axis.scale), axis.shift);
+        position = _mm256_min_ps(_mm256_max_ps(position, _mm256_setzero_ps()), axis.last);  // NaN becomes 0
+        const __m256 cell = _mm256_min_ps(_mm256_floor_ps(position), axis.lastCell);
+        cells.t[i] = _mm256_sub_ps(position, cell);
+        const __m256d lowCell = _mm256_cvtps_pd(_mm256_castps256_ps128(cell));
+        const __m256d highCell = _mm256_cvtps_pd(_mm256_extractf128_ps(cell, 1));
+        low = _mm256_add_pd(low, _mm256_mul_pd(lowCell, axis.stride));
+        high = _mm256_add_pd(high, _mm256_mul_pd(highCell, axis.stride));
+    }
+    putIntegers(low, cells.first.data());
+    putIntegers(high, cells.first.data() + 4);
+}
+
+inline void prefetch(const float* samples, const RowOffsets& offsets, const Cells& cells) {
+    for (std::size_t i = 0; i < kLanes; i += 2) {
+        for (const std::size_t offset : offsets) __builtin_prefetch(samples + cells.first[i] + offset);
+    }
+}
+
+inline double pairAt(const float* at) {
+    double pair;
+    std::memcpy(&pair, at, sizeof pair);
+    return pair;
+}
+
+// Loads a row of four cells. On some processors, gather instructions are slower than these loads.
+OVAL4D_AVX2 inline Pairs rowAt(const float* samples, const std::int64_t* first) {
+    return _mm256_castpd_ps(_mm256_set_pd(pairAt(samples + first[3]), pairAt(samples + first[2]),
+                                          pairAt(samples + first[1]), pairAt(samples + first[0])));
+}
+
+// Interpolates along w, z and y in four cells. y, z and w are the positions in the cells.
+template <bool kGradient>
+OVAL4D_AVX2 inline void reduce(const float* samples, const RowOffsets& offsets, const std::int64_t* first,
+                               const __m256& y, const __m256& z, const __m256& w, Reduced& out) {
+    Pairs rows[kRows];
+    for (std::size_t row = 0; row < kRows; ++row) rows[row] = rowAt(samples + offsets[row], first);
+    Pairs v[4];  // at the lower and upper y of the lower z, then of the upper z
+    for (std::size_t i = 0; i < 4; ++i) v[i] = mix(rows[i], rows[i + 4], w);
+    const Pairs y0 = mix(v[0], v[2], z), y1 = mix(v[1], v[3], z);
+    out.value = mix(y0, y1, y);
+    if constexpr (kGradient) {
+        Pairs dw[4];
+        for (std::size_t i = 0; i < 4; ++i) dw[i] = _mm256_sub_ps(rows[i + 4], rows[i]);
+        out.dy = _mm256_sub_ps(y1, y0);
+        out.dz = mix(_mm256_sub_ps(v[2], v[0]), _mm256_sub_ps(v[3], v[1]), y);
+        out.dw = mix(mix(dw[0], dw[2], z), mix(dw[1], dw[3], z), y);
+    }
+}
+
+// Numbers at the lower and at the upper x of eight cells.
+struct Ends {
+    __m256 low, high;
+};
+
+OVAL4D_AVX2 inline void split(const Pairs& firstFour, const Pairs& lastFour, Ends& ends) {
+    const __m256i evenThenOdd = _mm256_setr_epi32(0, 2, 4, 6, 1, 3, 5, 7);
+    const __m256 a = _mm256_permutevar8x32_ps(firstFour, evenThenOdd);
+    const __m256 b = _mm256_permutevar8x32_ps(lastFour, evenThenOdd);
+    ends = {_mm256_permute2f128_ps(a, b, 0x20), _mm256_permute2f128_ps(a, b, 0x31)};
+}
+
+OVAL4D_AVX2 inline __m256 mixEnds(const Pairs& firstFour, const Pairs& lastFour, const __m256& x) {
+    Ends ends;
+    split(firstFour, lastFour, ends);
+    return mix(ends.low, ends.high, x);
+}
+
+OVAL4D_AVX2 inline __m256 isFinite(const __m256& numbers) {
+    const __m256 magnitude = _mm256_andnot_ps(_mm256_set1_ps(-0.F), numbers);
+    return _mm256_cmp_ps(magnitude, _mm256_set1_ps(std::numeric_limits<float>::max()), _CMP_LE_OQ);
+}
+
+// Returns the lanes in which the point lies on a face of its cell, so that some corners have the weight 0.
+OVAL4D_AVX2 inline __m256 onFaces(const Cells& cells) {
+    __m256 faces = _mm256_setzero_ps();
+    for (const __m256& t : cells.t) {
+        const __m256 lower = _mm256_cmp_ps(t, _mm256_setzero_ps(), _CMP_EQ_OQ);
+        const __m256 upper = _mm256_cmp_ps(t, _mm256_set1_ps(1), _CMP_EQ_OQ);
+        faces = _mm256_or_ps(faces, _mm256_or_ps(lower, upper));
+    }
+    return faces;
+}
+
+template <bool kGradient>
+OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& points, std::span<float> values,
+                                  const GradientBatch& gradients) {
+    Axis axes[4];
+    for (std::size_t i = 0; i < 4; ++i) {
+        const LatticeAxis& axis = from.lattice.axes[i];
+        axes[i] = {_mm256_set1_ps(axis.origin),   _mm256_set1_ps(axis.scale),
+                   _mm256_set1_ps(axis.shift),    _mm256_set1_ps(axis.last),
+                   _mm256_set1_ps(axis.lastCell), _mm256_set1_pd(static_cast<double>(axis.stride))};
+    }
+    const RowOffsets offsets = rowOffsets(from.lattice);
+    const __m256i firstFour = _mm256_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3);
+    const __m256i lastFour = _mm256_setr_epi32(4, 4, 5, 5, 6, 6, 7, 7);
+    Cells upcoming[kAhead];  // of the groups from i on; that of group g is at g % kAhead
+    for (std::size_t i = 0; i < std::min(points.size(), kAhead * kLanes); i += kLanes)
+        locate(axes, points, i, upcoming[i / kLanes]);
+    for (std::size_t i = 0; i < points.size(); i += kLanes) {
+        Cells& next = upcoming[i / kLanes % kAhead];
+        const Cells cells = next;
+        if (const std::size_t ahead = i + kAhead * kLanes; ahead < points.size()) {
+            locate(axes, points, ahead, next);
+            prefetch(from.samples, offsets, next);
+        }
+        const __m256* const t = cells.t;
+        Reduced first, last;
+        reduce<kGradient>(from.samples, offsets, cells.first.data(), _mm256_permutevar8x32_ps(t[1], firstFour),
+                          _mm256_permutevar8x32_ps(t[2], firstFour), _mm256_permutevar8x32_ps(t[3], firstFour), first);
+        reduce<kGradient>(from.samples, offsets, cells.first.data() + 4, _mm256_permutevar8x32_ps(t[1], lastFour),
+                          _mm256_permutevar8x32_ps(t[2], lastFour), _mm256_permutevar8x32_ps(t[3], lastFour), last);
+        Ends ends;
+        split(first.value, last.value, ends);
+        const __m256 value = mix(ends.low, ends.high, t[0]);
+        const __m256 finite = isFinite(value);
+        const __m256 valid = _mm256_andnot_ps(cells.nan, finite);
+        _mm256_storeu_ps(&values[i], _mm256_blendv_ps(_mm256_set1_ps(kNoValue), value, valid));
+        if constexpr (kGradient) {
+            const __m256 x = _mm256_mul_ps(_mm256_sub_ps(ends.high, ends.low), axes[0].scale);
+            const __m256 y = _mm256_mul_ps(mixEnds(first.dy, last.dy, t[0]), axes[1].scale);
+            const __m256 z = _mm256_mul_ps(mixEnds(first.dz, last.dz, t[0]), axes[2].scale);
+            const __m256 w = _mm256_mul_ps(mixEnds(first.dw, last.dw, t[0]), axes[3].scale);
+            const __m256 exists = _mm256_andnot_ps(cells.nan, _mm256_and_ps(_mm256_and_ps(isFinite(x), isFinite(y)),
+                                                                            _mm256_and_ps(isFinite(z), isFinite(w))));
+            _mm256_storeu_ps(&gradients.x[i], _mm256_and_ps(x, exists));
+            _mm256_storeu_ps(&gradients.y[i], _mm256_and_ps(y, exists));
+            _mm256_storeu_ps(&gradients.z[i], _mm256_and_ps(z, exists));
+            _mm256_storeu_ps(&gradients.w[i], _mm256_and_ps(w, exists));
+        }
+        if (_mm256_movemask_ps(valid) == 0xff) continue;
+        // The value may exist although it is not finite here: a corner that is not finite may have the weight 0.
+        const int unknown = _mm256_movemask_ps(_mm256_andnot_ps(_mm256_or_ps(finite, cells.nan), onFaces(cells)));
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            if ((unknown >> lane & 1) == 0) continue;
+            const std::size_t j = i + lane;
+            values[j] = CellPoint(from, offsets, {points.x[j], points.y[j], points.z[j], points.w[j]}).value();
+        }
+    }
+}
+
+#undef OVAL4D_AVX2
+
+}  // namespace
+
+bool isSupported() { return __builtin_cpu_supports("avx2") != 0; }
+
+void interpolate(const SampledLattice& from, const PointBatch& points, std::span<float> values,
+                 const GradientBatch* gradients) {
+    if (gradients != nullptr)
+        interpolateBatch<true>(from, points, values, *gradients);
+    else
+        interpolateBatch<false>(from, points, values, {});
+}
+
+#else
+
+bool isSupported() { return false; }
+void interpolate(const SampledLattice& /*from*/, const PointBatch& /*points*/, std::span<float> /*values*/,
+                 const GradientBatch* /*gradients*/) {}
+
+#endif
+
+}  // namespace oval4d::fields::avx2

@@ -1,0 +1,45 @@
+#pragma once
+// Where the samples of an array lie: positions on a regular 4-D lattice.
+
+#include <array>
+#include <cstddef>
+
+#include "fields/array/shape.hpp"
+#include "fields/scalar_function.hpp"
+
+namespace oval4d::fields {
+
+/// One axis of a lattice. Maps a coordinate to a position: 0 at the first sample, 1 at the second, and so on.
+struct LatticeAxis {
+    float origin = 0;        ///< the first sample's coordinate, rounded
+    float scale = 0;         ///< positions per unit of length; 0 for an axis with one sample
+    float shift = 0;         ///< corrects the position for the rounding of `origin`
+    float last = 0;          ///< the last sample's position
+    float lastCell = 0;      ///< the position of the last cell's first sample; 0 for an axis with one sample
+    std::size_t stride = 0;  ///< from a sample to the next one in memory, in samples; 0 for an axis with one sample
+
+    /// Returns the position of a coordinate, clamped to 0 … last; 0 for NaN. Each of the operations rounds
+    /// monotonically, so the function is monotonic: the positions of all points in an interval lie between the
+    /// positions of its ends.
+    float continuousIndex(float coordinate) const {
+        float position = (coordinate - origin) * scale + shift;
+        position = position > 0 ? position : 0;
+        return position < last ? position : last;
+    }
+};
+
+/// A regular 4-D lattice. Its first and last samples lie at the box's min and max. In memory, the sample with the
+/// indices i, j, k, l along x, y, z, w is at i + nx · (j + ny · (k + nz · l)), where nx, ny, nz are the first three
+/// sizes in `shape`.
+struct Lattice {
+    Shape shape{1, 1, 1, 1};
+    Box box;
+    std::array<LatticeAxis, 4> axes;
+
+    /// Throws std::invalid_argument if sampleCount(shape) is 0, if a coordinate of the box is not within ±1e30, or if
+    /// min exceeds max. Along an axis with several samples, also throws if min and max are equal or too close together
+    /// for 32-bit floats.
+    Lattice(const Shape& shape, const Box& box);
+};
+
+}  // namespace oval4d::fields

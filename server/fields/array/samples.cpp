@@ -1,0 +1,75 @@
+#include "fields/array/samples.hpp"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+namespace oval4d::fields {
+
+/// Memory for samples that others follow. Nobody reads what lies behind the last sample, so that it may be written
+/// while the samples before it are read.
+struct Samples::Room {
+    std::mutex mutex;
+    std::vector<float> values;  // guarded by mutex; its capacity does not change
+};
+
+Samples Samples::followedBy(std::span<const float> others) const {
+    const std::size_t count = values_.size() + others.size();
+    if (room_) {
+        const std::lock_guard lock(room_->mutex);
+        std::vector<float>& values = room_->values;
+        if (values.size() == values_.size() && count <= values.capacity()) {
+            values.insert(values.end(), others.begin(), others.end());
+            Samples grown(room_, {values.data(), count});
+            grown.room_ = room_;
+            return grown;
+        }
+    }
+    auto room = std::make_shared<Room>();
+    room->values.reserve(count + count / 2);
+    room->values.assign(values_.begin(), values_.end());
+    room->values.insert(room->values.end(), others.begin(), others.end());
+    Samples grown(room, room->values);
+    grown.room_ = std::move(room);
+    return grown;
+}
+
+Samples::Samples(std::vector<float> values) {
+    auto owned = std::make_shared<const std::vector<float>>(std::move(values));
+    values_ = *owned;
+    owner_ = std::move(owned);
+}
+
+Samples::Samples(std::shared_ptr<const void> owner, std::span<const float> values)
+    : owner_(std::move(owner)), values_(values) {}
+
+Samples::Samples(MappedFilePtr file, std::size_t offset, std::size_t count) : owner_(file), file_(std::move(file)) {
+    const std::span<const std::byte> bytes = file_->bytes();
+    if (offset % sizeof(float) != 0 || offset > bytes.size() || (bytes.size() - offset) / sizeof(float) < count)
+        throw std::invalid_argument("the samples are not within the file");
+    values_ = {reinterpret_cast<const float*>(bytes.data() + offset), count};
+}
+
+std::size_t Samples::offset() const {
+    return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(values_.data()) - file_->bytes().data());
+}
+
+void Samples::advise(std::size_t first, std::size_t count, int advice) const {
+    if (!file_ || count == 0) return;
+    static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+    const auto begin = reinterpret_cast<std::uintptr_t>(values_.data() + first) / page * page;
+    const auto end = reinterpret_cast<std::uintptr_t>(values_.data() + first + count);
+    // The advice does not change the memory, and it may fail.
+    static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, advice));
+}
+
+void Samples::expect(Access access) const {
+    advise(0, values_.size(), access == Access::random ? MADV_RANDOM : MADV_SEQUENTIAL);
+}
+
+void Samples::prefetch(std::size_t first, std::size_t count) const { advise(first, count, MADV_WILLNEED); }
+
+}  // namespace oval4d::fields

@@ -1,0 +1,58 @@
+#pragma once
+// The samples of arrays.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "fields/array/mapped_file.hpp"
+
+namespace oval4d::fields {
+
+/// The samples of an array: 32-bit floats in memory or in a mapped file. They do not change.
+class Samples {
+  public:
+    /// Takes ownership of samples in memory.
+    explicit Samples(std::vector<float> values);
+    /// Shares samples in memory that `owner` keeps valid.
+    Samples(std::shared_ptr<const void> owner, std::span<const float> values);
+    /// Uses samples in a mapped file, from the byte `offset` on. Throws std::invalid_argument if they are not all in
+    /// the file, or if `offset` is not a multiple of the size of a sample.
+    Samples(MappedFilePtr file, std::size_t offset, std::size_t count);
+
+    std::span<const float> values() const { return values_; }
+    /// Returns the memory that the samples use, in bytes; 0 if they are in a mapped file, whose pages the system can
+    /// drop.
+    std::size_t memory() const { return file_ ? 0 : values_.size_bytes(); }
+    /// Returns the mapped file that contains the samples; null if they are in memory.
+    const MappedFilePtr& file() const { return file_; }
+    /// Returns the position of the first sample in the file, in bytes.
+    std::size_t offset() const;
+
+    /// Returns these samples, followed by `others`. Normally copies both into new memory, which has room for half as
+    /// many samples again. If these samples are such a result, still have enough room, and nothing has been appended to
+    /// them yet, copies only `others`, and the result shares the memory of these samples. Thread-safe.
+    Samples followedBy(std::span<const float> others) const;
+
+    /// The order in which samples of a mapped file are going to be read: `random`, so that the system reads only the
+    /// pages that are needed; or `sequential`, so that it reads ahead.
+    enum class Access : std::uint8_t { random, sequential };
+    /// Advises the system of the order in which the samples are going to be read. Does nothing for samples in memory.
+    void expect(Access access) const;
+    /// Advises the system that `count` samples from number `first` on are needed soon. Does nothing for samples in
+    /// memory.
+    void prefetch(std::size_t first, std::size_t count) const;
+
+  private:
+    struct Room;
+    void advise(std::size_t first, std::size_t count, int advice) const;
+
+    std::shared_ptr<const void> owner_;
+    std::span<const float> values_;
+    MappedFilePtr file_;
+    std::shared_ptr<Room> room_;  // owns the samples if they are the result of followedBy(), else null
+};
+
+}  // namespace oval4d::fields

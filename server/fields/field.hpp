@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include "fields/inside.hpp"
+#include "fields/scalar_function.hpp"
+#include "fields/value_range.hpp"
+#include "geometry/object_info.hpp"
+#include "geometry/reference_frame.hpp"
+
+namespace oval4d::polytopes {
+struct Polytope;
+}
+
+namespace oval4d::fields {
+
+class ArrayFunction;
+
+/// A second function on the box of a field, such as the pressure for a field of vorticity. Its values can color the
+/// surfaces of the field.
+struct SecondFunction {
+    std::shared_ptr<const ScalarFunction> function;
+    std::string formula = {};                         ///< the text of the formula; empty if the function is an array
+    std::shared_ptr<const ArrayFunction> array = {};  ///< the function if it is an array; else null
+    std::string variable = {};                        ///< the name of the array in its file; empty if it has none
+};
+
+/// The source of a field whose samples are too large for memory: a file of the server's data folder, and how to read
+/// it. The members are those of session::LoadObject.
+struct FileSource {
+    std::string path, format, axes, variable, values, valuesVariable;
+    std::optional<Box> box;
+};
+
+/// A 4-D scalar field: a function on a box. As a 4-D object, it is centered at the origin: the function's coordinates
+/// of the object's point p are center + toFunction · p. Made by makeField() or imageOf(); not changed afterward.
+struct Field : geometry::ObjectInfo {
+    std::shared_ptr<const ScalarFunction> function;
+    Box box;               ///< the domain, in the function's coordinates
+    glm::dvec4 center{0};  ///< of the box, in the function's coordinates
+    glm::dmat4 toFunction{1};
+    std::shared_ptr<const polytopes::Polytope> domain;  ///< the box as a polytope, in the object's coordinates; for an
+                                                        ///< image, a parallelepiped
+    bool isImage = false;                               ///< whether imageOf() made this field; it shares the functions
+                                                        ///< of the original
+    double level = 0;                                   ///< the initial level
+    Inside inside = Inside::below;                      ///< which side of the levels is inside initially
+    std::string formula;                                ///< the text of the formula; empty if the function is not one
+    std::shared_ptr<const ArrayFunction> array;         ///< the function if it is an array; else null
+    std::shared_ptr<const SecondFunction> second;       ///< null if there is none
+    /// The range on the box of coloringFunction().
+    std::shared_ptr<const RangeOnBox> coloringRange;
+    bool shared = false;                       ///< whether sessions share it, so that it does not count as their memory
+    std::shared_ptr<const FileSource> source;  ///< null if the samples are in memory
+
+    /// Returns whether its samples are in a mapped file that can no longer be read.
+    bool isLost() const;
+
+    /// Returns the function whose values color the surfaces if the coloring is scene::Coloring::value: the second
+    /// function, or the function itself if there is no second one.
+    const std::shared_ptr<const ScalarFunction>& coloringFunction() const {
+        return second == nullptr ? function : second->function;
+    }
+};
+
+/// Makes a field from a function and its domain. For each axis, `scale` is the length in the object of one unit of the
+/// function's coordinate; it must be greater than 0. Throws std::invalid_argument with the reason if the box is not
+/// within ±1e30, or if its extent along an axis is 0 or too small for 32-bit floats.
+Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function, const Box& box,
+                const glm::dvec4& scale = glm::dvec4(1));
+
+/// Sets the second function of the field. Both functions use the same coordinates.
+void setSecondFunction(Field& field, SecondFunction second);
+
+/// Returns the field as it appears in `frame`, with this serial number. The image has the same functions on the same
+/// box; only its coordinates as a 4-D object differ.
+Field imageOf(const Field& field, const geometry::ReferenceFrame& frame, std::uint64_t serial);
+
+}  // namespace oval4d::fields

@@ -1,0 +1,59 @@
+#pragma once
+// Formulas of x, y, z and w, such as "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-a)^2 - 0.09; a=0.7".
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "errors/error.hpp"
+#include "fields/formula/parser.hpp"
+#include "fields/formula/syntax_tree.hpp"
+#include "fields/formula/tape.hpp"
+
+namespace oval4d::fields {
+
+/// A formula with the values of its named constants. Copies are cheap.
+class Formula {
+  public:
+    /// The named constants, in the order of the text.
+    const std::vector<FormulaConstant>& constants() const { return parsed_->constants; }
+
+    /// Returns the formula with these values for some of its constants. Errors: `bad_expression` if it has no constant
+    /// with one of the names; `out_of_range` if a value is not finite, or if the result exceeds a limit.
+    Result<Formula> with(std::span<const FormulaConstant> values) const;
+
+    /// Returns the formula as normalized text, with the values of its constants. parseFormula() reads it as the same
+    /// function. Formulas that differ only in spaces, superfluous parentheses or the spelling of symbols have the same
+    /// text.
+    const std::string& text() const { return text_; }
+
+    /// Returns the parsed formula, from which parseSyntax() takes the names that another formula shares.
+    const ParsedFormula& parsed() const { return *parsed_; }
+
+    const Tape& tape() const { return *tape_; }
+
+    /// Returns the memory used, in bytes, including what copies share.
+    std::size_t memory() const;
+
+  private:
+    friend Result<Formula> parseFormula(std::string_view, FormulaMistake*, const FormulaLimits&, const Formula*);
+
+    Formula(ParsedFormula parsed, const FormulaLimits& limits);
+    // Returns a message if the formula exceeds a limit, else an empty string.
+    std::string excess() const;
+
+    std::shared_ptr<const ParsedFormula> parsed_;
+    FormulaLimits limits_;
+    std::string text_;
+    std::shared_ptr<const Tape> tape_;
+};
+
+/// Parses a formula (see parseSyntax() for the syntax). Error: `bad_expression`, with the position of the mistake in
+/// characters; also writes the mistake to `mistake` unless this is null. If `shared` is not null, the formula may use
+/// the names that `shared` defines, and its text() does not repeat their definitions.
+Result<Formula> parseFormula(std::string_view text, FormulaMistake* mistake = nullptr, const FormulaLimits& limits = {},
+                             const Formula* shared = nullptr);
+
+}  // namespace oval4d::fields

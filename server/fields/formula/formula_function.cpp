@@ -1,0 +1,165 @@
+#include "fields/formula/formula_function.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "fields/formula/interval.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+static_assert(ScalarFunction::kLanes == kKernelLanes);
+
+// A vector register of floats.
+struct alignas(32) Lanes {
+    std::array<float, kKernelLanes> values;
+};
+
+// Returns memory of the thread for at least `size` floats, which stays allocated.
+float* scratch(std::size_t size) {
+    thread_local std::vector<Lanes> memory;
+    const std::size_t lanes = (size + kKernelLanes - 1) / kKernelLanes;
+    if (memory.size() < lanes) memory.resize(lanes);
+    return memory.empty() ? nullptr : memory.front().values.data();
+}
+
+// Copies the points from `begin` on, fewer than kKernelLanes, and repeats the last one until there are kKernelLanes.
+using PaddedPoints = std::array<Lanes, 4>;
+PaddedPoints padded(const PointBatch& points, std::size_t begin) {
+    PaddedPoints result;
+    const std::array<std::span<const float>, 4> coordinates{points.x, points.y, points.z, points.w};
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+        for (std::size_t lane = 0; lane < kKernelLanes; ++lane)
+            result[axis].values[lane] = coordinates[axis][std::min(begin + lane, points.size() - 1)];
+    }
+    return result;
+}
+
+}  // namespace
+
+FormulaFunction::FormulaFunction(Formula formula, const Kernels& kernels)
+    : formula_(std::move(formula)), kernels_(kernels) {}
+
+void FormulaFunction::evaluate(const PointBatch& points, std::span<float> values) const {
+    const auto& [instructions, registers] = formula_.tape();
+    float* memory = scratch(registers * kBlockPoints);
+    const std::size_t whole = points.size() / kKernelLanes * kKernelLanes;
+    for (std::size_t i = 0; i < whole; i += kBlockPoints) {
+        const Block block{{points.x.data() + i, points.y.data() + i, points.z.data() + i, points.w.data() + i},
+                          values.data() + i,
+                          memory,
+                          std::min(kBlockPoints, whole - i)};
+        kernels_.evaluate(instructions.data(), instructions.size(), block);
+    }
+    if (whole == points.size()) return;
+    const auto [x, y, z, w] = padded(points, whole);
+    Lanes result;
+    const Block block{{x.values.data(), y.values.data(), z.values.data(), w.values.data()},
+                      result.values.data(),
+                      memory,
+                      kKernelLanes};
+    kernels_.evaluate(instructions.data(), instructions.size(), block);
+    std::copy_n(result.values.begin(), points.size() - whole, values.begin() + static_cast<std::ptrdiff_t>(whole));
+}
+
+void FormulaFunction::evaluateWithGradient(const PointBatch& points, std::span<float> values,
+                                           const GradientBatch& gradients) const {
+    const auto& [instructions, registers] = formula_.tape();
+    float* memory = scratch(registers * 5 * kGradientBlockPoints);
+    const std::size_t whole = points.size() / kKernelLanes * kKernelLanes;
+    for (std::size_t i = 0; i < whole; i += kGradientBlockPoints) {
+        const GradientBlock block{
+            {points.x.data() + i, points.y.data() + i, points.z.data() + i, points.w.data() + i},
+            values.data() + i,
+            {gradients.x.data() + i, gradients.y.data() + i, gradients.z.data() + i, gradients.w.data() + i},
+            memory,
+            std::min(kGradientBlockPoints, whole - i)};
+        kernels_.differentiate(instructions.data(), instructions.size(), block);
+    }
+    if (whole == points.size()) return;
+    const auto [x, y, z, w] = padded(points, whole);
+    std::array<Lanes, 5> results;  // the value and the gradient
+    const GradientBlock block{
+        {x.values.data(), y.values.data(), z.values.data(), w.values.data()},
+        results[0].values.data(),
+        {results[1].values.data(), results[2].values.data(), results[3].values.data(), results[4].values.data()},
+        memory,
+        kKernelLanes};
+    kernels_.differentiate(instructions.data(), instructions.size(), block);
+    const std::array<std::span<float>, 5> out{values, gradients.x, gradients.y, gradients.z, gradients.w};
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        std::copy_n(results[i].values.begin(), points.size() - whole,
+                    out[i].begin() + static_cast<std::ptrdiff_t>(whole));
+    }
+}
+
+namespace {
+
+// The time of an operation for one point.
+double nanosecondsOf(Operation operation) {
+    switch (operation) {
+        case Operation::power:
+        case Operation::tan:
+        case Operation::cbrt:
+        case Operation::asin:
+        case Operation::acos:
+        case Operation::atan2:
+        case Operation::sinh:
+        case Operation::cosh:
+        case Operation::tanh:
+        case Operation::mod:
+            return 3;
+        case Operation::exp:
+        case Operation::log:
+        case Operation::sin:
+        case Operation::cos:
+        case Operation::atan:
+        case Operation::integer_power:
+            return 0.7;
+        default:
+            return 0.15;
+    }
+}
+
+}  // namespace
+
+Bounds FormulaFunction::boundsIn(const Box& region) const {
+    const auto& [instructions, registers] = formula_.tape();
+    thread_local std::vector<Bounds> intervals;
+    if (intervals.size() < Tape::kFirstScratch + registers) intervals.resize(Tape::kFirstScratch + registers);
+    for (int axis = 0; axis < 4; ++axis)
+        intervals[static_cast<std::size_t>(axis)] = intervalOfCoordinate(region.min[axis], region.max[axis]);
+    for (const Instruction& next : instructions) {
+        using OperandForm = Instruction::OperandForm;
+        const Bounds number = next.form != OperandForm::two_registers || next.operation == Operation::constant
+                                  ? intervalOf(next.number)
+                                  : Bounds{};
+        const bool isFirst = next.operation == Operation::constant || next.form == OperandForm::number_and_register;
+        const Bounds& a = isFirst ? number : intervals[next.a];
+        const Bounds& b = next.form == OperandForm::register_and_number ? number : intervals[next.b];
+        const int exponent = next.operation == Operation::integer_power ? static_cast<int>(next.number) : 0;
+        const Bounds result = intervalOf(next.operation, a, b, exponent);
+        // Not as a whole: see CMakeLists.txt.
+        intervals[next.result].min = result.min;
+        intervals[next.result].max = result.max;
+        intervals[next.result].total = result.total;
+    }
+    return intervals[Tape::kResult];
+}
+
+EvaluationCost FormulaFunction::cost() const {
+    EvaluationCost cost{0.2, 1, 50};
+    for (const Instruction& next : formula_.tape().instructions) {
+        cost.value += nanosecondsOf(next.operation);
+        cost.bounds += 25;
+    }
+    cost.gradient += 4 * cost.value;
+    return cost;
+}
+
+std::size_t FormulaFunction::memory() const { return sizeof(*this) - sizeof(formula_) + formula_.memory(); }
+
+}  // namespace oval4d::fields

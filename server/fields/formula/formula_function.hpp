@@ -1,0 +1,36 @@
+#pragma once
+// A formula as a function.
+
+#include <cstddef>
+#include <span>
+
+#include "fields/formula/formula.hpp"
+#include "fields/formula/kernels.hpp"
+#include "fields/scalar_function.hpp"
+
+namespace oval4d::fields {
+
+/// A formula as a function, evaluated in single precision. Named constants and expressions that consist of numbers are
+/// evaluated in double precision beforehand. At a kink, such as that of abs at 0, the gradient is that of one side, or
+/// 0. Where the gradient is infinite or undefined, it is (0, 0, 0, 0).
+class FormulaFunction final : public ScalarFunction {
+  public:
+    explicit FormulaFunction(Formula formula, const Kernels& kernels = fastestKernels());
+
+    const Formula& formula() const { return formula_; }
+
+    void evaluate(const PointBatch& points, std::span<float> values) const override;
+    void evaluateWithGradient(const PointBatch& points, std::span<float> values,
+                              const GradientBatch& gradients) const override;
+    /// The bounds contain the values that evaluate() returns and the exact real values: both at all points of the
+    /// region and at these points rounded to floats.
+    Bounds boundsIn(const Box& region) const override;
+    EvaluationCost cost() const override;
+    std::size_t memory() const override;
+
+  private:
+    Formula formula_;
+    Kernels kernels_;
+};
+
+}  // namespace oval4d::fields

@@ -1,0 +1,97 @@
+#include "fields/formula/functions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numbers>
+
+namespace oval4d::fields {
+
+namespace {
+
+using Ref = Graph::Ref;
+using Arguments = std::span<const Ref>;
+constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
+
+template <Operation operation>
+Ref unary(Graph& graph, Arguments a) {
+    return graph.unary(operation, a[0]);
+}
+
+// Combines any number of arguments from left to right.
+template <Operation operation>
+Ref combined(Graph& graph, Arguments a) {
+    Ref result = a[0];
+    for (const Ref argument : a.subspan(1)) result = graph.binary(operation, result, argument);
+    return result;
+}
+
+Ref hypot(Graph& graph, Arguments a) {
+    Ref sum = graph.square(a[0]);
+    for (const Ref argument : a.subspan(1)) sum = graph.add(sum, graph.square(argument));
+    return graph.sqrt(sum);
+}
+
+Ref clamp(Graph& graph, Arguments a) {
+    return graph.binary(Operation::min, graph.binary(Operation::max, a[0], a[1]), a[2]);
+}
+
+Ref mix(Graph& graph, Arguments a) { return graph.add(a[0], graph.multiply(graph.subtract(a[1], a[0]), a[2])); }
+
+// Quilez's polynomial smooth minimum: min(a, b) − k h² / 4 with h = max(1 − |a − b|/k, 0).
+Ref smoothMin(Graph& graph, Arguments a) {
+    const Ref distance = graph.unary(Operation::abs, graph.subtract(a[0], a[1]));
+    const Ref overlap = graph.binary(Operation::max, graph.subtract(a[2], distance), graph.constant(0));
+    const Ref correction = graph.divide(graph.square(overlap), graph.multiply(a[2], graph.constant(4)));
+    return graph.subtract(graph.binary(Operation::min, a[0], a[1]), correction);
+}
+
+Ref ceil(Graph& graph, Arguments a) { return graph.negate(graph.unary(Operation::floor, graph.negate(a[0]))); }
+
+Ref round(Graph& graph, Arguments a) { return graph.unary(Operation::floor, graph.add(a[0], graph.constant(0.5))); }
+
+Ref radians(Graph& graph, Arguments a) { return graph.multiply(a[0], graph.constant(std::numbers::pi / 180)); }
+
+constexpr auto kFunctions = std::to_array<BuiltinFunction>({
+    {"abs", "a", "the absolute value", 1, 1, unary<Operation::abs>},
+    {"min", "a, b, ...", "the smallest value: the union of bodies", 2, kAny, combined<Operation::min>},
+    {"max", "a, b, ...", "the largest value: the intersection of bodies", 2, kAny, combined<Operation::max>},
+    {"smin", "a, b, k", "min with its edge smoothed where a and b differ by less than k", 3, 3, smoothMin},
+    {"clamp", "a, low, high", "a, but not below low nor above high", 3, 3, clamp},
+    {"mix", "a, b, t", "a + (b - a) t", 3, 3, mix},
+    {"sqrt", "a", "the square root", 1, 1, unary<Operation::sqrt>},
+    {"cbrt", "a", "the cube root, also of negative numbers", 1, 1, unary<Operation::cbrt>},
+    {"hypot", "a, b, ...", "sqrt(a^2 + b^2 + ...)", 2, kAny, hypot},
+    {"exp", "a", "e to the power of a", 1, 1, unary<Operation::exp>},
+    {"log", "a", "the natural logarithm", 1, 1, unary<Operation::log>},
+    {"sin", "a", "the sine of an angle in radians", 1, 1, unary<Operation::sin>},
+    {"cos", "a", "the cosine", 1, 1, unary<Operation::cos>},
+    {"tan", "a", "the tangent", 1, 1, unary<Operation::tan>},
+    {"asin", "a", "the arcsine, in radians", 1, 1, unary<Operation::asin>},
+    {"acos", "a", "the arccosine", 1, 1, unary<Operation::acos>},
+    {"atan", "a", "the arctangent", 1, 1, unary<Operation::atan>},
+    {"atan2", "b, a", "the angle of the point (a, b), from -pi to pi", 2, 2, combined<Operation::atan2>},
+    {"sinh", "a", "the hyperbolic sine", 1, 1, unary<Operation::sinh>},
+    {"cosh", "a", "the hyperbolic cosine", 1, 1, unary<Operation::cosh>},
+    {"tanh", "a", "the hyperbolic tangent", 1, 1, unary<Operation::tanh>},
+    {"step", "a", "0 for negative a, otherwise 1", 1, 1, unary<Operation::step>},
+    {"sign", "a", "-1, 0 or 1", 1, 1, unary<Operation::sign>},
+    {"floor", "a", "the largest integer that is at most a", 1, 1, unary<Operation::floor>},
+    {"ceil", "a", "the smallest integer that is at least a", 1, 1, ceil},
+    {"round", "a", "the nearest integer", 1, 1, round},
+    {"mod", "a, b", "a - b floor(a/b), which has the sign of b", 2, 2, combined<Operation::mod>},
+    {"deg", "a", "a degrees in radians", 1, 1, radians},
+});
+
+}  // namespace
+
+std::span<const BuiltinFunction> functions() { return kFunctions; }
+
+std::optional<std::size_t> functionNamed(std::string_view name) {
+    const auto found =
+        std::find_if(kFunctions.begin(), kFunctions.end(), [name](const auto& f) { return f.name == name; });
+    if (found == kFunctions.end()) return {};
+    return static_cast<std::size_t>(found - kFunctions.begin());
+}
+
+}  // namespace oval4d::fields

@@ -1,0 +1,28 @@
+#pragma once
+// The functions that formulas may call.
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "fields/formula/graph.hpp"
+
+namespace oval4d::fields {
+
+/// A function that formulas may call: a row of the table that functions() returns.
+struct BuiltinFunction {
+    std::string_view name;
+    std::string_view arguments;  ///< the arguments as shown in help, such as "a, b"
+    std::string_view meaning;    ///< the explanation shown in help
+    std::size_t minArguments, maxArguments;
+    Graph::Ref (*build)(Graph& graph, std::span<const Graph::Ref> arguments);
+};
+
+/// Returns all functions.
+std::span<const BuiltinFunction> functions();
+
+/// Returns the index in functions() of the function with this name.
+std::optional<std::size_t> functionNamed(std::string_view name);
+
+}  // namespace oval4d::fields

@@ -1,0 +1,272 @@
+#pragma once
+// The loops that compute values and gradients. They are templates for the reasons given in value_loops.hpp.
+
+#include <cstddef>
+
+#include "fields/formula/value_loops.hpp"
+
+namespace oval4d::fields {
+
+/// Forward-mode automatic differentiation: a register consists of five arrays, the value and its derivatives with
+/// respect to x, y, z, w. The array of a derivative that is 0 everywhere, according to Instruction::axes, is not used.
+template <typename Math>
+class GradientLoops : private ValueLoops<Math> {
+    using Loops = ValueLoops<Math>;
+
+  public:
+    static constexpr Kernels kernels() { return {&Loops::evaluate, &differentiate}; }
+
+    static void differentiate(const Instruction* instructions, std::size_t count, const GradientBlock& block) {
+        float ones[kGradientBlockPoints];
+        for (std::size_t i = 0; i < block.size; ++i) ones[i] = 1;
+        for (const Instruction* next = instructions; next != instructions + count; ++next) {
+            const float* a = read(block, next->a);
+            const float* b = read(block, next->b);
+            if (next->axes == 0) {
+                compute(*next, written(block, next->result), a, b, block.size);
+                continue;
+            }
+            Partials partials;
+            computePartials(*next, partials, a, b, block.size);
+            for (unsigned axis = 0; axis < 4; ++axis) {
+                const bool byA = (next->axesOfA >> axis & 1U) != 0, byB = (next->axesOfB >> axis & 1U) != 0;
+                if (!byA && !byB) continue;
+                float* out = writtenDerivative(block, next->result, axis);
+                const float* ofA = readDerivative(block, ones, next->a, axis);
+                const float* ofB = readDerivative(block, ones, next->b, axis);
+                combine(*next, partials, byA, byB, out, ofA, ofB, block.size);
+            }
+            map([](float x) { return x; }, written(block, next->result), partials.value, block.size);
+        }
+        finish(instructions[count - 1], block);
+    }
+
+  private:
+    using OperandForm = Instruction::OperandForm;
+    using Size = std::size_t;
+    using Loops::binary;
+    using Loops::compute;
+    using Loops::halfIntegerPower;
+    using Loops::integerPower;
+    using Loops::isFirst;
+    using Loops::isHalfInteger;
+    using Loops::map;
+    using Loops::sign;
+    using typename Loops::Array;
+    using typename Loops::Number;
+
+    static float* written(const GradientBlock& block, unsigned index) {
+        return index == Tape::kResult ? block.values
+                                      : block.scratch + (index - Tape::kFirstScratch) * 5 * kGradientBlockPoints;
+    }
+    static const float* read(const GradientBlock& block, unsigned index) {
+        return index < Tape::kResult ? block.coordinates[index] : written(block, index);
+    }
+    static float* writtenDerivative(const GradientBlock& block, unsigned index, unsigned axis) {
+        return index == Tape::kResult ? block.gradients[axis]
+                                      : written(block, index) + (1 + axis) * kGradientBlockPoints;
+    }
+    // A coordinate has the derivative 1 (the array `ones`) with respect to itself.
+    static const float* readDerivative(const GradientBlock& block, const float* ones, unsigned index, unsigned axis) {
+        return index < Tape::kResult ? ones : writtenDerivative(block, index, axis);
+    }
+
+    // The values of an operation, and its partial derivatives with respect to its operands.
+    struct Partials {
+        float value[kGradientBlockPoints], byA[kGradientBlockPoints], byB[kGradientBlockPoints];
+    };
+    struct Partial {
+        float value, byA, byB;
+    };
+
+    // The chain rule. min and max take the derivative of one operand, even if the other derivative is not finite.
+    static void combine(const Instruction& instruction, const Partials& partials, bool byA, bool byB, float* out,
+                        const float* ofA, const float* ofB, Size size) {
+        const Number zero{0};
+        if (instruction.operation == Operation::min || instruction.operation == Operation::max) {
+            const auto choose = [&](auto left, auto right) {
+#pragma omp simd
+                for (Size i = 0; i < size; ++i) {
+                    const float first = left[i], second = right[i];
+                    out[i] = partials.byA[i] != 0 ? first : second;
+                }
+            };
+            if (byA && byB) return choose(Array{ofA}, Array{ofB});
+            return byA ? choose(Array{ofA}, zero) : choose(zero, Array{ofB});
+        }
+        const auto product = [](float x, float y) { return x * y; };
+        if (!byB) return map(product, out, Array{partials.byA}, Array{ofA}, size);
+        if (!byA) return map(product, out, Array{partials.byB}, Array{ofB}, size);
+#pragma omp simd
+        for (Size i = 0; i < size; ++i) out[i] = partials.byA[i] * ofA[i] + partials.byB[i] * ofB[i];
+    }
+
+    static void finish(const Instruction& last, const GradientBlock& block) {
+        for (unsigned axis = 0; axis < 4; ++axis) {
+            if ((last.axes >> axis & 1U) == 0)
+                map([](float) { return 0.0F; }, block.gradients[axis], block.gradients[axis], block.size);
+        }
+        float *x = block.gradients[0], *y = block.gradients[1], *z = block.gradients[2], *w = block.gradients[3];
+        const float* values = block.values;
+#pragma omp simd
+        for (Size i = 0; i < block.size; ++i) {
+            // 0 · a is 0 if a is finite, otherwise NaN.
+            const float zero = (0 * values[i] + 0 * x[i]) + (0 * y[i] + 0 * z[i]) + 0 * w[i];
+            const bool isFinite = zero == zero;
+            x[i] = isFinite ? x[i] : 0;
+            y[i] = isFinite ? y[i] : 0;
+            z[i] = isFinite ? z[i] : 0;
+            w[i] = isFinite ? w[i] : 0;
+        }
+    }
+
+    template <typename F, typename A, typename B>
+    static void fill(F f, Partials& out, A a, B b, Size size) {
+#pragma omp simd
+        for (Size i = 0; i < size; ++i) {
+            const Partial partial = f(a[i], b[i]);
+            out.value[i] = partial.value;
+            out.byA[i] = partial.byA;
+            out.byB[i] = partial.byB;
+        }
+    }
+    template <typename F>
+    static void fill(F f, const Instruction& instruction, Partials& out, const float* a, const float* b, Size size) {
+        const Number number{static_cast<float>(instruction.number)};
+        switch (instruction.form) {
+            case OperandForm::two_registers:
+                return fill(f, out, Array{a}, Array{b}, size);
+            case OperandForm::register_and_number:
+                return fill(f, out, Array{a}, number, size);
+            case OperandForm::number_and_register:
+                return fill(f, out, number, Array{b}, size);
+        }
+    }
+    // Computes byA from the operand and the value.
+    template <typename F>
+    static void derive(F f, Partials& out, const float* a, Size size) {
+#pragma omp simd
+        for (Size i = 0; i < size; ++i) out.byA[i] = f(a[i], out.value[i]);
+    }
+
+    static void computePartials(const Instruction& instruction, Partials& out, const float* a, const float* b,
+                                Size size) {
+        switch (instruction.operation) {
+            case Operation::add:
+                return fill([](float x, float y) { return Partial{x + y, 1, 1}; }, instruction, out, a, b, size);
+            case Operation::subtract:
+                return fill([](float x, float y) { return Partial{x - y, 1, -1}; }, instruction, out, a, b, size);
+            case Operation::multiply:
+                return fill([](float x, float y) { return Partial{x * y, y, x}; }, instruction, out, a, b, size);
+            case Operation::divide:
+                return fill([](float x, float y) { return Partial{x / y, 1 / y, -(x / y) / y}; }, instruction, out, a,
+                            b, size);
+            case Operation::mod:
+                return fill(
+                    [](float x, float y) {
+                        const float whole = __builtin_floorf(x / y);
+                        return Partial{x - y * whole, 1, -whole};
+                    },
+                    instruction, out, a, b, size);
+            case Operation::min:
+                return fill([](float x, float y) { return choice(isFirst(x < y, x), x, y); }, instruction, out, a, b,
+                            size);
+            case Operation::max:
+                return fill([](float x, float y) { return choice(isFirst(x > y, x), x, y); }, instruction, out, a, b,
+                            size);
+            case Operation::atan2:
+                return arctangent2Partials(instruction, out, a, b, size);
+            case Operation::power:
+                return powerPartials(instruction, out, a, b, size);
+            default:
+                compute(instruction, out.value, a, b, size);
+                return unaryPartials(instruction, out, a, size);
+        }
+    }
+    static Partial choice(bool isFirst, float x, float y) { return {isFirst ? x : y, isFirst ? 1.0F : 0.0F, 0}; }
+
+    static void arctangent2Partials(const Instruction& instruction, Partials& out, const float* a, const float* b,
+                                    Size size) {
+        fill(
+            [](float y, float x) {
+                const float squares = x * x + y * y;
+                return Partial{0, x / squares, -y / squares};
+            },
+            instruction, out, a, b, size);
+        binary(instruction, out.value, a, b, size);
+    }
+
+    // ∂(a^b)/∂a = b a^(b − 1), ∂(a^b)/∂b = a^b log a, which is 0 for a = 0 < b.
+    static void powerPartials(const Instruction& instruction, Partials& out, const float* a, const float* b,
+                              Size size) {
+        if (instruction.axesOfB != 0) {
+            fill([](float x, float) { return Partial{0, 0, x}; }, instruction, out, a, b, size);
+            Math::unary(Operation::log, out.byB, out.byB, size);
+        }
+        binary(instruction, out.value, a, b, size);
+        if (instruction.axesOfB != 0) {
+#pragma omp simd
+            for (Size i = 0; i < size; ++i) out.byB[i] = out.value[i] == 0 ? 0 : out.value[i] * out.byB[i];
+        }
+        if (instruction.axesOfA == 0) return;
+        const auto number = static_cast<float>(instruction.number);
+        const bool isConstant = instruction.form == OperandForm::register_and_number;
+        if (isConstant && isHalfInteger(number - 1)) {
+            halfIntegerPower(number - 1, out.byA, a, size);
+            return map([number](float x) { return number * x; }, out.byA, out.byA, size);
+        }
+        float exponents[kGradientBlockPoints];
+        for (Size i = 0; i < size; ++i) exponents[i] = (isConstant ? number : b[i]) - 1;
+        Math::binary(Operation::power, out.byA, a, exponents, size);
+        for (Size i = 0; i < size; ++i) out.byA[i] *= isConstant ? number : b[i];
+    }
+
+    static void unaryPartials(const Instruction& instruction, Partials& out, const float* a, Size size) {
+        switch (instruction.operation) {
+            case Operation::copy:
+                return derive([](float, float) { return 1.0F; }, out, a, size);
+            case Operation::negate:
+                return derive([](float, float) { return -1.0F; }, out, a, size);
+            case Operation::abs:
+                return derive([](float x, float) { return sign(x); }, out, a, size);
+            case Operation::square:
+                return derive([](float x, float) { return 2 * x; }, out, a, size);
+            case Operation::integer_power: {
+                const int n = static_cast<int>(instruction.number);
+                integerPower(n - 1, out.byA, a, size);
+                return map([n](float x) { return static_cast<float>(n) * x; }, out.byA, out.byA, size);
+            }
+            case Operation::sqrt:
+                return derive([](float, float value) { return 0.5F / value; }, out, a, size);
+            case Operation::cbrt:
+                return derive([](float, float value) { return 1 / (3 * value * value); }, out, a, size);
+            case Operation::exp:
+                return derive([](float, float value) { return value; }, out, a, size);
+            case Operation::log:
+                return derive([](float x, float) { return 1 / x; }, out, a, size);
+            case Operation::sin:
+                return Math::unary(Operation::cos, out.byA, a, size);
+            case Operation::cos:
+                Math::unary(Operation::sin, out.byA, a, size);
+                return map([](float x) { return -x; }, out.byA, out.byA, size);
+            case Operation::tan:
+                return derive([](float, float value) { return 1 + value * value; }, out, a, size);
+            case Operation::asin:
+                return derive([](float x, float) { return 1 / __builtin_sqrtf(1 - x * x); }, out, a, size);
+            case Operation::acos:
+                return derive([](float x, float) { return -1 / __builtin_sqrtf(1 - x * x); }, out, a, size);
+            case Operation::atan:
+                return derive([](float x, float) { return 1 / (1 + x * x); }, out, a, size);
+            case Operation::sinh:
+                return Math::unary(Operation::cosh, out.byA, a, size);
+            case Operation::cosh:
+                return Math::unary(Operation::sinh, out.byA, a, size);
+            case Operation::tanh:
+                return derive([](float, float value) { return 1 - value * value; }, out, a, size);
+            default:
+                return derive([](float, float) { return 0.0F; }, out, a, size);
+        }
+    }
+};
+
+}  // namespace oval4d::fields

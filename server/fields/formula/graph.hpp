@@ -1,0 +1,56 @@
+#pragma once
+// A formula as a directed acyclic graph of operations, simplified while it is built.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "fields/formula/operation.hpp"
+
+namespace oval4d::fields {
+
+/// A graph of operations. While it is built, operations on constants are folded in double precision, and equal nodes
+/// are shared. Simplifications preserve all values apart from the sign of zero, so x·0 and x − x remain, because they
+/// are NaN for infinite x. The exception is x⁰, which becomes 1 even where x is NaN.
+class Graph {
+  public:
+    using Ref = std::uint32_t;  ///< the index of a node
+    struct Node {
+        Operation operation;
+        Ref a = 0, b = 0;   ///< the operands, which precede the node
+        double number = 0;  ///< constant: its value; variable: its axis, 0 … 3; integer_power: the exponent
+    };
+
+    Ref constant(double value);
+    /// Returns the node of the coordinate x, y, z or w for the axis 0, 1, 2 or 3.
+    Ref variable(int axis);
+    /// Returns the node of an operation on `a`. The operation must have one operand, and must not be integer_power.
+    Ref unary(Operation operation, Ref a);
+    Ref binary(Operation operation, Ref a, Ref b);
+
+    Ref negate(Ref a) { return unary(Operation::negate, a); }
+    Ref square(Ref a) { return unary(Operation::square, a); }
+    Ref sqrt(Ref a) { return unary(Operation::sqrt, a); }
+    Ref add(Ref a, Ref b) { return binary(Operation::add, a, b); }
+    Ref subtract(Ref a, Ref b) { return binary(Operation::subtract, a, b); }
+    Ref multiply(Ref a, Ref b) { return binary(Operation::multiply, a, b); }
+    Ref divide(Ref a, Ref b) { return binary(Operation::divide, a, b); }
+
+    /// Returns all nodes, each after its operands. They may include nodes on which the result does not depend.
+    const std::vector<Node>& nodes() const { return nodes_; }
+    /// Returns the value of the node if it is a constant.
+    std::optional<double> constantAt(Ref node) const;
+
+  private:
+    Ref node(Operation operation, Ref a, Ref b, double number);
+    Ref power(Ref a, double exponent);
+    std::optional<Ref> simplified(Operation operation, Ref a, Ref b);
+    bool isNegated(Ref a) const { return nodes_[a].operation == Operation::negate; }
+
+    std::vector<Node> nodes_;
+    std::map<std::tuple<Operation, Ref, Ref, std::uint64_t>, Ref> known_;
+};
+
+}  // namespace oval4d::fields

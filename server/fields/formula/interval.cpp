@@ -1,0 +1,276 @@
+#include "fields/formula/interval.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace oval4d::fields {
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMaxFloat = std::numeric_limits<float>::max();
+
+// Bounds of the error of an operation: relative to its result, and absolute for subnormal results.
+struct RoundingError {
+    double relative, absolute;
+};
+constexpr RoundingError kCorrectlyRounded{0x1p-23, 0x1p-148}, kFunction{0x1p-20, 0x1p-125};
+
+constexpr Bounds kEmpty{.min = kInfinity, .max = -kInfinity, .total = false};
+
+bool isEmpty(const Bounds& a) { return a.min > a.max; }
+bool contains(const Bounds& a, double value) { return a.min <= value && value <= a.max; }
+bool mayBeInfinite(const Bounds& a) { return a.min == -kInfinity || a.max == kInfinity; }
+
+// Returns an upper bound of the floats computed for real results up to `max`.
+double upperBound(double max, RoundingError error) {
+    if (max == 0 || std::isinf(max)) return max;
+    const double wider = max + std::abs(max) * error.relative + error.absolute;
+    if (wider > kMaxFloat) return kInfinity;
+    return max < 0 ? std::min(wider, 0.0) : wider;
+}
+
+// Returns the interval of floats computed for the real results [min, max]. An end that is NaN becomes infinite.
+Bounds rounded(double min, double max, bool total, RoundingError error) {
+    return {std::isnan(min) ? -kInfinity : -upperBound(-min, error),
+            std::isnan(max) ? kInfinity : upperBound(max, error), total};
+}
+
+// Returns the interval from the smallest to the largest of the candidates. Any NaN makes it unbounded.
+Bounds hull(std::initializer_list<double> candidates, bool total, RoundingError error) {
+    double min = kInfinity, max = -kInfinity;
+    for (const double candidate : candidates) {
+        if (std::isnan(candidate)) return {-kInfinity, kInfinity, total};
+        min = std::min(min, candidate);
+        max = std::max(max, candidate);
+    }
+    return rounded(min, max, total, error);
+}
+
+// Requires that f is monotonic.
+template <typename F>
+Bounds monotonic(F f, const Bounds& a, RoundingError error = kFunction) {
+    return hull({f(a.min), f(a.max)}, a.total, error);
+}
+
+Bounds add(const Bounds& a, const Bounds& b) {
+    const bool mayCancel = (a.max == kInfinity && b.min == -kInfinity) || (a.min == -kInfinity && b.max == kInfinity);
+    return rounded(a.min + b.min, a.max + b.max, a.total && b.total && !mayCancel, kCorrectlyRounded);
+}
+
+Bounds negate(const Bounds& a) { return {-a.max, -a.min, a.total}; }
+
+Bounds multiply(const Bounds& a, const Bounds& b) {
+    const bool total =
+        a.total && b.total && !(contains(a, 0) && mayBeInfinite(b)) && !(contains(b, 0) && mayBeInfinite(a));
+    // 0 · ∞ is NaN, but products of 0 and finite numbers near it are 0.
+    const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0 : x * y; };
+    return hull({product(a.min, b.min), product(a.min, b.max), product(a.max, b.min), product(a.max, b.max)}, total,
+                kCorrectlyRounded);
+}
+
+Bounds divide(const Bounds& a, const Bounds& b) {
+    const bool total =
+        a.total && b.total && !(contains(a, 0) && contains(b, 0)) && !(mayBeInfinite(a) && mayBeInfinite(b));
+    if (contains(b, 0)) return {-kInfinity, kInfinity, total};
+    return hull({a.min / b.min, a.min / b.max, a.max / b.min, a.max / b.max}, total, kCorrectlyRounded);
+}
+
+Bounds abs(const Bounds& a) {
+    const double min = contains(a, 0) ? 0 : std::min(std::abs(a.min), std::abs(a.max));
+    return {min, std::max(std::abs(a.min), std::abs(a.max)), a.total};
+}
+
+Bounds square(const Bounds& a) {
+    const Bounds size = abs(a);
+    return rounded(size.min * size.min, size.max * size.max, a.total, kCorrectlyRounded);
+}
+
+Bounds integerPower(const Bounds& a, int exponent) {
+    const int n = std::abs(exponent);
+    const Bounds base = n % 2 == 0 ? abs(a) : a;
+    const Bounds power =
+        rounded(std::pow(base.min, n), std::pow(base.max, n), a.total, {n * kCorrectlyRounded.relative, n * 0x1p-148});
+    return exponent > 0 ? power : divide({1, 1, true}, power);
+}
+
+Bounds sqrt(const Bounds& a) {
+    if (a.max < 0) return kEmpty;
+    return rounded(std::sqrt(std::max(a.min, 0.0)), std::sqrt(a.max), a.total && a.min >= 0, kCorrectlyRounded);
+}
+
+Bounds log(const Bounds& a) {
+    if (a.max < 0) return kEmpty;
+    return rounded(std::log(std::max(a.min, 0.0)), std::log(a.max), a.total && a.min >= 0, kFunction);
+}
+
+// Returns whether phase + k · period is in `a`, or so near it that rounding errors matter, for an integer k.
+bool containsPhase(const Bounds& a, double phase, double period) {
+    const double slack = 1e-9 * std::max({1.0, std::abs(a.min), std::abs(a.max)});
+    return std::floor((a.max + slack - phase) / period) >= std::ceil((a.min - slack - phase) / period);
+}
+
+// The interval of sin or cos; the function is greatest at `top`.
+template <typename F>
+Bounds sine(F f, double top, const Bounds& a) {
+    constexpr double kLarge = 1e6;  // beyond it, the slack of containsPhase() is too large to be useful
+    const bool total = a.total && !mayBeInfinite(a);
+    if (a.min < -kLarge || a.max > kLarge) return rounded(-1, 1, total, kFunction);
+    const double first = f(a.min), last = f(a.max);
+    const bool hasMin = containsPhase(a, top + pi, 2 * pi), hasMax = containsPhase(a, top, 2 * pi);
+    return rounded(hasMin ? -1 : std::min(first, last), hasMax ? 1 : std::max(first, last), total, kFunction);
+}
+
+Bounds tangent(const Bounds& a) {
+    const bool total = a.total && !mayBeInfinite(a);
+    if (mayBeInfinite(a) || a.max - a.min >= pi || containsPhase(a, pi / 2, pi)) return {-kInfinity, kInfinity, total};
+    return rounded(std::tan(a.min), std::tan(a.max), total, kFunction);
+}
+
+// The interval of asin or acos.
+template <typename F>
+Bounds arc(F f, const Bounds& a) {
+    if (a.max < -1 || a.min > 1) return kEmpty;
+    const bool total = a.total && a.min >= -1 && a.max <= 1;
+    return hull({f(std::max(a.min, -1.0)), f(std::min(a.max, 1.0))}, total, kFunction);
+}
+
+Bounds hyperbolicCosine(const Bounds& a) {
+    const Bounds size = abs(a);
+    return rounded(std::cosh(size.min), std::cosh(size.max), a.total, kFunction);
+}
+
+// a^b for a ≥ 0. On the sides of the rectangle it is monotonic, and it has no extrema inside.
+Bounds powerOfPositive(const Bounds& a, const Bounds& b) {
+    const bool total = a.total && b.total;
+    if (a.min == 0 && b.min < 0) return {-kInfinity, kInfinity, total};  // −0 to an odd negative power is −∞
+    return hull({std::pow(a.min, b.min), std::pow(a.min, b.max), std::pow(a.max, b.min), std::pow(a.max, b.max)}, total,
+                kFunction);
+}
+
+Bounds power(const Bounds& a, const Bounds& b) {
+    if (a.min >= 0) return powerOfPositive(a, b);
+    const bool mayBeInteger = std::floor(b.max) >= b.min;
+    if (!mayBeInteger) {
+        // In C, pow(−∞, b) is pow(∞, b), not NaN.
+        if (a.max < 0 && a.min > -kInfinity) return kEmpty;
+        const Bounds positive{0, a.min == -kInfinity ? kInfinity : a.max, false};
+        return powerOfPositive(positive, b);
+    }
+    const double largest = powerOfPositive(abs(a), b).max;
+    const bool isInteger = b.min == b.max;
+    return {isInteger && std::fmod(b.min, 2) == 0 ? 0 : -largest, largest, a.total && b.total && isInteger};
+}
+
+Bounds arctangent2(const Bounds& y, const Bounds& x) {
+    const bool total = y.total && x.total;
+    const bool containsCut = contains(y, 0) && x.min <= 0;
+    if (containsCut) return rounded(-pi, pi, total, kFunction);
+    return hull(
+        {std::atan2(y.min, x.min), std::atan2(y.min, x.max), std::atan2(y.max, x.min), std::atan2(y.max, x.max)}, total,
+        kFunction);
+}
+
+// a − b⌊q⌋, where the computed q differs from a/b by a factor of at most 1 ± 2⁻²⁴. So the result is between 0 and b,
+// except for a few rounding errors of numbers that are at most |a| + |b|.
+Bounds modulo(const Bounds& a, const Bounds& b) {
+    const Bounds quotient = divide(a, b);
+    if (mayBeInfinite(quotient) || mayBeInfinite(a) || mayBeInfinite(b)) return {-kInfinity, kInfinity, false};
+    const double slack = 0x1p-22 * (abs(a).max + abs(b).max) + kFunction.absolute;
+    Bounds result{std::min(b.min, 0.0) - slack, std::max(b.max, 0.0) + slack, a.total && b.total};
+    if (std::floor(quotient.min) == std::floor(quotient.max)) {
+        const Bounds whole{std::floor(quotient.min), std::floor(quotient.min), true};
+        const Bounds exact = add(a, negate(multiply(b, whole)));
+        result.min = std::max(result.min, exact.min);
+        result.max = std::min(result.max, exact.max);
+    }
+    return result;
+}
+
+}  // namespace
+
+Bounds intervalOf(double number) {
+    if (std::isnan(number)) return kEmpty;
+    const double rounding = static_cast<float>(number);
+    return {std::min(number, rounding), std::max(number, rounding), true};
+}
+
+Bounds intervalOfCoordinate(double min, double max) {
+    if (std::isnan(min) || std::isnan(max)) return {-kInfinity, kInfinity, false};
+    return {std::min<double>(min, static_cast<float>(min)), std::max<double>(max, static_cast<float>(max)), true};
+}
+
+Bounds intervalOf(Operation operation, const Bounds& a, const Bounds& b, int exponent) {
+    if (isEmpty(a) || (isBinary(operation) && isEmpty(b))) return kEmpty;
+    switch (operation) {
+        case Operation::constant:
+        case Operation::variable:
+        case Operation::copy:
+            return a;
+        case Operation::negate:
+            return negate(a);
+        case Operation::abs:
+            return abs(a);
+        case Operation::square:
+            return square(a);
+        case Operation::integer_power:
+            return integerPower(a, exponent);
+        case Operation::sqrt:
+            return sqrt(a);
+        case Operation::cbrt:
+            return monotonic([](double x) { return std::cbrt(x); }, a);
+        case Operation::exp:
+            return monotonic([](double x) { return std::exp(x); }, a);
+        case Operation::log:
+            return log(a);
+        case Operation::sin:
+            return sine([](double x) { return std::sin(x); }, pi / 2, a);
+        case Operation::cos:
+            return sine([](double x) { return std::cos(x); }, 0, a);
+        case Operation::tan:
+            return tangent(a);
+        case Operation::asin:
+            return arc([](double x) { return std::asin(x); }, a);
+        case Operation::acos:
+            return arc([](double x) { return std::acos(x); }, a);
+        case Operation::atan:
+            return monotonic([](double x) { return std::atan(x); }, a);
+        case Operation::sinh:
+            return monotonic([](double x) { return std::sinh(x); }, a);
+        case Operation::cosh:
+            return hyperbolicCosine(a);
+        case Operation::tanh:
+            return monotonic([](double x) { return std::tanh(x); }, a);
+        case Operation::step:
+        case Operation::sign:
+        case Operation::floor:
+            return {apply(operation, a.min, 0), apply(operation, a.max, 0), a.total};
+        case Operation::add:
+            return add(a, b);
+        case Operation::subtract:
+            return add(a, negate(b));
+        case Operation::multiply:
+            return multiply(a, b);
+        case Operation::divide:
+            return divide(a, b);
+        case Operation::min:
+            return {std::min(a.min, b.min), std::min(a.max, b.max), a.total && b.total};
+        case Operation::max:
+            return {std::max(a.min, b.min), std::max(a.max, b.max), a.total && b.total};
+        case Operation::power:
+            return power(a, b);
+        case Operation::atan2:
+            return arctangent2(a, b);
+        case Operation::mod:
+            return modulo(a, b);
+    }
+    return {-kInfinity, kInfinity, false};
+}
+
+}  // namespace oval4d::fields

@@ -1,0 +1,40 @@
+#pragma once
+// Interval arithmetic. The interval of an operation contains both its exact real value and the float that evaluate()
+// computes for it.
+//
+// Proof by induction over the operations of a formula: the interval of each operand contains the exact value and the
+// float, and the interval of the result is computed such that it does, too. Let [m, M] contain the exact results for
+// all real operands in the intervals, and so also for the floats among them.
+//
+// - Addition, subtraction, multiplication, division, squares and square roots are correctly rounded. The float is the
+//   exact result times 1 + δ, |δ| ≤ 2⁻²⁴; it is off by at most 2⁻¹⁵⁰ if it is subnormal, and infinite if it is beyond
+//   the largest float. Therefore the interval is widened by 2⁻²³ of its ends and by 2⁻¹⁴⁸, and an end beyond the
+//   largest float becomes infinite. This also covers the error of computing m and M in double precision (2⁻⁵³ for
+//   arithmetic, a few times that for the functions of the C library). A correctly rounded result never has the wrong
+//   sign, so an end is never moved beyond 0.
+// - Functions such as sin have errors of at most 4 units in the last place (2⁻²¹, which the tests check). Their
+//   intervals are widened by 2⁻²⁰ and, because they may return 0 for a subnormal result, by 2⁻¹²⁵.
+// - aⁿ is computed by fewer than 2·n multiplications, whose errors add up to less than n · 2⁻²⁴; its interval is
+//   widened by n · 2⁻²³. A power to n + 1/2, n ≤ 8, is such a product times a square root.
+// - Negation, abs, min, max, step, sign and floor are exact.
+
+#include "fields/formula/operation.hpp"
+#include "fields/scalar_function.hpp"
+
+namespace oval4d::fields {
+
+/// Returns the interval of a number in a formula: it contains both the number and the float that evaluate() uses for
+/// it.
+Bounds intervalOf(double number);
+
+/// Returns the interval of a coordinate between `min` and `max`. The ends are rounded outward to floats, so the
+/// interval also contains coordinates that were rounded to floats. If `min` or `max` is NaN, the interval is unbounded,
+/// and its `total` is false.
+Bounds intervalOfCoordinate(double min, double max);
+
+/// Returns the interval of the results of an operation, which must be neither `constant` nor `variable`. If the
+/// operation has one operand, `b` is ignored. `exponent` is the exponent of integer_power. In the result, `total` is
+/// false if a result of the operation may be NaN.
+Bounds intervalOf(Operation operation, const Bounds& a, const Bounds& b, int exponent);
+
+}  // namespace oval4d::fields

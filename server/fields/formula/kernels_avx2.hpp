@@ -1,0 +1,11 @@
+#pragma once
+// Kernels for x86-64 processors with AVX2.
+
+#include "fields/formula/kernels.hpp"
+
+namespace oval4d::fields {
+
+/// Returns the kernels, or nullptr if this processor has no AVX2 or the program was compiled without it.
+const Kernels* avx2Kernels();
+
+}  // namespace oval4d::fields

@@ -1,0 +1,19 @@
+#include "fields/formula/kernels_portable.hpp"
+
+#include "fields/formula/gradient_loops.hpp"
+#include "fields/formula/portable_math.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+struct Portable {};
+
+}  // namespace
+
+const Kernels& portableKernels() {
+    static constexpr Kernels kKernels = GradientLoops<PortableMath<Portable>>::kernels();
+    return kKernels;
+}
+
+}  // namespace oval4d::fields

@@ -1,0 +1,10 @@
+#pragma once
+// Kernels for any processor.
+
+#include "fields/formula/kernels.hpp"
+
+namespace oval4d::fields {
+
+const Kernels& portableKernels();
+
+}  // namespace oval4d::fields

@@ -1,0 +1,443 @@
+#include "fields/formula/parser.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <utility>
+
+#include "fields/formula/functions.hpp"
+#include "text/ascii.hpp"
+#include "text/message_text.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+using Kind = SyntaxNode::Kind;
+using Index = std::uint32_t;
+
+constexpr auto kVariablesAndConstants = std::to_array<std::string_view>({"x", "y", "z", "w", "t", "r", "pi", "phi"});
+constexpr auto kUnits = std::to_array<std::string_view>({"deg", "rad"});
+// Unicode characters that are accepted in place of pi, phi and -.
+constexpr std::string_view kPiLetter = "π", kPhiLetter = "φ", kMinusSign = "−";
+constexpr std::size_t kMaxNameLength = 32;
+
+struct Comparison {
+    std::string_view symbol;
+    Relation relation;
+};
+constexpr auto kComparisons = std::to_array<Comparison>({{"<=", Relation::less_equal},
+                                                         {"≤", Relation::less_equal},
+                                                         {">=", Relation::greater_equal},
+                                                         {"≥", Relation::greater_equal},
+                                                         {"<", Relation::less},
+                                                         {">", Relation::greater},
+                                                         {"=", Relation::equal}});
+
+using text::isDigit;
+using text::isLetter;
+bool isNamePart(char c) { return isLetter(c) || isDigit(c) || c == '_'; }
+
+template <typename Names>
+bool contains(const Names& names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool isTaken(std::string_view name) {
+    return contains(kVariablesAndConstants, name) || contains(kUnits, name) || functionNamed(name).has_value();
+}
+
+// Converts the index of a byte to a position as shown to users, in characters from 1.
+std::size_t positionOf(std::string_view text, std::size_t byte) {
+    const auto startsCharacter = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+    return 1 + static_cast<std::size_t>(
+                   std::count_if(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), startsCharacter));
+}
+
+// A recursive-descent parser. Throws SyntaxError, which parseSyntax() catches.
+//   formula = sum [comparison sum] {(;|,) name = sum}   sum = product {(+|−) product}
+//   product = signed {(*|/) signed}   signed = {+|−} power   power = angle [^ signed]   angle = atom [unit]
+// The formula and the named expressions are parsed to separate trees, which are joined at the end.
+class Parser {
+  public:
+    Parser(std::string_view text, const FormulaLimits& limits, const ParsedFormula* shared)
+        : text_(text), limits_(limits) {
+        if (shared == nullptr) return;
+        constants_ = shared->constants;
+        const SyntaxTree& tree = shared->tree;
+        const auto nodes = static_cast<std::ptrdiff_t>(tree.expressions.empty() ? 0 : tree.expressions.back().root + 1);
+        expressions_.nodes.assign(tree.nodes.begin(), tree.nodes.begin() + nodes);
+        expressions_.operands = tree.operands;
+        expressions_.expressions = tree.expressions;
+        expressions_.sharedConstants = constants_.size();
+        expressions_.sharedExpressions = tree.expressions.size();
+    }
+
+    struct SyntaxError {
+        std::size_t byte;
+        std::string what;
+    };
+
+    ParsedFormula parse() {
+        tree_.left = sum();
+        tree_.relation = takeComparison();
+        if (tree_.relation != Relation::none) {
+            tree_.right = sum();
+            if (isAtComparison()) fail("only one comparison is allowed");
+        }
+        SyntaxTree formula = std::exchange(tree_, {});
+        while (take(";") || take(",")) definition();
+        skipBlanks();
+        if (at_ != text_.size()) failAfterOperand();
+        resolveNames(formula);
+        const Index offset = append(formula);
+        expressions_.relation = formula.relation;
+        expressions_.left = formula.left + offset;
+        expressions_.right = formula.right + offset;
+        return {std::move(expressions_), std::move(constants_)};
+    }
+
+  private:
+    // An operand whose sign is not yet part of the tree. Signs are moved out of products and absorbed by sums and
+    // differences, so that toText() never needs to write "--".
+    struct Term {
+        Index node;
+        bool isNegative;
+    };
+    Index withSign(Term term) { return term.isNegative ? add(Kind::negate, {term.node}) : term.node; }
+
+    Index sum() {
+        Index value = withSign(product());
+        while (true) {
+            const bool plus = take("+");
+            if (!plus && !takeMinus()) return value;
+            const Term term = product();
+            value = add(plus == term.isNegative ? Kind::subtract : Kind::add, {value, term.node});
+        }
+    }
+    Term product() {
+        Term value = signedPower();
+        while (true) {
+            const bool times = take("*");
+            if (!times && !take("/")) return value;
+            const Term factor = signedPower();
+            value.node = add(times ? Kind::multiply : Kind::divide, {value.node, factor.node});
+            value.isNegative = value.isNegative != factor.isNegative;
+        }
+    }
+    Term signedPower() {
+        bool isNegative = false;
+        while (true) {
+            if (takeMinus()) {
+                isNegative = !isNegative;
+            } else if (!take("+")) {
+                break;
+            }
+        }
+        const Index value = angle();
+        if (take("^")) {
+            const Depth deeper(*this);
+            const Index exponent = withSign(signedPower());
+            return {add(Kind::power, {value, exponent}), isNegative};
+        }
+        if (tree_.nodes[value].kind != Kind::negate) return {value, isNegative};
+        // A negated expression in parentheses: its negation is the last node, which is removed.
+        const Index operand = tree_.operands.back();
+        tree_.operands.pop_back();
+        tree_.nodes.pop_back();
+        return {operand, !isNegative};
+    }
+    Index angle() {
+        const Index value = atom();
+        if (take("°") || takeWord("deg")) return addCall(*functionNamed("deg"), {value});
+        takeWord("rad");
+        return value;
+    }
+    Index atom() {
+        skipBlanks();
+        if (take("(")) {
+            const Depth deeper(*this);
+            const Index value = sum();
+            close();
+            return value;
+        }
+        if (take(kPiLetter)) return add(Kind::pi, {});
+        if (take(kPhiLetter)) return add(Kind::phi, {});
+        if (at_ < text_.size() && (isDigit(text_[at_]) || text_[at_] == '.')) return number();
+        if (at_ < text_.size() && isLetter(text_[at_])) return named();
+        fail("a number, a name or '(' is expected");
+    }
+    Index number() {
+        double value = 0;
+        const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+        if (error == std::errc::result_out_of_range) fail("the number is too large or too small");
+        if (error != std::errc{}) fail("a number is expected");
+        at_ = static_cast<std::size_t>(end - text_.data());
+        const Index node = add(Kind::number, {});
+        tree_.nodes[node].number = value;
+        return node;
+    }
+    Index named() {
+        const std::size_t start = at_;
+        const std::string_view name = takeName();
+        if (const auto function = functionNamed(name)) return call(*function, start);
+        if (name == "pi") return add(Kind::pi, {});
+        if (name == "phi") return add(Kind::phi, {});
+        constexpr std::string_view kVariables = "xyzwr";
+        const std::size_t variable = name == "t" ? 3 : (name.size() == 1 ? kVariables.find(name) : kVariables.npos);
+        if (variable != kVariables.npos) {
+            isNumber_ = false;
+            return add(Kind::variable, {}, static_cast<Index>(variable));
+        }
+        if (contains(kUnits, name)) failAt(start, text::inQuotes(name) + " is expected after a number");
+        if (take("(")) {
+            failAt(start, "no function is called " + text::inQuotes(name) + suggestion(name) +
+                              "; known functions are " + functionNames());
+        }
+        return isInDefinition_ ? earlierName(name, start) : reference(name, start);
+    }
+    Index call(std::size_t function, std::size_t start) {
+        const BuiltinFunction& entry = functions()[function];
+        if (!take("(")) fail("'(' is expected after " + std::string(entry.name));
+        const Depth deeper(*this);
+        std::vector<Index> arguments{sum()};
+        while (take(",")) arguments.push_back(sum());
+        close();
+        if (arguments.size() < entry.minArguments || arguments.size() > entry.maxArguments) {
+            const bool isExact = entry.minArguments == entry.maxArguments;
+            failAt(start, std::string(entry.name) + " needs " + (isExact ? "" : "at least ") +
+                              std::to_string(entry.minArguments) +
+                              (entry.maxArguments == 1 ? " argument" : " arguments") + ", not " +
+                              std::to_string(arguments.size()) + ": " + std::string(entry.name) + "(" +
+                              std::string(entry.arguments) + ")");
+        }
+        return addCall(function, arguments);
+    }
+    // Takes the ')' of a parenthesis or call.
+    void close() {
+        if (take(")")) return;
+        if (isAtComparison()) fail("a comparison is allowed only outside of parentheses");
+        skipBlanks();
+        if (at_ == text_.size() || text_[at_] == ';' || text_[at_] == ',') fail("a ')' is missing");
+        fail("an operator or ')' is expected" + hint());
+    }
+
+    // A name that is used before it is defined. Until all definitions are parsed, the index in its nodes is its index
+    // in uses_.
+    struct NameUse {
+        std::string_view name;
+        std::size_t byte;
+    };
+    Index reference(std::string_view name, std::size_t byte) {
+        const auto found =
+            std::find_if(uses_.begin(), uses_.end(), [name](const auto& use) { return use.name == name; });
+        const auto index = static_cast<Index>(found - uses_.begin());
+        if (found == uses_.end()) uses_.push_back({name, byte});
+        return add(Kind::constant, {}, index);
+    }
+    // A name in the definition of another name. It must be defined earlier.
+    Index earlierName(std::string_view name, std::size_t byte) {
+        isNumber_ = false;
+        if (const auto found = definitionOf(name)) return add(found->kind, {}, found->index);
+        failAt(byte, "nothing before this is called " + text::inQuotes(name) + suggestion(name) +
+                         "; a definition may use only names that are defined before it");
+    }
+    void definition() {
+        skipBlanks();
+        const std::size_t start = at_;
+        if (at_ == text_.size() || !isLetter(text_[at_])) fail("the name of a constant is expected, as in a=0.7");
+        std::string name(takeName());
+        if (isTaken(name))
+            failAt(start, text::inQuotes(name) + " has a meaning already, so no constant can be called so");
+        if (name.size() > kMaxNameLength)
+            failAt(start, "a name may have at most " + std::to_string(kMaxNameLength) + " characters");
+        if (definitionOf(name)) failAt(start, text::inQuotes(name) + " has a value already");
+        if (!take("=")) fail("'=' is expected after " + name);
+        skipBlanks();
+        const std::size_t valueStart = at_;
+        isInDefinition_ = isNumber_ = true;
+        tree_ = {};
+        tree_.left = sum();
+        isInDefinition_ = false;
+        if (isAtComparison()) fail("the value of a name may not contain a comparison");
+        if (isNumber_) {
+            defineConstant(std::move(name), start, valueStart);
+        } else {
+            if (expressions_.expressions.size() - expressions_.sharedExpressions == limits_.expressions)
+                failAt(start, "a formula may have at most " + std::to_string(limits_.expressions) + " expressions");
+            const Index offset = append(tree_);
+            expressions_.expressions.push_back({std::move(name), tree_.left + offset});
+        }
+    }
+    // Defines a constant by the expression in tree_, which must consist of numbers.
+    void defineConstant(std::string name, std::size_t start, std::size_t valueStart) {
+        if (constants_.size() - expressions_.sharedConstants == limits_.constants)
+            failAt(start, "a formula may have at most " + std::to_string(limits_.constants) + " constants");
+        Graph graph;
+        const double value = *graph.constantAt(buildGraph(tree_, {}, graph));  // folded into one number
+        if (!std::isfinite(value)) failAt(valueStart, "the value of " + name + " is not a finite number");
+        constants_.push_back({std::move(name), value});
+    }
+    // Appends the nodes of a tree to those of expressions_, and returns the number that was added to their indices.
+    Index append(const SyntaxTree& tree) {
+        const auto offset = static_cast<Index>(expressions_.nodes.size());
+        const auto firstOperand = static_cast<Index>(expressions_.operands.size());
+        for (SyntaxNode node : tree.nodes) {
+            node.firstOperand += firstOperand;
+            expressions_.nodes.push_back(node);
+        }
+        for (const Index operand : tree.operands) expressions_.operands.push_back(operand + offset);
+        return offset;
+    }
+    struct Definition {
+        Kind kind;  // constant or expression
+        Index index;
+    };
+    void resolveNames(SyntaxTree& formula) const {
+        std::vector<Definition> definitions;
+        for (const auto& [name, byte] : uses_) {
+            const auto found = definitionOf(name);
+            if (!found) failAt(byte, "nothing is called " + text::inQuotes(name) + explanation(name));
+            definitions.push_back(*found);
+        }
+        for (SyntaxNode& node : formula.nodes) {
+            if (node.kind != Kind::constant) continue;
+            const auto& [kind, index] = definitions[node.index];
+            node.kind = kind;
+            node.index = index;
+        }
+    }
+    std::optional<Definition> definitionOf(std::string_view name) const {
+        for (std::size_t i = 0; i < constants_.size(); ++i)
+            if (constants_[i].name == name) return Definition{Kind::constant, static_cast<Index>(i)};
+        const auto& expressions = expressions_.expressions;
+        for (std::size_t i = 0; i < expressions.size(); ++i)
+            if (expressions[i].name == name) return Definition{Kind::expression, static_cast<Index>(i)};
+        return {};
+    }
+
+    Index add(Kind kind, std::initializer_list<Index> operands, Index index = 0) {
+        return add(kind, std::span(operands.begin(), operands.size()), index);
+    }
+    Index add(Kind kind, std::span<const Index> operands, Index index) {
+        tree_.nodes.push_back(
+            {kind, index, static_cast<Index>(tree_.operands.size()), static_cast<Index>(operands.size()), 0});
+        tree_.operands.insert(tree_.operands.end(), operands.begin(), operands.end());
+        return static_cast<Index>(tree_.nodes.size() - 1);
+    }
+    Index addCall(std::size_t function, const std::vector<Index>& arguments) {
+        return add(Kind::call, arguments, static_cast<Index>(function));
+    }
+
+    bool take(std::string_view token) {
+        skipBlanks();
+        if (!text_.substr(at_).starts_with(token)) return false;
+        at_ += token.size();
+        return true;
+    }
+    bool takeMinus() { return take("-") || take(kMinusSign); }
+    // Like take(), but does nothing if the text continues with another character of a name.
+    bool takeWord(std::string_view word) {
+        skipBlanks();
+        const std::string_view rest = text_.substr(at_);
+        if (!rest.starts_with(word) || (rest.size() > word.size() && isNamePart(rest[word.size()]))) return false;
+        at_ += word.size();
+        return true;
+    }
+    std::string_view takeName() {
+        const std::size_t start = at_;
+        while (at_ < text_.size() && isNamePart(text_[at_])) ++at_;
+        return text_.substr(start, at_ - start);
+    }
+    Relation takeComparison() {
+        for (const auto& [symbol, relation] : kComparisons)
+            if (take(symbol)) return relation;
+        return Relation::none;
+    }
+    bool isAtComparison() {
+        skipBlanks();
+        const std::string_view rest = text_.substr(at_);
+        return std::any_of(kComparisons.begin(), kComparisons.end(),
+                           [rest](const Comparison& comparison) { return rest.starts_with(comparison.symbol); });
+    }
+    void skipBlanks() {
+        while (at_ < text_.size() &&
+               (text_[at_] == ' ' || text_[at_] == '\t' || text_[at_] == '\n' || text_[at_] == '\r'))
+            ++at_;
+    }
+
+    std::string hint() const {
+        const bool isOperand = at_ < text_.size() && (isNamePart(text_[at_]) || text_[at_] == '(');
+        return isOperand ? " (a product is written 2*x)" : "";
+    }
+    static std::string suggestion(std::string_view name) {
+        if (name.size() == 1) return "";  // all single letters are equally similar
+        std::vector<std::string_view> known(kVariablesAndConstants.begin(), kVariablesAndConstants.end());
+        for (const auto& function : functions()) known.push_back(function.name);
+        return text::didYouMean(name, known);
+    }
+    static std::string functionNames() {
+        std::vector<std::string_view> known;
+        for (const auto& function : functions()) known.push_back(function.name);
+        return text::commaSeparated(known);
+    }
+    // Explains a name that has no value.
+    static std::string explanation(std::string_view name) {
+        if (name.size() > 1 && name.find_first_not_of("xyzwtr") == std::string_view::npos) {
+            std::string product(1, name[0]);
+            for (const char c : name.substr(1)) product += {'*', c};
+            if (name.size() <= 4) return " (a product is written " + product + ")";
+        }
+        const std::string shown = name.size() <= kMaxNameLength ? std::string(name) : "a";
+        return suggestion(name) + "; a constant needs a value after the formula, as in ; " + shown + "=1";
+    }
+    [[noreturn]] void failAfterOperand() const {
+        if (text_[at_] == ')') fail("a '(' is missing for this ')'");
+        fail("an operator is expected" + hint());
+    }
+    [[noreturn]] void fail(std::string what) const { throw SyntaxError{at_, std::move(what)}; }
+    [[noreturn]] static void failAt(std::size_t byte, std::string what) { throw SyntaxError{byte, std::move(what)}; }
+
+    struct Depth {
+        explicit Depth(Parser& owner) : parser(owner) {
+            if (++parser.depth_ > parser.limits_.nesting) parser.fail("the formula nests too deeply");
+        }
+        ~Depth() { --parser.depth_; }
+        Depth(const Depth&) = delete;
+        Depth& operator=(const Depth&) = delete;
+        Parser& parser;
+    };
+
+    std::string_view text_;
+    FormulaLimits limits_;
+    std::size_t at_ = 0;
+    int depth_ = 0;
+    bool isInDefinition_ = false;
+    bool isNumber_ = false;   // whether the current definition contains neither coordinates nor names
+    SyntaxTree tree_;         // of the formula or the current definition
+    SyntaxTree expressions_;  // of the shared definitions and the definitions before the current one
+    std::vector<NameUse> uses_;
+    std::vector<FormulaConstant> constants_;
+};
+
+}  // namespace
+
+std::variant<ParsedFormula, FormulaMistake> parseSyntax(std::string_view text, const FormulaLimits& limits,
+                                                        const ParsedFormula* shared) {
+    if (text.size() > limits.bytes) {
+        return FormulaMistake{positionOf(text, limits.bytes),
+                              "a formula may have at most " + std::to_string(limits.bytes) + " bytes"};
+    }
+    if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
+        return FormulaMistake{1, "a formula is expected, such as x^2+y^2+z^2+w^2-1"};
+    try {
+        return Parser(text, limits, shared).parse();
+    } catch (const Parser::SyntaxError& error) {
+        return FormulaMistake{positionOf(text, error.byte), error.what};
+    }
+}
+
+}  // namespace oval4d::fields

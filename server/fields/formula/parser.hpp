@@ -1,0 +1,47 @@
+#pragma once
+// The syntax of formulas.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "fields/formula/syntax_tree.hpp"
+
+namespace oval4d::fields {
+
+/// Limits on the size of a formula.
+struct FormulaLimits {
+    std::size_t bytes = 2000;         ///< of the text
+    int nesting = 64;                 ///< of parentheses, calls and exponents
+    std::size_t constants = 16;       ///< the number of named constants
+    std::size_t expressions = 100;    ///< the number of named expressions
+    std::size_t instructions = 1000;  ///< of the compiled formula
+};
+
+/// Says what is wrong with the text of a formula, and where.
+struct FormulaMistake {
+    std::size_t position = 1;  ///< counted in characters from 1; the end of the text is one past the last character
+    std::string what;
+};
+
+struct ParsedFormula {
+    SyntaxTree tree;
+    std::vector<FormulaConstant> constants;
+};
+
+/// Parses a formula. It consists of
+/// - the operators + − * / ^, parentheses, decimal numbers with or without exponent, `pi`, `phi`, and the units °, deg
+///   and rad after a number, name or parenthesis;
+/// - the variables x, y, z, w (also called t) and r = sqrt(x² + y² + z²), and the functions in functions();
+/// - at most one comparison =, <, <=, > or >=, outside of parentheses: a = b, a < b and a <= b mean the function a − b;
+///   a > b and a >= b mean b − a, so that the inequality holds where the function is negative;
+/// - names of letters, digits and underscores, which are defined after the formula and begin with a letter. A name is a
+///   constant if its definition contains only numbers. Otherwise, it is a named expression, which may use coordinates
+///   and names defined before it: "a*x^2 + p < b; a=0.7, b=pi/2, p=y^2". ";" and "," mean the same.
+/// If `shared` is not null, the formula may use the names that `shared` defines, but not define them again.
+std::variant<ParsedFormula, FormulaMistake> parseSyntax(std::string_view text, const FormulaLimits& limits,
+                                                        const ParsedFormula* shared = nullptr);
+
+}  // namespace oval4d::fields

@@ -1,0 +1,225 @@
+#include "fields/formula/syntax_tree.hpp"
+
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include "fields/formula/functions.hpp"
+#include "text/message_text.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+using Kind = SyntaxNode::Kind;
+using Ref = Graph::Ref;
+
+Ref buildVariable(std::uint32_t index, Graph& graph) {
+    if (index != SyntaxTree::kR) return graph.variable(static_cast<int>(index));
+    Ref sum = graph.square(graph.variable(0));
+    for (const int axis : {1, 2}) sum = graph.add(sum, graph.square(graph.variable(axis)));
+    return graph.sqrt(sum);
+}
+
+// Adds a node of the tree to the graph and returns it; `operands` are the graph nodes of its operands.
+Ref buildNode(const SyntaxNode& node, std::span<const Ref> operands, std::span<const FormulaConstant> constants,
+              Graph& graph) {
+    switch (node.kind) {
+        case Kind::number:
+            return graph.constant(node.number);
+        case Kind::pi:
+            return graph.constant(std::numbers::pi);
+        case Kind::phi:
+            return graph.constant(std::numbers::phi);
+        case Kind::variable:
+            return buildVariable(node.index, graph);
+        case Kind::constant:
+            return graph.constant(constants[node.index].value);
+        case Kind::expression:
+            break;  // built already
+        case Kind::negate:
+            return graph.negate(operands[0]);
+        case Kind::add:
+            return graph.add(operands[0], operands[1]);
+        case Kind::subtract:
+            return graph.subtract(operands[0], operands[1]);
+        case Kind::multiply:
+            return graph.multiply(operands[0], operands[1]);
+        case Kind::divide:
+            return graph.divide(operands[0], operands[1]);
+        case Kind::power:
+            return graph.binary(Operation::power, operands[0], operands[1]);
+        case Kind::call:
+            return functions()[node.index].build(graph, operands);
+    }
+    return 0;
+}
+
+std::string_view symbolOf(Relation relation) {
+    switch (relation) {
+        case Relation::none:
+            return "";
+        case Relation::equal:
+            return "=";
+        case Relation::less:
+            return "<";
+        case Relation::less_equal:
+            return "<=";
+        case Relation::greater:
+            return ">";
+        case Relation::greater_equal:
+            return ">=";
+    }
+    return "";
+}
+
+// How tightly the outermost operation of a text binds.
+enum class Precedence { sum, product, negation, power, unit, atom };
+
+struct Written {
+    std::string text;
+    Precedence precedence;
+
+    // Returns the text, in parentheses if it binds less tightly than `least`.
+    std::string atLeast(Precedence least) && { return precedence < least ? "(" + text + ")" : std::move(text); }
+};
+
+// Stands for a space that is written only outside of parentheses.
+constexpr char kOuterSpace = '\1';
+
+class Writer {
+  public:
+    Writer(const SyntaxTree& tree, std::span<const FormulaConstant> constants) : tree_(tree), constants_(constants) {
+        written_.reserve(tree.nodes.size());
+        for (const SyntaxNode& node : tree.nodes) written_.push_back(write(node));
+    }
+
+    std::string side(std::uint32_t node) { return std::move(written_[node].text); }
+
+  private:
+    Written write(const SyntaxNode& node) {
+        switch (node.kind) {
+            case Kind::number:
+                return {text::shortestDecimal(node.number), Precedence::atom};
+            case Kind::pi:
+                return {"pi", Precedence::atom};
+            case Kind::phi:
+                return {"phi", Precedence::atom};
+            case Kind::variable:
+                return {std::string(1, "xyzwr"[node.index]), Precedence::atom};
+            case Kind::constant:
+                return {constants_[node.index].name, Precedence::atom};
+            case Kind::expression:
+                return {tree_.expressions[node.index].name, Precedence::atom};
+            case Kind::negate:
+                return writeNegation(node);
+            case Kind::add:
+                return writeBinary(node, "\1+\1", Precedence::sum, Precedence::sum, Precedence::product);
+            case Kind::subtract:
+                return writeBinary(node, "\1-\1", Precedence::sum, Precedence::sum, Precedence::product);
+            case Kind::multiply:
+                return writeBinary(node, "*", Precedence::product, Precedence::product, Precedence::negation);
+            case Kind::divide:
+                return writeBinary(node, "/", Precedence::product, Precedence::product, Precedence::negation);
+            case Kind::power:
+                return writeBinary(node, "^", Precedence::power, Precedence::unit, Precedence::negation);
+            case Kind::call:
+                return writeCall(node);
+        }
+        return {};
+    }
+    std::string operand(const SyntaxNode& node, std::size_t i, Precedence least) {
+        return std::move(written_[tree_.operandsOf(node)[i]]).atLeast(least);
+    }
+    // The negation of a product is written −a·b. It is parsed as (−a)·b, which has the same value.
+    Written writeNegation(const SyntaxNode& node) {
+        const bool isProduct = written_[tree_.operandsOf(node)[0]].precedence == Precedence::product;
+        return {"-" + operand(node, 0, Precedence::product), isProduct ? Precedence::product : Precedence::negation};
+    }
+    Written writeBinary(const SyntaxNode& node, std::string_view symbol, Precedence own, Precedence left,
+                        Precedence right) {
+        std::string text = operand(node, 0, left);
+        text += symbol;
+        text += operand(node, 1, right);
+        return {std::move(text), own};
+    }
+    Written writeCall(const SyntaxNode& node) {
+        const std::string_view name = functions()[node.index].name;
+        if (name == "deg") return {operand(node, 0, Precedence::atom) + "°", Precedence::unit};
+        std::string text(name);
+        for (std::size_t i = 0; i < node.operandCount; ++i) {
+            text += i == 0 ? "(" : ",";
+            text += operand(node, i, Precedence::sum);
+        }
+        return {text + ")", Precedence::atom};
+    }
+
+    const SyntaxTree& tree_;
+    std::span<const FormulaConstant> constants_;
+    std::vector<Written> written_;
+};
+
+std::string withOuterSpaces(std::string_view text, bool isSpaced) {
+    std::string spaced;
+    int depth = 0;
+    for (const char c : text) {
+        if (c == '(') ++depth;
+        if (c == ')') --depth;
+        if (c != kOuterSpace) {
+            spaced += c;
+        } else if (isSpaced && depth == 0) {
+            spaced += ' ';
+        }
+    }
+    return spaced;
+}
+
+}  // namespace
+
+Graph::Ref buildGraph(const SyntaxTree& tree, std::span<const FormulaConstant> constants, Graph& graph) {
+    std::vector<Ref> built, operands;
+    built.reserve(tree.nodes.size());
+    for (const SyntaxNode& node : tree.nodes) {
+        if (node.kind == Kind::expression) {
+            built.push_back(built[tree.expressions[node.index].root]);
+            continue;
+        }
+        operands.clear();
+        for (const std::uint32_t operand : tree.operandsOf(node)) operands.push_back(built[operand]);
+        built.push_back(buildNode(node, operands, constants, graph));
+    }
+    switch (tree.relation) {
+        case Relation::none:
+            return built[tree.left];
+        case Relation::equal:
+        case Relation::less:
+        case Relation::less_equal:
+            return graph.subtract(built[tree.left], built[tree.right]);
+        case Relation::greater:
+        case Relation::greater_equal:
+            return graph.subtract(built[tree.right], built[tree.left]);
+    }
+    return built[tree.left];
+}
+
+std::string toText(const SyntaxTree& tree, std::span<const FormulaConstant> constants, bool isSpaced) {
+    const std::string space(isSpaced ? 1 : 0, ' ');
+    Writer writer(tree, constants);
+    std::string text = withOuterSpaces(writer.side(tree.left), isSpaced);
+    if (tree.relation != Relation::none) {
+        text += space + std::string(symbolOf(tree.relation)) + space;
+        text += withOuterSpaces(writer.side(tree.right), isSpaced);
+    }
+    std::string_view separator = ";";
+    const auto define = [&](const std::string& name, const std::string& value) {
+        text += std::exchange(separator, ",");
+        text += space + name + "=" + value;
+    };
+    for (const FormulaConstant& constant : constants.subspan(tree.sharedConstants))
+        define(constant.name, text::shortestDecimal(constant.value));
+    for (std::size_t i = tree.sharedExpressions; i < tree.expressions.size(); ++i)
+        define(tree.expressions[i].name, withOuterSpaces(writer.side(tree.expressions[i].root), false));
+    return text;
+}
+
+}  // namespace oval4d::fields

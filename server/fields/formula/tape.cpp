@@ -1,0 +1,118 @@
+#include "fields/formula/tape.hpp"
+
+#include <utility>
+
+namespace oval4d::fields {
+
+namespace {
+
+using Node = Graph::Node;
+using Ref = Graph::Ref;
+using OperandForm = Instruction::OperandForm;
+
+constexpr Ref kNever = 0xFFFFFFFF;
+
+bool isLeaf(const Node& node) { return node.operation == Operation::constant || node.operation == Operation::variable; }
+
+class Compiler {
+  public:
+    Compiler(const Graph& graph, Ref result)
+        : nodes_(graph.nodes()),
+          result_(result),
+          lastUse_(result + 1, kNever),
+          registers_(result + 1),
+          axes_(result + 1) {
+        findLastUses();
+        for (Ref node = 0; node <= result_; ++node) {
+            if (nodes_[node].operation == Operation::variable) {
+                registers_[node] = static_cast<std::uint16_t>(nodes_[node].number);
+                axes_[node] = static_cast<Instruction::Axes>(1U << registers_[node]);
+            } else if (lastUse_[node] != kNever && !isLeaf(nodes_[node])) {
+                emit(node);
+            }
+        }
+        if (isLeaf(nodes_[result_])) emitLeaf(nodes_[result_]);
+    }
+
+    Tape take() { return std::move(tape_); }
+
+  private:
+    // The last use of a node that the result does not depend on remains kNever.
+    void findLastUses() {
+        lastUse_[result_] = result_;
+        for (Ref user = result_ + 1; user-- > 0;) {
+            if (lastUse_[user] == kNever || isLeaf(nodes_[user])) continue;
+            forEachOperand(nodes_[user], [&](Ref operand) {
+                if (lastUse_[operand] == kNever) lastUse_[operand] = user;
+            });
+        }
+    }
+    template <typename F>
+    static void forEachOperand(const Node& node, F&& call) {
+        call(node.a);
+        if (isBinary(node.operation)) call(node.b);
+    }
+    bool isConstant(Ref node) const { return nodes_[node].operation == Operation::constant; }
+
+    void emit(Ref number) {
+        const Node& node = nodes_[number];
+        Instruction instruction{.operation = node.operation};
+        instruction.number = node.number;
+        instruction.a = registers_[node.a];
+        instruction.axesOfA = axes_[node.a];
+        if (isBinary(node.operation)) {
+            instruction.b = registers_[node.b];
+            instruction.axesOfB = axes_[node.b];
+            if (isConstant(node.a)) instruction.form = OperandForm::number_and_register;
+            if (isConstant(node.b)) instruction.form = OperandForm::register_and_number;
+            if (instruction.form != OperandForm::two_registers)
+                instruction.number = nodes_[isConstant(node.a) ? node.a : node.b].number;
+        }
+        if (!isPiecewiseConstant(node.operation))
+            instruction.axes = static_cast<Instruction::Axes>(instruction.axesOfA | instruction.axesOfB);
+        forEachOperand(node, [&](Ref operand) { release(operand, number); });
+        instruction.result = number == result_ ? Tape::kResult : allocate();
+        registers_[number] = instruction.result;
+        axes_[number] = instruction.axes;
+        tape_.instructions.push_back(instruction);
+    }
+    void emitLeaf(const Node& node) {
+        Instruction instruction{.operation = node.operation};
+        instruction.number = node.number;
+        instruction.result = Tape::kResult;
+        if (node.operation == Operation::variable) {
+            instruction.operation = Operation::copy;
+            instruction.a = registers_[result_];
+            instruction.axes = instruction.axesOfA = axes_[result_];
+        }
+        tape_.instructions.push_back(instruction);
+    }
+    static bool isPiecewiseConstant(Operation operation) {
+        return operation == Operation::step || operation == Operation::sign || operation == Operation::floor;
+    }
+    void release(Ref operand, Ref user) {
+        if (lastUse_[operand] != user || isLeaf(nodes_[operand])) return;
+        free_.push_back(registers_[operand]);
+        lastUse_[operand] = kNever;  // an operand that is used twice is released once
+    }
+    std::uint16_t allocate() {
+        if (free_.empty()) return static_cast<std::uint16_t>(Tape::kFirstScratch + tape_.scratchRegisters++);
+        const std::uint16_t reused = free_.back();
+        free_.pop_back();
+        return reused;
+    }
+
+    const std::vector<Node>& nodes_;
+    Ref result_;
+    std::vector<Ref> lastUse_;
+    std::vector<std::uint16_t> registers_;
+    std::vector<Instruction::Axes> axes_;
+    std::vector<std::uint16_t> free_;
+    Tape tape_;
+};
+
+}  // namespace
+
+Tape compile(const Graph& graph, Graph::Ref result) { return Compiler(graph, result).take(); }
+
+}  // namespace oval4d::fields

@@ -1,0 +1,41 @@
+#pragma once
+// Compiled formulas: instructions on registers.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fields/formula/graph.hpp"
+
+namespace oval4d::fields {
+
+/// One operation of a tape. Its result may be written to the register of an operand.
+struct Instruction {
+    /// Which operands of a binary operation are registers and which are numbers. Other operations have the form
+    /// two_registers.
+    enum class OperandForm : std::uint8_t { two_registers, register_and_number, number_and_register };
+    /// A set of axes, as bits: the axis i is 1 << i.
+    using Axes = std::uint8_t;
+
+    Operation operation;
+    OperandForm form = OperandForm::two_registers;
+    Axes axes = 0;                  ///< the axes along which the derivative of the result can differ from 0
+    Axes axesOfA = 0, axesOfB = 0;  ///< the same for the operands
+    std::uint16_t result = 0;
+    std::uint16_t a = 0, b = 0;  ///< the registers of the operands; unused for a number
+    double number = 0;           ///< the operand that is a number, or the exponent of integer_power
+};
+
+/// A function as a sequence of instructions. The registers 0 … 3 hold the coordinates x, y, z, w; no instruction
+/// changes them. Register 4 holds the value of the function; only the last instruction writes it.
+struct Tape {
+    static constexpr std::uint16_t kResult = 4, kFirstScratch = 5;
+
+    std::vector<Instruction> instructions;  ///< at least one
+    std::size_t scratchRegisters = 0;       ///< the number of registers from kFirstScratch on
+};
+
+/// Compiles the function of the node `result`. Registers are reused as soon as their value is no longer needed.
+Tape compile(const Graph& graph, Graph::Ref result);
+
+}  // namespace oval4d::fields

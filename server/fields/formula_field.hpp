@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "errors/error.hpp"
+#include "fields/field.hpp"
+
+namespace oval4d::fields {
+
+/// The default domain of a formula.
+inline constexpr Box kFormulaBox{glm::dvec4(-2), glm::dvec4(2)};
+
+/// Makes a field from a formula (see parseFormula() for the syntax). `second` is the formula of the second function,
+/// which may use the names that `text` defines; empty for none. Errors: `bad_expression`, with the position of the
+/// mistake (the message begins with "values: " if the mistake is in `second`); `out_of_range` if makeField() rejects
+/// the box.
+Result<Field> fieldFromFormula(std::string name, std::string_view text, const Box& box = kFormulaBox,
+                               std::string_view second = {});
+
+/// Sets the second function of any field to this formula, which cannot use the names of another formula. Error:
+/// `bad_expression`; the message begins with "values: ".
+std::optional<Error> setSecondFormula(Field& field, std::string_view text);
+
+}  // namespace oval4d::fields

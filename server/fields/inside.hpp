@@ -1,0 +1,15 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "text/choice.hpp"
+
+namespace oval4d::fields {
+
+/// Which side of a level belongs to the body that the level bounds: where the function is below or above the level.
+enum class Inside : std::uint8_t { below, above };
+inline constexpr auto kInsides =
+    std::to_array<text::Choice<Inside>>({{"below", Inside::below}, {"above", Inside::above}});
+
+}  // namespace oval4d::fields

@@ -1,0 +1,85 @@
+#pragma once
+// Maps the dimensions of an array in a file to the axes of a field.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "errors/error.hpp"
+#include "fields/array/shape.hpp"
+#include "fields/readers/file_contents.hpp"
+#include "fields/readers/numbers.hpp"
+#include "fields/readers/read_field.hpp"
+
+namespace oval4d::fields {
+
+/// How many numbers are read and converted at once; after each slab, pages of mapped files are released.
+inline constexpr std::size_t kSlabSize = std::size_t{1} << 24U;
+
+/// The size in bytes of the cache of decompressed chunks, which several slabs need, of the libraries for HDF5 and
+/// NetCDF.
+inline constexpr std::size_t kChunkCacheSize = std::size_t{192} << 20U;
+
+/// A dimension of an array in a file.
+struct Dimension {
+    std::size_t size = 1;
+    std::size_t axis = 0;   ///< 0 … 3 for x, y, z, w
+    bool reversed = false;  ///< whether the coordinate decreases along the dimension
+};
+
+/// Returns the axes of an array's dimensions, in the order of its indices. `axes` has a letter for each dimension: x,
+/// y, z, w, or t for w. If it is empty, "tzyx", "zyx", "yx" or "x" is used. Errors: `bad_field` if there are no
+/// dimensions or more than 4; `out_of_range` if `axes` does not have as many letters as there are dimensions, or
+/// contains another letter, or an axis twice.
+Result<std::vector<std::size_t>> axesOf(std::string_view axes, std::size_t dimensions);
+
+/// A part of an array that is read at once.
+struct Slab {
+    std::array<std::size_t, 4> start;  ///< the indices of its first number, in the order of NumberBlock::size
+    NumberBlock block;
+    std::size_t first;  ///< the index of its first number among the samples of the field
+};
+
+/// Where the numbers of an array in a file go among the samples of a field.
+class ArrayLayout {
+  public:
+    /// `dimensions` are the dimensions of the array from the slowest to the fastest; their axes must differ. Errors:
+    /// `bad_field` if a dimension has the size 0; `too_large` if an axis has more than kMaxSamplesPerAxis samples, or
+    /// if there are more than `maxSamples` in all.
+    static Result<ArrayLayout> of(std::span<const Dimension> dimensions, std::size_t maxSamples);
+
+    const Shape& shape() const { return shape_; }
+    std::size_t count() const { return sampleCount(shape_); }
+
+    /// Returns the block of all numbers. If the array has fewer than 4 dimensions, dimensions of size 1 precede them.
+    const NumberBlock& block() const { return block_; }
+    /// Returns the index of the first number among the samples.
+    std::size_t first() const { return first_; }
+
+    /// Returns whether the file stores the numbers in the order of Lattice.
+    bool isInOrder() const;
+
+    /// Divides the array into slabs of at most `maxCount` numbers, in the order of the file. Each has as many numbers
+    /// as possible, because parts of compressed files are decompressed for each slab.
+    std::vector<Slab> slabs(std::size_t maxCount) const;
+
+    /// Returns the samples whose stored numbers are `bytes`, a part of the file with at least count() numbers. Uses
+    /// them in place if they are in order and are plain 32-bit floats (see NumberFormat::isPlain()) in this processor's
+    /// byte order; otherwise, converts them. Errors: those of SampleBuffer.
+    Result<Samples> samples(const FileContents& file, std::span<const std::byte> bytes, const NumberFormat& format,
+                            const ReadOptions& options) const;
+
+  private:
+    Shape shape_{1, 1, 1, 1};
+    NumberBlock block_{{1, 1, 1, 1}, {0, 0, 0, 0}};
+    std::size_t first_ = 0;
+};
+
+/// Returns a box, centered at the origin, for an array of which only the shape is known. The distance between samples
+/// is the same along all axes, and the longest axis extends from −1 to 1. If `time` is true, this applies only to x, y
+/// and z, and w extends from −1 to 1. An axis with one sample has no extent.
+Box defaultBox(const Shape& shape, bool time);
+
+}  // namespace oval4d::fields

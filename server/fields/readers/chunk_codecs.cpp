@@ -1,0 +1,65 @@
+#include "fields/readers/chunk_codecs.hpp"
+
+#include <blosc.h>
+#include <zstd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "fields/readers/gzip.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+constexpr auto kChunkCodecs = std::to_array<std::pair<std::string_view, ChunkCodec>>(
+    {{"gzip", ChunkCodec::gzip}, {"zlib", ChunkCodec::zlib}, {"zstd", ChunkCodec::zstd}, {"blosc", ChunkCodec::blosc}});
+
+const Error kDamaged{ErrorCode::bad_field, "it is damaged, or has another size than the metadata state"};
+
+Result<bool> deflated(GzipReader::Wrapper wrapper, std::span<const std::byte> chunk, std::span<std::byte> to) {
+    GzipReader reader(chunk, wrapper);
+    if (!reader.fill(to) || !reader.isAtEnd()) return kDamaged;
+    return true;
+}
+
+Result<bool> unblosc(std::span<const std::byte> chunk, std::span<std::byte> to) {
+    std::size_t size = 0;
+    // The library trusts the sizes in the header unless they are validated.
+    if (chunk.size() < BLOSC_MIN_HEADER_LENGTH || blosc_cbuffer_validate(chunk.data(), chunk.size(), &size) < 0 ||
+        size != to.size() ||
+        blosc_decompress_ctx(chunk.data(), to.data(), to.size(), 1) != static_cast<int>(to.size())) {
+        return kDamaged;
+    }
+    return true;
+}
+
+}  // namespace
+
+std::optional<ChunkCodec> chunkCodecNamed(std::string_view name) {
+    const auto* const found = std::ranges::find(kChunkCodecs, name, &std::pair<std::string_view, ChunkCodec>::first);
+    if (found == kChunkCodecs.end()) return {};
+    return found->second;
+}
+
+Result<bool> decompress(ChunkCodec codec, std::span<const std::byte> chunk, std::span<std::byte> to) {
+    switch (codec) {
+        case ChunkCodec::gzip:
+            return deflated(GzipReader::Wrapper::gzip, chunk, to);
+        case ChunkCodec::zlib:
+            return deflated(GzipReader::Wrapper::zlib, chunk, to);
+        case ChunkCodec::zstd: {
+            const std::size_t size = ZSTD_decompress(to.data(), to.size(), chunk.data(), chunk.size());
+            if (ZSTD_isError(size) != 0 || size != to.size()) return kDamaged;
+            return true;
+        }
+        case ChunkCodec::blosc:
+            return unblosc(chunk, to);
+    }
+    return kDamaged;
+}
+
+}  // namespace oval4d::fields

@@ -1,0 +1,29 @@
+#pragma once
+// Decompression of the chunks of arrays.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "errors/error.hpp"
+
+namespace oval4d::fields {
+
+/// A way in which chunks are compressed.
+enum class ChunkCodec : std::uint8_t {
+    gzip,   ///< RFC 1952
+    zlib,   ///< RFC 1950
+    zstd,   ///< RFC 8878
+    blosc,  ///< Blosc 1, with any of its compressors and shuffles
+};
+
+/// Returns the codec that has this name in Zarr's metadata; nothing if the name is unknown.
+std::optional<ChunkCodec> chunkCodecNamed(std::string_view name);
+
+/// Decompresses a chunk into `to`, which must have exactly its decompressed size. Memory for the result is never taken
+/// from the chunk's own claim, so a chunk that claims another size is harmless. Error: `bad_field` if the chunk is
+/// damaged, too short or too long.
+Result<bool> decompress(ChunkCodec codec, std::span<const std::byte> chunk, std::span<std::byte> to);
+
+}  // namespace oval4d::fields

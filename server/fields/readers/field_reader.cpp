@@ -1,0 +1,154 @@
+#include "fields/readers/field_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include <glm/vec3.hpp>
+
+#include "fields/readers/array_layout.hpp"
+#include "fields/readers/gzip.hpp"
+#include "fields/readers/hdf5.hpp"
+#include "fields/readers/netcdf.hpp"
+#include "fields/readers/nifti.hpp"
+#include "fields/readers/npy.hpp"
+#include "fields/readers/sample_buffer.hpp"
+#include "text/ascii.hpp"
+#include "text/message_text.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+bool isNiftiOrGzipStart(std::span<const std::byte> start) { return isNiftiStart(start) || isGzipStart(start); }
+
+constexpr std::array<FieldFormat, 4> kFormats{{{"npy", isNpyStart, readNpy},
+                                               {"netcdf", isNetcdfStart, readNetcdf},
+                                               {"hdf5", isHdf5Start, readHdf5},
+                                               {"nifti", isNiftiOrGzipStart, readNifti}}};
+
+// Removes the number at the start of `rest`, which may have any length, and returns it without leading zeros.
+std::string_view takeNumber(std::string_view& rest) {
+    const auto digits =
+        static_cast<std::size_t>(std::find_if_not(rest.begin(), rest.end(), text::isDigit) - rest.begin());
+    std::string_view number = rest.substr(0, digits);
+    rest.remove_prefix(digits);
+    number.remove_prefix(std::min(number.find_first_not_of('0'), number.size()));
+    return number;
+}
+
+bool comesBefore(const std::string& a, const std::string& b) {
+    std::string_view restA = a, restB = b;
+    while (!restA.empty() && !restB.empty()) {
+        if (text::isDigit(restA.front()) && text::isDigit(restB.front())) {
+            const std::string_view numberA = takeNumber(restA), numberB = takeNumber(restB);
+            if (numberA.size() != numberB.size()) return numberA.size() < numberB.size();
+            if (numberA != numberB) return numberA < numberB;
+            continue;
+        }
+        if (restA.front() != restB.front()) return restA.front() < restB.front();
+        restA.remove_prefix(1);
+        restB.remove_prefix(1);
+    }
+    return restA.empty() != restB.empty() ? restA.empty() : a < b;
+}
+
+// Sets the box of a series. `times` are the w of its files.
+void place(ReadField& series, std::span<const double> times, const ReadOptions& options) {
+    const bool known =
+        series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+    const auto last = static_cast<double>(times.size() - 1);
+    series.box.min.w = known ? times.front() : 0;
+    series.box.max.w = known ? times.back() : last;
+    if (!series.boxIsKnown) series.box = defaultBox(series.shape, true);
+    if (options.box) series.box = *options.box;
+    series.boxIsKnown = series.boxIsKnown || options.box;
+}
+
+}  // namespace
+
+std::span<const FieldFormat> fieldFormats() { return kFormats; }
+
+const FieldFormat* formatOfFile(std::span<const std::byte> start) {
+    const auto* const format =
+        std::find_if(kFormats.begin(), kFormats.end(), [&](const FieldFormat& each) { return each.starts(start); });
+    return format == kFormats.end() ? nullptr : format;
+}
+
+Result<ReadField> readField(const FileContents& file, const ReadOptions& options) {
+    const FieldFormat* const format = formatOfFile(file.bytes.first(std::min(file.bytes.size(), kRecognizedBytes)));
+    if (format == nullptr) {
+        std::vector<std::string_view> names;
+        for (const FieldFormat& each : kFormats) names.push_back(each.name);
+        return Error{ErrorCode::unsupported_format,
+                     "the file has none of the formats of fields: " + text::commaSeparated(names)};
+    }
+    return format->read(file, options);
+}
+
+Result<ReadField> readSeries(std::span<const FileContents> files, const ReadOptions& options) {
+    if (files.empty()) return Error{ErrorCode::bad_field, "the series has no files"};
+    ReadOptions ofFile = options;
+    ofFile.box.reset();
+    ReadField series;
+    std::optional<SampleBuffer> all;
+    std::vector<double> times;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const std::string where = "file " + std::to_string(i + 1) + " of the series: ";
+        auto field = readField(files[i], ofFile);
+        if (!field) return Error{field.error().code, where + field.error().message};
+        const auto samples = field->samples.values();
+        if (field->shape[3] != 1) return Error{ErrorCode::bad_field, where + "the array has more than one moment"};
+        if (i == 0) {
+            const std::size_t most = std::min(options.maxSamples, kMaxSamples) / samples.size();
+            if (files.size() > most || files.size() > kMaxSamplesPerAxis)
+                return Error{ErrorCode::too_large, "the series has too many samples"};
+            auto buffer = SampleBuffer::of(samples.size() * files.size(), options);
+            if (!buffer) return buffer.error();
+            all = std::move(*buffer);
+            series = *field;
+            for (std::string& warning : series.warnings) warning.insert(0, where);
+        }
+        if (field->shape != series.shape || glm::dvec3(field->box.min) != glm::dvec3(series.box.min) ||
+            glm::dvec3(field->box.max) != glm::dvec3(series.box.max)) {
+            return Error{ErrorCode::bad_field, where + "its shape or its box differs from that of the first file"};
+        }
+        times.push_back(field->box.min.w);
+        const auto timeStep = all->values().subspan(i * samples.size(), samples.size());
+        if (samples.data() != timeStep.data()) std::ranges::copy(samples, timeStep.begin());
+        if (i + 1 < files.size()) ofFile.into = all->values().subspan((i + 1) * samples.size(), samples.size());
+        files[i].releasePages();
+        all->releasePages();
+    }
+    series.shape[3] = files.size();
+    series.samples = all->take();
+    place(series, times, options);
+    return series;
+}
+
+Result<std::vector<std::filesystem::path>> seriesFiles(const std::filesystem::path& folder) {
+    std::error_code fault;
+    std::vector<std::filesystem::path> files;
+    for (std::filesystem::directory_iterator entry(folder, fault), end; !fault && entry != end;
+         entry.increment(fault)) {
+        std::error_code unknown;
+        if (entry->symlink_status(unknown).type() != std::filesystem::file_type::regular) continue;
+        if (entry->path().filename().string().starts_with('.')) continue;
+        std::array<char, kRecognizedBytes> start{};
+        std::ifstream file(entry->path(), std::ios::binary);
+        file.read(start.data(), start.size());
+        const auto length = static_cast<std::size_t>(file.gcount());
+        if (formatOfFile(std::as_bytes(std::span(start).first(length))) != nullptr) files.push_back(entry->path());
+    }
+    if (fault) return Error{ErrorCode::not_found, "the folder cannot be read: " + fault.message()};
+    std::sort(files.begin(), files.end(),
+              [](const auto& a, const auto& b) { return comesBefore(a.filename().string(), b.filename().string()); });
+    return files;
+}
+
+}  // namespace oval4d::fields

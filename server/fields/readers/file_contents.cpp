@@ -1,0 +1,41 @@
+#include "fields/readers/file_contents.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+namespace oval4d::fields {
+
+FileContents FileContents::copyOf(std::string_view bytes) {
+    const auto view = std::as_bytes(std::span(bytes));
+    return of({view.begin(), view.end()});
+}
+
+FileContents FileContents::of(std::vector<std::byte> bytes) {
+    auto owned = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
+    const std::span<const std::byte> view = *owned;
+    return {std::move(owned), view};
+}
+
+FileContents FileContents::of(MappedFilePtr file) {
+    const std::span<const std::byte> bytes = file->bytes();
+    return {file, bytes, file};
+}
+
+Result<FileContents> FileContents::map(int file) {
+    auto mapped = MappedFile::map(file);
+    if (!mapped) return mapped.error();
+    return of(std::move(*mapped));
+}
+
+Result<FileContents> FileContents::map(const std::filesystem::path& path) {
+    const FileHandle file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // does not wait for a pipe's writer
+    if (file.descriptor() < 0)
+        return Error{ErrorCode::not_found, "the file cannot be opened: " + std::generic_category().message(errno)};
+    return map(file.descriptor());
+}
+
+}  // namespace oval4d::fields

@@ -1,0 +1,39 @@
+#pragma once
+// The bytes of a file to be read, in memory or mapped.
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "errors/error.hpp"
+#include "fields/array/mapped_file.hpp"
+
+namespace oval4d::fields {
+
+/// The bytes of a file. Copies share the bytes.
+struct FileContents {
+    std::shared_ptr<const void> owner;  ///< keeps the bytes valid
+    std::span<const std::byte> bytes;
+    MappedFilePtr file = {};  ///< the file of which the bytes are a part, if it is mapped; null if they are in memory
+
+    /// Takes the pages of a mapped file out of the resident memory.
+    void releasePages() const {
+        if (file) file->releasePages();
+    }
+
+    /// Returns a copy of the bytes.
+    static FileContents copyOf(std::string_view bytes);
+    /// Takes ownership of the bytes.
+    static FileContents of(std::vector<std::byte> bytes);
+    /// Returns the bytes of a mapped file.
+    static FileContents of(MappedFilePtr file);
+    /// Maps an open file; does not need the descriptor afterward. Errors: those of MappedFile::map().
+    static Result<FileContents> map(int file);
+    /// Maps a file. Errors: those of map(int), and `not_found`.
+    static Result<FileContents> map(const std::filesystem::path& path);
+};
+
+}  // namespace oval4d::fields

@@ -1,0 +1,82 @@
+#include "fields/readers/gzip.hpp"
+
+#include <isa-l/igzip_lib.h>
+
+#include <algorithm>
+#include <cstdint>
+
+namespace oval4d::fields {
+
+namespace {
+// The output grows by this many bytes at a time, so a file that states a large array but contains little takes little
+// memory.
+constexpr std::size_t kStep = std::size_t{64} << 20U;
+}  // namespace
+
+struct GzipReader::State {
+    inflate_state inflate;
+    std::span<const std::byte> rest;
+
+    // Gives the library further bytes if it has used those before.
+    void refill() {
+        if (inflate.avail_in > 0) return;
+        const std::size_t count = std::min<std::size_t>(rest.size(), kStep);
+        // ISA-L does not change its input, although its type is not const.
+        inflate.next_in = const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(rest.data()));
+        inflate.avail_in = static_cast<std::uint32_t>(count);
+        rest = rest.subspan(count);
+    }
+};
+
+bool isGzipStart(std::span<const std::byte> start) {
+    return start.size() >= 2 && start[0] == std::byte{0x1f} && start[1] == std::byte{0x8b};
+}
+
+GzipReader::GzipReader(std::span<const std::byte> compressed, Wrapper wrapper) : state_(std::make_unique<State>()) {
+    isal_inflate_init(&state_->inflate);
+    state_->inflate.crc_flag = wrapper == Wrapper::gzip ? ISAL_GZIP : ISAL_ZLIB;
+    state_->rest = compressed;
+}
+
+GzipReader::~GzipReader() = default;
+
+Result<bool> GzipReader::readUpTo(std::size_t size, std::vector<std::byte>& to) {
+    while (to.size() < size) {
+        const std::size_t before = to.size();
+        to.resize(std::min(size, before + kStep));
+        if (auto filled = fill(std::span(to).subspan(before)); !filled) return filled;
+    }
+    return true;
+}
+
+Result<bool> GzipReader::fill(std::span<std::byte> to) {
+    inflate_state& inflate = state_->inflate;
+    while (!to.empty()) {
+        state_->refill();
+        const auto room = static_cast<std::uint32_t>(std::min(to.size(), kStep));
+        inflate.next_out = reinterpret_cast<std::uint8_t*>(to.data());
+        inflate.avail_out = room;
+        const int status = isal_inflate(&inflate);
+        const bool stuck = inflate.avail_out == room && inflate.avail_in == 0 && state_->rest.empty();
+        const bool ended = inflate.block_state == ISAL_BLOCK_FINISH && inflate.avail_out > 0;
+        to = to.subspan(room - inflate.avail_out);
+        if (status != ISAL_DECOMP_OK) return Error{ErrorCode::bad_field, "the compressed file is faulty"};
+        if (stuck || ended) return Error{ErrorCode::bad_field, "the compressed file is incomplete"};
+    }
+    return true;
+}
+
+bool GzipReader::isAtEnd() {
+    inflate_state& inflate = state_->inflate;
+    std::uint8_t more = 0;
+    for (int part = 0; part < 2; ++part) {  // the checksum may be in the next part of the input
+        state_->refill();
+        inflate.next_out = &more;
+        inflate.avail_out = 1;
+        if (isal_inflate(&inflate) != ISAL_DECOMP_OK || inflate.avail_out == 0) return false;
+        if (inflate.block_state == ISAL_BLOCK_FINISH) return true;
+    }
+    return false;
+}
+
+}  // namespace oval4d::fields

@@ -1,0 +1,44 @@
+#pragma once
+// Decompression of gzip files.
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "errors/error.hpp"
+
+namespace oval4d::fields {
+
+/// Returns whether the bytes are the start of a gzip file (RFC 1952).
+bool isGzipStart(std::span<const std::byte> start);
+
+/// Decompresses a gzip file only as far as requested. Memory grows only with the bytes that are decompressed, so a
+/// small file that claims to be large takes little memory.
+class GzipReader {
+  public:
+    /// The format around the deflate data (RFC 1951): a gzip file (RFC 1952) or a zlib stream (RFC 1950).
+    enum class Wrapper : bool { gzip, zlib };
+
+    /// `compressed` must outlive this object.
+    explicit GzipReader(std::span<const std::byte> compressed, Wrapper wrapper = Wrapper::gzip);
+    ~GzipReader();
+    GzipReader(const GzipReader&) = delete;
+    GzipReader& operator=(const GzipReader&) = delete;
+
+    /// Appends the next decompressed bytes to `to` until it has `size` bytes. Error: `bad_field` if the file is faulty
+    /// or ends earlier.
+    Result<bool> readUpTo(std::size_t size, std::vector<std::byte>& to);
+
+    /// Fills `to` with the next decompressed bytes. Errors: those of readUpTo().
+    Result<bool> fill(std::span<std::byte> to);
+
+    /// Returns whether all bytes have been read and their checksum is correct.
+    bool isAtEnd();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace oval4d::fields

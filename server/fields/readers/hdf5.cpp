@@ -1,0 +1,272 @@
+#include "fields/readers/hdf5.hpp"
+
+#define H5_USE_110_API  // functions that all versions from 1.10 on have
+#include <hdf5.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <exception>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "fields/readers/array_layout.hpp"
+#include "fields/readers/netcdf.hpp"
+#include "fields/readers/sample_buffer.hpp"
+#include "text/message_text.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+constexpr std::size_t kMaxDatasets = 10'000;  // that are looked at
+
+// An identifier of an object of the library; the destructor closes it.
+class Handle {
+  public:
+    Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+    ~Handle() {
+        if (id_ >= 0) close_(id_);
+    }
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+
+    explicit operator bool() const { return id_ >= 0; }
+    hid_t operator*() const { return id_; }
+
+  private:
+    hid_t id_;
+    herr_t (*close_)(hid_t);
+};
+
+// The library calls these functions to get memory for a copy of the file. They return the bytes of the file themselves,
+// which the library only reads, because it opens the file for reading.
+void* giveBytes(std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* bytes) { return bytes; }
+void* copyNothing(void* to, const void* from, std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* /*bytes*/) {
+    return to == from ? to : nullptr;
+}
+void* refuseToGrow(void* /*memory*/, std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* /*bytes*/) {
+    return nullptr;
+}
+herr_t keepBytes(void* /*memory*/, H5FD_file_image_op_t /*purpose*/, void* /*bytes*/) { return 0; }
+void* sameBytes(void* bytes) { return bytes; }
+herr_t keepAll(void* /*bytes*/) { return 0; }
+
+// Opens a file in memory. H5LTopen_file_image does the same, but leaks memory if the file is not valid.
+hid_t openBytes(std::span<const std::byte> bytes) {
+    constexpr std::size_t kIncrement = 65536;                   // the step by which the file would grow
+    auto* const memory = const_cast<std::byte*>(bytes.data());  // the library's type is not const
+    H5FD_file_image_callbacks_t callbacks{giveBytes, copyNothing, refuseToGrow, keepBytes, sameBytes, keepAll, memory};
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    if (!access || H5Pset_fapl_core(*access, kIncrement, false) < 0 ||
+        H5Pset_file_image_callbacks(*access, &callbacks) < 0 || H5Pset_file_image(*access, memory, bytes.size()) < 0) {
+        return -1;
+    }
+    return H5Fopen("field", H5F_ACC_RDONLY, *access);
+}
+
+struct Contents {
+    std::vector<std::string> datasets;
+    bool refers = false;  // to other files
+};
+
+// The library calls these functions, so they must not throw.
+herr_t visitLink(hid_t /*group*/, const char* /*name*/, const H5L_info_t* info, void* to) noexcept {
+    auto& contents = *static_cast<Contents*>(to);
+    contents.refers = contents.refers || info->type > H5L_TYPE_SOFT;
+    return contents.refers ? 1 : 0;
+}
+
+herr_t visitObject(hid_t file, const char* name, const H5O_info_t* info, void* to) noexcept {
+    auto& contents = *static_cast<Contents*>(to);
+    if (info->type != H5O_TYPE_DATASET) return 0;
+    try {
+        contents.datasets.emplace_back(name);
+        const Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
+        if (!dataset) return 0;
+        const Handle creation(H5Dget_create_plist(*dataset), H5Pclose);
+        if (!creation) return 0;
+        contents.refers =
+            contents.refers || H5Pget_layout(*creation) == H5D_VIRTUAL || H5Pget_external_count(*creation) > 0;
+        return contents.refers || contents.datasets.size() == kMaxDatasets ? 1 : 0;
+    } catch (const std::exception&) {
+        return -1;
+    }
+}
+
+std::optional<std::vector<std::size_t>> sizeOfDataset(hid_t dataset) {
+    const Handle space(H5Dget_space(dataset), H5Sclose);
+    if (!space || H5Sget_simple_extent_type(*space) != H5S_SIMPLE) return {};
+    std::array<hsize_t, H5S_MAX_RANK> size{};
+    const int dimensions = H5Sget_simple_extent_dims(*space, size.data(), nullptr);
+    if (dimensions < 1) return {};
+    return std::vector<std::size_t>(size.begin(), size.begin() + dimensions);
+}
+
+// Returns how the file stores the numbers; nothing if it is not one of our types.
+std::optional<NumberFormat> formatOf(hid_t type) {
+    static constexpr std::array kSigned{NumberType::i1, NumberType::i2, NumberType::i4, NumberType::i8};
+    static constexpr std::array kUnsigned{NumberType::u1, NumberType::u2, NumberType::u4, NumberType::u8};
+    const H5T_class_t kind = H5Tget_class(type);
+    const std::size_t size = H5Tget_size(type);
+    NumberFormat format;
+    format.bigEndian = H5Tget_order(type) == H5T_ORDER_BE;
+    if (kind == H5T_FLOAT) {
+        const std::array<std::pair<hid_t, NumberType>, 4> floats{{{H5T_IEEE_F32LE, NumberType::f4},
+                                                                  {H5T_IEEE_F32BE, NumberType::f4},
+                                                                  {H5T_IEEE_F64LE, NumberType::f8},
+                                                                  {H5T_IEEE_F64BE, NumberType::f8}}};
+        for (const auto& [known, number] : floats) {
+            if (H5Tequal(type, known) <= 0) continue;
+            format.type = number;
+            return format;
+        }
+        return {};
+    }
+    if (kind == H5T_ENUM) {  // h5py's Booleans: FALSE is 0, TRUE is 1
+        const Handle base(H5Tget_super(type), H5Tclose);
+        if (size != 1 || H5Tget_nmembers(type) != 2 || H5Tget_member_index(type, "TRUE") < 0) return {};
+        format.type = NumberType::boolean;
+        return format;
+    }
+    if (kind != H5T_INTEGER || !std::has_single_bit(size) || size > 8 || H5Tget_precision(type) != 8 * size) return {};
+    const auto place = static_cast<std::size_t>(std::countr_zero(size));
+    format.type = H5Tget_sign(type) == H5T_SGN_NONE ? kUnsigned.at(place) : kSigned.at(place);
+    return format;
+}
+
+// Returns the bytes of a dataset; nothing unless it is stored in one piece, without filters, in the file itself.
+std::optional<std::span<const std::byte>> storedBytes(const FileContents& file, hid_t dataset, std::size_t size) {
+    const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+    if (!creation || H5Pget_layout(*creation) != H5D_CONTIGUOUS) return {};
+    const haddr_t offset = H5Dget_offset(dataset);
+    if (!isHdf5Start(file.bytes) || offset == HADDR_UNDEF || offset > file.bytes.size() ||
+        file.bytes.size() - offset < size || H5Dget_storage_size(dataset) < size) {
+        return {};
+    }
+    return file.bytes.subspan(offset, size);
+}
+
+// The file that is read, and how.
+struct Source {
+    const FileContents& file;
+    const ReadOptions& options;
+};
+
+// Reads the dataset as floats by slabs.
+Result<Samples> readSlabs(const Source& source, hid_t dataset, hid_t stored, const ArrayLayout& layout,
+                          const NumberFormat& format) {
+    const Handle space(H5Dget_space(dataset), H5Sclose);
+    const auto dimensions = static_cast<std::size_t>(H5Sget_simple_extent_ndims(*space));
+    auto buffer = SampleBuffer::of(layout.count(), source.options);
+    if (!buffer) return buffer.error();
+    std::vector<std::byte> numbers;
+    for (const Slab& slab : layout.slabs(kSlabSize)) {
+        std::array<hsize_t, 4> start{}, size{};
+        std::copy(slab.start.begin(), slab.start.end(), start.begin());
+        std::copy(slab.block.size.begin(), slab.block.size.end(), size.begin());
+        const std::size_t skipped = 4 - dimensions;
+        const hsize_t count = size[0] * size[1] * size[2] * size[3];
+        const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
+        numbers.resize(count * sizeOf(format.type));
+        if (H5Sselect_hyperslab(*space, H5S_SELECT_SET, start.data() + skipped, nullptr, size.data() + skipped,
+                                nullptr) < 0 ||
+            H5Dread(dataset, stored, *memory, *space, H5P_DEFAULT, numbers.data()) < 0) {
+            return badField(
+                "the dataset cannot be read: it is damaged, or it is compressed in a way that is not supported");
+        }
+        convert(format, numbers.data(), slab.block, buffer->values().data() + slab.first);
+        source.file.releasePages();
+        buffer->releasePages();
+    }
+    return buffer->take();
+}
+
+// Returns the path of the dataset of numbers with the most dimensions, from 1 to 4; empty if there is none.
+std::string choose(hid_t file, const std::vector<std::string>& datasets, std::vector<std::string>& warnings) {
+    std::string chosen;
+    std::size_t dimensions = 0, candidates = 0;
+    for (const std::string& name : datasets) {
+        const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+        if (!dataset) continue;
+        const Handle type(H5Dget_type(*dataset), H5Tclose);
+        const auto size = sizeOfDataset(*dataset);
+        if (!type || !size || size->size() > 4 || !formatOf(*type)) continue;
+        ++candidates;
+        if (size->size() <= dimensions) continue;
+        dimensions = size->size();
+        chosen = name;
+    }
+    if (candidates > 1)
+        warnings.push_back("of " + std::to_string(candidates) + " datasets, " + text::inQuotes(chosen) + " is shown");
+    return chosen;
+}
+
+Result<ReadField> readDataset(const FileContents& file, hid_t id, const std::vector<std::string>& datasets,
+                              const ReadOptions& options) {
+    ReadField field;
+    std::string name = options.variable;
+    if (name.empty()) name = choose(id, datasets, field.warnings);
+    if (name.empty()) return badField("the file has no dataset of real numbers with 1 to 4 dimensions");
+    const bool known = std::any_of(datasets.begin(), datasets.end(),
+                                   [&](const std::string& each) { return each == name || "/" + each == name; });
+    const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+    if (access) H5Pset_chunk_cache(*access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, kChunkCacheSize, 1);
+    const Handle dataset(known ? H5Dopen2(id, name.c_str(), access ? *access : H5P_DEFAULT) : -1, H5Dclose);
+    if (!dataset) {
+        const std::vector<std::string_view> names(datasets.begin(), datasets.end());
+        return Error{ErrorCode::not_found,
+                     "the file has no dataset " + text::inQuotes(name) + text::didYouMean(name, names)};
+    }
+    const Handle type(H5Dget_type(*dataset), H5Tclose);
+    const auto format = type ? formatOf(*type) : std::nullopt;
+    const auto size = sizeOfDataset(*dataset);
+    if (!format || !size) return badField("the dataset " + text::inQuotes(name) + " is not an array of real numbers");
+    const auto axes = axesOf(options.axes, size->size());
+    if (!axes) return axes.error();
+    std::vector<Dimension> dimensions;
+    for (std::size_t i = 0; i < size->size(); ++i) dimensions.push_back({(*size)[i], (*axes)[i]});
+    const auto layout = ArrayLayout::of(dimensions, options.maxSamples);
+    if (!layout) return layout.error();
+    field.shape = layout->shape();
+    field.boxIsKnown = options.box.has_value();
+    const bool time = options.axes.empty() || options.axes.find('t') != std::string::npos;
+    field.box = options.box.value_or(defaultBox(field.shape, time));
+    field.quantity = text::printable(name.substr(name.rfind('/') + 1), 60);
+    if (const auto bytes = storedBytes(file, *dataset, layout->count() * sizeOf(format->type))) {
+        auto inPlace = layout->samples(file, *bytes, *format, options);
+        if (!inPlace) return inPlace.error();
+        field.samples = std::move(*inPlace);
+        return field;
+    }
+    auto samples = readSlabs({file, options}, *dataset, *type, *layout, *format);
+    if (!samples) return samples.error();
+    field.samples = *samples;
+    return field;
+}
+
+}  // namespace
+
+bool isHdf5Start(std::span<const std::byte> start) {
+    return std::string_view(reinterpret_cast<const char*>(start.data()), start.size()).starts_with("\x89HDF\r\n\x1a\n");
+}
+
+Result<ReadField> readHdf5(const FileContents& file, const ReadOptions& options) {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // no messages to standard error
+    H5PLset_loading_state(0);                     // no plug-ins
+    const Handle id(openBytes(file.bytes), H5Fclose);
+    if (!id) return badField("the file is not a valid HDF5 file");
+    Contents contents;
+    const bool visited = H5Lvisit(*id, H5_INDEX_NAME, H5_ITER_INC, visitLink, &contents) >= 0 &&
+                         (contents.refers || H5Ovisit(*id, H5_INDEX_NAME, H5_ITER_INC, visitObject, &contents) >= 0);
+    if (!visited) return badField("the file is not a valid HDF5 file: its groups cannot be read");
+    if (contents.refers) return badField("the file refers to other files");
+    if (contents.datasets.size() == kMaxDatasets) return badField("the file has too many datasets");
+    if (H5Aexists(*id, "_NCProperties") > 0) return readNetcdf(file, options);
+    return readDataset(file, *id, contents.datasets, options);
+}
+
+}  // namespace oval4d::fields

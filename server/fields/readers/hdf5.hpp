@@ -1,0 +1,29 @@
+#pragma once
+// HDF5 files.
+
+#include <cstddef>
+#include <span>
+
+#include "errors/error.hpp"
+#include "fields/readers/file_contents.hpp"
+#include "fields/readers/read_field.hpp"
+
+namespace oval4d::fields {
+
+/// Returns whether the bytes are the start of an HDF5 file. This includes NetCDF-4 files.
+bool isHdf5Start(std::span<const std::byte> start);
+
+/// Reads a dataset with 1 to 4 dimensions of integers, real numbers, or Booleans as h5py writes them.
+/// `options.variable` is its path; if that is empty, the dataset with the most dimensions is read, and of several such,
+/// the first by path. The bytes of a dataset that is stored in one piece are used as in readNpy(), without the library;
+/// other datasets are read by slabs. The box is that of the options, or defaultBox(). NetCDF-4 files are passed to
+/// readNetcdf().
+///
+/// Refuses files that refer to other files: by external links, external storage or virtual datasets. Loads no plug-ins.
+/// Errors: `bad_field`, `too_large`, `not_found` for the path, `out_of_range` for the other options.
+///
+/// The HDF5 library is not made for hostile files: files from strangers should be read in a confined process.
+/// Thread-safe only if the library is.
+Result<ReadField> readHdf5(const FileContents& file, const ReadOptions& options);
+
+}  // namespace oval4d::fields

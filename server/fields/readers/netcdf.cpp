@@ -1,0 +1,302 @@
+#include "fields/readers/netcdf.hpp"
+
+#include <netcdf.h>
+#include <netcdf_mem.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "fields/readers/array_layout.hpp"
+#include "fields/readers/cf_conventions.hpp"
+#include "fields/readers/sample_buffer.hpp"
+#include "text/message_text.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+constexpr std::size_t kMaxNetcdfText = 64;  // the maximum number of bytes of a text that are kept
+
+// A file that the library has opened; the destructor closes it.
+class OpenFile {
+  public:
+    explicit OpenFile(const FileContents& file) {
+        // The library does not change the bytes, although their type is not const.
+        auto* const bytes = const_cast<std::byte*>(file.bytes.data());
+        status_ = nc_open_mem("field", NC_NOWRITE, file.bytes.size(), bytes, &id_);
+    }
+    ~OpenFile() {
+        if (status_ == NC_NOERR) nc_close(id_);
+    }
+    OpenFile(const OpenFile&) = delete;
+    OpenFile& operator=(const OpenFile&) = delete;
+
+    int status() const { return status_; }
+    int id() const { return id_; }
+
+  private:
+    int id_ = -1, status_;
+};
+
+struct Variable {
+    int group = -1, id = -1;
+    std::string name;
+    nc_type type = NC_NAT;
+    std::vector<int> dimensions;
+};
+
+std::optional<Variable> variableAt(int group, int id) {
+    Variable variable{group, id, {}, NC_NAT, {}};
+    std::array<char, NC_MAX_NAME + 1> name{};
+    int count = 0;
+    if (nc_inq_var(group, id, name.data(), &variable.type, &count, nullptr, nullptr) != NC_NOERR) return {};
+    variable.name = name.data();
+    variable.dimensions.resize(static_cast<std::size_t>(count));
+    if (nc_inq_vardimid(group, id, variable.dimensions.data()) != NC_NOERR) return {};
+    return variable;
+}
+
+std::optional<Variable> variableNamed(int group, const std::string& name) {
+    int id = -1;
+    if (nc_inq_varid(group, name.c_str(), &id) != NC_NOERR) return {};
+    return variableAt(group, id);
+}
+
+std::string dimensionName(int group, int dimension) {
+    std::array<char, NC_MAX_NAME + 1> name{};
+    return nc_inq_dimname(group, dimension, name.data()) == NC_NOERR ? name.data() : "";
+}
+
+std::string textOf(const Variable& variable, const char* attribute) {
+    nc_type type = NC_NAT;
+    std::size_t length = 0;
+    if (nc_inq_att(variable.group, variable.id, attribute, &type, &length) != NC_NOERR || length == 0) return {};
+    if (type == NC_STRING) {
+        std::vector<char*> strings(length);
+        if (nc_get_att_string(variable.group, variable.id, attribute, strings.data()) != NC_NOERR) return {};
+        std::string text = strings[0] != nullptr ? text::printable(strings[0], kMaxNetcdfText - 4) : "";
+        nc_free_string(length, strings.data());
+        return text;
+    }
+    std::string text(length, '\0');
+    if (type != NC_CHAR || nc_get_att_text(variable.group, variable.id, attribute, text.data()) != NC_NOERR) return {};
+    return text::printable(text.substr(0, text.find('\0')), kMaxNetcdfText - 4);
+}
+
+std::vector<double> numbersOf(const Variable& variable, const char* attribute) {
+    constexpr std::size_t kMaxNumbers = 100;
+    nc_type type = NC_NAT;
+    std::size_t length = 0;
+    if (nc_inq_att(variable.group, variable.id, attribute, &type, &length) != NC_NOERR || type == NC_CHAR ||
+        type == NC_STRING || length > kMaxNumbers) {
+        return {};
+    }
+    std::vector<double> numbers(length);
+    if (nc_get_att_double(variable.group, variable.id, attribute, numbers.data()) != NC_NOERR) return {};
+    return numbers;
+}
+
+struct TypeRow {
+    nc_type type;
+    NumberType number;
+    double fill;  // the default value of numbers that were never written
+};
+constexpr double kNoFill = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array<TypeRow, 10> kNetcdfTypes{{{NC_BYTE, NumberType::i1, kNoFill},
+                                                {NC_UBYTE, NumberType::u1, kNoFill},
+                                                {NC_SHORT, NumberType::i2, NC_FILL_SHORT},
+                                                {NC_USHORT, NumberType::u2, NC_FILL_USHORT},
+                                                {NC_INT, NumberType::i4, NC_FILL_INT},
+                                                {NC_UINT, NumberType::u4, NC_FILL_UINT},
+                                                {NC_INT64, NumberType::i8, static_cast<double>(NC_FILL_INT64)},
+                                                {NC_UINT64, NumberType::u8, static_cast<double>(NC_FILL_UINT64)},
+                                                {NC_FLOAT, NumberType::f4, double{NC_FILL_FLOAT}},
+                                                {NC_DOUBLE, NumberType::f8, NC_FILL_DOUBLE}}};
+
+const TypeRow* rowOf(nc_type type) {
+    const auto* const row =
+        std::find_if(kNetcdfTypes.begin(), kNetcdfTypes.end(), [&](const TypeRow& each) { return each.type == type; });
+    return row == kNetcdfTypes.end() ? nullptr : row;
+}
+
+NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
+    NumberFormat format;
+    format.type = row.number;
+    format.bigEndian = std::endian::native == std::endian::big;  // the library converts
+    format.missing = numbersOf(variable, "_FillValue");
+    if (format.missing.empty() && !std::isnan(row.fill)) format.missing = {row.fill};
+    for (const double number : numbersOf(variable, "missing_value")) format.missing.push_back(number);
+    std::erase_if(format.missing, [](double number) { return std::isnan(number); });  // NaN is missing anyway
+    const auto first = [&](const char* attribute, double otherwise) {
+        const auto numbers = numbersOf(variable, attribute);
+        return numbers.size() == 1 ? numbers[0] : otherwise;
+    };
+    format.min = first("valid_min", format.min);
+    format.max = first("valid_max", format.max);
+    if (const auto range = numbersOf(variable, "valid_range"); range.size() == 2) {
+        format.min = range[0];
+        format.max = range[1];
+    }
+    format.scale = first("scale_factor", 1);
+    format.offset = first("add_offset", 0);
+    return format;
+}
+
+// Returns whether a variable is a coordinate variable (named like its only dimension) or holds the bounds of one.
+bool isCoordinate(const Variable& variable) {
+    if (variable.dimensions.empty()) return true;
+    const std::string dimension = dimensionName(variable.group, variable.dimensions.front());
+    if (variable.dimensions.size() == 1) return variable.name == dimension;
+    const auto coordinate = variableNamed(variable.group, dimension);
+    return coordinate &&
+           (textOf(*coordinate, "bounds") == variable.name || textOf(*coordinate, "climatology") == variable.name);
+}
+
+Result<Variable> choose(int file, ReadField& field) {
+    int count = 0;
+    if (nc_inq_nvars(file, &count) != NC_NOERR) return badField("the file's variables cannot be read");
+    Variable chosen;
+    std::size_t candidates = 0;
+    for (int id = 0; id < count; ++id) {
+        const auto variable = variableAt(file, id);
+        if (!variable || rowOf(variable->type) == nullptr || variable->dimensions.size() > 4 || isCoordinate(*variable))
+            continue;
+        ++candidates;
+        if (variable->dimensions.size() > chosen.dimensions.size()) chosen = *variable;
+    }
+    if (candidates == 0) return badField("the file has no variable of real numbers with 1 to 4 dimensions");
+    if (candidates > 1) {
+        field.warnings.push_back("of " + std::to_string(candidates) + " variables, " + text::inQuotes(chosen.name) +
+                                 " is shown");
+    }
+    return chosen;
+}
+
+Result<Variable> find(int file, const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    int group = file;
+    const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
+    if (slash != std::string::npos && slash > 0) {
+        const std::string full = (path.starts_with('/') ? "" : "/") + path.substr(0, slash);
+        if (nc_inq_grp_full_ncid(file, full.c_str(), &group) != NC_NOERR) group = -1;
+    }
+    auto variable = group < 0 ? std::nullopt : variableNamed(group, name);
+    if (!variable) return Error{ErrorCode::not_found, "the file has no variable " + text::inQuotes(path)};
+    if (rowOf(variable->type) == nullptr)
+        return badField("the variable " + text::inQuotes(path) + " does not consist of numbers");
+    return *variable;
+}
+
+std::optional<CoordinateEnds> endsOf(const Variable& coordinate, std::size_t size, const std::string& name,
+                                     ReadField& field) {
+    if (coordinate.dimensions.size() != 1 || rowOf(coordinate.type) == nullptr) return {};
+    std::vector<double> at(size);
+    if (nc_get_var_double(coordinate.group, coordinate.id, at.data()) != NC_NOERR) return {};
+    return endsOfCoordinates(at, name, field.warnings);
+}
+
+// Assigns dimensions to axes, and finds the box and the units.
+Result<std::vector<Dimension>> place(const Variable& variable, const ReadOptions& options, ReadField& field) {
+    std::vector<CfDimension> stated;
+    std::vector<Dimension> dimensions;
+    for (const int id : variable.dimensions) {
+        CfDimension each{dimensionName(variable.group, id), {}, {}, {}, {}};
+        if (const auto coordinate = variableNamed(variable.group, each.name)) {
+            each.axis = textOf(*coordinate, "axis");
+            each.standardName = textOf(*coordinate, "standard_name");
+            each.units = textOf(*coordinate, "units");
+            each.positive = textOf(*coordinate, "positive");
+        }
+        stated.push_back(std::move(each));
+        std::size_t size = 0;
+        if (nc_inq_dimlen(variable.group, id, &size) != NC_NOERR) return badField("a dimension cannot be read");
+        if (size > kMaxSamplesPerAxis) return Error{ErrorCode::too_large, "a dimension has more than 2^24 samples"};
+        dimensions.push_back({size});
+    }
+    auto axes = axesOf(options.axes, dimensions.size());  // also checks the number of dimensions
+    if (!axes) return axes.error();
+    if (options.axes.empty()) *axes = cfAxes(stated);
+    field.box = {glm::dvec4(0), glm::dvec4(0)};
+    for (std::size_t i = 0; i < dimensions.size(); ++i) {
+        Dimension& each = dimensions[i];
+        each.axis = (*axes)[i];
+        if (each.size == 0) return badField("the array is empty");
+        field.units[each.axis] = stated[i].units;
+        const auto coordinate = variableNamed(variable.group, stated[i].name);
+        const auto ends = coordinate ? endsOf(*coordinate, each.size, stated[i].name, field) : std::nullopt;
+        field.boxIsKnown = field.boxIsKnown || ends;
+        const CoordinateEnds found = ends.value_or(CoordinateEnds{0, static_cast<double>(each.size - 1)});
+        each.reversed = found.last < found.first;
+        const auto axis = static_cast<glm::length_t>(each.axis);
+        field.box.min[axis] = std::min(found.first, found.last);
+        field.box.max[axis] = std::max(found.first, found.last);
+    }
+    return dimensions;
+}
+
+Result<Samples> readSlabs(const FileContents& file, const ReadOptions& options, const Variable& variable,
+                          const ArrayLayout& layout) {
+    const NumberFormat format = formatOf(variable, *rowOf(variable.type));
+    const std::size_t skipped = 4 - variable.dimensions.size();
+    auto buffer = SampleBuffer::of(layout.count(), options);
+    if (!buffer) return buffer.error();
+    // Slabs that have parts of the same chunks follow one another. Files without chunks refuse this.
+    constexpr std::size_t kSlots = 4133;
+    static_cast<void>(nc_set_var_chunk_cache(variable.group, variable.id, kChunkCacheSize, kSlots, 1));
+    std::vector<std::byte> numbers;
+    for (const Slab& slab : layout.slabs(kSlabSize)) {
+        const auto& size = slab.block.size;
+        numbers.resize(size[0] * size[1] * size[2] * size[3] * sizeOf(format.type));
+        const int status = nc_get_vara(variable.group, variable.id, slab.start.data() + skipped, size.data() + skipped,
+                                       numbers.data());
+        if (status != NC_NOERR)
+            return badField("the variable cannot be read: " + text::printable(nc_strerror(status), kMaxNetcdfText));
+        convert(format, numbers.data(), slab.block, buffer->values().data() + slab.first);
+        file.releasePages();
+        buffer->releasePages();
+    }
+    return buffer->take();
+}
+
+}  // namespace
+
+bool isNetcdfStart(std::span<const std::byte> start) {
+    const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
+    return text.size() >= 4 && text.starts_with("CDF") && (text[3] == 1 || text[3] == 2 || text[3] == 5);
+}
+
+Result<ReadField> readNetcdf(const FileContents& file, const ReadOptions& options) {
+    const OpenFile open(file);
+    if (open.status() != NC_NOERR)
+        return badField("the file is not a valid NetCDF file: " +
+                        text::printable(nc_strerror(open.status()), kMaxNetcdfText));
+    ReadField field;
+    const auto variable = options.variable.empty() ? choose(open.id(), field) : find(open.id(), options.variable);
+    if (!variable) return variable.error();
+    const auto dimensions = place(*variable, options, field);
+    if (!dimensions) return dimensions.error();
+    const auto layout = ArrayLayout::of(*dimensions, options.maxSamples);
+    if (!layout) return layout.error();
+    field.shape = layout->shape();
+    if (!field.boxIsKnown) field.box = defaultBox(field.shape, true);
+    if (options.box) field.box = *options.box;
+    field.boxIsKnown = field.boxIsKnown || options.box;
+    auto samples = readSlabs(file, options, *variable, *layout);
+    if (!samples) return samples.error();
+    field.samples = *samples;
+    field.quantity = textOf(*variable, "long_name");
+    if (field.quantity.empty()) field.quantity = textOf(*variable, "standard_name");
+    if (field.quantity.empty()) field.quantity = text::printable(variable->name, kMaxNetcdfText - 4);
+    field.quantityUnits = textOf(*variable, "units");
+    return field;
+}
+
+}  // namespace oval4d::fields

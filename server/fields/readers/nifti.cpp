@@ -1,0 +1,337 @@
+#include "fields/readers/nifti.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "fields/readers/array_layout.hpp"
+#include "fields/readers/gzip.hpp"
+#include "text/message_text.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+constexpr std::size_t kHeader1 = 348, kHeader2 = 540;
+constexpr double kMaxDataAt = 1 << 24;  // the maximum number of bytes before the data (header and extensions)
+constexpr std::size_t kDimensions = 7;
+
+// Reads the numbers of a header by their offsets (see nifti1.h and nifti2.h of the NIfTI reference library).
+class HeaderBytes {
+  public:
+    HeaderBytes(std::span<const std::byte> bytes, bool bigEndian) : bytes_(bytes), bigEndian_(bigEndian) {}
+
+    template <typename Number>
+    Number at(std::size_t offset) const {
+        std::array<std::byte, sizeof(Number)> number;
+        std::memcpy(number.data(), &bytes_[offset], sizeof(Number));
+        if (bigEndian_ != (std::endian::native == std::endian::big)) std::reverse(number.begin(), number.end());
+        return std::bit_cast<Number>(number);
+    }
+    std::string textAt(std::size_t offset, std::size_t length) const {
+        const std::string_view text(reinterpret_cast<const char*>(&bytes_[offset]), length);
+        return text::printable(text.substr(0, text.find('\0')), 64);
+    }
+
+  private:
+    std::span<const std::byte> bytes_;
+    bool bigEndian_;
+};
+
+// What both versions of the header contain.
+struct NiftiHeader {
+    bool bigEndian = false;
+    std::int64_t dimensions = 0;
+    std::array<std::int64_t, kDimensions> size{};
+    std::array<double, 5> spacing{};  // the sign of qfac, and the distances along the first four dimensions
+    int type = 0, units = 0, qform = 0, sform = 0;
+    double dataAt = 0, slope = 0, intercept = 0, firstTime = 0;
+    std::array<double, 3> quaternion{}, offset{};
+    std::array<std::array<double, 4>, 3> rows{};
+    std::string quantity;
+};
+
+// Returns whether the byte order is big-endian; nothing if the first number is the header's length in neither order.
+std::optional<bool> isBigEndian(std::span<const std::byte> start, std::size_t header) {
+    if (start.size() < 4) return {};
+    for (const bool bigEndian : {false, true}) {
+        if (HeaderBytes(start, bigEndian).at<std::uint32_t>(0) == header) return bigEndian;
+    }
+    return {};
+}
+
+NiftiHeader parse1(const HeaderBytes& bytes) {
+    NiftiHeader header;
+    header.dimensions = bytes.at<std::int16_t>(40);
+    for (std::size_t i = 0; i < kDimensions; ++i) header.size[i] = bytes.at<std::int16_t>(42 + 2 * i);
+    header.type = bytes.at<std::int16_t>(70);
+    for (std::size_t i = 0; i < 5; ++i) header.spacing[i] = bytes.at<float>(76 + 4 * i);
+    header.dataAt = bytes.at<float>(108);
+    header.slope = bytes.at<float>(112);
+    header.intercept = bytes.at<float>(116);
+    header.units = bytes.at<std::uint8_t>(123);
+    header.firstTime = bytes.at<float>(136);
+    header.qform = bytes.at<std::int16_t>(252);
+    header.sform = bytes.at<std::int16_t>(254);
+    for (std::size_t i = 0; i < 3; ++i) {
+        header.quaternion[i] = bytes.at<float>(256 + 4 * i);
+        header.offset[i] = bytes.at<float>(268 + 4 * i);
+        for (std::size_t j = 0; j < 4; ++j) header.rows[i][j] = bytes.at<float>(280 + 16 * i + 4 * j);
+    }
+    header.quantity = bytes.textAt(328, 16);
+    return header;
+}
+
+NiftiHeader parse2(const HeaderBytes& bytes) {
+    NiftiHeader header;
+    header.type = bytes.at<std::int16_t>(12);
+    header.dimensions = bytes.at<std::int64_t>(16);
+    for (std::size_t i = 0; i < kDimensions; ++i) header.size[i] = bytes.at<std::int64_t>(24 + 8 * i);
+    for (std::size_t i = 0; i < 5; ++i) header.spacing[i] = bytes.at<double>(104 + 8 * i);
+    header.dataAt = static_cast<double>(bytes.at<std::int64_t>(168));
+    header.slope = bytes.at<double>(176);
+    header.intercept = bytes.at<double>(184);
+    header.firstTime = bytes.at<double>(216);
+    header.qform = bytes.at<std::int32_t>(344);
+    header.sform = bytes.at<std::int32_t>(348);
+    for (std::size_t i = 0; i < 3; ++i) {
+        header.quaternion[i] = bytes.at<double>(352 + 8 * i);
+        header.offset[i] = bytes.at<double>(376 + 8 * i);
+        for (std::size_t j = 0; j < 4; ++j) header.rows[i][j] = bytes.at<double>(400 + 32 * i + 8 * j);
+    }
+    header.units = bytes.at<std::int32_t>(500);
+    header.quantity = bytes.textAt(508, 16);
+    return header;
+}
+
+std::size_t headerSize(std::span<const std::byte> start) { return isBigEndian(start, kHeader1) ? kHeader1 : kHeader2; }
+
+Result<NiftiHeader> parse(std::span<const std::byte> start) {
+    const std::size_t size = headerSize(start);
+    const auto bigEndian = isBigEndian(start, size);
+    if (!bigEndian) return badField("the file is not in the format NIfTI");
+    if (start.size() < size) return badField("the header of the file is incomplete");
+    const HeaderBytes bytes(start, *bigEndian);
+    const std::string magic = bytes.textAt(size == kHeader1 ? 344 : 4, 3);
+    if (magic == "ni1" || magic == "ni2")
+        return badField("the header and the data are in two files; join them into one file .nii");
+    if (magic != (size == kHeader1 ? "n+1" : "n+2")) return badField("the file is not in the format NIfTI");
+    NiftiHeader header = size == kHeader1 ? parse1(bytes) : parse2(bytes);
+    header.bigEndian = *bigEndian;
+    if (header.dimensions < 1 || header.dimensions > static_cast<std::int64_t>(kDimensions))
+        return badField("the array must have 1 to 4 dimensions");
+    for (std::size_t i = 0; i < static_cast<std::size_t>(header.dimensions); ++i) {
+        if (header.size[i] < 1) return badField("the array is empty");
+        if (i >= 4 && header.size[i] > 1)
+            return badField("the array has several numbers at each point, or more than 4 dimensions");
+    }
+    header.dimensions = std::min<std::int64_t>(header.dimensions, 4);
+    if (!(header.dataAt >= static_cast<double>(size) && header.dataAt <= kMaxDataAt))
+        return badField("the header states an impossible position of the data");
+    return header;
+}
+
+std::optional<NumberFormat> formatOf(const NiftiHeader& header) {
+    static constexpr std::array<std::pair<int, NumberType>, 10> kNiftiTypes{{{2, NumberType::u1},
+                                                                             {4, NumberType::i2},
+                                                                             {8, NumberType::i4},
+                                                                             {16, NumberType::f4},
+                                                                             {64, NumberType::f8},
+                                                                             {256, NumberType::i1},
+                                                                             {512, NumberType::u2},
+                                                                             {768, NumberType::u4},
+                                                                             {1024, NumberType::i8},
+                                                                             {1280, NumberType::u8}}};
+    const auto* const type = std::find_if(kNiftiTypes.begin(), kNiftiTypes.end(),
+                                          [&](const auto& each) { return each.first == header.type; });
+    if (type == kNiftiTypes.end()) return {};
+    NumberFormat format;
+    format.type = type->second;
+    format.bigEndian = header.bigEndian;
+    if (header.slope != 0 && std::isfinite(header.slope) && std::isfinite(header.intercept)) {
+        format.scale = header.slope;
+        format.offset = header.intercept;
+    }
+    return format;
+}
+
+double distance(const NiftiHeader& header, std::size_t dimension) {
+    const double spacing = std::abs(header.spacing[dimension + 1]);
+    return spacing > 0 && std::isfinite(spacing) ? spacing : 1;
+}
+
+using Matrix = std::array<std::array<double, 4>, 3>;  // from indices to coordinates in space
+
+// Returns the orientation by method 3 of nifti1.h, or else by method 2.
+std::optional<Matrix> orientation(const NiftiHeader& header) {
+    if (header.sform > 0) return header.rows;
+    if (header.qform <= 0) return {};
+    const auto& [b, c, d] = header.quaternion;
+    const double a = std::sqrt(std::max(0., 1 - b * b - c * c - d * d));
+    Matrix matrix{{{a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)},
+                   {2 * (b * c + a * d), a * a + c * c - b * b - d * d, 2 * (c * d - a * b)},
+                   {2 * (b * d - a * c), 2 * (c * d + a * b), a * a + d * d - b * b - c * c}}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j)
+            matrix[i][j] *= distance(header, j) * (j == 2 && header.spacing[0] < 0 ? -1 : 1);
+        matrix[i][3] = header.offset[i];
+    }
+    return matrix;
+}
+
+// Returns the axis of space to which each of the first three dimensions of the array is parallel; nothing if one of
+// them is oblique.
+std::optional<std::array<std::size_t, 3>> parallelAxes(const Matrix& matrix) {
+    constexpr double kTolerance = 1e-3;
+    std::array<std::size_t, 3> axes{};
+    for (std::size_t j = 0; j < 3; ++j) {
+        const auto magnitude = [&](std::size_t i) { return std::abs(matrix[i][j]); };
+        for (std::size_t i = 1; i < 3; ++i) {
+            if (magnitude(i) > magnitude(axes[j])) axes[j] = i;
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!std::isfinite(matrix[i][j]) || !std::isfinite(matrix[i][3]) || magnitude(axes[j]) == 0) return {};
+            if (i != axes[j] && magnitude(i) > kTolerance * magnitude(axes[j])) return {};
+        }
+        for (std::size_t k = 0; k < j; ++k) {
+            if (axes[k] == axes[j]) return {};
+        }
+    }
+    return axes;
+}
+
+void setUnits(const NiftiHeader& header, ReadField& field) {
+    static constexpr std::array<std::string_view, 4> kLengths{"", "m", "mm", "µm"};
+    static constexpr std::array<std::string_view, 7> kTimes{"", "s", "ms", "µs", "Hz", "ppm", "rad/s"};
+    const auto length = static_cast<std::size_t>(header.units & 7),
+               time = static_cast<std::size_t>(header.units >> 3 & 7);
+    for (std::size_t i = 0; i < 3 && length < kLengths.size(); ++i) field.units[i] = kLengths.at(length);
+    if (time < kTimes.size()) field.units[3] = kTimes.at(time);
+}
+
+// Sets the box and the axes of the dimensions. `dimensions` must be in the order from the fastest to the slowest.
+std::optional<Error> place(const NiftiHeader& header, const ReadOptions& options, std::vector<Dimension>& dimensions,
+                           ReadField& field) {
+    setUnits(header, field);
+    const auto matrix = orientation(header);
+    auto parallel = matrix ? parallelAxes(*matrix) : std::nullopt;
+    if (!options.axes.empty()) {
+        auto axes = axesOf(options.axes, dimensions.size());
+        if (!axes) return axes.error();
+        std::reverse(axes->begin(), axes->end());
+        for (std::size_t i = 0; i < dimensions.size(); ++i) dimensions[i].axis = (*axes)[i];
+        parallel.reset();
+    } else {
+        for (std::size_t i = 0; i < dimensions.size(); ++i) dimensions[i].axis = i < 3 && parallel ? (*parallel)[i] : i;
+        if (matrix && !parallel)
+            field.warnings.emplace_back("the voxels are oblique to the axes of space; their own axes are used instead");
+    }
+    field.box = {glm::dvec4(0), glm::dvec4(0)};
+    for (std::size_t i = 0; i < dimensions.size(); ++i) {
+        const auto axis = static_cast<glm::length_t>(dimensions[i].axis);
+        double length = distance(header, i) * static_cast<double>(dimensions[i].size - 1);
+        double first = i == 3 ? (std::isfinite(header.firstTime) ? header.firstTime : 0) : -length / 2;
+        if (parallel && i < 3) {
+            const auto& row = (*matrix)[dimensions[i].axis];
+            length = std::abs(row[i]) * static_cast<double>(dimensions[i].size - 1);
+            dimensions[i].reversed = row[i] < 0;
+            first = row[3] - (dimensions[i].reversed ? length : 0);
+        }
+        field.box.min[axis] = first;
+        field.box.max[axis] = first + length;
+    }
+    if (options.box) field.box = *options.box;
+    field.boxIsKnown = true;
+    return {};
+}
+
+// Decompresses the first `size` bytes of a file, of which `unzipped` has the first ones.
+Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vector<std::byte>& unzipped,
+                           std::size_t size, const ReadOptions& options) {
+    constexpr std::size_t kPiece = std::size_t{64} << 20U;
+    if (size / sizeof(float) <= options.maxInMemory || !options.newFile) {
+        if (const auto read = gzip.readUpTo(size, unzipped); !read) return read.error();
+        return FileContents::of(std::move(unzipped));
+    }
+    auto to = options.newFile(size);
+    if (!to) return to.error();
+    const std::span<std::byte> bytes = (*to)->writableBytes();
+    std::copy(unzipped.begin(), unzipped.end(), bytes.begin());
+    for (std::size_t done = unzipped.size(); done < size; done += kPiece) {
+        if (const auto read = gzip.fill(bytes.subspan(done, std::min(kPiece, size - done))); !read) return read.error();
+        file.releasePages();
+        (*to)->releasePages();
+    }
+    return FileContents::of(MappedFilePtr(std::move(*to)));
+}
+
+// The bytes of the data: those of the file, or decompressed ones.
+Result<FileContents> dataOf(const FileContents& file, GzipReader* gzip, std::vector<std::byte>& unzipped,
+                            std::size_t begin, std::size_t size, const ReadOptions& options) {
+    if (gzip != nullptr) {
+        auto contents = unzip(file, *gzip, unzipped, begin + size, options);
+        if (contents) contents->bytes = contents->bytes.subspan(begin);
+        return contents;
+    }
+    if (file.bytes.size() < begin || file.bytes.size() - begin < size) {
+        return badField("the array should take " + std::to_string(size) + " bytes from byte " + std::to_string(begin) +
+                        " on, but the file has only " + std::to_string(file.bytes.size()));
+    }
+    FileContents contents = file;
+    contents.bytes = file.bytes.subspan(begin, size);
+    return contents;
+}
+
+}  // namespace
+
+bool isNiftiStart(std::span<const std::byte> start) {
+    const std::size_t size = headerSize(start);
+    const auto bigEndian = isBigEndian(start, size);
+    if (!bigEndian || start.size() < kHeader1) return false;
+    const std::string magic = HeaderBytes(start, *bigEndian).textAt(size == kHeader1 ? 344 : 4, 3);
+    return magic == "n+1" || magic == "n+2" || magic == "ni1" || magic == "ni2";
+}
+
+Result<ReadField> readNifti(const FileContents& file, const ReadOptions& options) {
+    std::vector<std::byte> unzipped;
+    std::optional<GzipReader> gzip;
+    if (isGzipStart(file.bytes)) {
+        gzip.emplace(file.bytes);
+        if (const auto read = gzip->readUpTo(kHeader1, unzipped); !read) return read.error();
+        if (headerSize(unzipped) == kHeader2) {
+            if (const auto read = gzip->readUpTo(kHeader2, unzipped); !read) return read.error();
+        }
+    }
+    const auto header = parse(gzip ? std::span<const std::byte>(unzipped) : file.bytes);
+    if (!header) return header.error();
+    const auto format = formatOf(*header);
+    if (!format)
+        return badField("the numbers are of the type " + std::to_string(header->type) + " of NIfTI; they must be real");
+
+    ReadField field;
+    std::vector<Dimension> dimensions(static_cast<std::size_t>(header->dimensions));
+    for (std::size_t i = 0; i < dimensions.size(); ++i) dimensions[i].size = static_cast<std::size_t>(header->size[i]);
+    if (auto error = place(*header, options, dimensions, field)) return *error;
+    std::reverse(dimensions.begin(), dimensions.end());
+    const auto layout = ArrayLayout::of(dimensions, options.maxSamples);
+    if (!layout) return layout.error();
+    const auto data = dataOf(file, gzip ? &*gzip : nullptr, unzipped, static_cast<std::size_t>(header->dataAt),
+                             layout->count() * sizeOf(format->type), options);
+    if (!data) return data.error();
+    field.shape = layout->shape();
+    auto samples = layout->samples(*data, data->bytes, *format, options);
+    if (!samples) return samples.error();
+    field.samples = std::move(*samples);
+    field.quantity = header->quantity;
+    return field;
+}
+
+}  // namespace oval4d::fields

@@ -1,0 +1,52 @@
+#pragma once
+// The number types in files, and their conversion to 32-bit floats.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace oval4d::fields {
+
+/// A type of numbers: Booleans of one byte, signed (i) and unsigned (u) integers, and IEEE 754 floats (f). The digit is
+/// the size in bytes.
+enum class NumberType : std::uint8_t { boolean, i1, u1, i2, u2, i4, u4, i8, u8, f2, f4, f8 };
+
+/// Returns the size of a number in bytes.
+std::size_t sizeOf(NumberType type);
+
+/// How numbers are stored, and what they stand for.
+struct NumberFormat {
+    NumberType type = NumberType::f4;
+    bool bigEndian = false;
+    double scale = 1, offset = 0;                           ///< a stored number n stands for n · scale + offset
+    std::vector<double> missing;                            ///< stored numbers that stand for no value
+    double min = -std::numeric_limits<double>::infinity();  ///< stored numbers outside min … max stand for no value
+    double max = std::numeric_limits<double>::infinity();
+
+    /// Returns whether all stored numbers stand for themselves.
+    bool isPlain() const;
+};
+
+/// Returns the format of a NumPy type string, such as "<f4": a byte order (< little, > big, = or | that of this
+/// processor), a kind and a size in bytes. Returns nothing if it is not a Boolean, an integer or a real number of one
+/// of the types.
+std::optional<NumberFormat> numberFormatOf(std::string_view descr);
+
+/// A block of stored numbers, and where they go: relative to the first number, the number with the indices i[0] … i[3]
+/// goes to the position i[0] · stride[0] + … + i[3] · stride[3]. The dimensions are those of the stored numbers; the
+/// last one varies fastest.
+struct NumberBlock {
+    std::array<std::size_t, 4> size;
+    std::array<std::ptrdiff_t, 4> stride;
+};
+
+/// Converts the numbers of a block to the nearest 32-bit floats. `from` points to the stored numbers, which need not be
+/// aligned; the first one goes to `to`. Numbers that stand for no value, and those beyond the largest float, become
+/// NaN.
+void convert(const NumberFormat& format, const std::byte* from, const NumberBlock& block, float* to);
+
+}  // namespace oval4d::fields

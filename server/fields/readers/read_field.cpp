@@ -1,0 +1,15 @@
+#include "fields/readers/read_field.hpp"
+
+#include <stdexcept>
+
+namespace oval4d::fields {
+
+Result<std::shared_ptr<const ArrayFunction>> ReadField::function() const {
+    try {
+        return std::shared_ptr<const ArrayFunction>(std::make_shared<ArrayFunction>(shape, box, samples));
+    } catch (const std::invalid_argument& fault) {
+        return Error{ErrorCode::bad_field, fault.what()};
+    }
+}
+
+}  // namespace oval4d::fields

@@ -1,0 +1,60 @@
+#pragma once
+// The options and the result of the functions that read fields from files.
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "errors/error.hpp"
+#include "fields/array/array_function.hpp"
+#include "fields/array/shape.hpp"
+#include "fields/scalar_function.hpp"
+
+namespace oval4d::fields {
+
+/// Makes a new file of this size in bytes, mapped for reading and writing. Errors: `too_large` and `too_many` if there
+/// is no room for it.
+using NewFile = std::function<Result<std::shared_ptr<MappedFile>>(std::size_t bytes)>;
+
+/// How to read a file.
+struct ReadOptions {
+    /// The axes of the array's dimensions in the order of its indices, such as "tzyx"; t means w. The last index varies
+    /// fastest in memory, unless the file states otherwise. An axis that is not named gets one sample. If empty, the
+    /// axes are those that the file states, or "tzyx", "zyx", "yx" or "x".
+    std::string axes = {};
+    std::optional<Box> box = {};  ///< used instead of the box that the file states
+    std::string variable = {};    ///< the variable of a NetCDF file, or the path of an HDF5 dataset; if empty, the
+                                  ///< one with the most dimensions, and of several such, the first
+    std::size_t maxSamples = kMaxSamples;  ///< larger arrays are refused
+    /// The samples of arrays that are larger than this remain in the file or, if they must be converted, are written to
+    /// a file from `newFile`.
+    std::size_t maxInMemory = kMaxSamples;
+    NewFile newFile = {};        ///< null if all converted samples are kept in memory
+    std::span<float> into = {};  ///< the memory for converted samples, if it has exactly the size of the array
+};
+
+/// A field read from a file. The samples may be in the file's bytes, which they share.
+struct ReadField {
+    Shape shape{1, 1, 1, 1};
+    Box box;
+    bool boxIsKnown = false;  ///< whether the file or the options state the box; else it is defaultBox()
+    Samples samples{std::vector<float>()};
+    std::array<std::string, 4> units;   ///< of x, y, z and w; empty if unknown. UTF-8, at most 64 bytes
+    std::string quantity;               ///< what the samples measure; empty if unknown. UTF-8, at most 64 bytes
+    std::string quantityUnits;          ///< the unit of the samples; empty if unknown. UTF-8, at most 64 bytes
+    std::vector<std::string> warnings;  ///< sentences for the user
+
+    /// Returns the interpolant of the samples. Error: `bad_field` if the box is not valid (see Lattice).
+    Result<std::shared_ptr<const ArrayFunction>> function() const;
+};
+
+/// Returns the error of a file that does not follow its format, or whose values cannot become a field.
+inline Error badField(std::string reason) { return {ErrorCode::bad_field, std::move(reason)}; }
+
+}  // namespace oval4d::fields

@@ -1,0 +1,34 @@
+#pragma once
+// Where readers put the samples that they convert.
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "errors/error.hpp"
+#include "fields/array/samples.hpp"
+#include "fields/readers/read_field.hpp"
+
+namespace oval4d::fields {
+
+/// Memory for samples: ReadOptions::into if it has the right size; otherwise a new file, if ReadOptions::newFile is set
+/// and there are more samples than ReadOptions::maxInMemory; otherwise a vector.
+class SampleBuffer {
+  public:
+    /// Errors: those of ReadOptions::newFile.
+    static Result<SampleBuffer> of(std::size_t count, const ReadOptions& options);
+
+    std::span<float> values() { return values_; }
+    /// Releases the resident pages of the file, if there is one.
+    void releasePages() const;
+    /// Returns the samples. This object must not be used afterward.
+    Samples take();
+
+  private:
+    std::span<float> values_;
+    std::vector<float> memory_;
+    std::shared_ptr<MappedFile> file_;
+};
+
+}  // namespace oval4d::fields

@@ -1,0 +1,295 @@
+#include "fields/readers/zarr.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "fields/readers/array_layout.hpp"
+#include "fields/readers/cf_conventions.hpp"
+#include "fields/readers/sample_buffer.hpp"
+#include "fields/readers/zarr_metadata.hpp"
+#include "text/message_text.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+constexpr std::size_t kMaxMetadata = std::size_t{64} << 20U;  // bytes of a file of metadata
+constexpr std::size_t kMaxZarrText = 60;                      // bytes of an attribute that are kept
+
+TextReader textsOf(const FolderReader& folder) {
+    return [&folder](const std::string& path) -> Result<std::optional<std::string>> {
+        auto file = folder(path);
+        if (!file) return file.error();
+        if (!*file) return std::optional<std::string>();
+        const std::span<const std::byte> bytes = (*file)->bytes;
+        if (bytes.size() > kMaxMetadata) return Error{ErrorCode::too_large, path + " is too large for Zarr metadata"};
+        return std::optional(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    };
+}
+
+// Reads the chunks of an array.
+class ChunkReader {
+  public:
+    ChunkReader(const FolderReader& folder, const ZarrArray& array) : folder_(folder), array_(array) {}
+
+    // Converts all chunks. `stride` are the distances in `to` of neighbors along each dimension, `first` is the place
+    // of the first number. Calls `afterward` now and then.
+    template <typename Afterward>
+    Result<std::monostate> read(const std::vector<std::ptrdiff_t>& stride, std::size_t first, float* to,
+                                const Afterward& afterward) {
+        constexpr std::size_t kNumbers = std::size_t{1} << 24U;  // numbers between two calls
+        const std::size_t rank = array_.shape.size();
+        std::vector<std::size_t> index(rank, 0);
+        std::size_t numbers = 0;
+        for (;;) {
+            std::ptrdiff_t at = static_cast<std::ptrdiff_t>(first);
+            for (std::size_t i = 0; i < rank; ++i)
+                at += static_cast<std::ptrdiff_t>(index[i] * array_.chunk[i]) * stride[i];
+            if (auto chunk = readChunk(index, stride, to + at); !chunk) return chunk;
+            numbers += array_.chunkBytes() / sizeOf(array_.format.type);
+            if (numbers >= kNumbers) {
+                afterward();
+                numbers = 0;
+            }
+            std::size_t i = rank;
+            while (i > 0 && ++index[i - 1] * array_.chunk[i - 1] >= array_.shape[i - 1]) index[--i] = 0;
+            if (i == 0) return std::monostate{};
+        }
+    }
+
+  private:
+    Result<std::monostate> readChunk(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
+                                     float* to) {
+        const std::string path = array_.chunkPath(index);
+        auto file = folder_(path);
+        if (!file) return file.error();
+        if (!*file) {
+            fill(index, stride, to);
+            return std::monostate{};
+        }
+        std::span<const std::byte> bytes = (*file)->bytes;
+        if (array_.codec) {
+            chunk_.resize(array_.chunkBytes());
+            if (const auto done = decompress(*array_.codec, bytes, chunk_); !done)
+                return badField("the chunk " + text::inQuotes(path) + " cannot be read: " + done.error().message);
+            bytes = chunk_;
+        } else if (bytes.size() != array_.chunkBytes()) {
+            return badField("the chunk " + text::inQuotes(path) + " has " + std::to_string(bytes.size()) +
+                            " bytes; it must have " + std::to_string(array_.chunkBytes()));
+        }
+        copy(index, stride, bytes.data(), to);
+        if ((*file)->file && (*file)->file->isLost())
+            return badField("the chunk " + text::inQuotes(path) + " was shortened");
+        return std::monostate{};
+    }
+
+    // Returns the numbers along a dimension of a chunk that are within the array.
+    std::size_t sizeWithin(const std::vector<std::size_t>& index, std::size_t dimension) const {
+        return std::min(array_.chunk[dimension], array_.shape[dimension] - index[dimension] * array_.chunk[dimension]);
+    }
+
+    // Converts a chunk row by row; the rest of a row may be beyond the end of the array.
+    void copy(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride, const std::byte* from,
+              float* to) const {
+        const std::size_t size = sizeOf(array_.format.type);
+        visitRows(index, stride, [&](std::size_t number, std::ptrdiff_t at, std::size_t count, std::ptrdiff_t step) {
+            convert(array_.format, from + number * size, {{1, 1, 1, count}, {0, 0, 0, step}}, to + at);
+        });
+    }
+
+    void fill(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride, float* to) const {
+        // The fill value as a stored number, which is converted like all others.
+        NumberFormat format = array_.format;
+        format.type = NumberType::f8;
+        format.bigEndian = std::endian::native == std::endian::big;
+        float value = 0;
+        convert(format, reinterpret_cast<const std::byte*>(&array_.fill), {{1, 1, 1, 1}, {0, 0, 0, 0}}, &value);
+        if (std::bit_cast<std::uint32_t>(value) == 0) return;  // as new memory is
+        visitRows(index, stride, [&](std::size_t, std::ptrdiff_t at, std::size_t count, std::ptrdiff_t step) {
+            for (std::size_t i = 0; i < count; ++i) to[at + static_cast<std::ptrdiff_t>(i) * step] = value;
+        });
+    }
+
+    // Calls `visit` for each stored row that is in the array: with the number of its first item in the chunk, its
+    // place, its length and the distance of its items.
+    template <typename Visit>
+    void visitRows(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
+                   const Visit& visit) const {
+        const std::vector<std::size_t>& order = array_.order;
+        const std::size_t rank = order.size(), fastest = order.back();
+        std::vector<std::size_t> i(rank, 0);  // in the order of storage
+        for (;;) {
+            std::size_t number = 0;
+            std::ptrdiff_t at = 0;
+            for (std::size_t d = 0; d < rank; ++d) {
+                number = number * array_.chunk[order[d]] + i[d];
+                at += static_cast<std::ptrdiff_t>(i[d]) * stride[order[d]];
+            }
+            visit(number, at, sizeWithin(index, fastest), stride[fastest]);
+            std::size_t d = rank - 1;
+            while (d > 0 && ++i[d - 1] == sizeWithin(index, order[d - 1])) i[--d] = 0;
+            if (d == 0) return;
+        }
+    }
+
+    const FolderReader& folder_;
+    const ZarrArray& array_;
+    std::vector<std::byte> chunk_;
+};
+
+// The coordinates of a dimension: an array beside the other one, which is called like it.
+std::optional<std::vector<double>> coordinates(const FolderReader& folder, const ZarrFolder& zarr,
+                                               const std::string& path, std::size_t size, std::string& units,
+                                               CfDimension& stated) {
+    const auto found = zarr.array(path);
+    if (!found || !*found) return {};
+    ZarrArray array = **found;
+    if (array.shape != std::vector{size} || size > kMaxSamplesPerAxis) return {};
+    units = text::printable(array.text("units"), kMaxZarrText);
+    stated = {stated.name, array.text("axis"), array.text("standard_name"), array.text("units"),
+              array.text("positive")};
+    array.format.missing.clear();  // coordinates are never missing, whatever the fill value is
+    // Times are large numbers that differ little: they are converted relative to the first one.
+    std::vector<float> values(size);
+    const double offset = array.format.offset;
+    const auto read = [&] { return ChunkReader(folder, array).read({1}, 0, values.data(), [] {}).operator bool(); };
+    if (!read()) return {};
+    const double first = double{values.front()} - offset;
+    if (!std::isfinite(first)) return {};
+    array.format.offset = -first;
+    std::ranges::fill(values, 0.F);
+    if (!read()) return {};
+    std::vector<double> at;
+    for (const float value : values) at.push_back(first + offset + value);
+    return at;
+}
+
+// Leaves out dimensions of size 1 while there are more than four.
+void squeeze(ZarrArray& array, std::vector<std::size_t>& kept) {
+    kept.resize(array.shape.size());
+    std::iota(kept.begin(), kept.end(), std::size_t{0});
+    for (std::size_t i = 0; i < kept.size() && kept.size() > 4;) {
+        if (array.shape[kept[i]] == 1) {
+            kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(i));
+        } else {
+            ++i;
+        }
+    }
+}
+
+// Assigns dimensions to axes, and finds the box and the units.
+Result<std::vector<Dimension>> place(const FolderReader& folder, const ZarrFolder& zarr, const ZarrArray& array,
+                                     const std::vector<std::size_t>& kept, const ReadOptions& options,
+                                     ReadField& field) {
+    auto axes = axesOf(options.axes, kept.size());  // also checks the number of dimensions
+    if (!axes) return axes.error();
+    const auto scale = zarr.scaleOf(array.path);
+    const bool isScaled = scale && scale->dimensions.size() == array.shape.size();
+    const std::size_t slash = array.path.rfind('/');
+    const std::string group = slash == std::string::npos ? "" : array.path.substr(0, slash + 1);
+    struct Range {
+        double first, last;
+        bool known;
+    };
+    std::vector<CfDimension> stated;
+    std::vector<Range> ranges;
+    std::vector<std::string> units;
+    bool named = false;
+    for (const std::size_t i : kept) {
+        const std::size_t size = array.shape[i];
+        const double last = static_cast<double>(size) - 1;
+        CfDimension each;
+        Range range{0, last, false};
+        std::string unit;
+        if (isScaled) {
+            const auto& [name, scaleUnit, first, step] = scale->dimensions[i];
+            each.name = name;
+            unit = text::printable(scaleUnit, kMaxZarrText);
+            range = {first, first + step * last, true};
+        } else if (!array.dimensionNames.empty()) {
+            each.name = array.dimensionNames[i];
+        }
+        named = named || !each.name.empty();
+        if (!isScaled && !each.name.empty() && !array.path.empty()) {
+            if (const auto at = coordinates(folder, zarr, group + each.name, size, unit, each)) {
+                const auto ends = endsOfCoordinates(*at, each.name, field.warnings);
+                if (ends) range = {ends->first, ends->last, true};
+            }
+        }
+        stated.push_back(std::move(each));
+        ranges.push_back(range);
+        units.push_back(std::move(unit));
+    }
+    if (options.axes.empty() && named) *axes = cfAxes(stated);
+    std::vector<Dimension> dimensions;
+    field.box = {glm::dvec4(0), glm::dvec4(0)};
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        const auto& [first, last, known] = ranges[i];
+        dimensions.push_back({array.shape[kept[i]], (*axes)[i], last < first});
+        const auto axis = static_cast<glm::length_t>((*axes)[i]);
+        field.box.min[axis] = std::min(first, last);
+        field.box.max[axis] = std::max(first, last);
+        field.units.at((*axes)[i]) = units[i];
+        field.boxIsKnown = field.boxIsKnown || known;
+    }
+    return dimensions;
+}
+
+}  // namespace
+
+Result<ReadField> readZarr(const FolderReader& folder, const ReadOptions& options) {
+    const ZarrFolder zarr(textsOf(folder));
+    ReadField field;
+    std::string path = options.variable;
+    while (path.starts_with('/')) path.erase(0, 1);
+    auto found = zarr.array(path);
+    if (found && !*found && path.empty()) {
+        const auto choice = zarr.choose();
+        if (!choice) return choice.error();
+        path = choice->path;
+        if (choice->all.size() > 1) {
+            field.warnings.push_back("of " + std::to_string(choice->all.size()) + " arrays, " + text::inQuotes(path) +
+                                     " is shown");
+        }
+        found = zarr.array(path);
+    }
+    if (!found) return found.error();
+    if (!*found) {
+        std::vector<std::string_view> names;
+        const auto choice = zarr.choose();
+        if (choice) names.assign(choice->all.begin(), choice->all.end());
+        return Error{ErrorCode::out_of_range,
+                     "the Zarr folder has no array " + text::inQuotes(path) + text::didYouMean(path, names)};
+    }
+    ZarrArray& array = **found;
+    std::vector<std::size_t> kept;
+    squeeze(array, kept);
+    const auto dimensions = place(folder, zarr, array, kept, options, field);
+    if (!dimensions) return dimensions.error();
+    const auto layout = ArrayLayout::of(*dimensions, options.maxSamples);
+    if (!layout) return layout.error();
+    field.shape = layout->shape();
+    const bool time = options.axes.empty() || options.axes.find('t') != std::string::npos;
+    if (!field.boxIsKnown) field.box = defaultBox(field.shape, time);
+    if (options.box) field.box = *options.box;
+    field.boxIsKnown = field.boxIsKnown || options.box;
+    auto buffer = SampleBuffer::of(layout->count(), options);
+    if (!buffer) return buffer.error();
+    std::vector<std::ptrdiff_t> stride(array.shape.size(), 0);  // 0 for the dimensions that are left out
+    for (std::size_t i = 0; i < kept.size(); ++i) stride[kept[i]] = layout->block().stride.at(4 - kept.size() + i);
+    const auto read = ChunkReader(folder, array).read(stride, layout->first(), buffer->values().data(), [&] {
+        buffer->releasePages();
+    });
+    if (!read) return read.error();
+    field.samples = buffer->take();
+    field.quantity = text::printable(array.text("long_name"), kMaxZarrText);
+    if (field.quantity.empty()) field.quantity = text::printable(path.substr(path.rfind('/') + 1), kMaxZarrText);
+    field.quantityUnits = text::printable(array.text("units"), kMaxZarrText);
+    return field;
+}
+
+}  // namespace oval4d::fields

@@ -1,0 +1,442 @@
+#include "fields/readers/zarr_metadata.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "fields/array/shape.hpp"
+#include "text/message_text.hpp"
+
+namespace oval4d::fields {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kMaxZarrDimensions = 32;
+constexpr std::size_t kMaxChunkBytes = std::size_t{512} << 20U;  // of a decompressed chunk
+constexpr std::size_t kMaxArrays = 10'000;                       // of a group, that are looked at
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+Error badMetadata(std::string reason) {
+    return {ErrorCode::bad_field, "the Zarr metadata are not valid: " + std::move(reason)};
+}
+Error unsupported(const std::string& what) {
+    return {ErrorCode::unsupported_format, "the Zarr array has " + what + ", which the server does not read"};
+}
+
+std::string quoted(const json& value) {
+    return text::inQuotes(value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', true).substr(0, 60));
+}
+
+/// Replaces NaN and Infinity, which Python writes into JSON files, by null.
+std::string withoutNan(std::string text) {
+    bool inString = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\\' && inString) ++i;
+        if (i < text.size() && text[i] == '"') inString = !inString;
+        if (inString || i >= text.size()) continue;
+        for (const std::string_view word : {"-Infinity", "Infinity", "NaN"}) {
+            if (!std::string_view(text).substr(i).starts_with(word)) continue;
+            text.replace(i, word.size(), "null" + std::string(word.size() > 4 ? word.size() - 4 : 0, ' '));
+        }
+    }
+    return text;
+}
+
+const json* member(const json& object, std::string_view name) {
+    if (!object.is_object()) return nullptr;
+    const auto found = object.find(name);
+    return found == object.end() || found->is_null() ? nullptr : &*found;
+}
+
+std::string textIn(const json& object, std::string_view name) {
+    const json* const value = member(object, name);
+    return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
+}
+
+// Sizes of dimensions: integers from `least` on.
+Result<std::vector<std::size_t>> sizesIn(const json& object, std::string_view name, std::size_t least) {
+    const json* const list = member(object, name);
+    const auto what = std::string(name);
+    if (list == nullptr || !list->is_array() || list->size() > kMaxZarrDimensions)
+        return badMetadata(what + " must be a list of at most " + std::to_string(kMaxZarrDimensions) + " integers");
+    std::vector<std::size_t> sizes;
+    for (const json& each : *list) {
+        if (!each.is_number_unsigned() || each.get<std::uint64_t>() < least ||
+            each.get<std::uint64_t>() > kMaxSamples) {
+            return badMetadata(what + " has the size " + quoted(each) + "; it must be an integer from " +
+                               std::to_string(least) + " to 2^44");
+        }
+        sizes.push_back(each.get<std::size_t>());
+    }
+    return sizes;
+}
+
+std::optional<double> numberIn(const json& value) {
+    if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
+    if (value.is_number()) return value.get<double>();
+    if (!value.is_string()) return {};
+    const auto text = value.get<std::string>();
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    if (text == "NaN") return kNone;
+    if (text == "Infinity") return kInfinite;
+    if (text == "-Infinity") return -kInfinite;
+    return {};
+}
+
+// The value of chunks that are missing. Version 3 may give the bits of a float, as a hexadecimal number.
+Result<double> fillIn(const json& metadata, const NumberFormat& format) {
+    const json* const value = member(metadata, "fill_value");
+    if (value == nullptr) return kNone;
+    if (const auto number = numberIn(*value)) return *number;
+    const std::string text = value->is_string() ? value->get<std::string>() : std::string();
+    const std::size_t size = sizeOf(format.type);
+    std::uint64_t bits = 0;
+    const auto [end, fault] =
+        std::from_chars(text.data() + std::min<std::size_t>(text.size(), 2), text.data() + text.size(), bits, 16);
+    if (text.starts_with("0x") && fault == std::errc() && end == text.data() + text.size()) {
+        if (format.type == NumberType::f8) return std::bit_cast<double>(bits);
+        if (format.type == NumberType::f4) return double{std::bit_cast<float>(static_cast<std::uint32_t>(bits))};
+        if (size == 2 && bits >= 0x7c00U && (bits & 0x7fffU) > 0x7c00U) return kNone;
+    }
+    return badMetadata("fill_value is " + quoted(*value));
+}
+
+std::optional<NumberType> typeNamed(std::string_view name) {
+    static constexpr auto kZarrTypes = std::to_array<std::pair<std::string_view, NumberType>>({
+        {"bool", NumberType::boolean},
+        {"int8", NumberType::i1},
+        {"uint8", NumberType::u1},
+        {"int16", NumberType::i2},
+        {"uint16", NumberType::u2},
+        {"int32", NumberType::i4},
+        {"uint32", NumberType::u4},
+        {"int64", NumberType::i8},
+        {"uint64", NumberType::u8},
+        {"float16", NumberType::f2},
+        {"float32", NumberType::f4},
+        {"float64", NumberType::f8},
+    });
+    const auto* const found = std::ranges::find(kZarrTypes, name, &std::pair<std::string_view, NumberType>::first);
+    if (found == kZarrTypes.end()) return {};
+    return found->second;
+}
+
+Result<ZarrArray> parseVersion2(const json& metadata) {
+    ZarrArray array;
+    if (const json* const filters = member(metadata, "filters"); filters != nullptr && !filters->empty())
+        return unsupported("filters");
+    const std::string type = textIn(metadata, "dtype");
+    const auto format = numberFormatOf(type);
+    if (!format) {
+        const json* const stated = member(metadata, "dtype");
+        return unsupported("the type " + (stated == nullptr ? "null" : quoted(*stated)));
+    }
+    array.format = *format;
+    auto shape = sizesIn(metadata, "shape", 0), chunk = sizesIn(metadata, "chunks", 1);
+    if (!shape) return shape.error();
+    if (!chunk) return chunk.error();
+    array.shape = std::move(*shape);
+    array.chunk = std::move(*chunk);
+    array.order.resize(array.shape.size());
+    std::iota(array.order.begin(), array.order.end(), std::size_t{0});
+    const std::string order = textIn(metadata, "order");
+    if (order == "F") {
+        std::ranges::reverse(array.order);
+    } else if (order != "C") {
+        return badMetadata("order must be C or F");
+    }
+    if (const json* const compressor = member(metadata, "compressor")) {
+        array.codec = chunkCodecNamed(textIn(*compressor, "id"));
+        if (!array.codec) return unsupported("the compressor " + text::inQuotes(textIn(*compressor, "id")));
+    }
+    array.separator = textIn(metadata, "dimension_separator");
+    if (array.separator.empty()) array.separator = ".";
+    return array;
+}
+
+Result<std::monostate> parseCodecs(const json& metadata, ZarrArray& array) {
+    const json* const codecs = member(metadata, "codecs");
+    if (codecs == nullptr || !codecs->is_array()) return badMetadata("codecs must be a list");
+    bool hasBytes = false;
+    for (const json& codec : *codecs) {
+        const std::string name = codec.is_string() ? codec.get<std::string>() : textIn(codec, "name");
+        const json* const given = member(codec, "configuration");
+        const json configuration = given == nullptr ? json::object() : *given;
+        if (name == "transpose" && !hasBytes) {
+            // The order of a transposition, or of several, one after the other.
+            auto order = sizesIn(configuration, "order", 0);
+            if (!order) return order.error();
+            std::vector<std::size_t> sorted = *order, transposed;
+            std::ranges::sort(sorted);
+            for (std::size_t i = 0; i < sorted.size(); ++i)
+                if (sorted[i] != i) return badMetadata("the order of transpose is not a permutation");
+            if (sorted.size() != array.order.size()) return badMetadata("the order of transpose is not a permutation");
+            for (const std::size_t i : *order) transposed.push_back(array.order[i]);
+            array.order = std::move(transposed);
+        } else if (name == "bytes" && !hasBytes) {
+            hasBytes = true;
+            const std::string endian = textIn(configuration, "endian");
+            if (endian != "little" && endian != "big" && sizeOf(array.format.type) > 1)
+                return badMetadata("endian must be little or big");
+            array.format.bigEndian = endian == "big";
+        } else if (const auto known = chunkCodecNamed(name); known && hasBytes && !array.codec) {
+            array.codec = known;
+        } else {
+            return unsupported("the codec " + text::inQuotes(name) + (known ? " twice" : ""));
+        }
+    }
+    if (!hasBytes) return badMetadata("the codec bytes is missing");
+    return std::monostate{};
+}
+
+Result<ZarrArray> parseVersion3(const json& metadata) {
+    ZarrArray array;
+    const json* const stated = member(metadata, "data_type");
+    const auto type = typeNamed(textIn(metadata, "data_type"));
+    if (!type) return unsupported("the type " + (stated == nullptr ? "null" : quoted(*stated)));
+    array.format.type = *type;
+    auto shape = sizesIn(metadata, "shape", 0);
+    if (!shape) return shape.error();
+    array.shape = std::move(*shape);
+    const json* const grid = member(metadata, "chunk_grid");
+    if (grid == nullptr || textIn(*grid, "name") != "regular" || member(*grid, "configuration") == nullptr)
+        return unsupported("a grid of chunks that is not regular");
+    auto chunk = sizesIn(*member(*grid, "configuration"), "chunk_shape", 1);
+    if (!chunk) return chunk.error();
+    array.chunk = std::move(*chunk);
+    array.order.resize(array.shape.size());
+    std::iota(array.order.begin(), array.order.end(), std::size_t{0});
+    if (auto parsed = parseCodecs(metadata, array); !parsed) return parsed.error();
+    const json* const keys = member(metadata, "chunk_key_encoding");
+    const std::string encoding = keys == nullptr ? "" : textIn(*keys, "name");
+    const json* const given = keys == nullptr ? nullptr : member(*keys, "configuration");
+    array.separator = given == nullptr ? "" : textIn(*given, "separator");
+    if (encoding == "default") {
+        if (array.separator.empty()) array.separator = "/";
+        array.chunkPrefix = "c" + array.separator;
+    } else if (encoding == "v2") {
+        if (array.separator.empty()) array.separator = ".";
+    } else {
+        return unsupported("the chunk keys " + text::inQuotes(encoding));
+    }
+    const json* const names = member(metadata, "dimension_names");
+    if (names != nullptr && names->is_array() && names->size() == array.shape.size())
+        for (const json& name : *names) array.dimensionNames.push_back(name.is_string() ? name.get<std::string>() : "");
+    const json* const attributes = member(metadata, "attributes");
+    array.attributes = attributes == nullptr ? json::object() : *attributes;
+    return array;
+}
+
+// Applies the attributes of the CF conventions, version 1.10, sections 2.5 and 8.1.
+void applyAttributes(ZarrArray& array) {
+    const auto numbers = [&](std::string_view attribute) {
+        std::vector<double> found;
+        const json* const value = member(array.attributes, attribute);
+        if (value == nullptr) return found;
+        for (const json& each : value->is_array() ? *value : json::array({*value}))
+            if (const auto number = numberIn(each); number && !std::isnan(*number)) found.push_back(*number);
+        return found;
+    };
+    const auto first = [&](std::string_view attribute, double otherwise) {
+        const auto found = numbers(attribute);
+        return found.size() == 1 ? found[0] : otherwise;
+    };
+    array.format.missing = numbers("_FillValue");
+    for (const double number : numbers("missing_value")) array.format.missing.push_back(number);
+    array.format.min = first("valid_min", array.format.min);
+    array.format.max = first("valid_max", array.format.max);
+    if (const auto range = numbers("valid_range"); range.size() == 2) {
+        array.format.min = range[0];
+        array.format.max = range[1];
+    }
+    array.format.scale = first("scale_factor", 1);
+    array.format.offset = first("add_offset", 0);
+}
+
+Result<ZarrArray> checked(ZarrArray array) {
+    if (array.chunk.size() != array.shape.size())
+        return badMetadata("the shapes of the array and of its chunks differ in length");
+    if (array.separator != "." && array.separator != "/") return badMetadata("the separator must be . or /");
+    std::size_t bytes = sizeOf(array.format.type);
+    for (const std::size_t size : array.chunk) {
+        if (size > kMaxChunkBytes / bytes) {
+            return Error{ErrorCode::too_large, "a chunk of the Zarr array takes more than the allowed " +
+                                                   std::to_string(kMaxChunkBytes >> 20U) + " MiB"};
+        }
+        bytes *= size;
+    }
+    return array;
+}
+
+// Returns whether a path consists of names, so that it cannot lead out of the folder.
+bool isInside(std::string_view path) {
+    for (std::size_t begin = 0; begin <= path.size() && !path.empty();) {
+        const std::size_t end = std::min(path.find('/', begin), path.size());
+        const std::string_view name = path.substr(begin, end - begin);
+        if (name.empty() || name == "." || name == ".." || name.find('\0') != std::string_view::npos) return false;
+        begin = end + 1;
+    }
+    return true;
+}
+
+std::string within(const std::string& folder, std::string_view name) {
+    return folder.empty() ? std::string(name) : folder + '/' + std::string(name);
+}
+
+}  // namespace
+
+std::string ZarrArray::text(std::string_view attribute) const { return textIn(attributes, attribute); }
+
+std::string ZarrArray::chunkPath(const std::vector<std::size_t>& indices) const {
+    std::string name = chunkPrefix;
+    for (std::size_t i = 0; i < indices.size(); ++i) name += (i == 0 ? "" : separator) + std::to_string(indices[i]);
+    return within(path, name);
+}
+
+std::size_t ZarrArray::chunkBytes() const {
+    return std::accumulate(chunk.begin(), chunk.end(), sizeOf(format.type), std::multiplies<>());
+}
+
+Result<std::optional<json>> ZarrFolder::json(const std::string& path) const {
+    auto text = read_(path);
+    if (!text) return text.error();
+    if (!*text) return std::optional<nlohmann::json>();
+    nlohmann::json value = nlohmann::json::parse(withoutNan(std::move(**text)), nullptr, false);
+    if (!value.is_object()) return badMetadata(path + " is not a JSON object");
+    return std::optional(std::move(value));
+}
+
+Result<std::optional<ZarrArray>> ZarrFolder::array(const std::string& path) const {
+    if (!isInside(path)) {
+        return Error{ErrorCode::out_of_range, "the path " + text::inQuotes(path) +
+                                                  " must consist of names in the Zarr folder, without . and .."};
+    }
+    auto metadata = json(within(path, "zarr.json"));
+    if (!metadata) return metadata.error();
+    const bool isVersion3 = metadata->has_value();
+    if (!isVersion3) metadata = json(within(path, ".zarray"));
+    if (!metadata) return metadata.error();
+    const auto format = isVersion3 ? 3 : 2;
+    if (!*metadata || (isVersion3 && textIn(**metadata, "node_type") != "array")) return std::optional<ZarrArray>();
+    const nlohmann::json* const stated = member(**metadata, "zarr_format");
+    if (stated == nullptr || *stated != format) return badMetadata("zarr_format must be " + std::to_string(format));
+    auto array = isVersion3 ? parseVersion3(**metadata) : parseVersion2(**metadata);
+    if (!array) return array.error();
+    array->path = path;
+    if (!isVersion3) {
+        auto attributes = json(within(path, ".zattrs"));
+        if (!attributes) return attributes.error();
+        array->attributes = *attributes ? **attributes : nlohmann::json::object();
+        const nlohmann::json* const names = member(array->attributes, "_ARRAY_DIMENSIONS");
+        if (names != nullptr && names->is_array() && names->size() == array->shape.size())
+            for (const auto& name : *names)
+                array->dimensionNames.push_back(name.is_string() ? name.get<std::string>() : "");
+    }
+    auto fill = fillIn(**metadata, array->format);
+    if (!fill) return fill.error();
+    array->fill = *fill;
+    applyAttributes(*array);
+    // xarray, which alone writes _ARRAY_DIMENSIONS, has its _FillValue there in version 2.
+    if (!isVersion3 && !array->dimensionNames.empty() && !std::isnan(*fill)) array->format.missing.push_back(*fill);
+    auto valid = checked(std::move(*array));
+    if (!valid) return valid.error();
+    return std::optional(std::move(*valid));
+}
+
+json ZarrFolder::groupAttributes() const {
+    if (const auto group = json("zarr.json"); group && *group) {
+        const nlohmann::json* const attributes = member(**group, "attributes");
+        if (attributes == nullptr) return nlohmann::json::object();
+        const nlohmann::json* const ome = member(*attributes, "ome");
+        return ome != nullptr ? *ome : *attributes;
+    }
+    const auto attributes = json(".zattrs");
+    return attributes && *attributes ? **attributes : nlohmann::json::object();
+}
+
+std::optional<ZarrScale> ZarrFolder::scaleOf(const std::string& path) const {
+    const nlohmann::json attributes = groupAttributes();
+    const nlohmann::json* const images = member(attributes, "multiscales");
+    if (images == nullptr || !images->is_array() || images->empty()) return {};
+    const nlohmann::json& image = images->front();
+    const nlohmann::json *const levels = member(image, "datasets"), *const axes = member(image, "axes");
+    if (levels == nullptr || !levels->is_array() || axes == nullptr || !axes->is_array()) return {};
+    const auto level = std::ranges::find_if(*levels, [&](const auto& each) { return textIn(each, "path") == path; });
+    if (level == levels->end()) return {};
+    ZarrScale scale;
+    for (const auto& axis : *axes)
+        scale.dimensions.push_back(
+            {axis.is_string() ? axis.get<std::string>() : textIn(axis, "name"), textIn(axis, "unit")});
+    const nlohmann::json* const transformations = member(*level, "coordinateTransformations");
+    if (transformations == nullptr || !transformations->is_array()) return scale;
+    for (const auto& each : *transformations) {
+        for (const std::string_view kind : {"scale", "translation"}) {
+            const nlohmann::json* const numbers = member(each, kind);
+            if (numbers == nullptr || !numbers->is_array() || numbers->size() != scale.dimensions.size()) continue;
+            for (std::size_t i = 0; i < numbers->size(); ++i) {
+                const double number = numberIn((*numbers)[i]).value_or(kNone);
+                if (!std::isfinite(number)) continue;
+                if (kind == "translation") scale.dimensions[i].first = number;
+                if (kind == "scale" && number > 0) scale.dimensions[i].step = number;
+            }
+        }
+    }
+    return scale;
+}
+
+Result<ZarrFolder::Choice> ZarrFolder::choose() const {
+    const nlohmann::json attributes = groupAttributes();
+    Choice choice;
+    if (const nlohmann::json* const images = member(attributes, "multiscales");
+        images != nullptr && images->is_array() && !images->empty()) {
+        const nlohmann::json* const levels = member(images->front(), "datasets");
+        if (levels != nullptr && levels->is_array() && !levels->empty()) {
+            for (const auto& level : *levels) choice.all.push_back(textIn(level, "path"));
+            choice.path = choice.all.front();
+            return choice;
+        }
+    }
+    // Consolidated metadata, of which only the paths are used here.
+    std::set<std::string> paths;
+    if (const auto group = json("zarr.json"); group && *group) {
+        const nlohmann::json* const all = member(**group, "consolidated_metadata");
+        const nlohmann::json* const members = all == nullptr ? nullptr : member(*all, "metadata");
+        if (members != nullptr && members->is_object())
+            for (const auto& [path, value] : members->items())
+                if (textIn(value, "node_type") == "array") paths.insert(path);
+    } else if (const auto all = json(".zmetadata"); all && *all) {
+        constexpr std::string_view kArray = "/.zarray";
+        const nlohmann::json* const members = member(**all, "metadata");
+        if (members != nullptr && members->is_object())
+            for (const auto& [path, value] : members->items())
+                if (path.ends_with(kArray)) paths.insert(path.substr(0, path.size() - kArray.size()));
+    }
+    if (paths.empty() || paths.size() > kMaxArrays) {
+        return Error{ErrorCode::out_of_range,
+                     "the folder is a Zarr group without consolidated metadata; name its array as variable"};
+    }
+    std::size_t dimensions = 0;
+    for (const std::string& path : paths) {
+        const auto found = array(path);
+        if (!found || !*found) continue;
+        const ZarrArray& each = **found;
+        choice.all.push_back(path);
+        const std::string name = path.substr(path.rfind('/') + 1);
+        const bool isCoordinate = each.shape.size() == 1 && each.dimensionNames == std::vector{name};
+        if (isCoordinate || each.shape.size() <= dimensions) continue;
+        dimensions = each.shape.size();
+        choice.path = path;
+    }
+    if (dimensions == 0) return Error{ErrorCode::bad_field, "the Zarr group has no array that the server reads"};
+    return choice;
+}
+
+}  // namespace oval4d::fields

@@ -1,0 +1,81 @@
+#pragma once
+// The metadata of Zarr arrays and groups, versions 2 and 3.
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "errors/error.hpp"
+#include "fields/readers/chunk_codecs.hpp"
+#include "fields/readers/numbers.hpp"
+
+namespace oval4d::fields {
+
+/// Returns the text of a file in the folder by its relative path; nothing if there is no such file.
+using TextReader = std::function<Result<std::optional<std::string>>(const std::string& path)>;
+
+/// An array in a Zarr folder.
+struct ZarrArray {
+    std::string path;  ///< of the array's folder, relative to the Zarr folder; empty if they are the same
+    std::vector<std::size_t> shape, chunk;  ///< the sizes of the array and of its chunks, in the order of its indices
+    std::vector<std::size_t> order;         ///< the dimensions as they are stored, from the slowest to the fastest
+    NumberFormat format;                    ///< with scale, offset and missing values by the CF attributes
+    std::optional<ChunkCodec> codec;        ///< nothing if chunks are not compressed
+    double fill;                            ///< the value of chunks that are missing, as a stored number; NaN for none
+    std::vector<std::string> dimensionNames;  ///< empty, or one for each dimension
+    std::string chunkPrefix, separator;       ///< a chunk's name: the prefix, then its indices, separated
+
+    nlohmann::json attributes;
+
+    /// Returns an attribute that is a text; empty if there is none.
+    std::string text(std::string_view attribute) const;
+    /// Returns the path of the chunk with these indices, relative to the Zarr folder.
+    std::string chunkPath(const std::vector<std::size_t>& indices) const;
+    /// Returns the size of a decompressed chunk in bytes.
+    std::size_t chunkBytes() const;
+};
+
+/// The position of an array of a multiscale image: for each dimension its name, its unit, the coordinate of the first
+/// sample, and the distance between samples.
+struct ZarrScale {
+    struct Dimension {
+        std::string name, unit;
+        double first = 0, step = 1;
+    };
+    std::vector<Dimension> dimensions;
+};
+
+/// A Zarr folder: an array or a group.
+class ZarrFolder {
+  public:
+    explicit ZarrFolder(TextReader read) : read_(std::move(read)) {}
+
+    /// Returns the metadata of an array; nothing if there is none at this path. Errors: `bad_field`,
+    /// `unsupported_format`, `too_large`.
+    Result<std::optional<ZarrArray>> array(const std::string& path) const;
+
+    /// The path of the array to read if none is requested, and the paths of all arrays of the group.
+    struct Choice {
+        std::string path;
+        std::vector<std::string> all;
+    };
+    /// Chooses an array if the folder is a group. Errors: those of array(); `out_of_range` if the group does not list
+    /// its arrays.
+    Result<Choice> choose() const;
+
+    /// Returns the position of an array if the folder is a multiscale image and the array is one of its levels.
+    std::optional<ZarrScale> scaleOf(const std::string& path) const;
+
+  private:
+    Result<std::optional<nlohmann::json>> json(const std::string& path) const;
+    nlohmann::json groupAttributes() const;
+
+    const TextReader read_;
+};
+
+}  // namespace oval4d::fields

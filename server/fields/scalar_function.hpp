@@ -1,0 +1,86 @@
+#pragma once
+// The interface of 4-D scalar functions f(x, y, z, w). Formulas and arrays implement it; slicing uses nothing else.
+
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include <glm/vec4.hpp>
+
+namespace oval4d::fields {
+
+/// An axis-parallel box in R⁴; every coordinate of `min` is at most that of `max`.
+struct Box {
+    glm::dvec4 min{-1}, max{1};
+
+    glm::dvec4 center() const { return 0.5 * (min + max); }
+    bool operator==(const Box&) const = default;
+};
+
+/// Bounds of the values of a function in a region. If the function has no value at any point of the region, min > max.
+struct Bounds {
+    double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
+    bool total = true;  ///< false if the function may have no value (NaN) somewhere in the region
+
+    /// Returns whether f − level may change its sign in the region, or f may have no value somewhere in it.
+    bool mayCross(double level) const { return !total || (min <= level && level <= max); }
+};
+
+/// Points as a structure of arrays. All arrays must have the same size.
+struct PointBatch {
+    std::span<const float> x, y, z, w;
+
+    std::size_t size() const { return x.size(); }
+};
+
+/// Gradients as a structure of arrays, to be written. All arrays must have the same size.
+struct GradientBatch {
+    std::span<float> x, y, z, w;
+};
+
+/// The estimated times of evaluations in nanoseconds, on one core of a processor from 2020. They depend only on the
+/// function, not on the machine.
+struct EvaluationCost {
+    double value = 1, gradient = 5;  ///< for each point
+    double bounds = 100;             ///< for each region
+};
+
+/// A function from R⁴ to the real numbers. Immutable, so any number of threads may use it at once. Where it has no
+/// value, the result is NaN. The value at a point does not depend on the other points of a batch.
+class ScalarFunction {
+  public:
+    /// Batches are fastest if their size is a multiple of this number, and at least 64.
+    static constexpr std::size_t kLanes = 8;
+
+    ScalarFunction() = default;
+    ScalarFunction(const ScalarFunction&) = delete;
+    ScalarFunction& operator=(const ScalarFunction&) = delete;
+    virtual ~ScalarFunction() = default;
+
+    /// Writes f at each point to `values`. Infinite values are allowed.
+    virtual void evaluate(const PointBatch& points, std::span<float> values) const = 0;
+
+    /// Writes f and its gradient at each point. The gradient is (0, 0, 0, 0) where it does not exist.
+    virtual void evaluateWithGradient(const PointBatch& points, std::span<float> values,
+                                      const GradientBatch& gradients) const = 0;
+
+    /// Returns bounds that contain every value that evaluate() can return in `region`. They are guaranteed, but need
+    /// not be tight.
+    virtual Bounds boundsIn(const Box& region) const = 0;
+
+    /// Returns a function for sampling on lattices, which may be faster to evaluate: this function, or a coarser
+    /// version of it that lives as long as this object. `steps` are the vectors between neighboring points of the
+    /// lattices, in the function's coordinates. A coarser version may lack details that are smaller than the steps.
+    virtual const ScalarFunction& forSteps(std::span<const glm::dvec4> /*steps*/) const { return *this; }
+
+    /// Releases memory that the next evaluations can restore quickly, such as pages of a mapped file that are also in
+    /// the system's cache.
+    virtual void releasePages() const {}
+
+    virtual EvaluationCost cost() const = 0;
+
+    /// Returns the memory used, in bytes.
+    virtual std::size_t memory() const = 0;
+};
+
+}  // namespace oval4d::fields

@@ -1,0 +1,79 @@
+#include "fields/value_range.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace oval4d::fields {
+
+// The points are u_n = (1/2 + n a) mod 1, where a_j = g^−(j+1) and g⁵ = g + 1. The numbers are stored as multiples of
+// 2⁻³² in 32-bit integers, so that overflow computes them modulo 1.
+void writeUnitPoints(std::size_t first, UnitPoints& out) {
+    constexpr double kRoot = 1.1673039782614187;
+    double fraction = 1;
+    for (std::array<float, kUnitPoints>& axis : out) {
+        fraction /= kRoot;
+        const auto step = static_cast<std::uint32_t>(fraction * 0x1p32);
+        const std::uint32_t start = 0x80000000U + step * static_cast<std::uint32_t>(first);
+        for (std::uint32_t i = 0; i < kUnitPoints; ++i)
+            axis[i] = static_cast<float>(static_cast<std::int32_t>((start + step * i) >> 8U)) * 0x1p-24F;
+    }
+}
+
+namespace {
+
+// The typical range is that of the middle 98 % of the values, extended at both ends by `margin` times its length.
+FullAndTypicalRange rangesWith(std::span<const float> values, double margin) {
+    std::vector<float> found;
+    found.reserve(values.size());
+    for (const float value : values)
+        if (std::isfinite(value)) found.push_back(value);
+    if (found.empty()) return {};
+    const auto [least, greatest] = std::ranges::minmax(found);
+    const ValueRange full{least, greatest};
+    const auto rare = static_cast<std::ptrdiff_t>(found.size() / 100);
+    const auto quantile = [&](std::ptrdiff_t i) {
+        std::ranges::nth_element(found, found.begin() + i);
+        return double(found[static_cast<std::size_t>(i)]);
+    };
+    const double low = quantile(rare), high = quantile(static_cast<std::ptrdiff_t>(found.size()) - 1 - rare);
+    const double reach = margin * (high - low);
+    return {full, {std::max(full.least, low - reach), std::min(full.greatest, high + reach)}};
+}
+
+}  // namespace
+
+FullAndTypicalRange rangesOf(std::span<const float> values) { return rangesWith(values, 0.1); }
+
+const ValueRange& RangeOnBox::get() const {
+    std::call_once(measured_, [&] {
+        // Slow functions are evaluated at fewer points.
+        constexpr double kTime = 1e6;  // nanoseconds
+        constexpr std::size_t kMaxBatches = 8, kCorners = 81;
+        const double batches = kTime / (static_cast<double>(kUnitPoints) * function_->cost().value);
+        const auto count = static_cast<std::size_t>(std::clamp(batches, 1.0, double{kMaxBatches}));
+        std::vector<float> values((count + 1) * kUnitPoints);
+        const ScalarFunction& function = function_->forSteps(std::array{glm::dvec4(0)});  // in memory
+        UnitPoints points;
+        for (std::size_t batch = 0; batch <= count; ++batch) {
+            writeUnitPoints(batch * kUnitPoints, points);
+            // The first points are the corners of the box, and the middles of its edges, faces and cells.
+            for (std::size_t i = 0; batch == 0 && i < kCorners; ++i)
+                for (std::size_t axis = 0, rest = i; axis < 4; ++axis, rest /= 3)
+                    points[axis][i] = 0.5F * static_cast<float>(rest % 3);
+            for (int axis = 0; axis < 4; ++axis) {
+                const double size = box_.max[axis] - box_.min[axis];
+                for (float& u : points[static_cast<std::size_t>(axis)])
+                    u = static_cast<float>(box_.min[axis] + u * size);
+            }
+            function.evaluate({points[0], points[1], points[2], points[3]},
+                              std::span(values).subspan(batch * kUnitPoints, kUnitPoints));
+        }
+        constexpr double kMargin = 0.5;  // the ends of a color scale should be the least and greatest value if they can
+        range_ = rangesWith(values, kMargin).typical;
+    });
+    return range_;
+}
+
+}  // namespace oval4d::fields

@@ -1,0 +1,58 @@
+#pragma once
+// The range of the values of a function on a box.
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <utility>
+
+#include "fields/scalar_function.hpp"
+
+namespace oval4d::fields {
+
+/// An interval of values.
+struct ValueRange {
+    double least = 0, greatest = 1;
+    bool operator==(const ValueRange&) const = default;
+};
+
+/// The number of points that writeUnitPoints() writes.
+inline constexpr std::size_t kUnitPoints = 1024;
+
+/// Points of the unit cube [0, 1)⁴ as a structure of arrays.
+using UnitPoints = std::array<std::array<float, kUnitPoints>, 4>;
+
+/// Writes the points `first` … `first` + kUnitPoints − 1 of a quasirandom sequence. The sequence is an additive
+/// recurrence that fills the cube evenly (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
+void writeUnitPoints(std::size_t first, UnitPoints& out);
+
+/// Two ranges of a set of values. `full` is from the least to the greatest value. `typical` leaves out outliers, such
+/// as values near a pole: it is the range of the middle 98 % of the values, extended by a tenth of its length at both
+/// ends, but not beyond `full`. For most functions, both ranges are the same.
+struct FullAndTypicalRange {
+    ValueRange full, typical;
+};
+
+/// Returns the ranges of those values that are finite; 0 … 1 if no value is finite.
+FullAndTypicalRange rangesOf(std::span<const float> values);
+
+/// The range of a function on a box, without outliers: like FullAndTypicalRange::typical, but extended by half of its
+/// length instead of a tenth. The first call of get() computes it from a few thousand points of the box, including the
+/// corners and the midpoints of edges, faces and cells. It depends only on the function and the box. Thread-safe.
+class RangeOnBox {
+  public:
+    RangeOnBox(std::shared_ptr<const ScalarFunction> function, const Box& box)
+        : function_(std::move(function)), box_(box) {}
+
+    const ValueRange& get() const;
+
+  private:
+    const std::shared_ptr<const ScalarFunction> function_;
+    const Box box_;
+    mutable std::once_flag measured_;
+    mutable ValueRange range_;
+};
+
+}  // namespace oval4d::fields

@@ -1,0 +1,11 @@
+#pragma once
+// Indices of vertices, edges, faces and cells.
+
+#include <cstdint>
+
+namespace oval4d::geometry {
+
+/// The value of an index that refers to no element.
+inline constexpr std::uint32_t kNone = 0xffffffffU;
+
+}  // namespace oval4d::geometry

@@ -1,0 +1,40 @@
+#pragma once
+// Frames of reference: linear maps of 4-D space whose axis w is time.
+
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace oval4d::geometry {
+
+/// Returns the Galilean transformation x' = x − v w, w' = w, which brings to rest what moves with the velocity v, in
+/// units of x, y and z per unit of w. Its determinant is 1, and its inverse is galileanTransformation(−v).
+glm::dmat4 galileanTransformation(const glm::dvec3& velocity);
+
+/// Returns the Lorentz boost to the rest frame of an observer with the velocity v (Jackson, Classical Electrodynamics,
+/// §11.3). The speed of light is 1, and |v| must be less than 1. The boost preserves w² − x² − y² − z². Its determinant
+/// is 1, and its inverse is lorentzBoost(−v).
+glm::dmat4 lorentzBoost(const glm::dvec3& velocity);
+
+/// A frame of reference for objects whose axis w is time. It applies three maps in this order: a Galilean
+/// transformation, which brings to rest what moves with the velocity `follow`; a scaling of w, which turns one unit of
+/// time into `pace` units of length; and the Lorentz boost with the velocity `boost`. The default frame maps every
+/// point to itself.
+struct ReferenceFrame {
+    double pace = 1;       ///< greater than 0
+    glm::dvec3 follow{0};  ///< in units of x, y and z per unit of w, before `pace` scales w
+    glm::dvec3 boost{0};   ///< |boost| < 1; the speed of light is 1, after `pace` has scaled w
+
+    /// Returns the linear map M from the object's own coordinates to those of this frame. Its determinant is `pace`.
+    glm::dmat4 matrix() const;
+    /// Returns the inverse of matrix().
+    glm::dmat4 inverse() const;
+    bool operator==(const ReferenceFrame&) const = default;
+};
+
+/// Replaces each point by its image under the linear map. Returns the largest distance of an image from the origin.
+double mapPoints(const glm::dmat4& map, std::vector<glm::dvec4>& points);
+
+}  // namespace oval4d::geometry

@@ -1,0 +1,306 @@
+#include "net/data_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "fields/array/array_function.hpp"
+#include "fields/field.hpp"
+#include "fields/readers/field_reader.hpp"
+#include "fields/readers/zarr.hpp"
+#include "text/message_text.hpp"
+
+namespace oval4d::net {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Opens a file or folder in an open folder, without following a symbolic link. Returns -1 if that fails.
+int openName(int folder, const std::string& name, int flags) {
+    return openat(folder, name.c_str(), flags | O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+}
+
+/// Returns a string that changes when the file changes; an empty string if `file` is not a regular file.
+std::string versionOf(int file) {
+    struct stat status{};
+    if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return {};
+    return std::to_string(status.st_ino) + ':' + std::to_string(status.st_size) + ':' +
+           std::to_string(status.st_mtim.tv_sec) + '.' + std::to_string(status.st_mtim.tv_nsec) + ';';
+}
+
+/// Returns a text that changes when the metadata of a Zarr folder change, or files in the folder itself come and go;
+/// empty if it is not such a folder.
+std::string versionOfZarr(int folder) {
+    std::string version;
+    for (const std::string_view name : fields::kZarrFiles) {
+        const fields::FileHandle file(openName(folder, std::string(name), 0));
+        version += versionOf(file.descriptor());
+    }
+    if (version.empty()) return version;
+    for (const char* const name : {".zattrs", ".zmetadata"}) {
+        const fields::FileHandle file(openName(folder, name, 0));
+        version += versionOf(file.descriptor());
+    }
+    struct stat status{};
+    if (fstat(folder, &status) == 0)
+        version += std::to_string(status.st_mtim.tv_sec) + '.' + std::to_string(status.st_mtim.tv_nsec);
+    return version;
+}
+
+bool isZarr(const fs::path& folder) {
+    const fields::FileHandle handle(openName(AT_FDCWD, folder.string(), O_DIRECTORY));
+    return handle.descriptor() >= 0 && !versionOfZarr(handle.descriptor()).empty();
+}
+
+bool isArray(int file) {
+    std::array<std::byte, fields::kRecognizedBytes> start{};
+    const ssize_t size = pread(file, start.data(), start.size(), 0);
+    return size > 0 && fields::formatOfFile(std::span(start).first(static_cast<std::size_t>(size))) != nullptr;
+}
+
+/// Returns whether clients may use this name: one path component that does not begin with a dot.
+bool isName(const std::string& name) {
+    return !name.empty() && name.front() != '.' && name.find('/') == std::string::npos &&
+           name.find('\0') == std::string::npos && text::isUtf8(name);
+}
+
+/// Returns a cache key made from everything that determines the result of reading `load`.
+std::string keyOf(const session::LoadObject& load, const std::string& version) {
+    std::string key =
+        load.path + '\0' + load.name + '\0' + load.format + '\0' + load.axes + '\0' + load.variable + '\0';
+    key += load.values + '\0' + load.valuesVariable + '\0';
+    if (load.box) key.append(reinterpret_cast<const char*>(&*load.box), sizeof *load.box);
+    return key + '\0' + version;
+}
+
+/// Returns the field with the mark that its memory is counted by the cache and, if its samples are in a file, with its
+/// source.
+Result<session::LoadedObject> shared(session::LoadedObject loaded, const session::LoadObject& load) {
+    const fields::Field* const field = slicing::fieldIn(loaded.object);
+    if (field == nullptr || !field->array) return Error{ErrorCode::bad_field, "the file is not an array"};
+    auto copy = std::make_shared<fields::Field>(*field);
+    copy->shared = true;
+    const bool isMapped = field->array->storage().file() ||
+                          (field->second && field->second->array && field->second->array->storage().file());
+    if (isMapped) {
+        copy->source = std::make_shared<const fields::FileSource>(fields::FileSource{
+            load.path, load.format, load.axes, load.variable, load.values, load.valuesVariable, load.box});
+    }
+    loaded.object = slicing::FieldPtr(std::move(copy));
+    return loaded;
+}
+
+}  // namespace
+
+DataFolder::DataFolder(const std::string& folder, std::size_t bytes, FieldCache& cache)
+    : folder_(folder.empty() ? fs::path() : fs::canonical(folder)), maxBytes_(bytes), cache_(cache) {
+    std::error_code fault;
+    if (!folder_.empty() && fs::directory_iterator(folder_, fault) == fs::directory_iterator())
+        if (fault) throw std::runtime_error("the data folder cannot be read: " + fault.message());
+}
+
+std::vector<std::string> DataFolder::names() const {
+    if (auto known = knownNames()) return *std::move(known);
+    const Clock::time_point began = Clock::now();
+    std::vector<std::string> found = list();
+    const std::lock_guard lock(mutex_);
+    names_ = found;
+    listed_ = began;
+    return found;
+}
+
+std::optional<std::vector<std::string>> DataFolder::knownNames() const {
+    if (folder_.empty()) return std::vector<std::string>();
+    const std::lock_guard lock(mutex_);
+    if (listed_ == Clock::time_point::min() || Clock::now() - listed_ >= kListedFor) return {};
+    return names_;
+}
+
+std::vector<std::string> DataFolder::list() const {
+    std::vector<std::string> found;
+    std::error_code fault;
+    for (fs::directory_iterator entry(folder_, fault), end; !fault && entry != end; entry.increment(fault)) {
+        const std::string name = entry->path().filename().string();
+        std::error_code unknown;
+        const auto type = entry->symlink_status(unknown).type();
+        if (!isName(name) || (type != fs::file_type::regular && type != fs::file_type::directory)) continue;
+        if (type == fs::file_type::directory) {
+            const auto files = fields::seriesFiles(entry->path());
+            if (!isZarr(entry->path()) && (!files || files->empty())) continue;
+        } else {
+            const fields::FileHandle file(openName(AT_FDCWD, entry->path().string(), 0));
+            if (file.descriptor() < 0 || !isArray(file.descriptor())) continue;
+        }
+        found.push_back(name);
+    }
+    std::ranges::sort(found);
+    found.resize(std::min(found.size(), kMaxNames));
+    return found;
+}
+
+/// Opens a file, or the files of a series.
+Result<DataFolder::Opened> DataFolder::open(const std::string& name) const {
+    const Error missing{ErrorCode::not_found, "the data folder has no " + text::inQuotes(name)};
+    if (folder_.empty()) return Error{ErrorCode::not_found, "this server has no data folder (--data)"};
+    if (!isName(name)) return missing;
+    const fields::FileHandle root(::open(folder_.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY));
+    auto file = std::make_shared<const fields::FileHandle>(openName(root.descriptor(), name, 0));
+    if (file->descriptor() < 0) return missing;
+    Opened opened;
+    opened.version = versionOf(file->descriptor());
+    if (!opened.version.empty()) {
+        opened.files.push_back(std::move(file));
+        return opened;
+    }
+    auto folder = std::make_shared<const fields::FileHandle>(openName(root.descriptor(), name, O_DIRECTORY));
+    if (folder->descriptor() < 0) return missing;
+    if (opened.version = versionOfZarr(folder->descriptor()); !opened.version.empty()) {
+        opened.folder = std::move(folder);
+        return opened;
+    }
+    const fields::FileHandle& series = *folder;
+    const auto paths = fields::seriesFiles(folder_ / name);
+    if (!paths || paths->empty()) return missing;
+    if (paths->size() > kMaxSeries)
+        return Error{ErrorCode::too_large, "a series may have at most " + std::to_string(kMaxSeries) + " files"};
+    opened.series = true;
+    for (const fs::path& path : *paths) {
+        file = std::make_shared<const fields::FileHandle>(openName(series.descriptor(), path.filename().string(), 0));
+        const std::string version = versionOf(file->descriptor());
+        if (version.empty()) return missing;
+        opened.version += version;
+        opened.files.push_back(std::move(file));
+    }
+    return opened;
+}
+
+std::string DataFolder::presentVersion(const Opened& opened) {
+    if (opened.folder) return versionOfZarr(opened.folder->descriptor());
+    std::string version;
+    for (const auto& file : opened.files) version += net::versionOf(file->descriptor());
+    return version;
+}
+
+/// Returns a field from the cache, and marks it as used; null if it is not there. Requires that mutex_ is held.
+const session::LoadedObject* DataFolder::find(const std::string& key) {
+    const auto found = std::ranges::find(recent_, key, &Entry::key);
+    if (found == recent_.end()) return nullptr;
+    if (slicing::fieldIn(found->loaded.object)->isLost()) {
+        bytes_ -= found->bytes;
+        recent_.erase(found);
+        return nullptr;
+    }
+    recent_.splice(recent_.begin(), recent_, found);
+    return &recent_.front().loaded;
+}
+
+/// Drops the least recently used field that no session uses; with `onDisk`, only one with a file of the field cache.
+/// Returns whether there was one. Requires that mutex_ is held.
+bool DataFolder::dropUnused(bool onDisk) {
+    const auto isUnused = [&](const Entry& entry) {
+        return std::get<slicing::FieldPtr>(entry.loaded.object).use_count() == 1 && (entry.onDisk || !onDisk);
+    };
+    const auto last = std::find_if(recent_.rbegin(), recent_.rend(), isUnused);
+    if (last == recent_.rend()) return false;
+    bytes_ -= last->bytes;
+    recent_.erase(std::next(last).base());
+    return true;
+}
+
+/// Makes a file in the field cache.
+Result<FieldCache::FilePtr> DataFolder::allocate(std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    for (;;) {
+        auto file = cache_.make(bytes);
+        if (!file || *file) return file;
+        if (!dropUnused(true)) {
+            return Error{
+                ErrorCode::too_many,
+                "the fields that sessions use leave no room on the disk for this one (--field-cache); try again "
+                "later"};
+        }
+    }
+}
+
+/// Puts a field into the cache. Makes room by dropping the least recently used fields that no session uses.
+Result<session::LoadedObject> DataFolder::keep(std::string key, session::LoadedObject loaded, bool onDisk) {
+    const std::size_t size = slicing::memoryOf(loaded.object);
+    const std::lock_guard lock(mutex_);
+    if (size > maxBytes_)
+        return Error{ErrorCode::too_large, "this field takes more memory than the fields of the data folder may (" +
+                                               std::to_string(maxBytes_) + " bytes, --data-cache)"};
+    while (bytes_ + size > maxBytes_ && dropUnused(false)) continue;
+    if (bytes_ + size > maxBytes_)
+        return Error{ErrorCode::too_many,
+                     "the fields of the data folder that sessions use leave no room for this one "
+                     "(--data-cache); try again later"};
+    bytes_ += size;
+    recent_.push_front({std::move(key), loaded, size, onDisk});
+    return loaded;
+}
+
+Result<session::LoadedObject> DataFolder::read(const session::LoadObject& load, const session::Limits& limits,
+                                               const Reader& reader) {
+    auto opened = open(load.path);
+    if (!opened) return opened.error();
+    const std::string key = keyOf(load, opened->version);
+    {
+        std::unique_lock lock(mutex_);
+        read_.wait(lock, [&] { return !reading_.contains(key); });
+        if (const auto* known = find(key)) return *known;
+        reading_.insert(key);
+    }
+    struct Finally {
+        DataFolder& folder;
+        const std::string& key;
+        ~Finally() {
+            const std::lock_guard lock(folder.mutex_);
+            folder.reading_.erase(key);
+            folder.read_.notify_all();
+        }
+    } const finally{*this, key};
+    return readNow(load, limits, std::move(*opened), reader, key);
+}
+
+Result<session::LoadedObject> DataFolder::readNow(const session::LoadObject& load, const session::Limits& limits,
+                                                  Opened opened, const Reader& reader, const std::string& key) {
+    session::LoadObject file = load;
+    if (opened.folder) {
+        file.folder = opened.folder;
+    } else if (opened.series) {
+        file.series = opened.files;
+    } else {
+        file.file = opened.files.front();
+    }
+    bool onDisk = false;
+    const Error changed{ErrorCode::bad_field, "the file changed while it was being read; load it again"};
+    Result<session::LoadedObject> loaded = changed;
+    try {
+        loaded = reader(file, limits, [&](std::size_t bytes) {
+            onDisk = true;
+            return allocate(bytes);
+        });
+    } catch (const std::runtime_error&) {
+        if (presentVersion(opened) == opened.version) throw;
+        return changed;
+    }
+    if (!loaded) return loaded.error();
+    if (onDisk && presentVersion(opened) != opened.version) return changed;
+    auto marked = shared(std::move(*loaded), load);
+    if (!marked) return marked.error();
+    return keep(key, std::move(*marked), onDisk);
+}
+
+std::size_t DataFolder::bytes() const {
+    const std::lock_guard lock(mutex_);
+    return bytes_;
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,98 @@
+#pragma once
+// The folder of arrays that the server offers to all sessions (--data).
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "errors/error.hpp"
+#include "fields/array/mapped_file.hpp"
+#include "file_reading/file_reader_pool.hpp"
+#include "net/field_cache.hpp"
+#include "session/load.hpp"
+
+namespace oval4d::net {
+
+/// A folder of arrays: of files, of Zarr folders, and of folders that are series, whose files are the time steps of one
+/// array. Clients refer to them by name; names that begin with a dot or lead outside the folder are refused, and
+/// symbolic links are not followed. Sessions that open the same file in the same way share one copy, until the file
+/// changes. Fields that are larger than session::Limits::maxFieldBytes are mapped: as they are in the folder, or after
+/// they have been converted into a file of the field cache. Thread-safe.
+class DataFolder {
+  public:
+    /// `folder`: empty if the server offers none. `bytes`: the maximum memory of fields from the folder, whether or not
+    /// sessions use them. `cache` must outlive the fields. Throws std::runtime_error if the folder cannot be read.
+    DataFolder(const std::string& folder, std::size_t bytes, FieldCache& cache);
+
+    /// Reads a file as FileReaderPool::read() does.
+    using Reader = std::function<Result<session::LoadedObject>(
+        const session::LoadObject& load, const session::Limits& limits, const file_reading::FileAllocator& allocate)>;
+
+    /// Returns the names of the entries that can be opened, in alphabetical order; at most kMaxNames. Reads the folder
+    /// unless knownNames() has the names, and blocks the calling thread meanwhile.
+    std::vector<std::string> names() const;
+    /// Returns the names that names() last read from the folder, if that reading began less than kListedFor ago;
+    /// otherwise nothing. Returns an empty list if there is no data folder.
+    std::optional<std::vector<std::string>> knownNames() const;
+
+    /// Returns the field that `load.path` names, from memory or read by `reader`, which gets a copy of `load` with the
+    /// open files. Blocks the calling thread, also while another thread reads the same field. Errors: `not_found` if
+    /// the folder has no such file; `too_large` if the field takes more memory or disk space than the limits allow;
+    /// `too_many` if fields in use leave too little of it; `bad_field` if the file changes while it is converted; those
+    /// of `reader`.
+    Result<session::LoadedObject> read(const session::LoadObject& load, const session::Limits& limits,
+                                       const Reader& reader);
+
+    /// Returns the memory, in bytes, of all fields from the folder.
+    std::size_t bytes() const;
+
+    static constexpr std::size_t kMaxNames = 1000, kMaxSeries = 1000;
+    static constexpr std::chrono::seconds kListedFor{2};
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    struct Opened {
+        std::vector<std::shared_ptr<const fields::FileHandle>> files;
+        std::shared_ptr<const fields::FileHandle> folder;  // a Zarr folder, instead of files
+        bool series = false;
+        std::string version;  // changes when a file changes
+    };
+    struct Entry {
+        std::string key;
+        session::LoadedObject loaded;
+        std::size_t bytes = 0;
+        bool onDisk = false;  // whether it has a file of the field cache
+    };
+
+    std::vector<std::string> list() const;
+    Result<Opened> open(const std::string& name) const;
+    static std::string presentVersion(const Opened& opened);
+    Result<session::LoadedObject> readNow(const session::LoadObject& load, const session::Limits& limits, Opened opened,
+                                          const Reader& reader, const std::string& key);
+    Result<FieldCache::FilePtr> allocate(std::size_t bytes);
+    bool dropUnused(bool onDisk);
+    Result<session::LoadedObject> keep(std::string key, session::LoadedObject loaded, bool onDisk);
+    const session::LoadedObject* find(const std::string& key);
+
+    const std::filesystem::path folder_;
+    const std::size_t maxBytes_;
+    FieldCache& cache_;
+    mutable std::mutex mutex_;  // guards the members below
+    mutable std::vector<std::string> names_;
+    mutable Clock::time_point listed_ = Clock::time_point::min();
+    std::list<Entry> recent_;        // the most recently used first
+    std::size_t bytes_ = 0;          // of the fields in `recent_`
+    std::set<std::string> reading_;  // the keys of what other threads read at this time
+    std::condition_variable read_;
+};
+
+}  // namespace oval4d::net

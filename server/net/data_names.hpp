@@ -1,0 +1,17 @@
+#pragma once
+// The names in the data folder, for coroutines on the threads that read and write sockets.
+
+#include <boost/asio/awaitable.hpp>
+#include <string>
+#include <vector>
+
+#include "net/clients.hpp"
+#include "net/services.hpp"
+
+namespace oval4d::net {
+
+/// Returns DataFolder::names(). Reads the folder on a load worker, because it may be on a slow disk or a network drive.
+/// Throws QueueFull if too many jobs are waiting.
+boost::asio::awaitable<std::vector<std::string>> dataNames(Services services, ClientPtr client);
+
+}  // namespace oval4d::net

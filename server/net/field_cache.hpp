@@ -1,0 +1,40 @@
+#pragma once
+// Files of samples, for fields of the data folder that are larger than memory and cannot be mapped as they are.
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "errors/error.hpp"
+#include "fields/array/mapped_file.hpp"
+
+namespace oval4d::net {
+
+/// Unnamed files, with a limit on their total size. The system deletes each file when the last reference to it is gone,
+/// at the latest when the server ends, even by a crash. Thread-safe.
+class FieldCache {
+  public:
+    /// `folder`: empty for /var/tmp, which is on a disk even where /tmp is in memory. `bytes`: the maximum total size
+    /// of the files.
+    FieldCache(const std::string& folder, std::size_t bytes);
+
+    using FilePtr = std::shared_ptr<const fields::FileHandle>;
+
+    /// Returns a new file of this size. Reserves its space on the disk if the file system can do so, so that writing to
+    /// it cannot fail for lack of space. Returns null if the other files leave too little of the limit for it. The
+    /// cache must outlive the file. Errors: `too_large` if the file is larger than the limit; `internal` if it cannot
+    /// be made; `too_many` if the disk is full.
+    Result<FilePtr> make(std::size_t bytes);
+
+    /// Returns the size of all files, in bytes.
+    std::size_t bytes() const { return bytes_; }
+
+  private:
+    const std::filesystem::path folder_;
+    const std::size_t maxBytes_;
+    std::atomic<std::size_t> bytes_ = 0;
+};
+
+}  // namespace oval4d::net

@@ -1,0 +1,154 @@
+#include "net/http/upload.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "net/services.hpp"
+#include "session/load.hpp"
+#include "text/message_text.hpp"
+#include "wire/parse.hpp"
+
+namespace oval4d::net {
+
+namespace {
+
+constexpr std::string_view kSessions = "/api/v1/sessions/", kFields = "/fields/", kMoments = "/moments",
+                           kState = "/state";
+
+// The number of bytes to reserve at a time, so that reading a few bytes does not lock the account each time.
+constexpr std::size_t kReserved = 1U << 20U;
+
+const Error kNoUpload{ErrorCode::not_found,
+                      "a field is uploaded with PUT to /api/v1/sessions/{session}/fields/{name}, and moments are added "
+                      "with POST to /api/v1/sessions/{session}/fields/{name}/moments; a picture or a state is restored "
+                      "with PUT to /api/v1/sessions/{session}/state"};
+
+/// Sets the member of `load` that a query parameter specifies. Returns an error if the parameter is unknown or invalid.
+std::optional<Error> setMember(session::LoadObject& load, const std::string& name, const std::string& value) {
+    if (name == "format") {
+        load.format = value;
+    } else if (name == "axes") {
+        load.axes = value;
+    } else if (name == "variable") {
+        load.variable = value;
+    } else if (name == "values") {
+        load.values = value;
+    } else if (name == "values_variable") {
+        load.valuesVariable = value;
+    } else if (name == "box") {
+        const auto box = session::parseBox(value);
+        if (!box) return box.error();
+        load.box = *box;
+    } else {
+        constexpr auto kNames =
+            std::to_array<std::string_view>({"format", "axes", "box", "variable", "values", "values_variable"});
+        return Error{ErrorCode::bad_message, "an upload has no " + text::inQuotes(name) +
+                                                 text::didYouMean(name, kNames) + "; its query may have " +
+                                                 text::commaSeparated(kNames)};
+    }
+    return {};
+}
+
+std::optional<Error> setMembers(session::LoadObject& load, const session::QueryParameters& query) {
+    for (auto entry = query.begin(); entry != query.end(); ++entry) {
+        const auto& [name, value] = *entry;
+        if (name == "token") continue;
+        if (std::ranges::find(entry + 1, query.end(), name, &session::QueryParameters::value_type::first) !=
+            query.end())
+            return Error{ErrorCode::bad_message, text::inQuotes(name) + " is repeated in the query"};
+        if (auto error = setMember(load, name, value)) return error;
+    }
+    return {};
+}
+
+}  // namespace
+
+bool isUpload(std::string_view method, std::string_view path) {
+    return (method == "PUT" || method == "POST") && path.starts_with(kSessions);
+}
+
+Result<Upload> parseUpload(std::string_view method, const RequestTarget& target, const session::Limits& limits) {
+    std::string_view rest = std::string_view(target.path).substr(kSessions.size());
+    const std::size_t at = std::min(rest.find('/'), rest.size());
+    Upload upload{std::string(rest.substr(0, at)), {}};
+    rest.remove_prefix(at);
+    if (rest == kState && method == "PUT") {
+        for (const auto& [name, value] : target.query) {
+            if (name != "token")
+                return Error{ErrorCode::bad_message, "the upload of a state has no " + text::inQuotes(name)};
+        }
+        return upload;
+    }
+    if (!rest.starts_with(kFields)) return kNoUpload;
+    rest.remove_prefix(kFields.size());
+    session::LoadObject load;
+    load.append = method == "POST";
+    if (load.append) {
+        if (!rest.ends_with(kMoments)) return kNoUpload;
+        rest.remove_suffix(kMoments.size());
+    }
+    load.name = rest;
+    if (auto error = setMembers(load, target.query)) return std::move(*error);
+    // checkLoad() requires an array only if `file` is set, which it is not yet.
+    const bool array = load.format.empty() || session::isArrayFormat(load.format);
+    if (!array)
+        return Error{
+            ErrorCode::unsupported_format,
+            "an uploaded file must be an array: npy, netcdf, hdf5 or nifti, not " + text::inQuotes(load.format)};
+    session::LoadObject checked = load;
+    if (checked.format.empty()) checked.format = "npy";
+    if (auto error = session::checkLoad(checked, limits)) return std::move(*error);
+    upload.load = std::move(load);
+    return upload;
+}
+
+Result<session::Set> stateIn(const fields::FileHandle& file, std::size_t maxMessage) {
+    const auto contents = fields::FileContents::map(file.descriptor());
+    if (!contents) return contents.error();
+    return wire::setFromFile({reinterpret_cast<const char*>(contents->bytes.data()), contents->bytes.size()},
+                             maxMessage);
+}
+
+Reply uploadErrorReply(const Error& error) {
+    if (error.code == ErrorCode::unsupported_format) return errorReply(error, 415);
+    if (error.code != ErrorCode::too_many) return errorReply(error);
+    Reply reply = errorReply(error, 429);
+    reply.headers.emplace_back("Retry-After", "10");
+    return reply;
+}
+
+UploadedBody::UploadedBody(const ClientPtr& client) {
+    const int file = memfd_create("oval4d-upload", MFD_CLOEXEC | MFD_ALLOW_SEALING);
+    if (file < 0) throw std::system_error(errno, std::generic_category(), "an upload cannot be received");
+    held_ = std::make_shared<Held>(client->byteAccount().forceReserve(0), file);
+}
+
+std::optional<Error> UploadedBody::append(std::string_view bytes) {
+    const std::size_t size = size_ + bytes.size();
+    if (size > held_->bytes.size() && !held_->bytes.growTo(size + kReserved) && !held_->bytes.growTo(size))
+        return kTooManyBytes;
+    while (!bytes.empty()) {
+        const ssize_t written = write(held_->file.descriptor(), bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return Error{ErrorCode::internal, "the server has no memory for this upload"};
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    size_ = size;
+    return {};
+}
+
+std::shared_ptr<const fields::FileHandle> UploadedBody::finish() {
+    held_->bytes.resize(size_);
+    // Prevent the process that reads the file from changing its size.
+    fcntl(held_->file.descriptor(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL);
+    return {held_, &held_->file};
+}
+
+}  // namespace oval4d::net

@@ -1,0 +1,72 @@
+#pragma once
+// Uploads of fields and states: parses requests like PUT /api/v1/sessions/{id}/fields/{name}, and receives their
+// bodies.
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "errors/error.hpp"
+#include "fields/readers/file_contents.hpp"
+#include "net/clients.hpp"
+#include "net/http/request_target.hpp"
+#include "net/http/routes.hpp"
+#include "session/command.hpp"
+
+namespace oval4d::net {
+
+/// A parsed upload request, without the file.
+struct Upload {
+    std::string session;                      ///< id of the session
+    std::optional<session::LoadObject> load;  ///< without the file; nothing if the file contains a state
+};
+
+/// Returns whether requests with this method and path upload a file, and therefore have a body: PUT and POST to a path
+/// that begins with /api/v1/sessions/.
+bool isUpload(std::string_view method, std::string_view path);
+
+/// Parses a request, for which isUpload() must be true. PUT …/fields/{name} loads a field; POST …/fields/{name}/moments
+/// adds time steps to a loaded field. PUT …/state, without a query, restores the state in a picture or a `state`
+/// message. Otherwise, the query may have `format`, `axes`, `box`, `variable`, `values` and `values_variable`; the
+/// server's `token` is ignored. Errors: `not_found` for any other path; `unsupported_format` if the format is not an
+/// array format; `bad_message` for an unknown or repeated name in the query; those of session::parseBox() and
+/// session::checkLoad().
+Result<Upload> parseUpload(std::string_view method, const RequestTarget& target, const session::Limits& limits);
+
+/// The maximum number of bytes of a picture or a `state` message. The largest picture that oval4d makes is smaller.
+inline constexpr std::size_t kMaxStateFile = std::size_t{64} << 20U;
+
+/// Returns the command that restores the state in an uploaded file, which may have `maxMessage` bytes. Errors: those of
+/// wire::setFromFile(); `bad_field` if the file is empty.
+Result<session::Set> stateIn(const fields::FileHandle& file, std::size_t maxMessage);
+
+/// Returns the reply to a failed upload, like errorReply(), but with status 415 for `unsupported_format` and 429 for
+/// `too_many`.
+Reply uploadErrorReply(const Error& error);
+
+/// The body of an upload while it is received: a file in memory, whose bytes are reserved on the client's account. The
+/// reservation ends when this object and all copies of the pointer from finish() have been destroyed.
+class UploadedBody {
+  public:
+    /// Throws std::system_error if the system cannot create the file.
+    explicit UploadedBody(const ClientPtr& client);
+
+    /// Appends bytes. Errors: `too_many` if the account has no room for them; `internal` if the system has no memory.
+    std::optional<Error> append(std::string_view bytes);
+    /// Returns the file. append() must not be called afterward.
+    std::shared_ptr<const fields::FileHandle> finish();
+
+  private:
+    struct Held {
+        Held(ByteBudget::Reservation reserved, int descriptor) : bytes(std::move(reserved)), file(descriptor) {}
+        ByteBudget::Reservation bytes;
+        fields::FileHandle file;
+    };
+    std::shared_ptr<Held> held_;
+    std::size_t size_ = 0;
+};
+
+}  // namespace oval4d::net

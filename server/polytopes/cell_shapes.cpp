@@ -1,0 +1,172 @@
+#include "polytopes/cell_shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "polytopes/construction/polyhedra.hpp"
+#include "polytopes/construction/solids.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+constexpr double kShapeTolerance = 0.01;  // relative
+
+bool areEqual(double a, double b) { return std::abs(a - b) <= kShapeTolerance * std::max(a, b); }
+
+// The numbers of a cell's elements.
+struct Shape {
+    std::map<std::size_t, std::uint32_t> faces;               // by their numbers of sides
+    std::map<std::uint32_t, std::uint32_t> degrees;           // by vertex: the number of its edges
+    std::map<std::uint32_t, std::uint32_t> verticesOfDegree;  // by degree
+
+    Shape(const Polytope& p, std::uint32_t cell) {
+        for (const std::uint32_t f : p.cells[cell]) {
+            ++faces[p.faces[f].size()];
+            for (const std::uint32_t v : p.faces[f]) ++degrees[v];
+        }
+        for (const auto& [vertex, degree] : degrees) ++verticesOfDegree[degree];
+    }
+    std::uint32_t facesWith(std::size_t sides) const {
+        const auto found = faces.find(sides);
+        return found == faces.end() ? 0 : found->second;
+    }
+    // Returns whether the cell has n vertices of one degree, and m of another one.
+    bool has(std::uint32_t n, std::uint32_t degree, std::uint32_t m, std::uint32_t otherDegree) const {
+        std::map<std::uint32_t, std::uint32_t> wanted;
+        wanted[degree] += n;
+        wanted[otherDegree] += m;
+        return verticesOfDegree == wanted;
+    }
+};
+
+// The lengths of the sides and diagonals of a quadrilateral.
+struct Quadrilateral {
+    double sides[4], diagonals[2];
+
+    Quadrilateral(const Polytope& p, std::span<const std::uint32_t> loop) {
+        const auto distance = [&](std::size_t i, std::size_t j) {
+            return glm::distance(p.vertices[loop[i % 4]], p.vertices[loop[j % 4]]);
+        };
+        for (std::size_t i = 0; i < 4; ++i) sides[i] = distance(i, i + 1);
+        for (std::size_t i = 0; i < 2; ++i) diagonals[i] = distance(i, i + 2);
+    }
+    bool isRhombus() const {
+        return areEqual(sides[0], sides[1]) && areEqual(sides[1], sides[2]) && areEqual(sides[2], sides[3]);
+    }
+    bool isRectangle() const {
+        return areEqual(sides[0], sides[2]) && areEqual(sides[1], sides[3]) && areEqual(diagonals[0], diagonals[1]);
+    }
+};
+
+std::string adjectiveOfBase(const Polytope& p, std::span<const std::uint32_t> loop) {
+    if (loop.size() != 4) return adjectiveOf({static_cast<int>(loop.size()), 1});
+    const Quadrilateral base(p, loop);
+    if (base.isRhombus()) return base.isRectangle() ? "square" : "rhombic";
+    return base.isRectangle() ? "rectangular" : "quadrilateral";
+}
+
+std::string pyramidName(const Polytope& p, std::uint32_t cell, const Shape& shape) {
+    const std::size_t n = p.cells[cell].size() - 1;
+    if (n < 4 || shape.degrees.size() != n + 1 || shape.facesWith(3) != n || shape.facesWith(n) != 1) return {};
+    for (const std::uint32_t f : p.cells[cell]) {
+        if (p.faces[f].size() == n) return adjectiveOfBase(p, p.faces[f]) + " pyramid";
+    }
+    return {};
+}
+
+std::string prismName(const Polytope& p, std::uint32_t cell) {
+    const std::size_t n = p.cells[cell].size() - 2;
+    std::size_t rectangles = 0;
+    std::vector<std::uint32_t> others;
+    for (const std::uint32_t f : p.cells[cell]) {
+        const bool rectangle = p.faces[f].size() == 4 && Quadrilateral(p, p.faces[f]).isRectangle();
+        if (rectangle)
+            ++rectangles;
+        else
+            others.push_back(f);
+    }
+    if (rectangles != n || others.size() != 2) return {};
+    for (const std::uint32_t f : others) {
+        if (p.faces[f].size() != n) return {};
+    }
+    return adjectiveOfBase(p, p.faces[others[0]]) + " prism";
+}
+
+// The names of cells with two apexes around which all other vertices lie.
+std::string twoApexName(std::uint32_t faces, const Shape& shape) {
+    const std::uint32_t n = faces / 2;
+    const auto vertices = static_cast<std::uint32_t>(shape.degrees.size());
+    const std::string adjective = adjectiveOf({static_cast<int>(n), 1});
+    // Any vertices of an octahedron that is not regular, and of a deformed cube, could be the apexes.
+    if (n != 4 && vertices == n + 2 && shape.facesWith(3) == 2 * n && shape.has(2, n, n, 4))
+        return adjective + " bipyramid";
+    if (n > 3 && vertices == 2 * n + 2 && shape.facesWith(4) == 2 * n && shape.has(2, n, 2 * n, 3))
+        return adjective + " trapezohedron";
+    return {};
+}
+
+// Compares the distances of the vertices from the center: Catalan solids with equal numbers of elements differ in them,
+// and so do other polyhedra with these numbers.
+bool hasRadiiOf(const Solid& solid, const Polytope& p, const Shape& shape) {
+    const SolidMesh mesh = meshOf(solid);
+    std::vector<double> known, own;
+    for (const glm::dvec3& v : mesh.vertices) known.push_back(glm::length(v));
+    glm::dvec4 middle(0);
+    for (const auto& [v, degree] : shape.degrees) middle += p.vertices[v] / static_cast<double>(shape.degrees.size());
+    for (const auto& [v, degree] : shape.degrees) own.push_back(glm::distance(p.vertices[v], middle));
+    std::ranges::sort(known);
+    std::ranges::sort(own);
+    const double scale = own.back() / known.back();
+    return std::ranges::equal(known, own, [&](double a, double b) { return areEqual(scale * a, b); });
+}
+
+bool isPlatonic(const NamedPolyhedron& polyhedron) {
+    const std::string_view diagram = polyhedron.linearNotation;
+    return std::ranges::count(diagram, 'x') == 1 && (diagram.starts_with('x') || diagram.ends_with('x'));
+}
+
+struct CatalanSolid {
+    Solid solid;
+    SolidCounts counts;
+};
+
+const std::vector<CatalanSolid>& catalanSolids() {
+    static const std::vector<CatalanSolid> kSolids = [] {
+        std::vector<CatalanSolid> solids;
+        for (const NamedPolyhedron& base : namedPolyhedra()) {
+            const Solid solid{&base, 0, false, true};
+            if (isConvex(base) && !isPlatonic(base)) solids.push_back({solid, countsOf(solid)});
+        }
+        return solids;
+    }();
+    return kSolids;
+}
+
+std::string catalanName(const Polytope& p, const Shape& shape, std::uint32_t faces) {
+    if (shape.faces.size() != 1) return {};
+    for (const auto& [solid, counts] : catalanSolids()) {
+        if (counts.faces == faces && counts.vertices == shape.degrees.size() && hasRadiiOf(solid, p, shape))
+            return nameOf(solid);
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string nameOfIrregularCell(const Polytope& p, std::uint32_t cell) {
+    const auto faces = static_cast<std::uint32_t>(p.cells[cell].size());
+    if (!p.convexFaces || faces < 5) return {};
+    const Shape shape(p, cell);
+    std::string name = pyramidName(p, cell, shape);
+    if (name.empty()) name = prismName(p, cell);
+    if (name.empty()) name = catalanName(p, shape, faces);
+    return name.empty() ? twoApexName(faces, shape) : name;
+}
+
+}  // namespace oval4d::polytopes

@@ -1,0 +1,168 @@
+#include "polytopes/construction/combination.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "polytopes/construction/convex_hull.hpp"
+#include "polytopes/construction/design.hpp"
+#include "polytopes/construction/dual.hpp"
+#include "polytopes/construction/polyhedra.hpp"
+#include "text/message_text.hpp"
+#include "text/words.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+constexpr auto kConstructions = std::to_array<std::string_view>(
+    {"dual", "prism", "pyramid", "bipyramid", "truncation", "rectification", "product", "hull", "intersection"});
+constexpr double kLeastRadius = 0.01, kMostRadius = 100;
+
+bool isOfTwo(std::string_view word) { return word == "hull" || word == "intersection" || word == "product"; }
+
+// A polytope of a hull or an intersection.
+struct Operand {
+    Design design;
+    std::optional<double> circumradius;  // of the polytope in the combination; absent for the default
+
+    // Returns the name, from which the operand can be parsed again.
+    std::string name() const {
+        std::string result = design.name;
+        if (circumradius) result += " of circumradius " + text::shortestDecimal(*circumradius);
+        return result;
+    }
+};
+
+using Words = std::vector<std::string>;
+
+// Returns the index of the "and" between the two operands; nothing if there is none. The words after the "and" of a
+// nested combination belong to its second operand.
+std::optional<std::size_t> findAnd(const Words& words) {
+    int nested = 0;
+    for (std::size_t i = 2; i < words.size(); ++i) {
+        if (isOfTwo(words[i]) && i + 1 < words.size() && words[i + 1] == "of") ++nested;
+        if (words[i] == "and" && nested-- == 0) return i;
+    }
+    return {};
+}
+
+std::variant<Operand, NameError> operandNamed(const Words& words, const DesignLookup& lookup) {
+    Operand operand;
+    std::size_t end = words.size();
+    if (end > 3 && words[end - 3] == "of" && words[end - 2] == "circumradius") {
+        double value = 0;
+        const std::string& number = words[end - 1];
+        const auto [rest, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+        if (error != std::errc{} || rest != number.data() + number.size() ||
+            !(value >= kLeastRadius && value <= kMostRadius)) {
+            return NameError::impossible(text::inQuotes(number) + " is not a circumradius; it must be a number from " +
+                                         text::shortestDecimal(kLeastRadius) + " to " +
+                                         text::shortestDecimal(kMostRadius));
+        }
+        operand.circumradius = value;
+        end -= 3;
+    }
+    const DesignOrError described = lookup(text::joined(words, 0, end));
+    if (const auto* error = std::get_if<NameError>(&described)) return *error;
+    operand.design = std::get<Design>(described);
+    return operand;
+}
+
+class Combination : public Recipe {
+  public:
+    Combination(bool intersection, Operand first, Operand second)
+        : intersection_(intersection), operands_{std::move(first), std::move(second)} {}
+
+    ElementCounts counts() const override {
+        const ElementCounts a = operands_[0].design.recipe->counts(), b = operands_[1].design.recipe->counts();
+        return {a.vertices + b.vertices, a.edges + b.edges, a.faces + b.faces, a.cells + b.cells};
+    }
+    std::uint64_t symmetryOrder() const override { return 0; }
+    std::uint64_t hullPoints() const override {
+        const auto [vertices, edges, faces, cells] = counts();
+        return operands_[0].design.recipe->hullPoints() + operands_[1].design.recipe->hullPoints() +
+               (intersection_ ? cells : vertices);
+    }
+
+    Polytope build(const std::string& name) const override {
+        std::vector<glm::dvec4> points;
+        double circumradius = 0;
+        for (const Operand& operand : operands_) {
+            const Polytope polytope = buildConvex(operand.design);
+            if (circumradius == 0 || operand.circumradius)
+                circumradius = operand.circumradius.value_or(polytope.circumradius);
+            const double scale = circumradius / polytope.circumradius;
+            // The intersection is the reciprocal of the hull of the reciprocals.
+            for (const glm::dvec4& point : intersection_ ? polesOf(polytope) : polytope.vertices)
+                points.push_back(intersection_ ? point / scale : point * scale);
+        }
+        if (!intersection_) return centeredHull(name, points);
+        const Polytope hull = hullPolytope(name, points);
+        return centered(reciprocalOf(hull, name, polesOf(hull)));
+    }
+
+  private:
+    bool intersection_;
+    std::array<Operand, 2> operands_;
+};
+
+DesignOrError productNamed(const Words& one, const Words& other, const DesignLookup& lookup) {
+    const std::string first = text::joined(one, 0, one.size());
+    const std::string second = text::joined(other, 0, other.size());
+    for (const auto& [factor, solid] : {std::pair(first, second), std::pair(second, first)}) {
+        if (factor == "segment") return lookup("prism of " + solid);
+    }
+    const auto p = polygonNamed(first);
+    const auto q = polygonNamed(second);
+    if (!p || !q || p->numerator < 3 || q->numerator < 3) {
+        return NameError::impossible(
+            text::inQuotes(!p || p->numerator < 3 ? first : second) +
+            " is not a polygon with at least three sides; a product is that of two polygons, as in "
+            "product of 5-gon and 7-gon, or of a polyhedron and a segment, as in product of cube and "
+            "segment");
+    }
+    return duoprism(*p, *q);
+}
+
+}  // namespace
+
+std::optional<DesignOrError> combinationNamed(const NameWords& text) {
+    const Words& words = text.words;
+    if (!isOfTwo(words[0]) || words.size() < 3 || words[1] != "of") return {};
+    const auto at = findAnd(words);
+    if (!at || *at == 2 || *at + 1 == words.size()) {
+        const std::string example = words[0] == "product" ? "5-gon and 7-gon" : "tesseract and 16-cell";
+        return NameError::impossible("the word 'and' must stand between two names, as in " + words[0] + " of " +
+                                     example);
+    }
+    const auto middle = words.begin() + static_cast<std::ptrdiff_t>(*at);
+    const Words one(words.begin() + 2, middle), other(middle + 1, words.end());
+    if (words[0] == "product") return productNamed(one, other, text.lookup);
+    auto first = operandNamed(one, text.lookup);
+    if (const auto* error = std::get_if<NameError>(&first)) return *error;
+    auto second = operandNamed(other, text.lookup);
+    if (const auto* error = std::get_if<NameError>(&second)) return *error;
+    auto& a = std::get<Operand>(first);
+    auto& b = std::get<Operand>(second);
+    return Design{words[0] + " of " + a.name() + " and " + b.name(),
+                  std::make_shared<Combination>(words[0] == "intersection", a, b)};
+}
+
+std::size_t constructionsIn(const Words& words) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+        const bool begins = std::ranges::find(kConstructions, words[i]) != kConstructions.end();
+        if (begins && (words[i + 1] == "of" || words[i] == "dual")) ++count;
+    }
+    return count;
+}
+
+std::vector<std::string_view> constructionWords() { return {kConstructions.begin(), kConstructions.end()}; }
+
+}  // namespace oval4d::polytopes

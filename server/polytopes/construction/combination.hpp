@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "polytopes/construction/notation.hpp"
+
+namespace oval4d::polytopes {
+
+/// Parses the name of a combination of two polytopes: "hull of tesseract and 16-cell", "intersection of 120-cell and
+/// 600-cell of circumradius 4", "product of 5-gon and 7-gon". Returns an error if the text begins with "hull of",
+/// "intersection of" or "product of" but is not a valid name; std::nullopt for other texts.
+///
+/// The hull and the intersection are those of two convex polytopes that are both centered at the origin. By default,
+/// the first polytope has the size with which it is built alone, and the second polytope is scaled to the circumradius
+/// of the first. "of circumradius" and a number from 0.01 to 100 after a name scale this polytope to the given
+/// circumradius. The result is moved such that the mean of its vertices is the origin. Recipe::build throws
+/// std::invalid_argument if one of the two polytopes is not convex, and TooLarge (convex_hull.hpp).
+///
+/// The product of two polygons is their duoprism; the product of a polyhedron and a segment (of length 2) is the prism
+/// over the polyhedron.
+std::optional<DesignOrError> combinationNamed(const NameWords& text);
+
+/// The maximum number of constructions in a name (see constructionsIn()) that describedBy() accepts.
+inline constexpr std::size_t kMaxConstructions = 8;
+
+/// Returns the number of constructions in a name: of the words in constructionWords() that are followed by "of", and of
+/// "dual" followed by any word.
+std::size_t constructionsIn(const std::vector<std::string>& words);
+
+/// Returns the words with which constructions begin: "dual", "prism", "hull" and so on. In a name, "of" follows them;
+/// after "dual", it may be omitted.
+std::vector<std::string_view> constructionWords();
+
+}  // namespace oval4d::polytopes

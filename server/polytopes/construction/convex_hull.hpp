@@ -1,0 +1,51 @@
+#pragma once
+// Polytopes that are built as convex hulls of computed points.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+#include <glm/vec4.hpp>
+
+#include "polytopes/construction/recipe.hpp"
+#include "polytopes/polytope.hpp"
+
+namespace oval4d::polytopes {
+
+/// The maximum total number of points of all convex hulls that are computed to build one polytope.
+inline constexpr std::uint64_t kMaxHullPoints = 20'000;
+
+/// The maximum number of sides of a 2-face of a polytope from which a hull is constructed. In larger polygons, the
+/// vertices deviate so little from the lines through their neighbors that rounding errors become significant.
+inline constexpr std::size_t kMaxHullSides = 1000;
+
+/// The maximum number of cells of a hull.
+inline constexpr std::size_t kMaxHullCells = 100'000;
+
+/// Thrown while a polytope is being built, if it exceeds a limit that could not be checked before.
+class TooLarge : public std::invalid_argument {
+  public:
+    using std::invalid_argument::invalid_argument;
+};
+
+/// Returns the convex hull of the points. Assumes that the rounding error of each coordinate is at most 1e-12 of the
+/// largest distance of a point from the origin, and merges simplices that lie in one hyperplane within this error.
+/// Throws TooLarge if there are more than kMaxHullPoints points or kMaxHullCells cells, and std::invalid_argument if
+/// the points do not span four dimensions.
+Polytope hullPolytope(std::string name, std::span<const glm::dvec4> points);
+
+/// Returns hullPolytope() of the points, moved such that the mean of its vertices is the origin. The origin then lies
+/// in the interior. Throws like hullPolytope().
+Polytope centeredHull(std::string name, std::span<const glm::dvec4> points);
+
+/// Returns the polytope, moved such that the mean of its vertices is the origin.
+Polytope centered(Polytope polytope);
+
+/// Builds a polytope from which the caller constructs another one by a convex hull. Throws std::invalid_argument if the
+/// polytope is not convex, and TooLarge if a 2-face has more than kMaxHullSides sides. Also throws the exceptions of
+/// build().
+Polytope buildConvex(const Design& design);
+
+}  // namespace oval4d::polytopes

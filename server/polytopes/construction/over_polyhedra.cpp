@@ -1,0 +1,128 @@
+#include "polytopes/construction/over_polyhedra.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "polytopes/construction/design.hpp"
+#include "polytopes/construction/diminished.hpp"
+#include "polytopes/construction/solids.hpp"
+#include "text/words.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+enum class Over : std::uint8_t { prism, pyramid, bipyramid };
+
+constexpr auto kWords = std::to_array<std::pair<std::string_view, Over>>(
+    {{"prism", Over::prism}, {"pyramid", Over::pyramid}, {"bipyramid", Over::bipyramid}});
+
+class OverPolyhedron : public Recipe {
+  public:
+    OverPolyhedron(Over over, const Solid& solid) : over_(over), solid_(solid) {}
+
+    ElementCounts counts() const override {
+        const auto [v, e, f] = countsOf(solid_);
+        switch (over_) {
+            case Over::prism:
+                return {2 * v, 2 * e + v, 2 * f + e, f + 2};
+            case Over::pyramid:
+                return {v + 1, e + v, f + e, f + 1};
+            case Over::bipyramid:
+                break;
+        }
+        return {v + 2, e + 2 * v, f + 2 * e, 2 * f};
+    }
+
+    std::uint64_t symmetryOrder() const override { return 0; }
+
+    Polytope build(const std::string& name) const override {
+        SolidMesh base = meshOf(solid_);
+        if (over_ == Over::prism) {
+            // The symmetries of a dual map all of its faces to each other.
+            const std::vector<std::uint32_t> orbits(base.faces.size(), 0);
+            return prismOver(name, {std::move(base.vertices), std::move(base.faces), orbits});
+        }
+        const auto n = static_cast<std::uint32_t>(base.vertices.size());
+        const double height = heightOver(base.vertices);
+        const double shift = over_ == Over::pyramid ? height / (n + 1) : 0;  // moves the mean to the origin
+        std::vector<glm::dvec4> vertices;
+        for (const glm::dvec3& v : base.vertices) vertices.emplace_back(v, -shift);
+        vertices.emplace_back(0, 0, 0, height - shift);
+        if (over_ == Over::bipyramid) vertices.emplace_back(0, 0, 0, -height);
+
+        geometry::JaggedArray faces = base.faces;
+        geometry::JaggedArray cells;
+        std::vector<std::uint32_t> all(base.faces.size());
+        std::iota(all.begin(), all.end(), 0U);
+        if (over_ == Over::pyramid) cells.add(all);
+        for (std::uint32_t apex = n; apex < vertices.size(); ++apex) {
+            std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> triangles;
+            for (std::uint32_t f = 0; f < base.faces.size(); ++f) {
+                const auto loop = base.faces[f];
+                std::vector<std::uint32_t> cell{f};
+                for (std::size_t i = 0; i < loop.size(); ++i) {
+                    const std::pair<std::uint32_t, std::uint32_t> edge =
+                        std::minmax(loop[i], loop[(i + 1) % loop.size()]);
+                    const auto [triangle, fresh] =
+                        triangles.try_emplace(edge, static_cast<std::uint32_t>(faces.size()));
+                    if (fresh) faces.add(std::array{edge.first, edge.second, apex});
+                    cell.push_back(triangle->second);
+                }
+                cells.add(cell);
+            }
+        }
+        return makePolytope(name, std::move(vertices), std::move(faces), std::move(cells));
+    }
+
+  private:
+    // See overPolyhedronNamed().
+    double heightOver(const std::vector<glm::dvec3>& base) const {
+        constexpr double kEdge = 2, kFlat = 1e-6;
+        double circumradius = 0;
+        for (const glm::dvec3& v : base) circumradius = std::max(circumradius, glm::length(v));
+        const double square = kEdge * kEdge - circumradius * circumradius;
+        return solid_.dual || square < kFlat ? circumradius : std::sqrt(square);
+    }
+
+    Over over_;
+    Solid solid_;
+};
+
+Design overPolyhedron(Over over, const Solid& solid) {
+    const auto is = [&](std::string_view name) { return nameOf(solid) == name; };
+    if (over == Over::prism && !solid.dual) return uniformPrismOver(solid);
+    if (over == Over::pyramid && is("tetrahedron")) return designOf(std::get<Diagram>(parseDiagram("x3o3o3o")));
+    if (over == Over::bipyramid && is("octahedron")) return designOf(std::get<Diagram>(parseDiagram("x3o3o4o")));
+    const auto word = std::ranges::find(kWords, over, &std::pair<std::string_view, Over>::second)->first;
+    return {std::string(word) + " of " + nameOf(solid), std::make_shared<OverPolyhedron>(over, solid)};
+}
+
+}  // namespace
+
+std::optional<DesignOrError> overPolyhedronNamed(const NameWords& text) {
+    if (text.words.size() < 3 || text.words[1] != "of") return {};
+    const auto word = std::ranges::find(kWords, text.words[0], &std::pair<std::string_view, Over>::first);
+    if (word == kWords.end()) return {};
+    const auto solid = solidNamed({text.words.begin() + 2, text.words.end()});
+    if (!solid) {
+        return NameError::impossible(
+            "'" + text.joinedFrom(2) + "' is not the name of a polyhedron; a " + std::string(word->first) +
+            " is built over a Platonic or Archimedean solid, a prism, an antiprism, or the dual of "
+            "one of these, as in " +
+            std::string(word->first) + " of cube");
+    }
+    if (const auto* error = std::get_if<NameError>(&*solid)) return *error;
+    return overPolyhedron(word->second, std::get<Solid>(*solid));
+}
+
+}  // namespace oval4d::polytopes

@@ -1,0 +1,58 @@
+#pragma once
+// Convex polyhedra as bases of 4-D polytopes: Platonic and Archimedean solids, prisms, antiprisms, and their duals.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "geometry/jagged_array.hpp"
+#include "polytopes/construction/diagram_text.hpp"
+#include "polytopes/construction/polyhedra.hpp"
+#include "polytopes/construction/recipe.hpp"
+
+namespace oval4d::polytopes {
+
+/// The numbers of elements of a polyhedron.
+struct SolidCounts {
+    std::uint64_t vertices = 0, edges = 0, faces = 0;
+};
+
+/// A convex uniform polyhedron of edge length 2 or, if `dual` is set, its dual, scaled to the circumradius of the
+/// uniform polyhedron.
+struct Solid {
+    const NamedPolyhedron* named = nullptr;  ///< null for prisms and antiprisms
+    int sides = 0;                           ///< the number of sides of the base of a prism or antiprism; else 0
+    bool antiprism = false;
+    bool dual = false;
+
+    bool operator==(const Solid&) const = default;
+};
+
+/// Returns the solid that the words (lower case, at least one) name, such as "truncated cube", "5 gonal prism",
+/// "pentagonal antiprism", "dual of cuboctahedron", "rhombic dodecahedron" or "hexagonal bipyramid". Returns an error
+/// if the name is that of a star, or of a solid over a polygon of fewer than three sides; std::nullopt if the words
+/// name no polyhedron. All names of a solid give equal values: "dual of cube" gives the value of "octahedron".
+std::optional<std::variant<Solid, NameError>> solidNamed(const std::vector<std::string>& words);
+
+/// Returns the name, such as "truncated cube", "pentagonal prism" or "rhombic dodecahedron".
+std::string nameOf(const Solid& solid);
+
+SolidCounts countsOf(const Solid& solid);
+
+/// The vertices and faces of a polyhedron.
+struct SolidMesh {
+    std::vector<glm::dvec3> vertices;  ///< the center is the origin
+    geometry::JaggedArray faces;       ///< the vertex loop of each face; the directions of the loops are arbitrary
+};
+
+/// Builds the solid. Its edge length or circumradius is as stated at Solid.
+SolidMesh meshOf(const Solid& solid);
+
+/// Returns the design of the uniform prism over a solid. Ignores solid.dual, which must be false.
+Design uniformPrismOver(const Solid& solid);
+
+}  // namespace oval4d::polytopes

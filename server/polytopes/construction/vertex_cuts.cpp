@@ -1,0 +1,76 @@
+#include "polytopes/construction/vertex_cuts.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "polytopes/construction/convex_hull.hpp"
+#include "polytopes/construction/design.hpp"
+#include "polytopes/construction/dual.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+class VertexCut : public Recipe {
+  public:
+    VertexCut(bool truncation, Design base) : truncation_(truncation), base_(std::move(base)) {}
+
+    // Each edge is an intersection of the polytope with a supporting hyperplane, so that all points on edges are
+    // vertices of the hull. The other numbers are those of a polytope with flat cuts, four edges on each 2-face and
+    // eight 2-faces on each cell; truncation adds the remainders of edges and 2-faces.
+    ElementCounts counts() const override {
+        const auto [v, e, f, c] = base_.recipe->counts();
+        const std::uint64_t corners = 4 * f;
+        const std::uint64_t cells = c + v;
+        if (truncation_) return {2 * e, corners + e, corners + e + cells - 2 * e, cells};
+        return {e, corners, corners + cells - e, cells};
+    }
+    std::uint64_t symmetryOrder() const override { return 0; }
+    std::uint64_t hullPoints() const override { return base_.recipe->hullPoints() + counts().vertices; }
+
+    Polytope build(const std::string& name) const override {
+        const Polytope base = buildConvex(base_);
+        std::vector<glm::dvec4> points;
+        for (const auto& [a, b] : base.edges) {
+            const glm::dvec4 p = base.vertices[a], q = base.vertices[b];
+            if (truncation_) {
+                points.push_back((2.0 * p + q) / 3.0);
+                points.push_back((p + 2.0 * q) / 3.0);
+            } else {
+                points.push_back((p + q) / 2.0);
+            }
+        }
+        return centeredHull(name, points);
+    }
+
+  private:
+    bool truncation_;
+    Design base_;
+};
+
+bool isConvex(const Diagram& diagram) {
+    return std::ranges::all_of(diagram.branches, [](const auto& row) {
+        return std::ranges::all_of(row, [](const Branch& branch) { return branch.denominator == 1; });
+    });
+}
+
+}  // namespace
+
+std::optional<DesignOrError> vertexCutNamed(const NameWords& text) {
+    const bool truncation = text.words[0] == "truncation";
+    if ((!truncation && text.words[0] != "rectification") || text.words.size() < 3 || text.words[1] != "of") return {};
+    const DesignOrError described = text.lookup(text.joinedFrom(2));
+    const auto* base = std::get_if<Design>(&described);
+    if (base == nullptr) return described;
+    if (auto regular = regularDiagram(*base); regular && isConvex(*regular)) {
+        const bool triangles = regular->branches[0][1] == Branch{3, 1};
+        regular->ringed = {truncation, true, false, false};
+        if (triangles || !truncation) return designOf(*regular);
+    }
+    return Design{text.words[0] + " of " + base->name, std::make_shared<VertexCut>(truncation, *base)};
+}
+
+}  // namespace oval4d::polytopes

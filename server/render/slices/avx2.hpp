@@ -1,0 +1,31 @@
+#pragma once
+// Operations on eight numbers or pixels at a time, for processors with AVX2 and FMA.
+
+#if defined(__x86_64__)
+
+#include <immintrin.h>
+
+/// Marks a function that is compiled for processors with AVX2 and FMA, and must only be called on these.
+#define OVAL4D_AVX2 __attribute__((target("avx2,fma")))
+
+namespace oval4d::render {
+
+/// Returns base^exponent. `exponent` is at least 1.
+OVAL4D_AVX2 inline __m256 power(__m256 base, unsigned exponent) {
+    __m256 result = _mm256_set1_ps(1);
+    for (; exponent > 1; exponent >>= 1) {
+        if ((exponent & 1) != 0) result = _mm256_mul_ps(result, base);
+        base = _mm256_mul_ps(base, base);
+    }
+    return _mm256_mul_ps(result, base);
+}
+
+/// Returns one channel, 0 … 3, of eight pixels, as numbers from 0 to 255.
+template <int channel>
+OVAL4D_AVX2 inline __m256 channelOf(__m256i pixels) {
+    return _mm256_cvtepi32_ps(_mm256_and_si256(_mm256_srli_epi32(pixels, 8 * channel), _mm256_set1_epi32(255)));
+}
+
+}  // namespace oval4d::render
+
+#endif

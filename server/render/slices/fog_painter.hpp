@@ -1,0 +1,77 @@
+#pragma once
+// Draws the fog of fields by ray casting.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "render/gl.hpp"
+#include "render/projection.hpp"
+#include "render/shader_program.hpp"
+#include "render/slices/shape_batch.hpp"
+#include "scene/scene.hpp"
+
+namespace oval4d::render {
+
+/// Draws the fog of slices. For each pixel, follows the ray from the eye through the lattice of a slice to the nearest
+/// solid shape, and sums emission and absorption (N. Max, "Optical models for direct volume rendering", 1995). Let a be
+/// the opacity of a layer of fog that is as thick as the circumradius; then a segment of the ray of length s, in
+/// circumradii, absorbs 1 − (1 − a)^s of the light. The maximum of a is 1 − kMinTransmittance. Rays skip blocks of the
+/// lattice in which there is no fog. Requires a current GL context throughout its lifetime.
+class FogPainter {
+  public:
+    /// The minimum fraction of light that passes through a layer as thick as the circumradius.
+    static constexpr double kMinTransmittance = 1e-4;
+
+    FogPainter();
+    ~FogPainter();
+    FogPainter(const FogPainter&) = delete;
+    FogPainter& operator=(const FogPainter&) = delete;
+
+    /// Prepares for drawing the fog of a scene: loads the lattices of its visible slices into textures. `range` is the
+    /// range of distances that the depth buffer covers.
+    void begin(const scene::Scene& scene, DepthRange range);
+
+    /// The kinds of shapes that hide fog: `frame` are balls and bars, whose antialiased edges are translucent, and
+    /// `surfaces` are surfaces.
+    enum class Solids : std::uint8_t { frame, surfaces };
+    /// Copies the depth buffer. All shapes of the kind `solids`, and none of the other kind, must have been drawn to
+    /// it.
+    void copyDepths(scene::Viewport viewport, Solids solids);
+
+    /// A part of the fog between the eye and the nearest surface. `behind` is the fog behind the nearest ball or bar.
+    /// It must be drawn before balls and bars, so that it is visible through their edges. `before` is the rest: the fog
+    /// in front of the nearest ball or bar, or all of it where there is none.
+    enum class Part : std::uint8_t { behind, before };
+    /// Blends a part of the fog of one slice with the picture. The caller must first call copyDepths() for both kinds
+    /// of solids, and then draw the slices from far to near. Leaves the depth test enabled.
+    void draw(const scene::Scene& scene, std::uint32_t slice, Part part);
+
+    /// Frees the memory that is kept for the next picture. Keeps the textures of the last picture, because deleting
+    /// them requires the context of this object, and another one may be current. They take two bytes for each lattice
+    /// point, and two depths for each pixel.
+    void freeMemory() { texels_ = blockTexels_ = {}; }
+
+  private:
+    struct Corner {
+        glm::vec3 clip;   // clip coordinates x, y, w
+        glm::vec3 place;  // in slice coordinates
+    };
+    void load(const slicing::SliceFog& fog);
+    void loadBlocks(const slicing::SliceFog& fog, const scene::FogTable& table);
+    void deleteLattices();
+
+    ShaderProgram program_;
+    struct {
+        GLint toDepth, isBehind, eye, walls, wallCount, low, size, step, circumradius;
+    } uniforms_{};
+    GLuint table_ = 0, frameDepths_ = 0, surfaceDepths_ = 0;
+    std::vector<GLuint> lattices_, blocks_;  // two textures for each slice
+    Projection projection_;
+    glm::dmat4 toView_{1};
+    std::vector<std::uint8_t> texels_, blockTexels_;
+};
+
+}  // namespace oval4d::render

@@ -1,0 +1,78 @@
+#pragma once
+// Draws balls, bars, faces and surfaces into memory, without OpenGL.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <glm/vec2.hpp>
+
+#include "parallel/fork_join.hpp"
+#include "render/slices/shape_batch.hpp"
+#include "render/slices/surface_rasterizer.hpp"
+#include "scene/scene.hpp"
+
+namespace oval4d::render {
+
+/// A rectangle of a picture: the columns from.x … to.x − 1 and the rows from.y … to.y − 1, counted from the lower left
+/// corner.
+struct PixelArea {
+    glm::ivec2 from, to;
+};
+
+/// Rasterizes the patches of a ShapeBatch like ShapeProgram, but several times faster than llvmpipe: each patch is one
+/// convex polygon, so that no pixel is shaded twice at the diagonal of a quad, and polygons are not sorted into bins.
+/// Draws the surfaces of fields with a SurfaceRasterizer; they share one depth buffer with the shapes. Reuses its
+/// memory for the next picture.
+class ShapeRasterizer {
+  public:
+    /// How shapes use the depth buffer.
+    enum class Depth : std::uint8_t {
+        unused,   ///< neither read nor written
+        tested,   ///< read: pixels where something nearer has been written do not change
+        written,  ///< read, and written where the shape covers at least half of a pixel
+    };
+    /// The minimum width of a picture.
+    static constexpr int kMinWidth = 8;
+
+    /// Returns whether this processor has AVX2 and FMA. If not, only isSupported(), the constructor, the destructor and
+    /// freeMemory() may be called.
+    static bool isSupported();
+
+    ShapeRasterizer();
+    ~ShapeRasterizer();
+    ShapeRasterizer(const ShapeRasterizer&) = delete;
+    ShapeRasterizer& operator=(const ShapeRasterizer&) = delete;
+
+    /// Starts a picture with the background of the style. The picture will be drawn to `pixels`, which have the layout
+    /// of image::Image and must remain valid until finish() returns. The viewport must be at least kMinWidth wide.
+    void begin(scene::Viewport viewport, const scene::Style& style, std::span<std::uint8_t> pixels);
+
+    /// Adds the patches `first` … `end` − 1 of `shapes`, which must remain valid until finish() returns. They are drawn
+    /// in order, after everything that was added before.
+    void add(const ShapeBatch& shapes, std::size_t first, std::size_t end, Depth depth);
+
+    /// Adds triangles of surfaces, each given by three indices of vertices. `surfaces` must have been prepared for this
+    /// picture. It and `indices` must remain valid until finish() returns. The triangles are drawn in order, after
+    /// everything that was added before.
+    void add(const SurfaceRasterizer& surfaces, std::span<const std::uint32_t> indices,
+             SurfaceRasterizer::Blending blending);
+
+    /// Sets the part of the picture in which the depth buffer is used: surfaces, and shapes that use depths, must lie
+    /// in it. Must be called after begin(), which makes the part empty.
+    void setDepthArea(const PixelArea& area);
+
+    /// Draws everything that was added. If `forkJoin` is not null, draws the upper and the lower part of the picture in
+    /// parallel.
+    void finish(parallel::ForkJoin* forkJoin);
+
+    /// Frees the memory that is kept for the next picture.
+    void freeMemory();
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace oval4d::render

@@ -1,0 +1,261 @@
+#include "render/slices/surface_batch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <numeric>
+#include <ranges>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+
+#include "render/color.hpp"
+#include "render/slices/slice_view.hpp"
+
+namespace oval4d::render {
+
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffU;
+
+}  // namespace
+
+void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Part part) {
+    vertices_.clear();
+    opaque_.clear();
+    fringes_.clear();
+    fringesBegin_ = 0;
+    translucent_.clear();
+    order_.clear();
+    translucentEnds_.clear();
+    if (scene.surfaces.empty() && scene.fog.empty()) return;
+    projection_ = Projection::of(scene.camera, scene.viewport);
+    const glm::dmat4 toView = scene.camera.view();
+    order_.resize(scene.placements.size());
+    std::iota(order_.begin(), order_.end(), 0U);
+    const auto depth = [&](std::uint32_t slice) {
+        return -(toView * glm::dvec4(scene.placements[slice].position, 1)).z;
+    };
+    std::ranges::sort(order_, std::greater<>(), [&](std::uint32_t slice) { return std::pair(depth(slice), slice); });
+    if (part != Part::whole) keepPart(scene, part);
+    const auto add = [&](std::uint32_t slice, bool opaque) {
+        const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
+        if (!scene.placements[slice].drawn || surface.triangles.empty()) return;
+        const SliceTransform transform({*scene.slices, scene, toView, slice});
+        const glm::mat3 turn{glm::dmat3(toView)};
+        points_.clear();
+        normals_.clear();
+        for (const glm::vec3& point : surface.points) {
+            points_.push_back(transform(point));
+            const float z = -points_.back().z;
+            depths = {std::min(depths.from, z), std::max(depths.to, z)};
+        }
+        for (const glm::vec3& normal : surface.normals) normals_.push_back(turn * normal);
+        for (const scene::SurfaceLook::Level& level : scene.surfaces.levels) {
+            if ((level.opacity == 1) == opaque) addLevel(scene, slice, level);
+        }
+    };
+    if (!scene.surfaces.empty()) {
+        for (const std::uint32_t slice : order_ | std::views::reverse) add(slice, true);
+    }
+    fringesBegin_ = opaque_.size();
+    opaque_.insert(opaque_.end(), fringes_.begin(), fringes_.end());
+    const bool isOpaque =
+        std::ranges::all_of(scene.surfaces.levels, [](const auto& level) { return level.opacity == 1; });
+    for (const std::uint32_t slice : order_) {
+        if (!isOpaque) add(slice, false);
+        translucentEnds_.push_back(translucent_.size());
+    }
+}
+
+// Removes the slices of the other part from order_.
+void SurfaceBatch::keepPart(const scene::Scene& scene, Part part) {
+    const auto triangles = [&](std::uint32_t slice) {
+        return scene.placements[slice].drawn ? scene.slices->surfaces[slice].triangles.size() : 0;
+    };
+    std::size_t all = 0, farther = 0;
+    for (const std::uint32_t slice : order_) all += triangles(slice);
+    auto middle = order_.begin();
+    while (middle != order_.end() && 2 * farther < all) farther += triangles(*middle++);
+    if (part == Part::near) {
+        order_.erase(order_.begin(), middle);
+    } else {
+        order_.erase(middle, order_.end());
+    }
+}
+
+// Adds the triangles of one level of a slice, whose points and normals are in points_ and normals_.
+void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level) {
+    const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
+    const auto alpha = static_cast<float>(level.opacity);
+    const bool opaque = level.opacity == 1;
+    // A closed surface hides its own back. Without caps it is open.
+    const bool skipsBack = opaque && level.caps;
+    std::vector<std::uint32_t>& out = opaque ? opaque_ : translucent_;
+    facing_.clear();
+    front_.clear();
+    if (skipsBack) touchesBack_.assign(surface.points.size(), 0);
+    number_.assign(surface.points.size(), kNone);
+    const auto vertex = [&](std::uint32_t point) {
+        if (number_[point] == kNone) {
+            number_[point] = static_cast<std::uint32_t>(vertices_.size());
+            const glm::vec3& n = normals_[point];
+            vertices_.push_back({projection_.clip(points_[point]), glm::dot(n, points_[point]) > 0 ? -n : n,
+                                 colorOf(scene, slice, level, false, point, alpha)});
+        }
+        return number_[point];
+    };
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        if (surface.level(t) != level.index || (surface.isCap(t) && !level.caps)) continue;
+        const auto& [a, b, c] = surface.triangles[t];
+        const glm::vec3 normal = glm::cross(points_[b] - points_[a], points_[c] - points_[a]);
+        const bool isBack = glm::dot(normal, points_[a]) > 0;
+        if (isBack && skipsBack) {
+            for (const std::uint32_t point : {a, b, c}) touchesBack_[point] = 1;
+            continue;
+        }
+        if (skipsBack) front_.push_back(static_cast<std::uint32_t>(t));
+        std::vector<std::uint32_t>& indices = isBack ? out : facing_;
+        if (surface.isCap(t)) {
+            const glm::vec3 flat = glm::normalize(isBack ? -normal : normal);
+            for (const std::uint32_t point : {a, b, c}) {
+                indices.push_back(static_cast<std::uint32_t>(vertices_.size()));
+                vertices_.push_back(
+                    {projection_.clip(points_[point]), flat, colorOf(scene, slice, level, true, point, alpha)});
+            }
+        } else {
+            for (const std::uint32_t point : {a, b, c}) indices.push_back(vertex(point));
+        }
+    }
+    out.insert(out.end(), facing_.begin(), facing_.end());
+    if (skipsBack) addFringes(scene, slice, level);
+}
+
+std::uint32_t SurfaceBatch::colorOf(const scene::Scene& scene, std::size_t slice,
+                                    const scene::SurfaceLook::Level& level, bool ofCap, std::uint32_t point,
+                                    float alpha) const {
+    const scene::SurfaceLook& look = scene.surfaces;
+    const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
+    if (ofCap)
+        return rgba(look.colorsCapPoints() ? look.capPointColor(surface, point) : look.color(level, slice), alpha);
+    return rgba(look.colorsPoints() ? look.pointColor(surface, point) : look.color(level, slice), alpha);
+}
+
+// Adds the fringes of the level of a slice whose triangles were just added.
+void SurfaceBatch::addFringes(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level) {
+    const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
+    findSilhouette(surface);
+    outward_.resize(surface.points.size());
+    for (const auto& [from, to, triangle] : silhouette_) outward_[from] = outward_[to] = glm::vec2(0);
+    for (const auto& [from, to, triangle] : silhouette_) {
+        const glm::vec2 way = projection_.pixel(points_[to]) - projection_.pixel(points_[from]);
+        const float length = glm::length(way);
+        if (!(length > 0)) continue;
+        const glm::vec2 right = glm::vec2(way.y, -way.x) / length;
+        outward_[from] += right;
+        outward_[to] += right;
+    }
+    const glm::vec2 pixel(2 / projection_.width, 2 / projection_.height);
+    for (const auto& [from, to, triangle] : silhouette_) {
+        const bool isCap = surface.isCap(triangle);
+        const auto& [a, b, c] = surface.triangles[triangle];
+        const glm::vec3 flat = glm::normalize(glm::cross(points_[b] - points_[a], points_[c] - points_[a]));
+        const auto first = static_cast<std::uint32_t>(vertices_.size());
+        for (const std::uint32_t point : {from, to}) {
+            const float length = glm::length(outward_[point]);
+            const glm::vec2 out = length > 0 ? outward_[point] / length * pixel : glm::vec2(0);
+            const glm::vec3 clip = projection_.clip(points_[point]);
+            const glm::vec3& n = normals_[point];
+            const glm::vec3 normal = isCap ? flat : glm::dot(n, points_[point]) > 0 ? -n : n;
+            vertices_.push_back({clip, normal, colorOf(scene, slice, level, isCap, point, 1)});
+            vertices_.push_back(
+                {clip + glm::vec3(out * clip.z, 0), normal, colorOf(scene, slice, level, isCap, point, 0)});
+        }
+        for (const std::uint32_t corner : {0U, 1U, 2U, 2U, 1U, 3U}) fringes_.push_back(first + corner);
+    }
+}
+
+// Finds the edges between a triangle that faces the eye and one that faces away.
+void SurfaceBatch::findSilhouette(const slicing::SliceSurface& surface) {
+    silhouette_.clear();
+    for (const std::uint32_t t : front_) {
+        const auto& corners = surface.triangles[t];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t from = corners[i], to = corners[(i + 1) % 3];
+            if (touchesBack_[from] != 0 && touchesBack_[to] != 0) silhouette_.push_back({from, to, t});
+        }
+    }
+    // An edge between two triangles that face the eye is here in both directions.
+    const auto ends = [](const RimEdge& edge) {
+        return std::pair(std::min(edge.from, edge.to), std::max(edge.from, edge.to));
+    };
+    std::ranges::sort(silhouette_, {}, ends);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < silhouette_.size();) {
+        const bool isPaired = i + 1 < silhouette_.size() && ends(silhouette_[i]) == ends(silhouette_[i + 1]);
+        if (!isPaired) silhouette_[kept++] = silhouette_[i];
+        i += isPaired ? 2 : 1;
+    }
+    silhouette_.resize(kept);
+}
+
+namespace {
+
+std::string vertexSource(const scene::Style& style) {
+    const glm::dvec3 half = glm::normalize(style.light + glm::dvec3(0, 0, 1));
+    const auto vector = [](const glm::dvec3& v) {
+        return "vec3(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ")";
+    };
+    return R"(
+layout(location = 0) in vec3 clip;
+layout(location = 1) in vec3 normalIn;
+layout(location = 2) in vec4 colorIn;
+uniform vec2 toDepth;
+out vec4 color;
+void main() {
+    vec3 n = normalize(normalIn);
+    float diffuse = )" +
+           std::to_string(style.diffuse) + " * max(dot(n, " + vector(style.light) + R"(), 0.0);
+    float specular = )" +
+           std::to_string(style.specular) + " * pow(max(dot(n, " + vector(half) + "), 0.0), " +
+           std::to_string(style.shininess) + R"();
+    vec3 lit = colorIn.rgb * ()" +
+           std::to_string(style.ambient) + R"( + diffuse) + specular;
+    color = vec4(min(lit, 1.0) * colorIn.a, colorIn.a);
+    gl_Position = vec4(clip.xy, toDepth.x * clip.z + toDepth.y, clip.z);
+}
+)";
+}
+
+constexpr std::string_view kFragmentSource = R"(
+in vec4 color;
+out vec4 pixel;
+void main() { pixel = color; }
+)";
+
+constexpr Attribute kAttributes[] = {{3, GL_FLOAT, offsetof(SurfaceVertex, clip)},
+                                     {3, GL_FLOAT, offsetof(SurfaceVertex, normal)},
+                                     {4, GL_UNSIGNED_BYTE, offsetof(SurfaceVertex, color)}};
+
+}  // namespace
+
+SurfaceProgram::SurfaceProgram(const scene::Style& style)
+    : program_(vertexSource(style), kFragmentSource, sizeof(SurfaceVertex), kAttributes),
+      toDepth_(program_.uniform("toDepth")) {}
+
+void SurfaceProgram::draw(DepthRange range, const SurfaceBatch& surfaces, const std::vector<std::uint32_t>& indices) {
+    load(range, surfaces, indices);
+    drawPart(0, indices.size());
+}
+
+void SurfaceProgram::load(DepthRange range, const SurfaceBatch& surfaces, const std::vector<std::uint32_t>& indices) {
+    const glm::vec2 toDepth = range.toDepth();
+    program_.use();
+    glUniform2f(toDepth_, toDepth.x, toDepth.y);
+    program_.load(surfaces.vertices().data(), surfaces.vertices().size(), indices);
+}
+
+}  // namespace oval4d::render

@@ -1,0 +1,101 @@
+#pragma once
+// Draws the surfaces of fields.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "render/projection.hpp"
+#include "render/shader_program.hpp"
+#include "render/slices/shape_batch.hpp"
+#include "scene/scene.hpp"
+
+namespace oval4d::render {
+
+/// A vertex of a surface.
+struct SurfaceVertex {
+    glm::vec3 clip;       ///< clip coordinates x, y, w
+    glm::vec3 normal;     ///< in view coordinates, toward the eye
+    std::uint32_t color;  ///< as returned by rgba(), not multiplied by alpha
+};
+
+/// The triangles of all surfaces of a scene, in drawing order. Reuses its memory for the next picture.
+class SurfaceBatch {
+  public:
+    /// The slices whose surfaces are collected: all of them, or the nearer or farther ones, which have about half of
+    /// the triangles.
+    enum class Part : std::uint8_t { whole, near, far };
+
+    /// Collects the surfaces of a scene, or of a part of its slices. opaque() then has the opaque surfaces, from the
+    /// nearest slice to the farthest. Of a surface that caps close, it omits the triangles that face away from the eye,
+    /// because the surface hides them. translucent() has the translucent surfaces, from the farthest slice to the
+    /// nearest; within a slice, from the innermost level to the outermost; and within a level, first the triangles that
+    /// face away from the eye. Extends `depths` to include the depths of the surfaces.
+    ///
+    /// The silhouettes of closed opaque surfaces get fringes: strips outside of them, one pixel wide, whose opacity
+    /// decreases outward to 0. Blended with what is behind them, they antialias the silhouettes.
+    void collect(const scene::Scene& scene, DepthRange& depths, Part part = Part::whole);
+
+    const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
+    /// Returns the opaque triangles, as three indices of vertices each. From the index fringesBegin() on, these are the
+    /// triangles of the fringes.
+    const std::vector<std::uint32_t>& opaque() const { return opaque_; }
+    std::size_t fringesBegin() const { return fringesBegin_; }
+    const std::vector<std::uint32_t>& translucent() const { return translucent_; }
+    /// Returns the slices of the collected part, from the farthest to the nearest. Empty if the scene has neither
+    /// surfaces nor fog.
+    const std::vector<std::uint32_t>& order() const { return order_; }
+    /// Returns, for each slice of order(), the end of its triangles in translucent().
+    const std::vector<std::size_t>& translucentEnds() const { return translucentEnds_; }
+
+  private:
+    // An edge of a triangle that faces the eye; the triangle is on the left of the edge. Both ends of the edge also
+    // belong to triangles that face away.
+    struct RimEdge {
+        std::uint32_t from, to, triangle;
+    };
+
+    void keepPart(const scene::Scene& scene, Part part);
+    void addLevel(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level);
+    void addFringes(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level);
+    void findSilhouette(const slicing::SliceSurface& surface);
+    std::uint32_t colorOf(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::Level& level,
+                          bool ofCap, std::uint32_t point, float alpha) const;
+
+    Projection projection_;
+    std::vector<std::uint32_t> order_;  // slices, from the farthest to the nearest
+    std::vector<std::size_t> translucentEnds_;
+    std::vector<glm::vec3> points_, normals_;  // of the current slice, in view coordinates
+    std::vector<std::uint32_t> number_;        // per point of the slice: its vertex in this level, or kNone
+    std::vector<SurfaceVertex> vertices_;
+    std::vector<std::uint32_t> opaque_, translucent_, facing_, fringes_;
+    std::size_t fringesBegin_ = 0;
+    std::vector<std::uint32_t> front_;       // the triangles of the current slice and level that face the eye
+    std::vector<std::uint8_t> touchesBack_;  // per point: 1 if it belongs to a triangle that faces away
+    std::vector<RimEdge> silhouette_;        // of the current slice and level
+    std::vector<glm::vec2> outward_;         // per point of the silhouette: away from the surface, in pixels
+};
+
+/// Draws surfaces with diffuse and specular light.
+class SurfaceProgram {
+  public:
+    explicit SurfaceProgram(const scene::Style& style);
+
+    /// Draws triangles of `surfaces`, given by the indices of their vertices. The depth buffer covers `range`. The
+    /// depth test must be enabled.
+    void draw(DepthRange range, const SurfaceBatch& surfaces, const std::vector<std::uint32_t>& indices);
+
+    /// Copies triangles of `surfaces`, given as for draw(), for later calls of drawPart().
+    void load(DepthRange range, const SurfaceBatch& surfaces, const std::vector<std::uint32_t>& indices);
+    /// Draws the triangles given by the entries `begin` … `end` − 1 of the indices that were loaded last. The depth
+    /// test must be enabled.
+    void drawPart(std::size_t begin, std::size_t end) { program_.drawPart(begin, end); }
+
+  private:
+    ShaderProgram program_;
+    GLint toDepth_;
+};
+
+}  // namespace oval4d::render

@@ -1,0 +1,437 @@
+#include "render/slices/surface_rasterizer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include <glm/geometric.hpp>
+
+#include "render/slices/avx2.hpp"
+
+namespace oval4d::render {
+
+#if defined(__x86_64__)
+
+namespace {
+
+using Blending = SurfaceRasterizer::Blending;
+using Point = SurfaceRasterizer::Point;
+
+// Triangles are cut off at this distance from the eye, in view coordinates.
+constexpr float kNearest = 1e-3F;
+constexpr std::size_t kLanes = 8;
+// While eight triangles are drawn, the first corners of those that follow this many indices later are prefetched: they
+// may have been written by another core, and the other corners are often close to them.
+constexpr std::size_t kAhead = 2 * 3 * kLanes;
+
+static_assert(sizeof(Point) == 8 * sizeof(float));
+static_assert(sizeof(SurfaceVertex) == 7 * sizeof(float));
+
+// Transposes a matrix of 8 × 8 numbers.
+OVAL4D_AVX2 inline void transpose(__m256 (&rows)[kLanes]) {
+    __m256 a[kLanes], b[kLanes];
+    for (std::size_t i = 0; i < kLanes; i += 2) {
+        a[i] = _mm256_unpacklo_ps(rows[i], rows[i + 1]);
+        a[i + 1] = _mm256_unpackhi_ps(rows[i], rows[i + 1]);
+    }
+    for (std::size_t i = 0; i < kLanes; i += 4) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            b[i + 2 * k] = _mm256_shuffle_ps(a[i + k], a[i + k + 2], 0x44);
+            b[i + 2 * k + 1] = _mm256_shuffle_ps(a[i + k], a[i + k + 2], 0xee);
+        }
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+        rows[i] = _mm256_permute2f128_ps(b[i], b[i + 4], 0x20);
+        rows[i + 4] = _mm256_permute2f128_ps(b[i], b[i + 4], 0x31);
+    }
+}
+
+// The properties of the picture and the light that all vertices share.
+struct Lighting {
+    float halfWidth, halfHeight;  // of the picture, in pixels
+    float ambient, diffuse;
+    float gloss;  // the specular intensity, 0 … 255
+    unsigned shininess;
+    glm::vec3 light, half;
+};
+
+// Projects and lights eight vertices. `in` must be followed by readable memory of the size of a float.
+OVAL4D_AVX2 void prepareEight(const Lighting& lighting, const SurfaceVertex* in, Point* out) {
+    __m256 v[kLanes];
+    for (std::size_t i = 0; i < kLanes; ++i) v[i] = _mm256_loadu_ps(&in[i].clip.x);
+    transpose(v);
+    const __m256 &clipX = v[0], &clipY = v[1], &clipW = v[2], &normalX = v[3], &normalY = v[4], &normalZ = v[5];
+    const __m256 zero = _mm256_setzero_ps(), one = _mm256_set1_ps(1), most = _mm256_set1_ps(255);
+
+    const __m256 nearness = _mm256_div_ps(one, clipW);
+    // All bits of `behind` are set where the vertex cannot be projected; as a number, this is NaN.
+    const __m256 behind = _mm256_cmp_ps(clipW, _mm256_set1_ps(kNearest), _CMP_NGE_UQ);
+    const auto pixel = [&](const __m256& clip, float half) OVAL4D_AVX2 {
+        const __m256 halves = _mm256_set1_ps(half);
+        return _mm256_or_ps(_mm256_fmadd_ps(_mm256_mul_ps(clip, nearness), halves, halves), behind);
+    };
+
+    const auto product = [&](const glm::vec3& direction) OVAL4D_AVX2 {
+        const __m256 sum =
+            _mm256_fmadd_ps(normalY, _mm256_set1_ps(direction.y), _mm256_mul_ps(normalX, _mm256_set1_ps(direction.x)));
+        return _mm256_fmadd_ps(normalZ, _mm256_set1_ps(direction.z), sum);
+    };
+    const __m256 length2 =
+        _mm256_fmadd_ps(normalZ, normalZ, _mm256_fmadd_ps(normalY, normalY, _mm256_mul_ps(normalX, normalX)));
+    const __m256 scale = _mm256_div_ps(one, _mm256_sqrt_ps(length2));
+    const auto cosine = [&](const glm::vec3& direction) OVAL4D_AVX2 {
+        return _mm256_max_ps(_mm256_mul_ps(product(direction), scale), zero);  // 0 if there is no normal
+    };
+    const __m256 light =
+        _mm256_fmadd_ps(cosine(lighting.light), _mm256_set1_ps(lighting.diffuse), _mm256_set1_ps(lighting.ambient));
+    const __m256 shine =
+        _mm256_mul_ps(power(cosine(lighting.half), lighting.shininess), _mm256_set1_ps(lighting.gloss));
+    const __m256i bytes = _mm256_castps_si256(v[6]);
+    const __m256 alpha = channelOf<3>(bytes), opacity = _mm256_mul_ps(alpha, _mm256_set1_ps(1.0F / 255));
+    const auto lit = [&](const __m256& color) OVAL4D_AVX2 {
+        return _mm256_mul_ps(_mm256_min_ps(_mm256_fmadd_ps(color, light, shine), most), opacity);
+    };
+    __m256 rows[kLanes]{nearness,
+                        pixel(clipX, lighting.halfWidth),
+                        pixel(clipY, lighting.halfHeight),
+                        zero,
+                        lit(channelOf<0>(bytes)),
+                        lit(channelOf<1>(bytes)),
+                        lit(channelOf<2>(bytes)),
+                        alpha};
+    transpose(rows);
+    for (std::size_t i = 0; i < kLanes; ++i) _mm256_store_ps(&out[i].nearness, rows[i]);
+}
+
+using Lanes = std::array<float, kLanes>;
+using Numbers = std::array<std::int32_t, kLanes>;
+
+// The edges and the gradients of eight triangles. The corners p, q and r of a triangle are sorted by height.
+struct alignas(32) SetUp {
+    Lanes baseP, baseQ;        // the first row whose center is at least as high as p or q
+    Numbers rowP, rowQ, rowR;  // the first row that is drawn and whose center is at least as high as p, q or r
+    // For each edge, half a pixel to the left of it: x at the base of its lower end, and the step to the next row.
+    Lanes xPQ, xQR, xPR, stepPQ, stepQR, stepPR;
+    // The gradient of a quantity: d/dx = (b − a) · xB + (c − a) · xC, and likewise d/dy, for its values a, b and c at
+    // the corners, which are not sorted. The first corner is at (originX, originY), relative to the center of pixel
+    // (0, 0).
+    Lanes xB, xC, yB, yC, originX, originY;
+};
+
+// Exchanges the points (xA, yA) and (xB, yB) where the first one is higher.
+OVAL4D_AVX2 inline void sort(__m256& xA, __m256& yA, __m256& xB, __m256& yB) {
+    const __m256 isHigher = _mm256_cmp_ps(yA, yB, _CMP_GT_OQ);
+    const __m256 x = _mm256_blendv_ps(xA, xB, isHigher), y = _mm256_blendv_ps(yA, yB, isHigher);
+    xB = _mm256_blendv_ps(xB, xA, isHigher);
+    yB = _mm256_blendv_ps(yB, yA, isHigher);
+    xA = x;
+    yA = y;
+}
+
+// Returns the first pixel whose center is not before this coordinate.
+OVAL4D_AVX2 inline __m256 firstPixel(__m256 coordinate) {
+    return _mm256_ceil_ps(_mm256_sub_ps(coordinate, _mm256_set1_ps(0.5F)));
+}
+
+// The least of the bounds if `number` is NaN.
+OVAL4D_AVX2 inline __m256i clampToInt(__m256 number, float least, float greatest) {
+    return _mm256_cvttps_epi32(_mm256_min_ps(_mm256_max_ps(number, _mm256_set1_ps(least)), _mm256_set1_ps(greatest)));
+}
+
+// Which of eight triangles may cover pixels, one bit per triangle.
+struct Covering {
+    unsigned drawn;    // they cover centers of pixels, or almost do
+    unsigned clipped;  // they have a corner that is behind the eye, or not finite
+};
+
+// The three indices of eight triangles, sorted by corner.
+struct Corners {
+    __m256i a, b, c;
+};
+
+OVAL4D_AVX2 inline Corners cornersOf(const std::uint32_t* indices) {
+    const auto* const from = reinterpret_cast<const __m256i*>(indices);
+    const __m256i first = _mm256_loadu_si256(from), second = _mm256_loadu_si256(from + 1),
+                  third = _mm256_loadu_si256(from + 2);
+    // Corner k of triangle i is number 3 i + k of 24, so it is in one of three registers at place (3 i + k) mod 8.
+    const auto pick = [&](__m256i x, __m256i y, __m256i z) OVAL4D_AVX2 {
+        return _mm256_blend_epi32(_mm256_blend_epi32(x, y, 0b10010010), z, 0b00100100);
+    };
+    return {_mm256_permutevar8x32_epi32(pick(first, second, third), _mm256_setr_epi32(0, 3, 6, 1, 4, 7, 2, 5)),
+            _mm256_permutevar8x32_epi32(pick(third, first, second), _mm256_setr_epi32(1, 4, 7, 2, 5, 0, 3, 6)),
+            _mm256_permutevar8x32_epi32(pick(second, third, first), _mm256_setr_epi32(2, 5, 0, 3, 6, 1, 4, 7))};
+}
+
+OVAL4D_AVX2 Covering setUp(const SurfaceCanvas& canvas, const Point* points, const std::uint32_t* indices, SetUp& out) {
+    const auto& [a, b, c] = cornersOf(indices);
+    const auto gather = [points](const float Point::* member, __m256i index) OVAL4D_AVX2 {
+        const float* const base = &(points->*member);
+        // The first of eight floats per point.
+        return _mm256_i32gather_ps(base, _mm256_slli_epi32(index, 3), 4);
+    };
+    const __m256 yA = gather(&Point::y, a), yB = gather(&Point::y, b), yC = gather(&Point::y, c);
+    const auto begin = static_cast<float>(canvas.beginRow), end = static_cast<float>(canvas.endRow);
+    const auto rowOf = [&](const __m256& y) OVAL4D_AVX2 { return clampToInt(firstPixel(y), begin, end); };
+    const __m256i rowP = rowOf(_mm256_min_ps(_mm256_min_ps(yA, yB), yC)),
+                  rowR = rowOf(_mm256_max_ps(_mm256_max_ps(yA, yB), yC));
+    const __m256 sumY = _mm256_add_ps(_mm256_add_ps(yA, yB), yC);
+    const __m256 noY = _mm256_cmp_ps(sumY, sumY, _CMP_UNORD_Q);
+    const __m256i coversRows = _mm256_cmpgt_epi32(rowR, rowP);
+    // Triangles that follow each other are close together, so often all are in the rows that another thread draws.
+    if (_mm256_movemask_ps(_mm256_or_ps(noY, _mm256_castsi256_ps(coversRows))) == 0) return {0, 0};
+
+    const __m256 xA = gather(&Point::x, a), xB = gather(&Point::x, b), xC = gather(&Point::x, c);
+    const auto width = static_cast<float>(canvas.width);
+    const __m256i left = clampToInt(firstPixel(_mm256_min_ps(_mm256_min_ps(xA, xB), xC)), 0, width),
+                  right = clampToInt(firstPixel(_mm256_max_ps(_mm256_max_ps(xA, xB), xC)), 0, width);
+    const __m256 sum = _mm256_add_ps(_mm256_add_ps(xA, xB), _mm256_add_ps(xC, sumY));
+    const auto isNan = static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(sum, sum, _CMP_UNORD_Q)));
+    const __m256i covers = _mm256_and_si256(coversRows, _mm256_cmpgt_epi32(right, left));
+    const auto mask = static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(covers)));
+    const Covering covering{mask & ~isNan, isNan};
+    if (covering.drawn == 0) return covering;
+
+    __m256 xP = xA, yP = yA, xQ = xB, yQ = yB, xR = xC, yR = yC;
+    sort(xP, yP, xQ, yQ);
+    sort(xQ, yQ, xR, yR);
+    sort(xP, yP, xQ, yQ);
+    const __m256 baseP = firstPixel(yP), baseQ = firstPixel(yQ);
+    const __m256i rowQ = clampToInt(baseQ, begin, end);
+    const auto putNumbers = [&](Numbers& to, __m256i from)
+                                OVAL4D_AVX2 { _mm256_store_si256(reinterpret_cast<__m256i*>(to.data()), from); };
+    const auto put = [&](Lanes& to, __m256 from) OVAL4D_AVX2 { _mm256_store_ps(to.data(), from); };
+    putNumbers(out.rowP, rowP);
+    putNumbers(out.rowQ, rowQ);
+    putNumbers(out.rowR, rowR);
+    put(out.baseP, baseP);
+    put(out.baseQ, baseQ);
+    const __m256 half = _mm256_set1_ps(0.5F);
+    const auto putEdge = [&](const __m256& x0, const __m256& y0, const __m256& x1, const __m256& y1, const __m256& base,
+                             Lanes& at, Lanes& step) OVAL4D_AVX2 {
+        const __m256 slope = _mm256_div_ps(_mm256_sub_ps(x1, x0), _mm256_sub_ps(y1, y0));
+        const __m256 above = _mm256_sub_ps(_mm256_add_ps(base, half), y0);  // 0 … 1
+        put(at, _mm256_fmadd_ps(slope, above, _mm256_sub_ps(x0, half)));
+        put(step, slope);
+    };
+    putEdge(xP, yP, xQ, yQ, baseP, out.xPQ, out.stepPQ);
+    putEdge(xQ, yQ, xR, yR, baseQ, out.xQR, out.stepQR);
+    putEdge(xP, yP, xR, yR, baseP, out.xPR, out.stepPR);
+
+    const __m256 x1 = _mm256_sub_ps(xB, xA), y1 = _mm256_sub_ps(yB, yA), x2 = _mm256_sub_ps(xC, xA),
+                 y2 = _mm256_sub_ps(yC, yA);
+    const __m256 area = _mm256_fmsub_ps(x1, y2, _mm256_mul_ps(x2, y1));
+    const __m256 inverse = _mm256_div_ps(_mm256_set1_ps(1), area);
+    const __m256 negative = _mm256_sub_ps(_mm256_setzero_ps(), inverse);
+    put(out.xB, _mm256_mul_ps(y2, inverse));
+    put(out.xC, _mm256_mul_ps(y1, negative));
+    put(out.yB, _mm256_mul_ps(x2, negative));
+    put(out.yC, _mm256_mul_ps(x1, inverse));
+    put(out.originX, _mm256_sub_ps(xA, half));
+    put(out.originY, _mm256_sub_ps(yA, half));
+    return covering;
+}
+
+// Converts the upper half of a point, whose numbers are from 0 to 255, to a pixel.
+OVAL4D_AVX2 inline std::uint32_t pixelOf(__m128 color) {
+    const __m128i numbers = _mm_cvtps_epi32(color), words = _mm_packus_epi32(numbers, numbers);
+    return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_packus_epi16(words, words)));
+}
+
+// Draws one of eight triangles. A register holds all quantities of one pixel, because most rows of most triangles have
+// fewer pixels than a register has lanes.
+template <Blending blending>
+OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const SetUp& s, std::size_t i, const Point& pointA,
+                             const Point& pointB, const Point& pointC) {
+    const __m256 a = _mm256_load_ps(&pointA.nearness), b = _mm256_load_ps(&pointB.nearness),
+                 c = _mm256_load_ps(&pointC.nearness);
+    // A quantity is never outside the range of its values at the corners, however narrow the triangle is. This also
+    // replaces the NaN of triangles without an area.
+    const __m256 least = _mm256_min_ps(_mm256_min_ps(a, b), c), most = _mm256_max_ps(_mm256_max_ps(a, b), c);
+    const __m256 toB = _mm256_sub_ps(b, a), toC = _mm256_sub_ps(c, a);
+    const auto gradient = [&](const Lanes& ofB, const Lanes& ofC) OVAL4D_AVX2 {
+        return _mm256_fmadd_ps(toC, _mm256_set1_ps(ofC[i]), _mm256_mul_ps(toB, _mm256_set1_ps(ofB[i])));
+    };
+    const __m256 alongX = gradient(s.xB, s.xC), alongY = gradient(s.yB, s.yC);
+    const auto limit = static_cast<float>(canvas.width);
+    const auto fillRows = [&](int begin, int end, float base, float x, float step) OVAL4D_AVX2 {
+        for (int y = begin; y < end; ++y) {
+            const auto row = static_cast<float>(y);
+            const auto column = [limit](float at) OVAL4D_AVX2 {
+                return static_cast<int>(std::ceil(std::min(limit, std::max(0.0F, at))));  // 0 if `at` is NaN
+            };
+            const int one = column(std::fma(step, row - base, x));
+            const int other = column(std::fma(s.stepPR[i], row - s.baseP[i], s.xPR[i]));
+            const int left = std::min(one, other), right = std::max(one, other);
+            if (left >= right) continue;
+            __m256 value = _mm256_fmadd_ps(alongY, _mm256_set1_ps(row - s.originY[i]), a);
+            value = _mm256_fmadd_ps(alongX, _mm256_set1_ps(static_cast<float>(left) - s.originX[i]), value);
+            const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(y) * canvas.width;
+            std::uint32_t* const pixels = canvas.pixels + start;
+            float* const depths = canvas.nearness + start;
+            for (int k = left; k < right; ++k, value = _mm256_add_ps(value, alongX)) {
+                const __m256 at = _mm256_min_ps(_mm256_max_ps(value, least), most);
+                const float nearness = _mm256_cvtss_f32(at);
+                if (!(nearness > depths[k])) continue;
+                const __m128 color = _mm256_extractf128_ps(at, 1);
+                if constexpr (blending == Blending::none) {
+                    depths[k] = nearness;
+                    pixels[k] = pixelOf(color);
+                } else {
+                    const __m128 old =
+                        _mm_cvtepi32_ps(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(static_cast<std::int32_t>(pixels[k]))));
+                    const __m128 alpha = _mm_permute_ps(color, 0xff);
+                    const __m128 kept = _mm_fnmadd_ps(alpha, _mm_set1_ps(1.0F / 255), _mm_set1_ps(1));
+                    pixels[k] = pixelOf(_mm_fmadd_ps(old, kept, color));
+                }
+            }
+        }
+    };
+    fillRows(s.rowP[i], s.rowQ[i], s.baseP[i], s.xPQ[i], s.stepPQ[i]);
+    fillRows(s.rowQ[i], s.rowR[i], s.baseQ[i], s.xQR[i], s.stepQR[i]);
+}
+
+// Draws those of eight triangles that are `wanted` (one bit per triangle), except those that must be clipped and what
+// follows the first of these. Returns those that must be clipped.
+template <Blending blending>
+OVAL4D_AVX2 unsigned drawEight(const SurfaceCanvas& canvas, const Point* points, const std::uint32_t* indices,
+                               unsigned wanted, SetUp& lanes) {
+    const Covering covering = setUp(canvas, points, indices, lanes);
+    const unsigned clipped = covering.clipped & wanted;
+    // The order of triangles matters, so what follows a clipped one is drawn later.
+    unsigned drawn = covering.drawn & wanted;
+    if (clipped != 0) drawn &= (clipped & (0U - clipped)) - 1;
+    for (; drawn != 0; drawn &= drawn - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(drawn));
+        const std::uint32_t* const corners = indices + 3 * i;
+        fill<blending>(canvas, lanes, i, points[corners[0]], points[corners[1]], points[corners[2]]);
+    }
+    return clipped;
+}
+
+}  // namespace
+
+void SurfaceRasterizer::prepare(scene::Viewport viewport, const scene::Style& style, const SurfaceBatch& surfaces) {
+    viewport_ = viewport;
+    surfaces_ = &surfaces;
+    const Lighting lighting{.halfWidth = 0.5F * static_cast<float>(viewport.width),
+                            .halfHeight = 0.5F * static_cast<float>(viewport.height),
+                            .ambient = static_cast<float>(style.ambient),
+                            .diffuse = static_cast<float>(style.diffuse),
+                            .gloss = static_cast<float>(255 * style.specular),
+                            .shininess = static_cast<unsigned>(std::lround(style.shininess)),
+                            .light = style.light,
+                            .half = glm::normalize(style.light + glm::dvec3(0, 0, 1))};
+    const std::size_t end = surfaces.vertices().size();
+    points_.resize(end);
+    const SurfaceVertex* const vertices = surfaces.vertices().data();
+    std::size_t at = 0;
+    for (; at + kLanes < end; at += kLanes) prepareEight(lighting, vertices + at, points_.data() + at);
+    std::array<SurfaceVertex, kLanes + 1> lastVertices{};
+    std::array<Point, kLanes> lastPoints;
+    std::copy(vertices + at, vertices + end, lastVertices.begin());
+    prepareEight(lighting, lastVertices.data(), lastPoints.data());
+    std::copy_n(lastPoints.begin(), end - at, points_.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+namespace {
+
+template <Blending blending, typename DrawClipped>
+void drawAll(const SurfaceCanvas& canvas, const Point* points, std::span<const std::uint32_t> indices,
+             const DrawClipped& drawClipped) {
+    SetUp lanes;
+    std::array<std::uint32_t, 3 * kLanes> last{};
+    for (std::size_t at = 0; at < indices.size(); at += 3 * kLanes) {
+        const std::uint32_t* eight = indices.data() + at;
+        if (indices.size() - at < last.size()) {
+            last = {};
+            std::copy(indices.begin() + static_cast<std::ptrdiff_t>(at), indices.end(), last.begin());
+            eight = last.data();
+        }
+        for (std::size_t next = at + kAhead; next < std::min(at + kAhead + 3 * kLanes, indices.size()); next += 3)
+            __builtin_prefetch(points + indices[next]);
+        unsigned wanted = 0xff;
+        while (const unsigned clipped = drawEight<blending>(canvas, points, eight, wanted, lanes)) {
+            const auto i = static_cast<unsigned>(std::countr_zero(clipped));
+            drawClipped(eight + std::size_t{3} * i);
+            wanted &= 0xfeU << i;
+        }
+    }
+}
+
+}  // namespace
+
+void SurfaceRasterizer::draw(const SurfaceCanvas& canvas, std::span<const std::uint32_t> indices,
+                             Blending blending) const {
+    const auto clipped = [&](const std::uint32_t* corners) { drawClipped(canvas, corners, blending); };
+    if (blending == Blending::none) return drawAll<Blending::none>(canvas, points_.data(), indices, clipped);
+    drawAll<Blending::alpha>(canvas, points_.data(), indices, clipped);
+}
+
+// Draws the part of a triangle that is in front of the eye and not too close to it.
+void SurfaceRasterizer::drawClipped(const SurfaceCanvas& canvas, const std::uint32_t* corners,
+                                    Blending blending) const {
+    std::array<Point, 4> polygon;
+    std::size_t count = 0;
+    const glm::vec2 half(0.5F * static_cast<float>(viewport_.width), 0.5F * static_cast<float>(viewport_.height));
+    const auto add = [&](const glm::vec3& clip, const Point& color) {
+        Point point = color;
+        point.nearness = 1 / clip.z;
+        point.x = (clip.x / clip.z + 1) * half.x;
+        point.y = (clip.y / clip.z + 1) * half.y;
+        polygon[count++] = point;
+    };
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t from = corners[i], to = corners[(i + 1) % 3];
+        const glm::vec3 &a = surfaces_->vertices()[from].clip, &b = surfaces_->vertices()[to].clip;
+        const bool keepA = a.z >= kNearest, keepB = b.z >= kNearest;
+        const Point &colorA = points_[from], &colorB = points_[to];
+        if (keepA) add(a, colorA);
+        if (keepA == keepB) continue;
+        const float t = (kNearest - a.z) / (b.z - a.z);
+        Point color = colorA;
+        for (float Point::* channel : {&Point::r, &Point::g, &Point::b, &Point::a})
+            color.*channel += t * (colorB.*channel - colorA.*channel);
+        add(a + t * (b - a), color);
+    }
+    if (count < 3 || std::any_of(
+                         polygon.begin(), polygon.begin() + static_cast<std::ptrdiff_t>(count),
+                         [](const Point& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); }))
+        return;
+    constexpr std::array<std::uint32_t, 6> kFan{0, 1, 2, 0, 2, 3};
+    const std::span<const std::uint32_t> triangles = std::span(kFan).first(3 * (count - 2));
+    const auto unclipped = [](const std::uint32_t*) {};
+    if (blending == Blending::none) return drawAll<Blending::none>(canvas, polygon.data(), triangles, unclipped);
+    drawAll<Blending::alpha>(canvas, polygon.data(), triangles, unclipped);
+}
+
+double SurfaceRasterizer::meanHeight(std::span<const std::uint32_t> indices) const {
+    constexpr std::size_t kStep = 3 * 32;
+    const auto height = static_cast<float>(viewport_.height);
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t at = 0; at < indices.size(); at += kStep) {
+        const float y = points_[indices[at]].y;
+        if (!(y > 0 && y < height)) continue;
+        sum += y;
+        ++count;
+    }
+    return count == 0 ? 0.5 : sum / (static_cast<double>(count) * height);
+}
+
+#undef OVAL4D_AVX2
+
+#else
+
+void SurfaceRasterizer::prepare(scene::Viewport /*viewport*/, const scene::Style& /*style*/,
+                                const SurfaceBatch& /*surfaces*/) {}
+void SurfaceRasterizer::draw(const SurfaceCanvas& /*canvas*/, std::span<const std::uint32_t> /*indices*/,
+                             Blending /*blending*/) const {}
+void SurfaceRasterizer::drawClipped(const SurfaceCanvas& /*canvas*/, const std::uint32_t* /*corners*/,
+                                    Blending /*blending*/) const {}
+double SurfaceRasterizer::meanHeight(std::span<const std::uint32_t> /*indices*/) const { return 0.5; }
+
+#endif
+
+}  // namespace oval4d::render

@@ -1,0 +1,63 @@
+#pragma once
+// Draws the triangles of surfaces into memory, without OpenGL.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/slices/surface_batch.hpp"
+#include "scene/scene.hpp"
+
+namespace oval4d::render {
+
+/// The picture to which surfaces are drawn, and the rows that are drawn.
+struct SurfaceCanvas {
+    int width, height;      ///< those of the picture, in pixels
+    int beginRow, endRow;   ///< the rows that are drawn, counted from the bottom: beginRow … endRow − 1
+    std::uint32_t* pixels;  ///< the whole picture in RGBA, bottom row first
+    float* nearness;        ///< the depth buffer: per pixel, 1 / (distance from the eye along the view axis)
+};
+
+/// Rasterizes the triangles of a SurfaceBatch like SurfaceProgram. Surfaces consist of many triangles with a few pixels
+/// each, so that setting up the triangles takes most of the time: eight of them are set up at once, and they are not
+/// sorted into bins. Colors, opacities and 1 / depth are interpolated linearly in the picture. Triangles with a common
+/// edge have no common pixels and leave no gap. Reuses its memory for the next picture. Requires AVX2 and FMA.
+class SurfaceRasterizer {
+  public:
+    /// How triangles are drawn at pixels where nothing nearer has been drawn.
+    enum class Blending : std::uint8_t {
+        none,   ///< the triangle replaces the pixel, and hides what is drawn later and farther away
+        alpha,  ///< the triangle is blended with the pixel; the depth buffer does not change
+    };
+
+    /// Projects and lights the vertices of `surfaces`, which must not change until its triangles are drawn. Light is
+    /// computed per vertex, as by SurfaceProgram, because triangles are so small that light is almost linear in each of
+    /// them.
+    void prepare(scene::Viewport viewport, const scene::Style& style, const SurfaceBatch& surfaces);
+
+    /// Draws triangles, each given by the indices of three vertices, in order. Several threads may draw different rows
+    /// at the same time.
+    void draw(const SurfaceCanvas& canvas, std::span<const std::uint32_t> indices, Blending blending) const;
+
+    /// Returns the mean height of the first corners of the triangles, from 0 (the lower edge of the picture) to 1.
+    /// Estimates it from some of the corners in the picture; returns 0.5 if there are none.
+    double meanHeight(std::span<const std::uint32_t> indices) const;
+
+    /// A projected and lit vertex. It fills one 256-bit register.
+    struct alignas(32) Point {
+        float nearness;  ///< 1 / (the distance from the eye along the view axis)
+        float x, y;      ///< in pixels from the lower left corner; NaN if the vertex is behind the eye or too close
+        float unused;
+        float r, g, b, a;  ///< the lit color, multiplied by alpha, and alpha: 0 … 255
+    };
+
+  private:
+    void drawClipped(const SurfaceCanvas& canvas, const std::uint32_t* corners, Blending blending) const;
+
+    const SurfaceBatch* surfaces_ = nullptr;
+    scene::Viewport viewport_;
+    std::vector<Point> points_;  // one per vertex of the batch
+};
+
+}  // namespace oval4d::render

@@ -1,0 +1,37 @@
+#pragma once
+// How the fog of a field is drawn.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/gtc/type_precision.hpp>
+
+#include "slicing/field_settings.hpp"
+#include "slicing/surfaces/slice_fog.hpp"
+
+namespace oval4d::scene {
+
+/// The transfer function of fog as a table: entry v is the color 0xAARRGGBB of the points whose byte in
+/// SliceFog::values is v. AA is the opacity, 0 … 255, of a layer of fog that is as thick as the object's circumradius.
+/// Entry 0, for points without a value, is transparent. The table is empty if there is no fog.
+using FogTable = std::vector<std::uint32_t>;
+
+/// The number of entries of a FogTable that is not empty.
+inline constexpr std::size_t kFogEntries = 256;
+
+/// Makes the table of the transfer function with these control points: none, or at least two, in ascending order of
+/// different values. Entry 1 is for the value of the first point, entry 255 for that of the last. A point without a
+/// color gets a color of divergingColor(), from blue at the first point to amber at the last. Between two points, sRGB
+/// colors and opacities are interpolated linearly. Overwrites `out`.
+void makeFogTable(std::span<const slicing::FogPoint> points, FogTable& out);
+
+/// The number of cubes of a lattice along each side of a block.
+inline constexpr int kFogBlock = 4;
+
+/// Finds the blocks of a lattice in which there is fog. For each block, x fastest, writes 255 to `out` if any value
+/// between the least and the greatest value of the block's points is not transparent, else 0; ignores points without a
+/// value. Returns the number of blocks along each axis. Overwrites `out`.
+glm::ivec3 findFogBlocks(const slicing::SliceFog& fog, const FogTable& table, std::vector<std::uint8_t>& out);
+
+}  // namespace oval4d::scene

@@ -1,0 +1,66 @@
+#include "scene/surface_look.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace oval4d::scene {
+
+Color growthColor(float growth) { return divergingColor(std::atan(growth) * 2 / std::numbers::pi); }
+
+Color ValueScale::color(double value) const {
+    if (std::isnan(value)) return noValueColor();
+    const double at = greatest > least ? (value - least) / (greatest - least) : 0.5;
+    return diverging ? divergingColor(2 * at - 1) : sequentialColor(at);
+}
+
+ValueScale valueScaleFor(const fields::ValueRange& range) {
+    constexpr double kLeastSide = 1.0 / 9;  // of the longer side
+    const auto& [least, greatest] = range;
+    const double reach = std::max(-least, greatest);
+    if (least < 0 && greatest > 0 && std::min(-least, greatest) >= kLeastSide * reach) return {-reach, reach, true};
+    return {least, greatest, false};
+}
+
+Color SurfaceLook::pointColor(const slicing::SliceSurface& surface, std::size_t point) const {
+    return pointColoring == PointColoring::growth ? growthColor(surface.growth[point])
+                                                  : scale.color(surface.coloringValues()[point]);
+}
+
+Color SurfaceLook::capPointColor(const slicing::SliceSurface& surface, std::size_t point) const {
+    return scale.color(surface.coloringValues()[point]);
+}
+
+Color surfaceColor(std::size_t i, std::size_t count, Coloring coloring) {
+    return coloring == Coloring::cell ? levelColor(i, count) : plainColor();
+}
+
+void chooseSurfaceLook(const fields::Field& field, const Look& look, const geometry::Hyperplanes& planes,
+                       SurfaceLook& out) {
+    constexpr double kOuterOpacity = 0.4;
+    const slicing::FieldSettings& settings = look.field;
+    const Coloring coloring = look.coloring;
+    const std::size_t count = settings.levels.size();
+    out.levels.resize(count);
+    for (std::size_t i = 0; i < count; ++i) out.levels[i] = {i, surfaceColor(i, count, coloring), kOuterOpacity, false};
+    const bool below = settings.inside == fields::Inside::below;
+    std::ranges::sort(out.levels, [&](const SurfaceLook::Level& a, const SurfaceLook::Level& b) {
+        const double first = settings.levels[a.index], second = settings.levels[b.index];
+        return below ? first < second : first > second;
+    });
+    if (count > 0) {
+        out.levels.front().opacity = 1;
+        out.levels.back().caps = look.caps != CapStyle::open;
+    }
+    using PointColoring = SurfaceLook::PointColoring;
+    out.pointColoring = coloring == Coloring::growth  ? PointColoring::growth
+                        : coloring == Coloring::value ? PointColoring::value
+                                                      : PointColoring::none;
+    out.capColoring = look.caps == CapStyle::value ? PointColoring::value : PointColoring::none;
+    if (colorsByValue(look)) out.scale = valueScaleFor(field.coloringRange->get());
+    out.sliceColors.clear();
+    if (coloring != Coloring::w) return;
+    for (int i = 0; i < planes.count; ++i) out.sliceColors.push_back(divergingColor(planes.w(i) / field.circumradius));
+}
+
+}  // namespace oval4d::scene

@@ -1,0 +1,85 @@
+#include "slicing/critical/critical_point.hpp"
+
+#include <array>
+#include <cmath>
+#include <span>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace oval4d::slicing {
+
+namespace {
+
+constexpr double kDifference = 2e-3;  // distance of the points of a difference quotient, in radii
+constexpr double kDamping = 1e-6;
+constexpr int kIterations = 30;
+// A point counts as critical if these values are less than the following bounds: the last step in radii, the gradient's
+// part in the hyperplane relative to the gradient, and the distance from the level set in radii.
+constexpr double kSmallStep = 1e-5, kTangent = 1e-3, kOnLevel = 1e-5;
+
+/// The function at a point, with lengths in radii.
+struct Expansion {
+    double value = 0;
+    glm::dvec4 gradient{0};
+    std::array<glm::dvec4, 3> second{};  // the derivatives of ∂f/∂x, ∂f/∂y and ∂f/∂z along x, y, z and w
+};
+
+Expansion expand(const PlacedFunction& placed, const glm::dvec4& point) {
+    // The point itself, then the two neighbors along each axis, and others for a full batch.
+    constexpr std::size_t kPoints = 16;
+    std::array<std::array<float, kPoints>, 4> at{}, slopes{};
+    std::array<float, kPoints> values{};
+    for (std::size_t i = 0; i < kPoints; ++i) {
+        glm::dvec4 p = point;
+        if (i >= 1 && i <= 8) p[static_cast<int>((i - 1) / 2)] += (i % 2 == 1 ? kDifference : -kDifference);
+        const glm::dvec4 q = placed.center + placed.toFunction * (placed.radius * p);
+        for (std::size_t axis = 0; axis < 4; ++axis) at[axis][i] = static_cast<float>(q[static_cast<int>(axis)]);
+    }
+    placed.function.evaluateWithGradient({at[0], at[1], at[2], at[3]}, values,
+                                         {slopes[0], slopes[1], slopes[2], slopes[3]});
+    const glm::dmat4 back = placed.radius * glm::transpose(placed.toFunction);
+    const auto gradient = [&](std::size_t i) {
+        return back * glm::dvec4(slopes[0][i], slopes[1][i], slopes[2][i], slopes[3][i]);
+    };
+    Expansion result{values[0], gradient(0), {}};
+    for (int axis = 0; axis < 4; ++axis) {
+        const std::size_t next = 2 * static_cast<std::size_t>(axis) + 1;
+        const glm::dvec4 along = (gradient(next) - gradient(next + 1)) / (2 * kDifference);
+        for (int i = 0; i < 3; ++i) result.second[static_cast<std::size_t>(i)][axis] = along[i];
+    }
+    return result;
+}
+
+}  // namespace
+
+std::optional<glm::dvec4> findCriticalPoint(const PlacedFunction& placed, double level, const glm::dvec4& start,
+                                            double reach) {
+    const glm::dvec4 first = start / placed.radius;
+    const double most = reach / placed.radius;
+    glm::dvec4 point = first;
+    double scale = 0;
+    for (int i = 0; i < kIterations; ++i) {
+        const Expansion f = expand(placed, point);
+        if (scale == 0) scale = glm::length(f.gradient);
+        const glm::dvec4 residual = glm::dvec4(f.gradient.x, f.gradient.y, f.gradient.z, f.value - level) / scale;
+        // The rows of the Jacobian are the columns of its transpose.
+        const glm::dmat4 transposed =
+            glm::dmat4(f.second[0], f.second[1], f.second[2], f.gradient) * glm::dmat4(1 / scale);
+        const glm::dmat4 product = glm::transpose(transposed) * transposed;
+        const double trace = product[0][0] + product[1][1] + product[2][2] + product[3][3];
+        glm::dvec4 step = -(transposed * (glm::inverse(product + glm::dmat4(kDamping * trace / 4)) * residual));
+        const double length = glm::length(step);
+        if (!std::isfinite(length)) return std::nullopt;
+        const double slope = glm::length(f.gradient);
+        if (length < kSmallStep && glm::length(glm::dvec3(f.gradient)) < kTangent * slope &&
+            std::abs(f.value - level) < kOnLevel * slope)
+            return placed.radius * point;
+        if (length > most / 2) step *= most / 2 / length;
+        point += step;
+        if (glm::distance(point, first) > most) return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,28 @@
+#pragma once
+// Critical points of the level sets of fields.
+
+#include <optional>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+
+#include "fields/scalar_function.hpp"
+
+namespace oval4d::slicing {
+
+/// A function f on the coordinates of a rotated object: f(p) = function(center + toFunction · p).
+struct PlacedFunction {
+    const fields::ScalarFunction& function;
+    glm::dmat4 toFunction;
+    glm::dvec4 center;
+    double radius;  ///< the circumradius of the object: the unit of length in the iteration
+};
+
+/// Finds a point near `start` at which a level set is tangent to a hyperplane w = const: a point where f = `level` and
+/// ∂f/∂x = ∂f/∂y = ∂f/∂z = 0. Uses Newton's method with damped least squares, which converges even if such points are
+/// not isolated. Returns std::nullopt if the iteration does not converge within the distance `reach` of `start`, or if
+/// ∂f/∂w is also 0 at the point.
+std::optional<glm::dvec4> findCriticalPoint(const PlacedFunction& placed, double level, const glm::dvec4& start,
+                                            double reach);
+
+}  // namespace oval4d::slicing

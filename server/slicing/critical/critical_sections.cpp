@@ -1,0 +1,359 @@
+#include "slicing/critical/critical_sections.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <span>
+#include <unordered_map>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_precision.hpp>
+
+#include "fields/field.hpp"
+#include "slicing/critical/critical_point.hpp"
+#include "slicing/element.hpp"
+#include "slicing/field_slicer.hpp"
+#include "slicing/surfaces/surface_measurements.hpp"
+
+namespace oval4d::slicing {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Topologies = std::vector<SectionTopology>;  // one for each level
+
+const Error kCanceled{ErrorCode::canceled,
+                      "the search for critical w has ended because its result is no longer needed"};
+
+constexpr std::size_t kMaxChanges = 1000;  // the maximum, of all levels together; noise may have more
+
+/// Cuts one field by one hyperplane at a time.
+class SectionCutter {
+  public:
+    SectionCutter(const fields::Field& field, const geometry::Rotation& orientation, const FieldSettings& settings)
+        : field_(field), orientation_(orientation), settings_(settings) {}
+
+    /// Returns the surfaces of the section at `w`, which are valid until the next call.
+    const SliceSurface& cut(double w, bool topologyOnly = false) {
+        const geometry::Hyperplanes plane{0, 1, 1, w};
+        slicer_.slice(field_, orientation_, plane, settings_, {}, slice_);
+        glm::dvec3 min(0), max(0);
+        for (std::size_t i = 0; i < slice_.vertices.size(); ++i) {
+            min = i == 0 ? slice_.vertices[i] : glm::min(min, slice_.vertices[i]);
+            max = i == 0 ? slice_.vertices[i] : glm::max(max, slice_.vertices[i]);
+        }
+        const glm::dvec3 extent = max - min;
+        cube_ = std::max({extent.x, extent.y, extent.z}) / kCriticalCubes;
+        slicer_.slice(field_, orientation_, plane, settings_,
+                      {.steps = {cube_}, .quality = Quality::full, .topologyOnly = topologyOnly}, slice_);
+        return slice_.surfaces.front();
+    }
+    /// Returns the side of the lattice cubes of the last section.
+    double cube() const { return cube_; }
+
+    /// Returns whether a part of this volume is too small to count. Sampling on a lattice may separate the tip of a
+    /// sharp corner from the rest.
+    bool isSmall(double volume) const { return std::abs(volume) < 8 * cube_ * cube_ * cube_; }
+
+    Topologies topologies(double w) {
+        const SliceSurface& surface = cut(w, true);
+        Topologies result;
+        for (std::size_t level = 0; level < settings_.levels.size(); ++level) {
+            SectionTopology& topology = result.emplace_back();
+            for (const auto& [volume, euler] : findParts(surface, level).parts) {
+                if (isSmall(volume)) continue;
+                ++(volume > 0 ? topology.components : topology.cavities);
+                topology.euler += euler;
+            }
+        }
+        return result;
+    }
+
+  private:
+    const fields::Field& field_;
+    const geometry::Rotation& orientation_;
+    const FieldSettings& settings_;
+    FieldSlicer slicer_;
+    SliceSet slice_;
+    double cube_ = 0;
+};
+
+/// Two sections, and the interval of w between them.
+struct Interval {
+    double from = 0, to = 0;
+    Topologies before, after;
+
+    double width() const { return to - from; }
+    bool differs() const { return before != after; }
+    bool operator<(const Interval& other) const { return width() < other.width(); }
+};
+
+/// Returns what happens between two different topologies, as far as the numbers tell.
+SectionChange changeOf(const SectionTopology& before, const SectionTopology& after) {
+    if (before.components == 0 && after.components > 0) return SectionChange::appearance;
+    if (after.components == 0 && before.components > 0) return SectionChange::disappearance;
+    if (after.components < before.components) return SectionChange::merge;
+    if (after.components > before.components) return SectionChange::split;
+    return before.cavities != after.cavities ? SectionChange::cavity : SectionChange::handle;
+}
+
+/// Matches the parts of the surfaces in two sections whose w are close to each other.
+class Correspondence {
+  public:
+    /// A part has a partner if most of its points are within two lattice cubes of points of the other section.
+    Correspondence(const SliceSurface& a, const SliceSurface& b, std::size_t level, const SectionCutter& cutter)
+        : cutter_(cutter), reach_(2 * cutter.cube()), partsA_(findParts(a, level)), partsB_(findParts(b, level)) {
+        toB_ = partners(a, partsA_, b, partsB_);
+        toA_ = partners(b, partsB_, a, partsA_);
+    }
+
+    /// Returns what happens from the first section to the second. `before` and `after` must differ.
+    SectionChange change(const SectionTopology& before, const SectionTopology& after) const {
+        if (count(partsB_, toA_) > 0) return SectionChange::appearance;
+        if (count(partsA_, toB_) > 0) return SectionChange::disappearance;
+        return changeOf(before, after);
+    }
+
+  private:
+    using Partners = std::vector<bool>;  // per part: whether it has a partner
+
+    // Counts the components without a partner.
+    std::size_t count(const SurfaceParts& parts, const Partners& partners) const {
+        std::size_t lonely = 0;
+        for (std::size_t i = 0; i < partners.size(); ++i) {
+            const double volume = parts.parts[i].volume;
+            lonely += volume > 0 && !cutter_.isSmall(volume) && !partners[i] ? 1 : 0;
+        }
+        return lonely;
+    }
+
+    std::uint64_t cellOf(glm::ivec3 cell) const {
+        constexpr int kBias = 1 << 20;
+        const glm::u64vec3 c(cell + kBias);
+        return c.x | c.y << 21U | c.z << 42U;
+    }
+    glm::ivec3 cellAt(const glm::vec3& point) const { return glm::ivec3(glm::floor(glm::dvec3(point) / reach_)); }
+
+    Partners partners(const SliceSurface& own, const SurfaceParts& parts, const SliceSurface& other,
+                      const SurfaceParts& otherParts) const {
+        std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
+        for (std::uint32_t i = 0; i < other.points.size(); ++i) {
+            const std::uint32_t part = otherParts.ofPoint[i];
+            if (part == SurfaceParts::kNone || cutter_.isSmall(otherParts.parts[part].volume)) continue;
+            cells[cellOf(cellAt(other.points[i]))].push_back(i);
+        }
+        const auto isNear = [&](const glm::vec3& point) {
+            const glm::ivec3 center = cellAt(point);
+            for (int i = 0; i < 27; ++i) {
+                const auto cell = cells.find(cellOf(center + glm::ivec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)));
+                if (cell == cells.end()) continue;
+                for (const std::uint32_t near : cell->second) {
+                    if (glm::distance(glm::dvec3(point), glm::dvec3(other.points[near])) <= reach_) return true;
+                }
+            }
+            return false;
+        };
+        std::vector<std::size_t> points(parts.parts.size()), near(parts.parts.size());
+        for (std::size_t i = 0; i < own.points.size(); ++i) {
+            const std::uint32_t part = parts.ofPoint[i];
+            if (part == SurfaceParts::kNone) continue;
+            ++points[part];
+            if (isNear(own.points[i])) ++near[part];
+        }
+        Partners result;
+        for (std::size_t i = 0; i < points.size(); ++i) result.push_back(2 * near[i] > points[i]);
+        return result;
+    }
+
+    const SectionCutter& cutter_;
+    double reach_;
+    SurfaceParts partsA_, partsB_;
+    Partners toB_, toA_;
+};
+
+/// An interval of w in which the topology of one level changes.
+struct Change {
+    double from, to;
+    std::size_t level;
+    SectionTopology before, after;
+};
+
+/// One search for the critical w of a field.
+class Search {
+  public:
+    Search(const fields::Field& field, const geometry::Rotation& orientation, const FieldSettings& settings,
+           const CriticalOptions& options, std::pair<double, double> range)
+        : field_(field),
+          orientation_(orientation),
+          settings_(settings),
+          options_(options),
+          begin_(Clock::now()),
+          end_(begin_ + std::chrono::duration_cast<Clock::duration>(options.time)),
+          cutter_(field, orientation, settings) {
+        found_.least = range.first;
+        found_.greatest = range.second;
+        found_.tolerance = kCriticalTolerance * width();
+        found_.resolution = kCriticalResolution * width();
+    }
+
+    Result<CriticalSections> run() {
+        if (options_.stop.stop_requested()) return kCanceled;
+        findIntervals();
+        for (const Change& change : combined()) {
+            if (options_.stop.stop_requested()) break;
+            found_.all.push_back(located(change));
+        }
+        if (options_.stop.stop_requested()) return kCanceled;
+        std::ranges::stable_sort(found_.all, {}, &CriticalSection::w);
+        return std::move(found_);
+    }
+
+  private:
+    double width() const { return found_.greatest - found_.least; }
+    bool mustEnd() const { return options_.stop.stop_requested() || Clock::now() > end_; }
+
+    // Finds the intervals in which the topology changes. Always halves the widest interval, so that the search can end
+    // at any time.
+    void findIntervals() {
+        const double gap = width() / kCriticalSections;
+        // At its ends, the domain may be a wedge that is thinner than a lattice cube.
+        const double margin = width() / 80;
+        const double from = found_.least + margin, to = found_.greatest - margin;
+        std::priority_queue<Interval> open;
+        open.push({from, to, cutter_.topologies(from), cutter_.topologies(to)});
+        while (!open.empty()) {
+            const Interval widest = open.top();
+            open.pop();
+            const bool fine = widest.width() <= (widest.differs() ? found_.tolerance : gap);
+            if (!fine && !mustEnd() && intervals_.size() + open.size() < kMaxChanges + kCriticalSections) {
+                const double middle = (widest.from + widest.to) / 2;
+                const Topologies between = cutter_.topologies(middle);
+                open.push({widest.from, middle, widest.before, between});
+                open.push({middle, widest.to, between, widest.after});
+                continue;
+            }
+            if (!fine) found_.tolerance = std::max(found_.tolerance, widest.width());
+            if (widest.differs()) intervals_.push_back(widest);
+        }
+        std::ranges::sort(intervals_, {}, &Interval::from);
+    }
+
+    // Returns the changes of each level. Combines changes that are close to each other, because the lattice shows
+    // several changes where a surface touches itself along a curve.
+    std::vector<Change> combined() const {
+        std::vector<Change> all;
+        for (std::size_t level = 0; level < settings_.levels.size(); ++level) {
+            const std::size_t first = all.size();
+            for (const Interval& interval : intervals_) {
+                if (interval.before[level] == interval.after[level]) continue;
+                if (all.size() > first && interval.from - all.back().to <= found_.resolution) {
+                    all.back().to = interval.to;
+                    all.back().after = interval.after[level];
+                } else {
+                    all.push_back({interval.from, interval.to, level, interval.before[level], interval.after[level]});
+                }
+            }
+        }
+        std::erase_if(all, [](const Change& change) { return change.before == change.after; });
+        return all;
+    }
+
+    CriticalSection located(const Change& change) {
+        if (Clock::now() > end_ + (end_ - begin_) / 2) {
+            // There is no time to compare the sections.
+            return {(change.from + change.to) / 2,
+                    changeOf(change.before, change.after),
+                    0,
+                    change.level,
+                    change.before,
+                    change.after};
+        }
+        const SliceSurface before = cutter_.cut(change.from);
+        const SliceSurface& after = cutter_.cut(change.to);
+        CriticalSection result{
+            (change.from + change.to) / 2, SectionChange::handle, 0, change.level, change.before, change.after};
+        result.change = Correspondence(before, after, change.level, cutter_).change(change.before, change.after);
+        if (!field_.formula.empty() && !mustEnd()) {
+            std::optional<double> best;
+            improve(change, before, change.from, best);
+            improve(change, after, change.to, best);
+            result.w = best.value_or(result.w);
+        }
+        return result;
+    }
+
+    // Searches for critical points near those points of a section where the surface is most nearly tangent to the
+    // hyperplane. Sets `best` to the w of the critical point nearest to the change, unless `best` is already nearer.
+    void improve(const Change& change, const SliceSurface& surface, double w, std::optional<double>& best) const {
+        constexpr std::size_t kStarts = 24;
+        const PlacedFunction placed{*field_.function, field_.toFunction * orientation_.inverse().matrix(),
+                                    field_.center, field_.circumradius};
+        const double middle = (change.from + change.to) / 2;
+        const double cube = cutter_.cube();
+        for (const std::uint32_t i : tangentPoints(surface, change.level, 4 * cube, kStarts)) {
+            const auto point =
+                findCriticalPoint(placed, settings_.levels[change.level], {glm::dvec3(surface.points[i]), w}, 8 * cube);
+            if (!point || point->w < change.from - found_.resolution || point->w > change.to + found_.resolution)
+                continue;
+            if (!best || std::abs(point->w - middle) < std::abs(*best - middle)) best = point->w;
+        }
+    }
+
+    // Returns up to `count` points of the level set, at least `distance` from each other, with the greatest growth.
+    static std::vector<std::uint32_t> tangentPoints(const SliceSurface& surface, std::size_t level, double distance,
+                                                    std::size_t count) {
+        std::vector<std::uint32_t> candidates;
+        for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+            if (surface.part[t] != level) continue;
+            for (const std::uint32_t point : surface.triangles[t]) candidates.push_back(point);
+        }
+        std::ranges::sort(candidates);
+        candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+        std::ranges::stable_sort(candidates, std::ranges::greater{},
+                                 [&](std::uint32_t point) { return std::abs(surface.growth[point]); });
+        std::vector<std::uint32_t> chosen;
+        for (const std::uint32_t point : candidates) {
+            if (chosen.size() == count) break;
+            const bool apart = std::ranges::all_of(chosen, [&](std::uint32_t other) {
+                return glm::distance(surface.points[point], surface.points[other]) > distance;
+            });
+            if (apart) chosen.push_back(point);
+        }
+        return chosen;
+    }
+
+    const fields::Field& field_;
+    const geometry::Rotation& orientation_;
+    const FieldSettings& settings_;
+    const CriticalOptions& options_;
+    const Clock::time_point begin_, end_;
+    SectionCutter cutter_;
+    std::vector<Interval> intervals_;
+    CriticalSections found_;
+};
+
+}  // namespace
+
+Result<CriticalSections> findCriticalSections(const Object& object, const geometry::Rotation& orientation,
+                                              const FieldSettings& settings, const CriticalOptions& options) {
+    const auto range = rangeOfW(object, orientation);
+    if (const fields::Field* field = fieldIn(object))
+        return Search(*field, orientation, settings, options, range).run();
+    CriticalSections found{range.first, range.second, kOnPlane * infoOf(object).circumradius, 0, {}};
+    for (const auto& [w, vertices] : vertexHeights(object, orientation))
+        found.all.push_back({w, SectionChange::vertices, vertices, 0, {}, {}});
+    return found;
+}
+
+std::optional<double> nextCriticalW(const CriticalSections& sections, double w, bool upward, double same) {
+    std::optional<double> next;
+    for (const CriticalSection& section : sections.all) {
+        if (upward && section.w > w + same) return section.w;
+        if (!upward && section.w < w - same) next = section.w;
+    }
+    return next;
+}
+
+}  // namespace oval4d::slicing

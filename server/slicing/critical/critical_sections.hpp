@@ -1,0 +1,103 @@
+#pragma once
+// The critical w of an object: the values of w at which the type of its section by the hyperplane w = const changes.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "errors/error.hpp"
+#include "geometry/rotation.hpp"
+#include "slicing/field_settings.hpp"
+#include "slicing/object.hpp"
+#include "text/choice.hpp"
+
+namespace oval4d::slicing {
+
+/// What happens to the section of an object while w increases past a critical w.
+enum class SectionChange : std::uint8_t {
+    vertices,       ///< for a polytope or point cloud: the hyperplane passes vertices
+    appearance,     ///< a component of the body appears
+    disappearance,  ///< a component vanishes
+    merge,          ///< components merge
+    split,          ///< a component splits
+    handle,         ///< a component gains or loses a handle
+    cavity,         ///< a cavity of a component opens or closes
+};
+inline constexpr auto kSectionChanges =
+    std::to_array<text::Choice<SectionChange>>({{"vertices", SectionChange::vertices},
+                                                {"appears", SectionChange::appearance},
+                                                {"vanishes", SectionChange::disappearance},
+                                                {"merge", SectionChange::merge},
+                                                {"split", SectionChange::split},
+                                                {"handle", SectionChange::handle},
+                                                {"cavity", SectionChange::cavity}});
+
+/// The topology of the body of one level in a section: see SurfaceMeasurements.
+struct SectionTopology {
+    std::size_t components = 0, cavities = 0;
+    long euler = 0;  ///< the Euler characteristic of the surface
+    bool operator==(const SectionTopology&) const = default;
+};
+
+/// A critical w, and the change of the section there.
+struct CriticalSection {
+    double w = 0;  ///< in the units of the object
+    SectionChange change = SectionChange::vertices;
+    std::size_t vertices = 0;                 ///< for a polytope or point cloud: the number of vertices at this w
+    std::size_t level = 0;                    ///< for a field: the index of the level whose body changes
+    SectionTopology before = {}, after = {};  ///< for a field: the topology below and above w
+};
+
+/// The critical w of an object in one orientation.
+struct CriticalSections {
+    double least = 0, greatest = 0;  ///< the range of w in which the object, or the domain of a field, lies
+    /// Each change was narrowed down to an interval of w of at most this length, before close changes were combined
+    /// (see `resolution`).
+    double tolerance = 0;
+    /// For a field: successive changes of the body of a level count as one change if the distance between them in w is
+    /// at most this. Changes within 1/80 of the range from either of its ends are not found. 0 for other objects.
+    double resolution = 0;
+    std::vector<CriticalSection> all;  ///< in ascending order of w
+};
+
+using CriticalPtr = std::shared_ptr<const CriticalSections>;
+
+/// Limits on one search.
+struct CriticalOptions {
+    /// The time limit of the search. When it is reached, the search for further sections ends, and
+    /// CriticalSections::tolerance is greater than otherwise. Finding the SectionChange of each critical w may take
+    /// half of this time more; after that, the remaining ones are derived from the numbers of components and cavities
+    /// alone.
+    std::chrono::duration<double> time{10};
+    std::stop_token stop = {};
+};
+
+/// Finds the critical w of the object rotated by `orientation`. For a polytope or point cloud, these are the w of its
+/// vertices. For a field, these are the w at which the body of one of `settings.levels`, within the domain, changes its
+/// topology. To find them, the field is cut at more than kCriticalSections values of w, and the intervals between
+/// sections of different topology are halved until their lengths are at most kCriticalTolerance of the range of w. The
+/// search misses changes that cancel each other between two successive sections. It ignores parts smaller than eight
+/// cubes of the lattice of a section, which has kCriticalCubes cubes along the longest side of the section. If there
+/// are about a thousand changes or more, it ends early, with a greater tolerance.
+///
+/// At a critical point of a smooth function f inside the domain, f equals the level, and the derivatives along x, y and
+/// z are 0. If the field is a formula, Newton's method solves these equations to refine each critical w, where it
+/// converges.
+///
+/// Error: `canceled` if a stop is requested. Throws std::runtime_error if the samples of a field are in a file that can
+/// no longer be read.
+Result<CriticalSections> findCriticalSections(const Object& object, const geometry::Rotation& orientation,
+                                              const FieldSettings& settings, const CriticalOptions& options);
+inline constexpr int kCriticalSections = 128, kCriticalCubes = 160;
+inline constexpr double kCriticalTolerance = 1e-4;   // of the range of w
+inline constexpr double kCriticalResolution = 1e-3;  // of the range of w
+
+/// Returns the next critical w above `w` or, if `upward` is false, below it. Values that differ by at most `same` count
+/// as equal. Returns std::nullopt if there is none.
+std::optional<double> nextCriticalW(const CriticalSections& sections, double w, bool upward, double same);
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,298 @@
+#include "slicing/exact/exact_slicer.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <tuple>
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace oval4d::slicing {
+
+namespace {
+
+// Returns a mask in which bit i is set if values[i] fulfills the condition.
+template <typename Values, typename Condition>
+unsigned bitsOf(const Values& values, Condition condition) {
+    unsigned bits = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) bits |= static_cast<unsigned>(condition(values[i])) << i;
+    return bits;
+}
+
+// Even permutations of the corners of a tetrahedron: kWithFirst[i] begins with corner i, and kWithFirstTwo contains one
+// for each pair of first corners.
+using CornerPermutation = std::array<std::uint8_t, 4>;
+constexpr std::array<CornerPermutation, 4> kWithFirst{{{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 0, 1, 3}, {3, 0, 2, 1}}};
+constexpr std::array<CornerPermutation, 6> kWithFirstTwo{
+    {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
+
+}  // namespace
+
+Result<std::monostate> ExactSlicer::slice(double w, const Options& options, ExactSurface& out) {
+    out.clear();
+    out_ = &out;
+    options_ = options;
+    sign_ = options.inside == fields::Inside::below ? 1 : -1;
+    level_ = sign_ * options.level;
+    state_ = State::working;
+    numbers_.clear();
+    caps_.clear();
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+        heights_[axis].clear();
+        for (int i = 0; i < lattice_.points()[static_cast<int>(axis)]; ++i)
+            heights_[axis].push_back(lattice_.part(axis, i).w - (axis == 0 ? w : 0));
+    }
+    visit({glm::ivec4(0), lattice_.points() - 1});
+    if (state_ == State::stopped) return Error{ErrorCode::too_large, "the exact slice was stopped"};
+    if (state_ == State::too_large) {
+        return Error{ErrorCode::too_large, "the surface of an exact slice has more than the allowed " +
+                                               std::to_string(options.maxTriangles) + " triangles"};
+    }
+    out.firstCap = out.triangles.size();
+    out.triangles.insert(out.triangles.end(), caps_.begin(), caps_.end());
+    return std::monostate{};
+}
+
+// Cuts the cells of a range, if the surface may meet it: divides it in two until it is at most a brick.
+void ExactSlicer::visit(const CellRange& range) {
+    if (state_ != State::working || !meetsHyperplane(range)) return;
+    constexpr std::size_t kVisitsPerQuestion = 16;
+    if (++visits_ % kVisitsPerQuestion == 0 && options_.mustStop && options_.mustStop()) {
+        state_ = State::stopped;
+        return;
+    }
+    const fields::Bounds bounds = lattice_.bounds(range.first, range.end);
+    if (bounds.min > bounds.max) return;  // the function has no value in the range
+    if (!bounds.mayCross(sign_ * level_)) {
+        const bool inside = sign_ > 0 ? bounds.max < level_ : -bounds.min < level_;
+        if (!inside || !touchesBoundary(range)) return;
+    }
+    const glm::ivec4 size = range.end - range.first;
+    int axis = 0;
+    for (int other = 1; other < 4; ++other) axis = size[other] > size[axis] ? other : axis;
+    if (size[axis] <= kBrick) return cutBrick(range);
+    const int middle = range.first[axis] + (size[axis] / 2 + kBrick - 1) / kBrick * kBrick;
+    CellRange lower = range, upper = range;
+    lower.end[axis] = upper.first[axis] = middle;
+    visit(lower);
+    visit(upper);
+}
+
+// The heights of lattice points are sums in the same order. Rounded sums are monotone in each summand, so no height of
+// a point in the range is outside these bounds.
+bool ExactSlicer::meetsHyperplane(const CellRange& range) const {
+    std::array<double, 4> low{}, high{};
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+        const double first = heights_[axis][static_cast<std::size_t>(range.first[static_cast<int>(axis)])];
+        const double last = heights_[axis][static_cast<std::size_t>(range.end[static_cast<int>(axis)])];
+        std::tie(low[axis], high[axis]) = std::minmax(first, last);
+    }
+    return (low[0] + low[1]) + (low[2] + low[3]) < 0 && (high[0] + high[1]) + (high[2] + high[3]) >= 0;
+}
+
+bool ExactSlicer::touchesBoundary(const CellRange& range) const {
+    return glm::any(glm::equal(range.first, glm::ivec4(0))) || glm::any(glm::equal(range.end, lattice_.points() - 1));
+}
+
+double ExactSlicer::valueOf(float sample) const {
+    return std::isfinite(sample) ? sign_ * static_cast<double>(sample) : std::numeric_limits<double>::quiet_NaN();
+}
+
+void ExactSlicer::cutBrick(const CellRange& range) {
+    std::array<float, kBrickPoints> samples{};
+    const glm::ivec4 size = range.end - range.first, points = size + 1;
+    const glm::u64vec4 n(points);
+    lattice_.sample(range.first, range.end, std::span(samples).first(n.x * n.y * n.z * n.w));
+    glm::ivec4 c;  // a cell of the brick
+    for (c.w = 0; c.w < size.w; ++c.w) {
+        for (c.z = 0; c.z < size.z; ++c.z) {
+            for (c.y = 0; c.y < size.y; ++c.y) {
+                for (c.x = 0; c.x < size.x; ++c.x) {
+                    const glm::ivec4 cell = range.first + c;
+                    if (state_ != State::working || !meetsHyperplane({cell, cell + 1})) continue;
+                    std::array<double, 16> heights{}, values{};
+                    for (unsigned corner = 0; corner < 16; ++corner) {
+                        const glm::ivec4 step(corner & 1U, corner >> 1U & 1U, corner >> 2U & 1U, corner >> 3U);
+                        const glm::ivec4 p = c + step, at = cell + step;
+                        const auto height = [&](std::size_t axis) {
+                            return heights_[axis][static_cast<std::size_t>(at[static_cast<int>(axis)])];
+                        };
+                        heights[corner] = (height(0) + height(1)) + (height(2) + height(3));
+                        const int index = p.x + points.x * (p.y + points.y * (p.z + points.z * p.w));
+                        values[corner] = valueOf(samples[static_cast<std::size_t>(index)]);
+                    }
+                    cutCell(cell, heights, values);
+                }
+            }
+        }
+    }
+}
+
+void ExactSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>& heights,
+                          const std::array<double, 16>& values) {
+    const unsigned inside = bitsOf(values, [&](double value) { return value < level_; });
+    if (inside == 0) return;
+    const bool atBoundary = touchesBoundary({cell, cell + 1});
+    if (inside == 0xffffU && !atBoundary) return;
+    const glm::ivec4 last = lattice_.points() - 2;
+    CutPentatope cut{};
+    cut.cell = cell;
+    for (const Pentatope& shape : kuhnPentatopes()) {
+        for (std::size_t i = 0; i < 5; ++i) {
+            cut.heights[i] = heights[shape.corners[i]];
+            cut.values[i] = values[shape.corners[i]];
+        }
+        const unsigned above = bitsOf(cut.heights, [](double height) { return height >= 0; });
+        if (above == 0 || above == 31U) continue;
+        cut.shape = &shape;
+        cut.positive = shape.positive == lattice_.isPositive();
+        const unsigned holes = bitsOf(cut.values, [](double value) { return std::isnan(value); });
+        if (holes != 0) {
+            if (std::has_single_bit(holes)) {
+                findCrossings(cut, above);
+                capHole(cut, above, static_cast<std::size_t>(std::countr_zero(holes)));
+            }
+            continue;
+        }
+        // The facets on the boundary of the domain.
+        const unsigned upper = cell[shape.axis(0)] == last[shape.axis(0)] ? 1U : 0U;
+        const unsigned lower = cell[shape.axis(3)] == 0 ? 1U << 4U : 0U;
+        const unsigned within = bitsOf(cut.values, [&](double value) { return value < level_; });
+        if (within == 0 || (within == 31U && (upper | lower) == 0)) continue;
+        findCrossings(cut, above);
+        cutPentatope(cut, above, upper | lower);
+    }
+    if (out_->triangles.size() + caps_.size() > options_.maxTriangles) state_ = State::too_large;
+}
+
+// All simplices with the same edge compute its crossing from the same numbers. The value is clamped to those of the
+// ends, so that in spite of rounding no crossing is inside if all corners of the cell are outside, or the reverse.
+void ExactSlicer::findCrossings(CutPentatope& cut, unsigned above) const {
+    for (std::size_t i = 0; i < 5; ++i) {
+        for (std::size_t j = i + 1; j < 5; ++j) {
+            if ((above >> i & 1U) == (above >> j & 1U)) continue;
+            EdgeCrossing& crossing = cut.crossings[i][j];
+            crossing.t = cut.heights[i] / (cut.heights[i] - cut.heights[j]);
+            const double a = cut.values[i], b = cut.values[j];
+            const double value = a + (b - a) * crossing.t;
+            crossing.value = std::clamp(value, std::min(a, b), std::max(a, b));
+            crossing.inside = crossing.value < level_;
+        }
+    }
+}
+
+// `boundary` has a bit for each facet on the boundary of the domain.
+void ExactSlicer::cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundary) {
+    for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
+        const unsigned inside =
+            bitsOf(tetrahedron.edges, [&](const Edge& edge) { return cut.crossings[edge[0]][edge[1]].inside; });
+        if (inside == 0) continue;
+        addLevelSet(cut, tetrahedron, inside);
+        for (std::size_t face = 0; face < 4; ++face) {
+            const std::uint8_t facet = tetrahedron.facets[face];
+            if (facet != SectionTetrahedron::kInner && (boundary >> facet & 1U) != 0)
+                addCap(cut, tetrahedron, face, false);
+        }
+    }
+}
+
+// Adds the cap in the facet opposite to corner `hole`, which has no value, if the pentatope on the other side of this
+// facet has values at all of its corners.
+void ExactSlicer::capHole(const CutPentatope& cut, unsigned above, std::size_t hole) {
+    const glm::ivec4 other = cut.cell + cut.shape->acrossFacet(hole);
+    if (glm::any(glm::lessThan(other, glm::ivec4(0))) || glm::any(glm::greaterThanEqual(other, lattice_.points())))
+        return;
+    if (std::isnan(valueOf(lattice_.sample(other)))) return;
+    for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
+        for (std::size_t face = 0; face < 4; ++face) {
+            if (tetrahedron.facets[face] == hole) addCap(cut, tetrahedron, face, true);
+        }
+    }
+}
+
+// Adds the level set in a tetrahedron: a triangle if one corner differs from the others, or a quadrilateral.
+void ExactSlicer::addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside) {
+    const auto& edges = tetrahedron.edges;
+    const auto between = [&](std::uint8_t a, std::uint8_t b) { return pointBetween(cut, edges[a], edges[b]); };
+    const int count = std::popcount(inside);
+    if (count == 1) {
+        const auto [i, j, k, l] = kWithFirst[static_cast<std::size_t>(std::countr_zero(inside))];
+        out_->triangles.push_back({between(i, j), between(i, k), between(i, l)});
+    } else if (count == 3) {
+        const auto [o, j, k, l] = kWithFirst[static_cast<std::size_t>(std::countr_zero(~inside))];
+        out_->triangles.push_back({between(j, o), between(l, o), between(k, o)});
+    } else if (count == 2) {
+        const auto order = std::ranges::find_if(
+            kWithFirstTwo, [&](const CornerPermutation& o) { return inside == (1U << o[0] | 1U << o[1]); });
+        const auto [i, j, k, l] = *order;
+        const std::array<std::uint32_t, 4> loop{between(i, k), between(i, l), between(j, l), between(j, k)};
+        out_->triangles.push_back({loop[0], loop[1], loop[2]});
+        out_->triangles.push_back({loop[0], loop[2], loop[3]});
+    }
+}
+
+// Adds the part of a tetrahedron's face that is inside the body as a cap, with the opposite orientation if `reversed`.
+void ExactSlicer::addCap(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, std::size_t face,
+                         bool reversed) {
+    std::array<std::uint8_t, 3> corners = kTetrahedronFaces[face];
+    if (reversed) std::swap(corners[1], corners[2]);
+    std::array<std::uint32_t, 4> loop{};
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Edge& from = tetrahedron.edges[corners[i]];
+        const Edge& to = tetrahedron.edges[corners[(i + 1) % 3]];
+        const bool fromInside = cut.crossings[from[0]][from[1]].inside, toInside = cut.crossings[to[0]][to[1]].inside;
+        if (fromInside) loop[size++] = pointOn(cut, from);
+        if (fromInside != toInside)
+            loop[size++] = fromInside ? pointBetween(cut, from, to) : pointBetween(cut, to, from);
+    }
+    for (std::size_t i = 2; i < size; ++i) caps_.push_back({loop[0], loop[i - 1], loop[i]});
+}
+
+// Returns the point where the hyperplane crosses an edge.
+std::uint32_t ExactSlicer::pointOn(const CutPentatope& cut, const Edge& edge) {
+    const auto [number, isNew] = numbers_.number(keyOf(cut, 1U << edge[0] | 1U << edge[1]));
+    if (isNew) out_->points.push_back(position(cut, edge));
+    return number;
+}
+
+// Returns the point of the level set between the crossings of two edges. The crossing of `inner` must be inside, and
+// that of `outer` outside.
+std::uint32_t ExactSlicer::pointBetween(const CutPentatope& cut, const Edge& inner, const Edge& outer) {
+    const unsigned corners = 1U << inner[0] | 1U << inner[1] | 1U << outer[0] | 1U << outer[1];
+    const auto [number, isNew] = numbers_.number(keyOf(cut, corners));
+    if (isNew) {
+        const double from = cut.crossings[inner[0]][inner[1]].value, to = cut.crossings[outer[0]][outer[1]].value;
+        out_->points.push_back(
+            glm::mix(position(cut, inner), position(cut, outer), std::clamp((level_ - from) / (to - from), 0.0, 1.0)));
+    }
+    return number;
+}
+
+glm::dvec3 ExactSlicer::position(const CutPentatope& cut, const Edge& edge) const {
+    const auto corner = [&](std::size_t i) {
+        const unsigned bits = cut.shape->corners[i];
+        return glm::dvec3(
+            lattice_.position(cut.cell + glm::ivec4(bits & 1U, bits >> 1U & 1U, bits >> 2U & 1U, bits >> 3U)));
+    };
+    return glm::mix(corner(edge[0]), corner(edge[1]), cut.crossings[edge[0]][edge[1]].t);
+}
+
+// Returns a key of the simplex with these corners of the pentatope (a bit for each): the lattice point of the first
+// corner, and for each other corner, the axes along which it is above the first.
+std::uint64_t ExactSlicer::keyOf(const CutPentatope& cut, unsigned corners) const {
+    const auto& chain = cut.shape->corners;
+    const unsigned first = chain[static_cast<std::size_t>(std::countr_zero(corners))];
+    std::uint64_t key =
+        lattice_.index(cut.cell + glm::ivec4(first & 1U, first >> 1U & 1U, first >> 2U & 1U, first >> 3U));
+    for (unsigned rest = corners & (corners - 1); rest != 0; rest &= rest - 1)
+        key = key << 4U | (chain[static_cast<std::size_t>(std::countr_zero(rest))] ^ first);
+    // A simplex has two to four corners. This shift makes the keys of simplices with different numbers of corners
+    // differ.
+    return key << (4 * static_cast<unsigned>(4 - std::popcount(corners)));
+}
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,124 @@
+#pragma once
+// Exact slices of a field that is replaced by the piecewise linear interpolation of its values on a lattice.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <glm/gtc/type_precision.hpp>
+
+#include "errors/error.hpp"
+#include "fields/field.hpp"
+#include "fields/inside.hpp"
+#include "geometry/rotation.hpp"
+#include "slicing/exact/exact_surface.hpp"
+#include "slicing/exact/field_lattice.hpp"
+#include "slicing/exact/kuhn_sections.hpp"
+#include "slicing/exact/simplex_index.hpp"
+
+namespace oval4d::slicing {
+
+/// Slices the interpolated field by one hyperplane at a time. The function is linear in each pentatope (4-simplex) of
+/// the lattice (see kuhn_sections.hpp). The section of a pentatope by the hyperplane is divided into tetrahedra. The
+/// part of a tetrahedron that belongs to the body is bounded by at most two triangles of the level set and by parts of
+/// the faces of the tetrahedron. Those parts that lie on the boundary of the domain become caps.
+///
+/// The surface is closed in spite of rounding errors, for two reasons. First, each of its points is the intersection of
+/// a lattice simplex with the hyperplane and the level set, and is identified by this simplex. Second, each decision
+/// depends only on a simplex: whether a lattice point lies above the hyperplane, and whether the function at the point
+/// where a lattice edge crosses the hyperplane is inside the level. Lattice points in the hyperplane count as above it,
+/// and values equal to the level as outside. If all samples have values, the surface is a 2-manifold, because it
+/// separates the inside points of a triangulated 3-manifold from the others. Triangles may have zero area.
+///
+/// Samples that are NaN or infinite have no value. Pentatopes with such a corner do not belong to the body; they form
+/// holes, and the body has caps there. Parts of the body that touch along an edge of a hole share this edge.
+///
+/// Reuses its memory. Only one thread at a time may use a slicer.
+class ExactSlicer {
+  public:
+    /// The default number of lattice cells along the longest side of the domain of a formula.
+    static constexpr int kFormulaCells = 64;
+
+    struct Options {
+        double level = 0;
+        fields::Inside inside = fields::Inside::below;
+        std::size_t maxTriangles = 5'000'000;
+        /// Called often, on the thread that called slice(). May read the triangles found so far in `out`. If it returns
+        /// true or throws, the slicer stops early.
+        std::function<bool()> mustStop = nullptr;
+    };
+
+    /// `cells` is the number of lattice cells along the longest side of the domain of a formula; it is ignored for an
+    /// array. `field` must outlive this object.
+    ExactSlicer(const fields::Field& field, const geometry::Rotation& orientation, int cells = kFormulaCells)
+        : lattice_(field, orientation, cells) {}
+
+    /// Slices the rotated field by the hyperplane at `w`. Overwrites `out`, which is incomplete after an error. Error:
+    /// `too_large` if there are more than Options::maxTriangles triangles, or if `mustStop` returns true. Throws what
+    /// `mustStop` throws.
+    Result<std::monostate> slice(double w, const Options& options, ExactSurface& out);
+
+    /// Returns the lattice on which the field is sampled.
+    const FieldLattice& lattice() const { return lattice_; }
+
+  private:
+    static constexpr int kBrick = 4;  // cells along each side of a brick, which is sampled as a whole
+    static constexpr std::size_t kBrickPoints = 625;
+
+    enum class State : std::uint8_t { working, too_large, stopped };
+    using Triangle = std::array<std::uint32_t, 3>;
+
+    // The cells from `first` up to, but not including, `end`.
+    struct CellRange {
+        glm::ivec4 first, end;
+    };
+    // Where the hyperplane crosses an edge of the pentatope.
+    struct EdgeCrossing {
+        double t = 0;  // the position along the edge: 0 at its first end, 1 at its second
+        double value = 0;
+        bool inside = false;
+    };
+    // A pentatope that the hyperplane meets.
+    struct CutPentatope {
+        const Pentatope* shape;
+        glm::ivec4 cell;
+        std::array<double, 5> heights, values;                 // of its corners
+        std::array<std::array<EdgeCrossing, 5>, 5> crossings;  // [i][j]: that of the edge between corners i < j
+        bool positive;                                         // as for sectionOf()
+    };
+    using Edge = std::array<std::uint8_t, 2>;
+
+    void visit(const CellRange& range);
+    bool meetsHyperplane(const CellRange& range) const;
+    bool touchesBoundary(const CellRange& range) const;
+    void cutBrick(const CellRange& range);
+    void cutCell(glm::ivec4 cell, const std::array<double, 16>& heights, const std::array<double, 16>& values);
+    void cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundary);
+    void capHole(const CutPentatope& cut, unsigned above, std::size_t hole);
+    void findCrossings(CutPentatope& cut, unsigned above) const;
+    void addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside);
+    void addCap(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, std::size_t face, bool reversed);
+    std::uint32_t pointOn(const CutPentatope& cut, const Edge& edge);
+    std::uint32_t pointBetween(const CutPentatope& cut, const Edge& inner, const Edge& outer);
+    glm::dvec3 position(const CutPentatope& cut, const Edge& edge) const;
+    std::uint64_t keyOf(const CutPentatope& cut, unsigned corners) const;
+    double valueOf(float sample) const;
+
+    FieldLattice lattice_;
+    // The state of the current slice. If the body is above the level, values and level are negated, so that the body is
+    // always below the level.
+    Options options_;
+    double level_ = 0, sign_ = 1;
+    std::array<std::vector<double>, 4> heights_;  // per axis and index: its part of a point's height
+    State state_ = State::working;
+    std::size_t visits_ = 0;
+    SimplexIndex numbers_;
+    std::vector<Triangle> caps_;
+    ExactSurface* out_ = nullptr;
+};
+
+}  // namespace oval4d::slicing

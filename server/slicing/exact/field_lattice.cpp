@@ -1,0 +1,109 @@
+#include "slicing/exact/field_lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+#include "fields/array/array_function.hpp"
+
+namespace oval4d::slicing {
+
+namespace {
+
+// Calls `visit` with each point from `first` to `last`, x fastest.
+template <typename Visit>
+void forEachPoint(glm::ivec4 first, glm::ivec4 last, Visit visit) {
+    glm::ivec4 p;
+    for (p.w = first.w; p.w <= last.w; ++p.w) {
+        for (p.z = first.z; p.z <= last.z; ++p.z) {
+            for (p.y = first.y; p.y <= last.y; ++p.y) {
+                for (p.x = first.x; p.x <= last.x; ++p.x) visit(p);
+            }
+        }
+    }
+}
+
+float sampleOf(const fields::ArrayFunction& array, glm::ivec4 point) {
+    const auto [nx, ny, nz, nw] = array.shape();
+    const auto at = [](int i, std::size_t count) { return std::min(static_cast<std::size_t>(i), count - 1); };
+    return array.samples()[at(point.x, nx) + nx * (at(point.y, ny) + ny * (at(point.z, nz) + nz * at(point.w, nw)))];
+}
+
+}  // namespace
+
+FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation& orientation, int cells)
+    : field_(field) {
+    const glm::dmat4 toSlice = orientation.matrix() * glm::inverse(field.toFunction);
+    const glm::dvec4 size = field.box.max - field.box.min;
+    std::array<double, 4> lengths{};  // of the domain's sides
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+        const auto a = static_cast<int>(axis);
+        lengths[axis] = size[a] * glm::length(toSlice[a]);
+    }
+    const double longest = *std::ranges::max_element(lengths);
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+        const auto a = static_cast<int>(axis);
+        points_[a] = field.array != nullptr
+                         ? std::max(2, static_cast<int>(field.array->shape()[axis]))
+                         : std::max(kMinCells, static_cast<int>(std::lround(cells * lengths[axis] / longest))) + 1;
+        for (int i = 0; i < points_[a]; ++i) {
+            const double t = static_cast<double>(i) / (points_[a] - 1);
+            coordinates_[axis].push_back(glm::mix(field.box.min[a], field.box.max[a], t));
+            parts_[axis].push_back((t - 0.5) * size[a] * toSlice[a]);
+        }
+    }
+    positive_ = glm::determinant(toSlice) > 0;
+    // The box is centered at field.center, which is the origin of the object.
+    const glm::dvec4 shift = toSlice * (field.box.center() - field.center);
+    for (glm::dvec4& part : parts_[0]) part += shift;
+}
+
+fields::Bounds FieldLattice::bounds(glm::ivec4 first, glm::ivec4 last) const {
+    constexpr double kMargin = 1e-3;  // of a cell, because positions of samples are rounded
+    fields::Box region;
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+        const auto a = static_cast<int>(axis);
+        const std::vector<double>& all = coordinates_[axis];
+        const double margin = kMargin * (all[1] - all[0]);
+        region.min[a] = all[static_cast<std::size_t>(first[a])] - margin;
+        region.max[a] = all[static_cast<std::size_t>(last[a])] + margin;
+    }
+    return field_.function->boundsIn(region);
+}
+
+void FieldLattice::sample(glm::ivec4 first, glm::ivec4 last, std::span<float> values) const {
+    std::size_t count = 0;
+    if (field_.array != nullptr) {
+        forEachPoint(first, last, [&](glm::ivec4 p) { values[count++] = sampleOf(*field_.array, p); });
+        return;
+    }
+    constexpr std::size_t kBatch = 1024;
+    std::array<std::array<float, kBatch>, 4> at{};
+    std::size_t done = 0;
+    const auto evaluate = [&] {
+        const auto part = [&](std::size_t axis) { return std::span<const float>(at[axis]).first(count); };
+        field_.function->evaluate({part(0), part(1), part(2), part(3)}, values.subspan(done, count));
+        done += count;
+        count = 0;
+    };
+    forEachPoint(first, last, [&](glm::ivec4 p) {
+        for (std::size_t axis = 0; axis < 4; ++axis) {
+            const int i = p[static_cast<int>(axis)];
+            at[axis][count] = static_cast<float>(coordinates_[axis][static_cast<std::size_t>(i)]);
+        }
+        if (++count == kBatch) evaluate();
+    });
+    if (count > 0) evaluate();
+}
+
+float FieldLattice::sample(glm::ivec4 point) const {
+    float value = 0;
+    sample(point, point, std::span(&value, 1));
+    return value;
+}
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,61 @@
+#pragma once
+// The lattice on which a field is sampled for exact slicing.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/gtc/type_precision.hpp>
+#include <glm/vec4.hpp>
+
+#include "fields/field.hpp"
+#include "geometry/rotation.hpp"
+
+namespace oval4d::slicing {
+
+/// A regular 4-D lattice that fills the domain of a field, with coordinates of the rotated object. The lattice points
+/// of an array are its samples; along an axis with one sample, there are two lattice points with the same value.
+class FieldLattice {
+  public:
+    /// For a formula, the lattice has `cells` cells along the longest side of the domain. Along the other sides, it has
+    /// as many cells of about the same length as fit, but at least kMinCells. For an array, `cells` is ignored. `field`
+    /// must outlive this object.
+    FieldLattice(const fields::Field& field, const geometry::Rotation& orientation, int cells);
+    static constexpr int kMinCells = 4;
+
+    /// Returns the number of points along each axis, at least 2.
+    glm::ivec4 points() const { return points_; }
+    /// Returns a number less than 2⁴⁶ that identifies the point.
+    std::uint64_t index(glm::ivec4 point) const {
+        const glm::u64vec4 p(point), n(points_);
+        return p.x + n.x * (p.y + n.y * (p.z + n.z * p.w));
+    }
+    /// Returns the coordinates of a point: the sum of its part() along each axis.
+    glm::dvec4 position(glm::ivec4 point) const {
+        return (part(0, point.x) + part(1, point.y)) + (part(2, point.z) + part(3, point.w));
+    }
+    /// Returns the contribution of the index along one axis to the position of a point.
+    const glm::dvec4& part(std::size_t axis, int index) const { return parts_[axis][static_cast<std::size_t>(index)]; }
+    /// Returns whether the axes of the lattice are a positively oriented basis in the coordinates of the rotated
+    /// object.
+    bool isPositive() const { return positive_; }
+
+    /// Returns bounds of the function's values at the lattice points in the box from `first` to `last`, both included.
+    fields::Bounds bounds(glm::ivec4 first, glm::ivec4 last) const;
+    /// Writes the samples in the box from `first` to `last`, both included; x varies fastest. `values` must have room
+    /// for all of them.
+    void sample(glm::ivec4 first, glm::ivec4 last, std::span<float> values) const;
+    /// Returns the sample at a point.
+    float sample(glm::ivec4 point) const;
+
+  private:
+    const fields::Field& field_;
+    glm::ivec4 points_{2};
+    std::array<std::vector<glm::dvec4>, 4> parts_;
+    std::array<std::vector<double>, 4> coordinates_;  // per axis and index: the function's coordinate
+    bool positive_ = true;
+};
+
+}  // namespace oval4d::slicing

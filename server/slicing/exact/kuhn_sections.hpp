@@ -1,0 +1,64 @@
+#pragma once
+// The subdivision of 4-D lattice cells into simplices, and the sections of these simplices by hyperplanes.
+//
+// The corners of a cell are numbered 0 … 15: bit a of the number is set at the upper end of axis a. The Freudenthal
+// (Kuhn) subdivision has one pentatope (4-simplex) for each chain of corners from 0 to 15 in which each corner has one
+// bit more than the one before (H. Freudenthal, Annals of Mathematics 43, 1942). All cells are subdivided in the same
+// way, so that neighboring cells share whole facets, and the corners of every simplex of the lattice form such a chain.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <glm/gtc/type_precision.hpp>
+
+namespace oval4d::slicing {
+
+/// A pentatope of the subdivision of a cell.
+struct Pentatope {
+    std::array<std::uint8_t, 5> corners{};  ///< numbers of corners of the cell, from 0 to 15 along the chain
+    bool positive = true;                   ///< whether the signed volume of the corners, in this order, is positive
+
+    /// Returns the axis along which corner i + 1 is above corner i, for i from 0 to 3.
+    int axis(std::size_t i) const;
+    /// Returns the corner that the pentatope on the other side of the facet opposite to corner i does not share with
+    /// this one, as an offset from corner 0 of the cell, in lattice steps.
+    glm::ivec4 acrossFacet(std::size_t i) const;
+};
+
+/// Returns the 24 pentatopes of a cell.
+const std::array<Pentatope, 24>& kuhnPentatopes();
+
+/// A tetrahedron that is part of the section of a pentatope by a hyperplane.
+struct SectionTetrahedron {
+    static constexpr std::uint8_t kInner = 0xff;
+
+    /// Corner k of the tetrahedron lies on the edge of the pentatope between its corners edges[k][0] and edges[k][1],
+    /// the smaller number first.
+    std::array<std::array<std::uint8_t, 2>, 4> edges{};
+    /// Per corner k of the tetrahedron: the facet of the pentatope that contains the face opposite to corner k, as the
+    /// number of the corner opposite to the facet; kInner if this face lies in the interior of the section.
+    std::array<std::uint8_t, 4> facets{};
+};
+
+/// The faces of a tetrahedron with a positive volume: face k is opposite to corner k, and is counterclockwise as seen
+/// from outside.
+inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kTetrahedronFaces{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+/// Returns the section of a pentatope by a hyperplane, as tetrahedra. Bit i of `above` must be set if corner i lies
+/// above the hyperplane. The section is empty, one tetrahedron, or a prism, which is divided into three tetrahedra.
+///
+/// Each quadrilateral side of the prism is the section of a facet with two corners above the hyperplane and two below
+/// it. The corners of the side lie on the edges from an upper to a lower corner of the facet. The side is divided by
+/// the diagonal from the edge between the first upper and the first lower corner to the edge between the last upper and
+/// the last lower corner. This rule depends only on the facet, so that the two pentatopes that share the facet divide
+/// the side in the same way.
+///
+/// `positive` must be true if the signed volume of the pentatope is positive in coordinates (x, y, z, h), where x, y
+/// and z are coordinates in the hyperplane and h is the height above it. For both values of `positive`, the signed
+/// volumes of the tetrahedra in coordinates (x, y, z) are positive.
+std::span<const SectionTetrahedron> sectionOf(unsigned above, bool positive);
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,38 @@
+#pragma once
+// Settings for the display of a field.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "fields/inside.hpp"
+
+namespace oval4d::slicing {
+
+/// The maximum number of levels of a field that are shown at the same time.
+inline constexpr std::size_t kMaxLevels = 4;
+
+/// A control point of the transfer function of fog, which maps the values of a field to opacities and colors. The
+/// transfer function is linear between two successive control points, and constant below the first and above the last.
+struct FogPoint {
+    double value = 0;
+    double opacity = 0;  ///< 0 … 1, of a layer of fog that is as thick as the object's circumradius
+    std::optional<std::uint32_t> color = {};  ///< 0xRRGGBB; if empty, a color from blue (first point) to amber (last)
+    bool operator==(const FogPoint&) const = default;
+};
+
+/// The least and the greatest number of control points of a transfer function.
+inline constexpr std::size_t kMinFogPoints = 2, kMaxFogPoints = 8;
+
+/// The levels at which the surfaces of a field are shown, which side of them is inside, and the fog in the slices.
+struct FieldSettings {
+    std::vector<double> levels{0};  ///< 1 … kMaxLevels different numbers
+    fields::Inside inside = fields::Inside::below;
+    /// The control points of the transfer function: none if there is no fog, otherwise kMinFogPoints … kMaxFogPoints
+    /// points with strictly ascending values.
+    std::vector<FogPoint> fog = {};
+    bool operator==(const FieldSettings&) const = default;
+};
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,50 @@
+#pragma once
+// Slices 4-D scalar fields.
+
+#include <array>
+
+#include "fields/field.hpp"
+#include "geometry/hyperplanes.hpp"
+#include "geometry/rotation.hpp"
+#include "parallel/fork_join.hpp"
+#include "slicing/field_settings.hpp"
+#include "slicing/polytope_slicer.hpp"
+#include "slicing/slice_set.hpp"
+#include "slicing/surface_detail.hpp"
+#include "slicing/surfaces/surface_extractor.hpp"
+
+namespace oval4d::slicing {
+
+/// Slices fields: cuts the domain like a polytope, and in each slice extracts the surfaces and samples the fog. Reuses
+/// its memory. Only one thread at a time may use a slicer.
+class FieldSlicer {
+  public:
+    /// If `forkJoin` is not null, processes slices on two cores. `forkJoin` must outlive this object.
+    explicit FieldSlicer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), domains_(forkJoin) {}
+
+    /// Slices `field` rotated by `orientation`. The vertices, edges and faces of `out` are those of the slices of the
+    /// domain. `detail.steps` and `detail.fogSteps` each have one entry per slice or are empty. Fog is sampled only if
+    /// neither `detail.fogSteps` nor `settings.fog` is empty. Overwrites `out` and reuses its memory. Throws
+    /// std::runtime_error if the samples are in a file that can no longer be read.
+    void slice(const fields::Field& field, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
+               const FieldSettings& settings, const SurfaceDetail& detail, SliceSet& out);
+
+  private:
+    // The work for one slice.
+    struct Task {
+        // The lattice step of the surfaces, and the fraction of the SurfaceLimits that this slice may use. If the
+        // fraction is 0, no surfaces are extracted.
+        double step = 0, share = 0;
+        double fogStep = 0;  // the lattice step of the fog; 0: sample no fog
+    };
+    void process(const fields::Field& field, const glm::dmat4& toFunction, const FieldSettings& settings,
+                 const SurfaceDetail& detail, const Task& task, int slice, SliceSet& out, std::size_t worker);
+    static double fogCoarsening(const fields::Field& field, const SurfaceDetail& detail, const SliceSet& slices);
+
+    parallel::ForkJoin* forkJoin_;
+    PolytopeSlicer domains_;
+    std::array<SurfaceExtractor, 2> extractors_;  // one per core
+    std::array<FieldSection, 2> sections_;
+};
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,76 @@
+#pragma once
+// The resolution at which the surfaces of fields are extracted and their fog is sampled.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/hyperplanes.hpp"
+
+namespace oval4d::slicing {
+
+/// The quality of a picture or a file that shows a field. It does not affect pictures and files of other objects.
+enum class Quality : std::uint8_t {
+    draft,  ///< coarser surfaces, for a picture that another one soon replaces
+    full,
+    file,  ///< finer surfaces, for exported files
+};
+
+/// The lattices on which the surfaces and the fog of a field are sampled.
+struct SurfaceDetail {
+    /// Per slice: the distance between neighboring lattice points in the units of the object; 0 if its surfaces are not
+    /// needed. Empty if no surfaces are needed.
+    std::vector<double> steps;
+    /// Determines the limits on time and points. Surfaces in drafts may lack details of the function that are smaller
+    /// than the lattice steps (see ScalarFunction::forSteps()).
+    Quality quality = Quality::full;
+    std::vector<double> fogSteps = {};  ///< like `steps`, but for fog
+    /// Whether only the topology of the surfaces is needed. If so, their points lie only roughly on the levels, and
+    /// have no normals, growth or values.
+    bool topologyOnly = false;
+    bool secondValues = false;  ///< whether the points need the values of the field's second function
+};
+
+/// Limits on the surfaces of all slices of a picture or file together: the estimated time to extract them on one core,
+/// in nanoseconds, and the number of their points. The lattices are made coarser where this is necessary to meet the
+/// limits.
+struct SurfaceLimits {
+    double time;
+    std::size_t points;
+};
+
+constexpr SurfaceLimits surfaceLimits(Quality quality) {
+    if (quality == Quality::file) return {1.5e9, 400'000};
+    return quality == Quality::full ? SurfaceLimits{1.5e8, 600'000} : SurfaceLimits{3e7, 80'000};
+}
+
+/// Returns the maximum number of points of the fog lattices of all slices of a picture together. The lattices are made
+/// coarser to meet this limit, and so that sampling them takes no longer than surfaceLimits(quality).time. A point
+/// takes one byte in a message, and two bytes of texture memory in a rendered picture.
+constexpr std::size_t maxFogPoints(Quality quality) { return quality == Quality::draft ? 250'000 : 2'000'000; }
+
+/// Returns the width of a lattice cube in a rendered picture, in pixels.
+constexpr double pixelsPerCube(Quality quality) { return quality == Quality::full ? 3 : 4.5; }
+
+/// Returns the number of lattice cubes across the diameter of a field's circumscribed sphere, for messages and files.
+/// Rendered pictures use pixelsPerCube() instead.
+constexpr int cubesAcross(Quality quality) {
+    return quality == Quality::file ? 160 : quality == Quality::full ? 48 : 32;
+}
+
+/// Sets the lattice step of the surfaces in all slices from the circumradius of the object, for messages and files.
+/// Clears the fog lattices.
+inline void setEvenDetail(double circumradius, const geometry::Hyperplanes& planes, Quality quality,
+                          SurfaceDetail& out) {
+    out.steps.assign(static_cast<std::size_t>(planes.count), 2 * circumradius / cubesAcross(quality));
+    out.fogSteps.clear();
+    out.quality = quality;
+}
+
+/// Sets the lattice step of the fog in all slices, for messages: half that of the surfaces. Surfaces are accurate on
+/// coarser lattices, because their points are moved onto the level after sampling.
+inline void addEvenFog(double circumradius, const geometry::Hyperplanes& planes, SurfaceDetail& out) {
+    out.fogSteps.assign(static_cast<std::size_t>(planes.count), circumradius / cubesAcross(out.quality));
+}
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,47 @@
+#pragma once
+// How a surface passes through a cube whose corners are inside or outside a body: the cases of dual marching cubes
+// (G. Nielson, "Dual marching cubes", 2004).
+
+#include <array>
+#include <cstdint>
+
+namespace oval4d::slicing {
+
+/// The two corners of each edge of a cube. The corners are numbered x + 2y + 4z for x, y, z in {0, 1}. Edge 4a + u + 2v
+/// is parallel to axis a, and u, v in {0, 1} are its coordinates along the other two axes, in the order x, y, z. Face
+/// 2a + s is perpendicular to axis a, at the coordinate s along this axis.
+inline constexpr std::array<std::array<std::uint8_t, 2>, 12> kCubeEdges = [] {
+    std::array<std::array<std::uint8_t, 2>, 12> edges{};
+    for (std::uint8_t axis = 0; axis < 3; ++axis) {
+        const std::uint8_t first = axis == 0 ? 2 : 1, second = axis == 2 ? 2 : 4;
+        for (std::uint8_t i = 0; i < 4; ++i) {
+            const auto from = static_cast<std::uint8_t>((i & 1) * first + (i >> 1) * second);
+            edges[4 * axis + i] = {from, static_cast<std::uint8_t>(from + (1 << axis))};
+        }
+    }
+    return edges;
+}();
+
+/// How a surface passes through a cube: in one or more patches. Each patch is bounded by a closed loop, which visits
+/// edges of the cube that have one end inside the body and the other outside.
+struct CubeCase {
+    static constexpr std::uint8_t kNoPatch = 0xff;
+    static constexpr std::uint8_t kNoFace = 0xff;
+
+    std::uint8_t patches = 0;                    ///< 0 … 4
+    std::array<std::uint8_t, 12> patchOfEdge{};  ///< per edge: its patch; kNoPatch if both ends are on the same side
+    /// The face whose corners are alternately inside and outside, and whose four edges belong to the same patch;
+    /// kNoFace if there is none. If this face is also the mergingFace of the cube on its other side, the surface would
+    /// touch itself along an edge there. In this case, use separatedCubeCase() for both cubes.
+    std::uint8_t mergingFace = kNoFace;
+};
+
+/// Returns the case of a cube. Bit c of `inside` is set if corner c is inside the body. On faces whose corners are
+/// alternately inside and outside, the inside corners are separated.
+const CubeCase& cubeCase(std::uint8_t inside);
+
+/// Like cubeCase(), but joins the inside corners of the mergingFace, if the cube has one. The edges of this face then
+/// belong to two patches.
+const CubeCase& separatedCubeCase(std::uint8_t inside);
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,30 @@
+#pragma once
+// The hyperplane of one slice of a field, and the domain in it.
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace oval4d::slicing {
+
+/// The hyperplane of one slice of a field, with the coordinates x, y and z of the slice, and the slice of the field's
+/// domain, which is a convex polyhedron in this hyperplane.
+struct FieldSection {
+    /// A half-space of the slice, which contains the points p with dot(normal, p) ≤ offset. `normal` is a unit vector.
+    struct Wall {
+        glm::dvec3 normal;
+        double offset;
+    };
+    static constexpr std::size_t kMaxWalls = 8;
+
+    glm::dvec4 origin{0};              ///< the point x = y = z = 0, in the function's coordinates
+    std::array<glm::dvec4, 3> axes{};  ///< one unit of x, of y and of z, as vectors in the function's coordinates
+    glm::dvec4 normal{0};              ///< one unit of w, as a vector in the function's coordinates
+    std::vector<Wall> walls;           ///< at most kMaxWalls; the domain's slice is their intersection
+    glm::dvec3 min{0}, max{0};         ///< a box that contains the domain's slice
+};
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,63 @@
+#pragma once
+// Points of a slice at which a function is evaluated.
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "fields/scalar_function.hpp"
+#include "slicing/surfaces/field_section.hpp"
+
+namespace oval4d::slicing {
+
+/// Points of a slice in the function's coordinates, as a structure of arrays of fixed capacity. Points are passed in
+/// the slice's coordinates; the members below convert them.
+struct FunctionPoints {
+    static constexpr std::size_t kCapacity = 512;
+    std::array<std::array<float, kCapacity>, 4> coordinates;
+
+    /// Sets point i to the point p of the slice.
+    void set(std::size_t i, const FieldSection& section, const glm::dvec3& p) {
+        const glm::dvec4 at = section.origin + p.x * section.axes[0] + p.y * section.axes[1] + p.z * section.axes[2];
+        for (int k = 0; k < 4; ++k) coordinates[static_cast<std::size_t>(k)][i] = static_cast<float>(at[k]);
+    }
+    /// Sets points i … i + size.x · size.y · size.z − 1 to those of a box-shaped part of a lattice; x varies fastest.
+    /// `first` is its lower corner, a point of the slice. `steps` are the vectors to the next points along x, y and z,
+    /// in the function's coordinates.
+    void setBox(std::size_t i, const FieldSection& section, const glm::dvec3& first,
+                const std::array<glm::vec4, 3>& steps, const glm::ivec3& size) {
+        set(i, section, first);
+        for (int c = 0; c < 4; ++c) {
+            float* out = &coordinates[static_cast<std::size_t>(c)][i];
+            const float origin = *out;
+            for (int z = 0; z < size.z; ++z) {
+                for (int y = 0; y < size.y; ++y) {
+                    const float row =
+                        origin + static_cast<float>(y) * steps[1][c] + static_cast<float>(z) * steps[2][c];
+                    for (int x = 0; x < size.x; ++x) *out++ = row + static_cast<float>(x) * steps[0][c];
+                }
+            }
+        }
+    }
+    /// Sets points i … i + count − 1 to a row that begins at the point `first` of the slice. `step` is the vector to
+    /// the next point, in the function's coordinates.
+    void setRow(std::size_t i, const FieldSection& section, const glm::dvec3& first, const glm::vec4& step,
+                std::size_t count) {
+        set(i, section, first);
+        for (int c = 0; c < 4; ++c) {
+            float* out = &coordinates[static_cast<std::size_t>(c)][i];
+            const float origin = *out;
+            for (std::size_t k = 0; k < count; ++k) out[k] = origin + static_cast<float>(k) * step[c];
+        }
+    }
+    /// Returns the first `size` points. The batch refers to this object.
+    fields::PointBatch batch(std::size_t size) const {
+        const auto span = [&](std::size_t k) { return std::span(coordinates[k]).first(size); };
+        return {span(0), span(1), span(2), span(3)};
+    }
+};
+
+}  // namespace oval4d::slicing

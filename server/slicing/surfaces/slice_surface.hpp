@@ -1,0 +1,48 @@
+#pragma once
+// The surfaces in one slice of a field.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace oval4d::slicing {
+
+/// The triangles of one slice of a field. For each level, they form a closed surface, oriented outward, around the body
+/// of the level (see fields::Inside): the part of the level set that lies in the domain of the field, and caps where
+/// the boundary of the domain cuts the body.
+struct SliceSurface {
+    /// The bit of SliceSurface::part that marks the triangles of caps.
+    static constexpr std::uint8_t kCap = 0x80;
+
+    std::vector<glm::vec3> points;   ///< in the units of the object
+    std::vector<glm::vec3> normals;  ///< outward unit normals of the level sets; meaningless on caps
+    /// Per point: the distance by which the level set moves along its normal per unit of w. Positive where the body
+    /// grows with w, negative where it shrinks, and infinite where the level set is tangent to the hyperplane.
+    std::vector<float> growth;
+    std::vector<float> values;        ///< per point: the value of the function
+    std::vector<float> secondValues;  ///< per point: the second function's value; empty if not needed
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counterclockwise, seen from outside the body
+    /// Per triangle: the index of its level, plus kCap if it belongs to a cap. The triangles are sorted by level;
+    /// within each level, those of the caps are last.
+    std::vector<std::uint8_t> part;
+
+    void clear() {
+        points.clear();
+        normals.clear();
+        growth.clear();
+        values.clear();
+        secondValues.clear();
+        triangles.clear();
+        part.clear();
+    }
+    /// Returns the values that determine the colors of the points: those of the second function, if there are any, else
+    /// those of the first.
+    const std::vector<float>& coloringValues() const { return secondValues.empty() ? values : secondValues; }
+    /// Returns the index of the level of triangle t.
+    std::size_t level(std::size_t t) const { return part[t] & ~kCap; }
+    bool isCap(std::size_t t) const { return (part[t] & kCap) != 0; }
+};
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,687 @@
+#include "slicing/surfaces/surface_extractor.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "slicing/surfaces/cube_cases.hpp"
+
+namespace oval4d::slicing {
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Distances in steps of the lattice: within which a point counts as on a wall, and the most along each axis by which
+// points are moved onto walls. The layers of points around the domain must be thicker than the latter.
+constexpr double kOnWall = 1e-6, kMostMoved = 1.5;
+
+/// Returns the least float that is not less than `value`. A float is less than either or less than neither.
+float roundedUp(double value) {
+    const auto rounded = static_cast<float>(value);
+    return rounded < value ? std::nextafter(rounded, kInfinity) : rounded;
+}
+
+/// For each set of inside corners, a bit for each edge of the cube that has one end inside.
+constexpr std::array<std::uint16_t, 256> kCrossedEdges = [] {
+    std::array<std::uint16_t, 256> crossed{};
+    for (unsigned inside = 0; inside < crossed.size(); ++inside) {
+        for (unsigned e = 0; e < kCubeEdges.size(); ++e) {
+            const bool differ = ((inside >> kCubeEdges[e][0] ^ inside >> kCubeEdges[e][1]) & 1U) != 0;
+            if (differ) crossed[inside] |= static_cast<std::uint16_t>(1U << e);
+        }
+    }
+    return crossed;
+}();
+
+/// Returns a bit for each wall that a point of this block of cubes may be beyond, even after it was moved onto other
+/// walls. `first` is the block's corner 0.
+std::uint8_t wallsNear(const FieldSection& section, const glm::dvec3& first, double cubes, double step) {
+    const double half = 0.5 * cubes * step;
+    const glm::dvec3 center = first + half;
+    const double reach = std::sqrt(3.0) * (half + kMostMoved * step);
+    unsigned near = 0;
+    for (std::size_t i = 0; i < section.walls.size(); ++i) {
+        const auto& [normal, offset] = section.walls[i];
+        near |= glm::dot(normal, center) - offset > -reach ? 1U << i : 0U;
+    }
+    return static_cast<std::uint8_t>(near);
+}
+
+}  // namespace
+
+/// The values and gradients of a function at some points.
+struct SurfaceExtractor::Evaluation {
+    FunctionPoints points;
+    std::array<float, FunctionPoints::kCapacity> values;
+    std::array<std::array<float, FunctionPoints::kCapacity>, 4> gradients;
+
+    void evaluate(const fields::ScalarFunction& function, std::size_t size) {
+        const auto part = [&](std::size_t k) { return std::span(gradients[k]).first(size); };
+        function.evaluateWithGradient(points.batch(size), std::span(values).first(size),
+                                      {part(0), part(1), part(2), part(3)});
+    }
+    glm::dvec4 gradient(std::size_t i) const {
+        return {gradients[0][i], gradients[1][i], gradients[2][i], gradients[3][i]};
+    }
+    /// Returns the gradient in the coordinates of the slice.
+    glm::dvec3 slope(const FieldSection& section, std::size_t i) const {
+        const glm::dvec4 steepest = gradient(i);
+        return {glm::dot(steepest, section.axes[0]), glm::dot(steepest, section.axes[1]),
+                glm::dot(steepest, section.axes[2])};
+    }
+};
+
+void SurfaceExtractor::extract(const fields::ScalarFunction& function, const FieldSection& section,
+                               const Options& options, SliceSurface& out) {
+    out.clear();
+    if (glm::any(glm::greaterThanEqual(section.min, section.max))) return;
+    sign_ = options.inside == fields::Inside::below ? 1 : -1;
+    constexpr double kEnlarge = 1.6;  // the number of points of a surface falls with the square of the step
+    for (double step = options.step; !extractWith(step, function, section, options, out); step = kEnlarge * step_)
+        out.clear();
+}
+
+// Extracts the surfaces with this step, or a larger one. Returns false if there are too many points.
+bool SurfaceExtractor::extractWith(double step, const fields::ScalarFunction& function, const FieldSection& section,
+                                   const Options& options, SliceSurface& out) {
+    chooseLattice(step, function, section, options);
+    if (active_.empty()) return true;
+    sampleBlocks(function, section, options);
+    for (std::size_t level = 0; level < options.levels.size(); ++level) {
+        level_ = options.levels[level];
+        cubes_.clear();
+        positions_.clear();
+        constraints_.clear();
+        if (!findCubes(section, level, options.maxPoints - std::min(options.maxPoints, out.points.size())))
+            return false;
+        if (options.topologyOnly) {
+            out.points.insert(out.points.end(), positions_.begin(), positions_.end());
+        } else {
+            settlePoints(function, section, out);
+        }
+        addTriangles(level, out);
+    }
+    return true;
+}
+
+// Lays out the lattice and classifies its blocks. Enlarges the step until the extraction does not take too long.
+void SurfaceExtractor::chooseLattice(double step, const fields::ScalarFunction& function, const FieldSection& section,
+                                     const Options& options) {
+    const fields::EvaluationCost cost = function.cost();
+    constexpr double kEnlarge = 1.25, kBoundsShare = 0.25;
+    // The surface passes about one in six cubes of an active block, and its points are settled with two gradients.
+    constexpr double kPointsPerBlock = kBlockPoints / 6.0, kGradients = 2, kPerPoint = 60, kPerSample = 1;
+    const double perBlock =
+        kBlockPoints * (cost.value + kPerSample) + static_cast<double>(options.levels.size()) * kPointsPerBlock *
+                                                       (kGradients * cost.gradient + kPerPoint + options.pointTime);
+    for (;; step = kEnlarge * step_) {
+        layOut(section, step);
+        const glm::dvec3 groups = glm::ceil(glm::dvec3(blockCount_ - 1) / 2.0);
+        if (!isCoarsest() && groups.x * groups.y * groups.z * cost.bounds > kBoundsShare * options.maxTime) continue;
+        classifyBlocks(function, section, options);
+        if (isCoarsest() || static_cast<double>(active_.size()) * perBlock <= options.maxTime) return;
+    }
+}
+
+void SurfaceExtractor::layOut(const FieldSection& section, double step) {
+    const glm::dvec3 size = section.max - section.min;
+    step_ = std::max(step, std::max({size.x, size.y, size.z}) / (kMaxCubes - 5));
+    for (std::size_t i = 0; i < section.walls.size(); ++i) {
+        const glm::dvec3 n = glm::abs(section.walls[i].normal);
+        wallReach_[i] = (1 - kOnWall) * step_ * std::max({n.x, n.y, n.z});
+    }
+    // Two more layers of points on each side: those that may be moved onto walls, and those that are outside.
+    base_ = glm::ivec3(glm::floor(section.min / step_)) - 2;
+    const glm::ivec3 cubes = glm::ivec3(glm::ceil(section.max / step_)) + 2 - base_;
+    blockCount_ = (cubes + kBlock - 1) / kBlock + 1;
+    points_ = blockCount_ * kBlock;
+    for (int c = 0; c < 8; ++c)
+        cornerOffsets_[static_cast<std::size_t>(c)] = index(glm::ivec3(c & 1, c >> 1 & 1, c >> 2));
+    const std::size_t needed = static_cast<std::size_t>(points_.x) * points_.y * points_.z;
+    if (needed <= capacity_) return;
+    // Not initialized, so that memory for blocks that are skipped is not touched.
+    values_ = std::make_unique_for_overwrite<float[]>(needed);
+    inside_ = std::make_unique_for_overwrite<std::uint8_t[]>(needed);
+    cubeAt_ = std::make_unique_for_overwrite<std::uint32_t[]>(needed);
+    capacity_ = needed;
+}
+
+// Returns the walls that a cube with this center may touch or lie beyond, as bits, and sets `outside` if all of it lies
+// beyond one of them, farther than points are moved onto it. `reaches` are those of wallReaches() for the size of the
+// cube.
+std::uint8_t SurfaceExtractor::wallsAt(const FieldSection& section, const WallReaches& reaches,
+                                       const glm::dvec3& center, bool& outside) const {
+    unsigned walls = 0;
+    for (std::size_t i = 0; i < section.walls.size(); ++i) {
+        const double distance = glm::dot(section.walls[i].normal, center) - section.walls[i].offset;
+        outside = outside || distance > reaches[i] + wallReach_[i];
+        if (distance >= -reaches[i]) walls |= 1U << i;
+    }
+    return static_cast<std::uint8_t>(walls);
+}
+
+// For each wall, returns how far a cube of this half size reaches from its center toward the wall.
+SurfaceExtractor::WallReaches SurfaceExtractor::wallReaches(const FieldSection& section, double half) const {
+    WallReaches reaches{};
+    for (std::size_t i = 0; i < section.walls.size(); ++i) {
+        const glm::dvec3 n = glm::abs(section.walls[i].normal);
+        reaches[i] = half * (n.x + n.y + n.z) + 1e-6 * step_;
+    }
+    return reaches;
+}
+
+// Finds the blocks that may contain a surface, and notes which points of their upper neighbors they need. Looks at
+// groups of 2 × 2 × 2 blocks first, and at their blocks only where a group may contain a surface.
+void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, const FieldSection& section,
+                                      const Options& options) {
+    blocks_.assign(static_cast<std::size_t>(blockCount_.x) * blockCount_.y * blockCount_.z, Block{});
+    active_.clear();
+    glm::dvec4 unit(0);  // half the size of the bounding box of a cube with the side 2, in the function's coordinates
+    for (const glm::dvec4& axis : section.axes) unit += glm::abs(axis);
+    // Whether a cube of blocks may contain a surface; `half` is half its size, `reaches` belong to it.
+    const auto mayContain = [&](const glm::dvec3& center, double half, const WallReaches& reaches) {
+        bool outside = false;
+        const std::uint8_t walls = wallsAt(section, reaches, center, outside);
+        if (outside) return false;
+        // Half the size of its bounding box in the function's coordinates. Points that are moved onto a wall may leave
+        // it.
+        const glm::dvec4 reach = unit * (walls == 0 ? half : half + kMostMoved * step_);
+        const glm::dvec4 middle =
+            section.origin + center.x * section.axes[0] + center.y * section.axes[1] + center.z * section.axes[2];
+        const glm::dvec4 margin = reach + 1e-6 * (glm::abs(middle) + reach);  // positions are rounded
+        const fields::Bounds bounds = function.boundsIn({middle - margin, middle + margin});
+        return std::ranges::any_of(options.levels, [&](double level) {
+            const bool full = sign_ > 0 ? bounds.max < level : bounds.min > level;  // all of it is inside
+            return bounds.mayCross(level) || (walls != 0 && full);
+        });
+    };
+    // Bounds of a block pay if they cost less than the samples that they may save.
+    const fields::EvaluationCost cost = function.cost();
+    const bool refines = cost.bounds < 0.5 * kBlockPoints * cost.value;
+    const double half = 0.5 * kBlock * step_;
+    const WallReaches ofBlock = wallReaches(section, half), ofGroup = wallReaches(section, 2 * half);
+    const glm::ivec3 last = blockCount_ - 1;  // the layer of unused blocks
+    for (glm::ivec3 g(0); g.z < last.z; g.z += 2) {
+        for (g.y = 0; g.y < last.y; g.y += 2) {
+            for (g.x = 0; g.x < last.x; g.x += 2) {
+                if (!mayContain(position(g * kBlock) + 2 * half, 2 * half, ofGroup)) continue;
+                for (int i = 0; i < 8; ++i) {
+                    const glm::ivec3 b = g + glm::ivec3(i & 1, i >> 1 & 1, i >> 2);
+                    if (glm::any(glm::greaterThanEqual(b, last))) continue;
+                    const glm::dvec3 center = position(b * kBlock) + half;
+                    if (refines && !mayContain(center, half, ofBlock)) continue;
+                    activate(b);
+                }
+            }
+        }
+    }
+    bool outside = false;
+    forEachBlock([&](Block& block, glm::ivec3 b) {
+        if (block.isSampled()) block.walls = wallsAt(section, ofBlock, position(b * kBlock) + half, outside);
+    });
+}
+
+// Notes that all points of this block are needed, and the first ones of its upper neighbors.
+void SurfaceExtractor::activate(glm::ivec3 block) {
+    active_.push_back(static_cast<std::uint32_t>(blockIndex(block)));
+    for (int i = 0; i < 8; ++i) {
+        const glm::ivec3 offset(i & 1, i >> 1 & 1, i >> 2);
+        Block& other = blocks_[blockIndex(block + offset)];
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto needed = static_cast<std::uint8_t>(offset[axis] == 0 ? kBlock : 1);
+            other.needed[axis] = std::max(other.needed[axis], needed);
+        }
+        if (i == 0) other.isActive = true;
+    }
+}
+
+void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, const FieldSection& section,
+                                    const Options& options) {
+    // Blocks are collected until they fill a batch.
+    struct Part {
+        const Block* block;
+        glm::ivec3 first;   // the lattice point at its lower end
+        std::size_t begin;  // of its points in the batch
+    };
+    constexpr std::size_t kCapacity = FunctionPoints::kCapacity;
+    FunctionPoints points;
+    std::array<Part, kCapacity> parts{};
+    std::array<float, kCapacity> values{};
+    std::array<std::uint8_t, kCapacity> inside{};
+    std::array<bool, kCapacity> inDomain{};  // of blocks at walls
+    std::size_t partCount = 0, size = 0;
+    const auto sample = [&] {
+        function.evaluate(points.batch(size), std::span(values).first(size));
+        findInside(std::span(values).first(size), options, std::span(inside).first(size));
+        for (const auto& [block, first, begin] : std::span(parts).first(partCount)) {
+            const auto row = static_cast<std::size_t>(block->needed.x);
+            std::size_t at = begin;
+            for (int k = 0; k < block->needed.z; ++k) {
+                for (int j = 0; j < block->needed.y; ++j, at += row) {
+                    const glm::ivec3 start = first + glm::ivec3(0, j, k);
+                    if (block->walls != 0) {
+                        for (std::size_t i = at; i < at + row; ++i) {
+                            if (!inDomain[i]) inside[i] = 0;
+                        }
+                    }
+                    std::copy_n(&values[at], row, &values_[index(start)]);
+                    std::copy_n(&inside[at], row, &inside_[index(start)]);
+                }
+            }
+        }
+        partCount = size = 0;
+    };
+    // The steps to the next point along x, y and z, in the function's coordinates.
+    std::array<glm::vec4, 3> steps;
+    for (std::size_t i = 0; i < 3; ++i) steps[i] = glm::vec4(step_ * section.axes[i]);
+    forEachBlock([&](const Block& block, glm::ivec3 b) {
+        if (!block.isSampled()) return;
+        const glm::ivec3 needed(block.needed), first = b * kBlock;
+        const std::size_t count = static_cast<std::size_t>(needed.x) * static_cast<std::size_t>(needed.y) *
+                                  static_cast<std::size_t>(needed.z);
+        if (size + count > kCapacity) sample();
+        points.setBox(size, section, position(first), steps, needed);
+        if (block.walls != 0)
+            moveOntoWalls(section, first, needed, size, points, std::span(inDomain).subspan(size, count));
+        parts[partCount++] = {&block, first, size};
+        size += count;
+    });
+    sample();
+}
+
+// Sets the bit of each level for those values that are inside.
+void SurfaceExtractor::findInside(std::span<const float> values, const Options& options,
+                                  std::span<std::uint8_t> inside) const {
+    std::ranges::fill(inside, std::uint8_t{0});
+    for (std::size_t l = 0; l < options.levels.size(); ++l) {
+        const auto bit = static_cast<std::uint8_t>(1U << l);
+        if (sign_ > 0) {
+            const float bound = roundedUp(options.levels[l]);
+            for (std::size_t i = 0; i < values.size(); ++i) inside[i] |= values[i] < bound ? bit : 0;
+        } else {
+            const float bound = -roundedUp(-options.levels[l]);
+            for (std::size_t i = 0; i < values.size(); ++i) inside[i] |= values[i] > bound ? bit : 0;
+        }
+    }
+}
+
+// Moves those points of a block that are just beyond walls onto them, and finds which are then in the domain. `size` is
+// the number of points along each axis, `begin` the number of the first one in `points`.
+void SurfaceExtractor::moveOntoWalls(const FieldSection& section, glm::ivec3 first, glm::ivec3 size, std::size_t begin,
+                                     FunctionPoints& points, std::span<bool> inDomain) const {
+    const std::uint8_t walls = wallsNear(section, position(first), kBlock, step_);
+    std::size_t n = 0;
+    for (int k = 0; k < size.z; ++k) {
+        for (int j = 0; j < size.y; ++j) {
+            const glm::dvec3 start = position(first + glm::ivec3(0, j, k));
+            std::array<bool, kBlock> beyond{}, tooFar{};
+            for (unsigned rest = walls; rest != 0; rest &= rest - 1) {
+                const auto wall = static_cast<std::size_t>(std::countr_zero(rest));
+                const auto& [normal, offset] = section.walls[wall];
+                const double distance = glm::dot(normal, start) - offset, step = step_ * normal.x;
+                for (std::size_t i = 0; i < kBlock; ++i) {
+                    const double d = distance + static_cast<double>(i) * step;
+                    beyond[i] |= d > -kOnWall * step_;
+                    tooFar[i] |= d > wallReach_[wall] + kOnWall * step_;
+                }
+            }
+            for (int i = 0; i < size.x; ++i, ++n) {
+                const auto column = static_cast<std::size_t>(i);
+                inDomain[n] = !tooFar[column];
+                if (tooFar[column] || !beyond[column]) continue;
+                glm::dvec3 point = position(first + glm::ivec3(i, j, k));
+                inDomain[n] = moveIntoDomain(section, walls, point);
+                if (inDomain[n]) points.set(begin + n, section, point);
+            }
+        }
+    }
+}
+
+// Returns whether a point is in the domain or just beyond some of these walls, which must include all that are
+// near it. In the latter case, moves it onto these walls: along an axis of the lattice if there is only one.
+bool SurfaceExtractor::moveIntoDomain(const FieldSection& section, std::uint8_t walls, glm::dvec3& point) const {
+    const auto wall = [&](unsigned bits) -> const FieldSection::Wall& {
+        return section.walls[static_cast<std::size_t>(std::countr_zero(bits))];
+    };
+    const auto distance = [&](const FieldSection::Wall& from) { return glm::dot(from.normal, point) - from.offset; };
+    const auto moveAlongAxis = [&](const FieldSection::Wall& to, double by) {
+        const glm::dvec3 n = glm::abs(to.normal);
+        const int axis = n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;
+        point[axis] -= by / to.normal[axis];
+    };
+    if (std::has_single_bit(walls)) {
+        const FieldSection::Wall& only = wall(walls);
+        const double d = distance(only);
+        if (d > wallReach_[static_cast<std::size_t>(std::countr_zero(walls))]) return false;
+        if (d > 0) moveAlongAxis(only, d);
+        return true;
+    }
+    unsigned beyond = 0;
+    for (unsigned rest = walls; rest != 0; rest &= rest - 1) {
+        const double d = distance(wall(rest));
+        if (d > wallReach_[static_cast<std::size_t>(std::countr_zero(rest))]) return false;
+        if (d > 0) beyond |= rest & -rest;
+    }
+    if (beyond == 0) return true;
+    const glm::dvec3 start = point;
+    if (std::has_single_bit(beyond)) moveAlongAxis(wall(beyond), distance(wall(beyond)));
+    // Beyond several walls, moves the point to where they meet. This may lead beyond another wall.
+    for (int round = 0; round < 3; ++round) {
+        unsigned now = 0;
+        for (unsigned rest = walls; rest != 0; rest &= rest - 1)
+            now |= distance(wall(rest)) > kOnWall * step_ ? rest & -rest : 0U;
+        if (now == 0) {
+            const glm::dvec3 moved = glm::abs(point - start);
+            return std::max({moved.x, moved.y, moved.z}) <= kMostMoved * step_;
+        }
+        beyond |= now;
+        point = start;
+        ConstrainedStep step;
+        for (unsigned rest = beyond; rest != 0; rest &= rest - 1) step.add(wall(rest).normal, distance(wall(rest)));
+        point += step.solve();
+    }
+    return false;
+}
+
+std::uint8_t SurfaceExtractor::insideCorners(glm::ivec3 cube, std::size_t level) const {
+    const std::uint8_t* const first = &inside_[index(cube)];
+    unsigned corners = 0;
+    for (unsigned c = 0; c < 8; ++c) corners |= (first[cornerOffsets_[c]] >> level & 1U) << c;
+    return static_cast<std::uint8_t>(corners);
+}
+
+// Finds the cubes that the surface passes through. Returns false if they have more than `maxPoints` points.
+bool SurfaceExtractor::findCubes(const FieldSection& section, std::size_t level, std::size_t maxPoints) {
+    // A byte for each of the four cubes of a row.
+    constexpr std::size_t kRows = kBlock + 1;
+    struct Row {
+        std::uint32_t some, all;  // whether some or all of its corners are inside
+    };
+    const auto rowAt = [&](std::uint32_t at) -> Row {
+        std::array<std::uint32_t, 2> ends{};
+        for (std::size_t i = 0; i < 2; ++i) std::memcpy(&ends[i], &inside_[at + i], kBlock);
+        return {ends[0] | ends[1], ends[0] & ends[1]};
+    };
+    const std::uint32_t levelBits = 0x01010101U << level;
+    const std::uint32_t nextRow = cornerOffsets_[2], nextLayer = cornerOffsets_[4];
+    for (const std::uint32_t number : active_) {
+        const auto n = static_cast<int>(number);
+        const glm::ivec3 first =
+            glm::ivec3(n % blockCount_.x, n / blockCount_.x % blockCount_.y, n / (blockCount_.x * blockCount_.y)) *
+            kBlock;
+        std::array<std::array<Row, kRows>, kRows> rows{};
+        for (std::size_t k = 0; k < kRows; ++k) {
+            const auto layer = index(first) + static_cast<std::uint32_t>(k) * nextLayer;
+            for (std::size_t j = 0; j < kRows; ++j) rows[k][j] = rowAt(layer + static_cast<std::uint32_t>(j) * nextRow);
+        }
+        for (std::size_t k = 0; k < kBlock; ++k) {
+            for (std::size_t j = 0; j < kBlock; ++j) {
+                const Row &a = rows[k][j], &b = rows[k][j + 1], &c = rows[k + 1][j], &d = rows[k + 1][j + 1];
+                std::uint32_t crossed =
+                    ((a.some | b.some | c.some | d.some) ^ (a.all & b.all & c.all & d.all)) & levelBits;
+                for (; crossed != 0; crossed &= crossed - 1)
+                    addCube(section, level, first + glm::ivec3(std::countr_zero(crossed) / 8, j, k));
+            }
+        }
+        if (positions_.size() > maxPoints && !isCoarsest()) return false;
+    }
+    return true;
+}
+
+void SurfaceExtractor::addCube(const FieldSection& section, std::size_t level, glm::ivec3 place) {
+    const std::uint8_t inside = insideCorners(place, level);
+    const CubeCase* patches = &cubeCase(inside);
+    bool separated = false;
+    if (patches->mergingFace != CubeCase::kNoFace) {
+        const unsigned face = patches->mergingFace;
+        glm::ivec3 neighbor = place;
+        neighbor[static_cast<int>(face / 2)] += face % 2 == 1 ? 1 : -1;
+        separated = blockOf(neighbor).isActive && cubeCase(insideCorners(neighbor, level)).mergingFace == (face ^ 1U);
+        if (separated) patches = &separatedCubeCase(inside);
+    }
+    Cube cube{index(place), inside, separated, {}, static_cast<std::uint32_t>(positions_.size())};
+    if (const std::uint8_t walls = blockOf(place).walls; walls != 0 || !placePoints(*patches, cube, place))
+        placePointsAtWalls(section, *patches, walls, place, cube);
+    cubeAt_[cube.at] = static_cast<std::uint32_t>(cubes_.size());
+    cubes_.push_back(cube);
+}
+
+// Appends the points of a cube that no wall passes: the means of the places where its edges meet the level set. Returns
+// false, without points, if the function has no value at one of the corners.
+bool SurfaceExtractor::placePoints(const CubeCase& patches, const Cube& cube, glm::ivec3 place) {
+    std::array<float, 8> values{};
+    for (std::size_t c = 0; c < values.size(); ++c) {
+        values[c] = values_[cube.at + cornerOffsets_[c]];
+        if (!std::isfinite(values[c])) return false;
+    }
+    std::array<glm::vec3, 4> sums{};
+    std::array<int, 4> counts{};
+    const auto level = static_cast<float>(level_);
+    for (unsigned rest = kCrossedEdges[cube.inside]; rest != 0; rest &= rest - 1) {
+        const auto e = static_cast<std::size_t>(std::countr_zero(rest));
+        const unsigned from = kCubeEdges[e][0];
+        const float start = values[from] - level, end = values[kCubeEdges[e][1]] - level;
+        glm::vec3 point(from & 1U, from >> 1U & 1U, from >> 2U);
+        // Rounding of the level may put both ends on the same side.
+        point[static_cast<int>(e / 4)] = start == end ? 0.5F : std::clamp(start / (start - end), 0.0F, 1.0F);
+        const std::size_t patch = patches.patchOfEdge[e];
+        sums[patch] += point;
+        ++counts[patch];
+    }
+    for (std::size_t patch = 0; patch < patches.patches; ++patch) {
+        const glm::dvec3 mean(sums[patch] / static_cast<float>(counts[patch]));
+        positions_.push_back(position(place) + step_ * mean);
+        constraints_.push_back(kOnLevel);
+    }
+    return true;
+}
+
+// Appends the points of a cube that the boundary of the domain or of a hole may pass, and notes where the surface is a
+// cap.
+void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const CubeCase& patches, std::uint8_t walls,
+                                          glm::ivec3 place, Cube& cube) {
+    std::array<Corner, 8> corners{};
+    std::array<float, 8> values{};
+    const std::uint8_t near = wallsNear(section, position(place), 1, step_);
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+        const auto bits = static_cast<int>(c);
+        corners[c].position = position(place + glm::ivec3(bits & 1, bits >> 1 & 1, bits >> 2));
+        corners[c].inDomain = moveIntoDomain(section, near, corners[c].position);
+        values[c] = values_[cube.at + cornerOffsets_[c]];
+    }
+    std::array<glm::dvec3, 4> sums{};
+    std::array<int, 4> counts{};
+    std::array<std::uint16_t, 4> constraints{};
+    for (unsigned rest = kCrossedEdges[cube.inside]; rest != 0; rest &= rest - 1) {
+        const auto e = static_cast<std::size_t>(std::countr_zero(rest));
+        const std::size_t patch = patches.patchOfEdge[e];
+        std::size_t inner = kCubeEdges[e][0], outer = kCubeEdges[e][1];
+        if ((cube.inside >> inner & 1U) == 0) std::swap(inner, outer);
+        const Crossing at = crossing(section, walls, corners[inner], values[inner], corners[outer], values[outer]);
+        sums[patch] += at.position;
+        ++counts[patch];
+        constraints[patch] |= at.constraint;
+        if (kCubeEdges[e][0] == 0) cube.cap[e / 4] = at.constraint != kOnLevel ? 1 : 0;
+    }
+    for (std::size_t patch = 0; patch < patches.patches; ++patch) {
+        positions_.push_back(sums[patch] / static_cast<double>(counts[patch]));
+        constraints_.push_back(constraints[patch]);
+    }
+}
+
+// Returns where a lattice edge leaves the body: where it meets the level set or, if its outer end is not in the domain,
+// a wall, whichever comes first from its inner end.
+SurfaceExtractor::Crossing SurfaceExtractor::crossing(const FieldSection& section, std::uint8_t walls,
+                                                      const Corner& inner, float atInner, const Corner& outer,
+                                                      float atOuter) const {
+    constexpr double kSame = 1e-9;
+    const glm::dvec3 way = outer.position - inner.position;
+    double first = 0.5;
+    std::uint16_t constraint = kAtHole;
+    bool found = false;
+    // All functions are negative or zero at the inner end. Those that are positive at the outer end cross zero.
+    const auto consider = [&](double from, double to, std::uint16_t by) {
+        if (to < 0) return false;
+        const double zero = from / (from - to);
+        const double t = std::isfinite(zero) ? std::clamp(zero, 0.0, 1.0) : 0.5;
+        if (found && t >= first - kSame) return false;
+        first = t;
+        constraint = by;
+        return found = true;
+    };
+    consider(sign_ * (atInner - level_), sign_ * (atOuter - level_), std::isnan(atOuter) ? kAtHole : kOnLevel);
+    double steepest = 0;
+    for (unsigned rest = outer.inDomain ? 0U : walls; rest != 0; rest &= rest - 1) {
+        const int i = std::countr_zero(rest);
+        const auto& [normal, offset] = section.walls[static_cast<std::size_t>(i)];
+        const double from = std::min(glm::dot(normal, inner.position) - offset, 0.0);
+        const double to = glm::dot(normal, outer.position) - offset, rise = to - from;
+        const auto by = static_cast<std::uint16_t>(1U << static_cast<unsigned>(i));
+        const double t = to > 0 ? -from / rise : 1;
+        // Where an inner end lies on several walls, the edge leaves through the one that it meets at the greatest
+        // angle.
+        const bool same = found && constraint < kOnLevel && to > 0 && std::abs(t - first) <= kSame;
+        if (same && rise > steepest) constraint = by;
+        if (same || consider(from, to, by)) steepest = std::max(same ? steepest : 0.0, rise);
+    }
+    return {inner.position + first * way, constraint};
+}
+
+// Moves the points of the current level onto their constraints, and appends them to `out`.
+void SurfaceExtractor::settlePoints(const fields::ScalarFunction& function, const FieldSection& section,
+                                    SliceSurface& out) {
+    constexpr int kRimSteps = 2;  // a rim may be farther from its first approximation than the rest of a surface
+    starts_ = positions_;
+    moving_.clear();
+    for (std::uint32_t i = 0; i < positions_.size(); ++i) {
+        if ((constraints_[i] & kOnLevel) != 0) {
+            moving_.push_back(i);
+        } else {
+            moveBy(constrainedStep(section, i), i);
+        }
+    }
+    approachLevel(function, section);
+    // What has left the domain belongs to the rim.
+    for (const std::uint32_t i : moving_) {
+        for (std::size_t wall = 0; wall < section.walls.size(); ++wall) {
+            const auto& [normal, offset] = section.walls[wall];
+            if (glm::dot(normal, positions_[i]) - offset > kOnWall * step_)
+                constraints_[i] |= static_cast<std::uint16_t>(1U << wall);
+        }
+    }
+    std::erase_if(moving_, [&](std::uint32_t i) { return (constraints_[i] & kWalls) == 0; });
+    for (int i = 1; i < kRimSteps; ++i) approachLevel(function, section);
+
+    Evaluation at;
+    for (std::size_t begin = 0; begin < positions_.size(); begin += FunctionPoints::kCapacity) {
+        const std::size_t size = std::min(FunctionPoints::kCapacity, positions_.size() - begin);
+        for (std::size_t i = 0; i < size; ++i) at.points.set(i, section, positions_[begin + i]);
+        at.evaluate(function, size);
+        for (std::size_t i = 0; i < size; ++i) {
+            const glm::dvec3 slope = at.slope(section, i);
+            const double length = glm::length(slope);
+            const bool valid = length > 0 && std::isfinite(length);
+            out.points.emplace_back(positions_[begin + i]);
+            out.normals.emplace_back(valid ? slope * (sign_ / length) : glm::dvec3(0, 0, 1));
+            out.growth.push_back(valid ? static_cast<float>(-sign_ * glm::dot(at.gradient(i), section.normal) / length)
+                                       : kInfinity);
+            out.values.push_back(at.values[i]);
+        }
+    }
+}
+
+// Makes one step of Newton's method from the points `moving_` toward the level set and their other constraints.
+void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, const FieldSection& section) {
+    Evaluation at;
+    for (std::size_t begin = 0; begin < moving_.size(); begin += FunctionPoints::kCapacity) {
+        const std::span<const std::uint32_t> batch =
+            std::span(std::as_const(moving_))
+                .subspan(begin, std::min(FunctionPoints::kCapacity, moving_.size() - begin));
+        for (std::size_t i = 0; i < batch.size(); ++i) at.points.set(i, section, positions_[batch[i]]);
+        at.evaluate(function, batch.size());
+        for (std::size_t i = 0; i < batch.size(); ++i) {
+            ConstrainedStep step = constrainedStep(section, batch[i]);
+            const glm::dvec3 slope = at.slope(section, i);
+            const double length = glm::length(slope);
+            if (length > 0 && std::isfinite(length) && std::isfinite(at.values[i]))
+                step.add(slope / length, (at.values[i] - level_) / length);
+            moveBy(step, batch[i]);
+        }
+    }
+}
+
+// Returns the step of a point to its walls.
+ConstrainedStep SurfaceExtractor::constrainedStep(const FieldSection& section, std::uint32_t point) const {
+    ConstrainedStep step;
+    for (unsigned rest = constraints_[point] & kWalls; rest != 0; rest &= rest - 1) {
+        const auto& [normal, offset] = section.walls[static_cast<std::size_t>(std::countr_zero(rest))];
+        step.add(normal, glm::dot(normal, positions_[point]) - offset);
+    }
+    return step;
+}
+
+// Moves a point, but not out of the neighborhood of its cube: then it has followed a wrong approximation.
+void SurfaceExtractor::moveBy(const ConstrainedStep& step, std::uint32_t point) {
+    const glm::dvec3 next = positions_[point] + step.solve();
+    const glm::dvec3 moved = glm::abs(next - starts_[point]);
+    positions_[point] = std::max({moved.x, moved.y, moved.z}) <= step_ ? next : starts_[point];
+}
+
+// Adds two triangles for each lattice edge that the surface crosses. Their corners are the points of the four cubes
+// around the edge.
+void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
+    caps_.clear();
+    const auto firstPoint = static_cast<std::uint32_t>(out.points.size() - positions_.size());
+    // The two axes after the axis of an edge, and the edge's number in the cube at the offset (−u, −v) along them.
+    static constexpr std::array<std::array<int, 2>, 3> kOthers{{{1, 2}, {2, 0}, {0, 1}}};
+    const auto edgeNumber = [](int axis, int u, int v) {
+        return static_cast<std::size_t>(4 * axis) + static_cast<std::size_t>(axis == 1 ? v + 2 * u : u + 2 * v);
+    };
+    // Counterclockwise around the edge, as seen from its second end.
+    static constexpr std::array<std::array<int, 2>, 4> kAround{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    for (const Cube& cube : cubes_) {
+        const bool cornerInside = (cube.inside & 1U) != 0;
+        const auto at = static_cast<int>(cube.at);
+        const glm::ivec3 place(at % points_.x, at / points_.x % points_.y, at / (points_.x * points_.y));
+        for (int axis = 0; axis < 3; ++axis) {
+            if (cornerInside == ((cube.inside >> (1U << static_cast<unsigned>(axis)) & 1U) != 0)) continue;
+            std::array<std::uint32_t, 4> corners{};
+            bool complete = true;
+            for (std::size_t i = 0; i < 4 && complete; ++i) {
+                const auto& [u, v] = kAround[i];
+                glm::ivec3 other = place;
+                other[kOthers[static_cast<std::size_t>(axis)][0]] -= u;
+                other[kOthers[static_cast<std::size_t>(axis)][1]] -= v;
+                // Always true if the function keeps to its bounds.
+                complete = glm::all(glm::greaterThanEqual(other, glm::ivec3(0))) && blockOf(other).isActive;
+                if (!complete) break;
+                const Cube& around = cubes_[cubeAt_[index(other)]];
+                const CubeCase& patches = around.separated ? separatedCubeCase(around.inside) : cubeCase(around.inside);
+                corners[i] = firstPoint + around.firstPoint + patches.patchOfEdge[edgeNumber(axis, u, v)];
+            }
+            if (!complete) continue;
+            if (!cornerInside) std::swap(corners[1], corners[3]);
+            std::vector<std::array<std::uint32_t, 3>>& triangles =
+                cube.cap[static_cast<std::size_t>(axis)] != 0 ? caps_ : out.triangles;
+            const auto length = [&](std::size_t a, std::size_t b) {
+                const glm::vec3 d = out.points[corners[a]] - out.points[corners[b]];
+                return glm::dot(d, d);
+            };
+            const std::size_t turn = length(0, 2) <= length(1, 3) ? 0 : 1;  // along the shorter diagonal
+            for (const std::size_t i : {std::size_t{1}, std::size_t{2}})
+                triangles.push_back({corners[turn], corners[(turn + i) % 4], corners[(turn + i + 1) % 4]});
+        }
+    }
+    out.part.resize(out.triangles.size(), static_cast<std::uint8_t>(level));
+    out.triangles.insert(out.triangles.end(), caps_.begin(), caps_.end());
+    out.part.resize(out.triangles.size(), static_cast<std::uint8_t>(level | SliceSurface::kCap));
+}
+
+}  // namespace oval4d::slicing

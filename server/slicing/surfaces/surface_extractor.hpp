@@ -1,0 +1,166 @@
+#pragma once
+// Extracts the surfaces of one slice of a field.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <glm/gtc/type_precision.hpp>
+#include <glm/vec3.hpp>
+
+#include "fields/inside.hpp"
+#include "fields/scalar_function.hpp"
+#include "slicing/surfaces/constrained_step.hpp"
+#include "slicing/surfaces/cube_cases.hpp"
+#include "slicing/surfaces/field_section.hpp"
+#include "slicing/surfaces/function_points.hpp"
+#include "slicing/surfaces/slice_surface.hpp"
+
+namespace oval4d::slicing {
+
+/// Extracts the surfaces of slices by dual marching cubes on a cubic lattice. Skips blocks of the lattice that
+/// certainly contain no surface. A cube through which the surface passes gets one point per patch (see CubeCase).
+/// Newton's method moves the point onto the level set and, where the surface leaves the domain, also onto the walls
+/// (see FieldSection), so that caps are flat and their rims sharp.
+///
+/// Lattice points just beyond a wall are moved onto it before the function is sampled (as in F. Labelle, J. Shewchuk,
+/// "Isosurface stuffing", 2007). So the rims follow the values on the walls themselves, and are smooth even where a
+/// surface meets a wall at a small angle, in a wedge that is thinner than a cube.
+///
+/// Reuses its memory, so that repeated calls of similar size allocate nothing. Only one thread at a time may use an
+/// extractor.
+class SurfaceExtractor {
+  public:
+    struct Options {
+        std::span<const double> levels;  ///< at most 7
+        fields::Inside inside = fields::Inside::below;
+        /// The distance between neighboring lattice points. Their coordinates are multiples of the step, so that the
+        /// lattice stays in place while an object turns. The step is enlarged if an axis would have more than kMaxCubes
+        /// cubes.
+        double step = 0.1;
+        /// The limits on the estimated time of the extraction, in nanoseconds, and on the number of points. The step is
+        /// enlarged until both are met, or until no axis has more than 8 cubes.
+        double maxTime = 1e9;
+        std::size_t maxPoints = 10'000'000;
+        bool topologyOnly = false;  ///< see SurfaceDetail
+        double pointTime = 0;       ///< the estimated time to process each point afterward, in nanoseconds
+    };
+    static constexpr int kMaxCubes = 256;
+
+    /// Extracts the surfaces of all levels. Points where the function has no value are outside the body. Calls with the
+    /// same arguments give the same surfaces. Overwrites `out`; leaves its secondValues empty.
+    void extract(const fields::ScalarFunction& function, const FieldSection& section, const Options& options,
+                 SliceSurface& out);
+
+  private:
+    static constexpr int kBlock = 4;  // cubes along each side of a block
+    static constexpr std::size_t kBlockPoints = 64;
+    // Bits of a constraint mask, which says what a point must lie on: wall i (bit 1 << i), the level set, or the
+    // boundary of a hole, where the function has no value.
+    static constexpr std::uint16_t kWalls = 0xff, kOnLevel = 0x100, kAtHole = 0x200;
+
+    struct Evaluation;
+    struct Block {
+        bool isActive = false;   // whether it may contain a surface
+        std::uint8_t walls = 0;  // if it is sampled: a bit for each wall that it may touch or lie beyond
+        glm::u8vec3 needed{0};   // how many points along each axis are sampled, from its lower end on
+        bool isSampled() const { return needed.x != 0; }
+    };
+    // A cube through which the surface passes, and the points of its patches.
+    struct Cube {
+        std::uint32_t at;  // the lattice index of its corner 0
+        std::uint8_t inside;
+        bool separated;
+        std::array<std::uint8_t, 3> cap;  // per edge from corner 0: 1 if a cap crosses the edge
+        std::uint32_t firstPoint;
+    };
+    // A corner of a cube.
+    struct Corner {
+        glm::dvec3 position;
+        bool inDomain;  // whether it is in the domain, or was moved onto a wall
+    };
+    // A place where the surface crosses an edge of the lattice.
+    struct Crossing {
+        glm::dvec3 position;
+        std::uint16_t constraint;
+    };
+
+    using WallReaches = std::array<double, FieldSection::kMaxWalls>;
+
+    void layOut(const FieldSection& section, double step);
+    bool extractWith(double step, const fields::ScalarFunction& function, const FieldSection& section,
+                     const Options& options, SliceSurface& out);
+    void chooseLattice(double step, const fields::ScalarFunction& function, const FieldSection& section,
+                       const Options& options);
+    void classifyBlocks(const fields::ScalarFunction& function, const FieldSection& section, const Options& options);
+    void activate(glm::ivec3 block);
+    std::uint8_t wallsAt(const FieldSection& section, const WallReaches& reaches, const glm::dvec3& center,
+                         bool& outside) const;
+    WallReaches wallReaches(const FieldSection& section, double half) const;
+    void sampleBlocks(const fields::ScalarFunction& function, const FieldSection& section, const Options& options);
+    void moveOntoWalls(const FieldSection& section, glm::ivec3 first, glm::ivec3 size, std::size_t begin,
+                       FunctionPoints& points, std::span<bool> inDomain) const;
+    bool moveIntoDomain(const FieldSection& section, std::uint8_t walls, glm::dvec3& point) const;
+    void findInside(std::span<const float> values, const Options& options, std::span<std::uint8_t> inside) const;
+    bool findCubes(const FieldSection& section, std::size_t level, std::size_t maxPoints);
+    void addCube(const FieldSection& section, std::size_t level, glm::ivec3 place);
+    bool placePoints(const CubeCase& patches, const Cube& cube, glm::ivec3 place);
+    void placePointsAtWalls(const FieldSection& section, const CubeCase& patches, std::uint8_t walls, glm::ivec3 place,
+                            Cube& cube);
+    Crossing crossing(const FieldSection& section, std::uint8_t walls, const Corner& inner, float atInner,
+                      const Corner& outer, float atOuter) const;
+    void settlePoints(const fields::ScalarFunction& function, const FieldSection& section, SliceSurface& out);
+    void approachLevel(const fields::ScalarFunction& function, const FieldSection& section);
+    ConstrainedStep constrainedStep(const FieldSection& section, std::uint32_t point) const;
+    void moveBy(const ConstrainedStep& step, std::uint32_t point);
+    void addTriangles(std::size_t level, SliceSurface& out);
+
+    std::uint32_t index(glm::ivec3 point) const {
+        return static_cast<std::uint32_t>(point.x + points_.x * (point.y + points_.y * point.z));
+    }
+    // Returns whether the lattice is so coarse that it must not become coarser.
+    bool isCoarsest() const { return std::max({blockCount_.x, blockCount_.y, blockCount_.z}) <= 3; }
+    // Calls visit(Block&, ivec3 block) for all blocks, in their order.
+    template <typename Visit>
+    void forEachBlock(Visit&& visit) {
+        std::size_t number = 0;
+        for (glm::ivec3 b(0); b.z < blockCount_.z; ++b.z) {
+            for (b.y = 0; b.y < blockCount_.y; ++b.y) {
+                for (b.x = 0; b.x < blockCount_.x; ++b.x) visit(blocks_[number++], b);
+            }
+        }
+    }
+    const Block& blockOf(glm::ivec3 cube) const { return blocks_[blockIndex(cube / kBlock)]; }
+    std::size_t blockIndex(glm::ivec3 block) const {
+        const glm::i64vec3 b(block), count(blockCount_);
+        return static_cast<std::size_t>(b.x + count.x * (b.y + count.y * b.z));
+    }
+    glm::dvec3 position(glm::ivec3 point) const { return glm::dvec3(base_ + point) * step_; }
+    std::uint8_t insideCorners(glm::ivec3 cube, std::size_t level) const;
+
+    double step_ = 0;
+    std::array<double, FieldSection::kMaxWalls> wallReach_{};  // how far beyond each wall points are moved onto it
+    double sign_ = 1, level_ = 0;                   // the body of the current level is where sign_ · (f − level_) < 0
+    glm::ivec3 base_{0};                            // the position of lattice point (0, 0, 0), in steps
+    glm::ivec3 blockCount_{0};                      // including a layer of unused blocks at the upper end of each axis
+    glm::ivec3 points_{0};                          // the numbers of lattice points along each axis
+    std::array<std::uint32_t, 8> cornerOffsets_{};  // the indices of a cube's corners, relative to corner 0
+    std::size_t capacity_ = 0;                      // the size of each of the next three arrays
+    std::unique_ptr<float[]> values_;               // per lattice point of a sampled block: its value
+    std::unique_ptr<std::uint8_t[]> inside_;        // per lattice point: a bit for each level, set inside its body
+    std::unique_ptr<std::uint32_t[]> cubeAt_;  // per lattice point: the index in cubes_ of the cube with this corner 0
+    std::vector<Block> blocks_;
+    std::vector<std::uint32_t> active_;           // the indices of active blocks
+    std::vector<Cube> cubes_;                     // of the current level
+    std::vector<glm::dvec3> positions_, starts_;  // of the points of the current level, now and before they were moved
+    std::vector<std::uint32_t> moving_;           // the points that are being moved onto the level set
+    std::vector<std::array<std::uint32_t, 3>>
+        caps_;                                // of the current level; in the result, they follow its other triangles
+    std::vector<std::uint16_t> constraints_;  // per point of the current level: a constraint mask
+};
+
+}  // namespace oval4d::slicing

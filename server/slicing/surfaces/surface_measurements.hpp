@@ -1,0 +1,58 @@
+#pragma once
+// Measures the body that a closed surface bounds: volume, surface area, centroid and topology.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "slicing/exact/exact_surface.hpp"
+#include "slicing/surfaces/slice_surface.hpp"
+
+namespace oval4d::slicing {
+
+/// The measurements of the body that a closed surface, oriented outward, bounds, in the units of the object.
+struct SurfaceMeasurements {
+    double volume = 0;
+    double area = 0;                     ///< of the level set, without caps
+    double capArea = 0;                  ///< of the caps
+    std::optional<glm::dvec3> centroid;  ///< of the body; empty unless its volume is positive
+    /// The number of connected components of the body. Each component has one outer surface, which encloses a positive
+    /// volume. The surface of a cavity encloses a negative volume, and is not counted.
+    std::size_t components = 0;
+    /// The Euler characteristic of the surface, including its caps: the sum of 2 − 2 · genus over its connected parts.
+    /// This is twice the Euler characteristic of the body: 2 for a ball, 4 for a ball with a cavity, and 0 for a solid
+    /// torus.
+    long euler = 0;
+};
+
+/// Measures the surface of one level of a slice. `level` is the index of the level, as for SliceSurface::level().
+SurfaceMeasurements measureSurface(const SliceSurface& surface, std::size_t level);
+
+/// Returns the mean of a function over the level set, without caps, weighted by area. `values` are the values of the
+/// function at the points of the surface; the function is treated as linear in each triangle. Ignores triangles with a
+/// value that is not finite. Returns std::nullopt if the area of the other triangles is 0.
+std::optional<double> meanOnSurface(const ExactSurface& surface, std::span<const float> values);
+
+/// The connected parts of the surface of one level.
+struct SurfaceParts {
+    static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+    struct Part {
+        double volume = 0;  ///< negative for the surface of a cavity
+        long euler = 0;     ///< the Euler characteristic
+    };
+    std::vector<std::uint32_t> ofPoint;  ///< per point: the index of its part; kNone for points of other levels
+    std::vector<Part> parts;
+};
+
+/// Finds the connected parts of the surface of the level with the index `level`.
+SurfaceParts findParts(const SliceSurface& surface, std::size_t level);
+
+/// Measures the surface of an exact slice.
+SurfaceMeasurements measureSurface(const ExactSurface& surface);
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,9 @@
+#pragma once
+// Classes of ASCII characters, whatever the locale.
+
+namespace oval4d::text {
+
+constexpr bool isDigit(char c) { return c >= '0' && c <= '9'; }
+constexpr bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+}  // namespace oval4d::text

@@ -1,0 +1,49 @@
+#pragma once
+// Writes the fog of a field's slices. The JSON encoding has one object per slice; the CBOR encoding has one array per
+// property with the values of all slices.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "scene/scene.hpp"
+
+namespace oval4d::wire {
+
+class CborWriter;
+class JsonWriter;
+
+/// Writes fog. Reuses its memory.
+class FogWriter {
+  public:
+    /// Writes the member `fog` of slice i; nothing if the slice has no fog.
+    void write(JsonWriter& w, const scene::Scene& scene, std::size_t i);
+    /// Writes the member `fog` of all slices; nothing if there is no fog.
+    void write(CborWriter& w, const scene::Scene& scene);
+
+  private:
+    void clear();
+    void addWalls(const slicing::SliceFog& fog);
+
+    std::vector<glm::dvec4> walls_;
+    std::vector<std::uint32_t> wallCounts_, sizes_;  // per slice; three sizes each
+    std::vector<glm::dvec3> mins_;
+    std::vector<double> steps_;
+    std::vector<std::uint8_t> values_;
+};
+
+/// Writes the member `fog` of the scene: the transfer function of all fog; nothing if there is no fog.
+template <typename W>
+void writeFogTable(W& w, const scene::FogTable& table) {
+    if (table.empty()) return;
+    w.key("fog");
+    w.beginObject();
+    w.key("table");
+    w.numbers(table);
+    w.endObject();
+}
+
+}  // namespace oval4d::wire

@@ -1,0 +1,55 @@
+#pragma once
+// Writes the surfaces of a field's slices. The JSON encoding has one object per slice; the CBOR encoding has one array
+// per property with the values of all slices.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "scene/scene.hpp"
+#include "wire/arrays.hpp"
+
+namespace oval4d::wire {
+
+class CborWriter;
+class JsonWriter;
+
+/// Writes surfaces. Reuses its memory.
+class SurfaceWriter {
+  public:
+    /// Writes the member `surface` of slice i; nothing if the slice has no surface.
+    void write(JsonWriter& w, const scene::Scene& scene, std::size_t i);
+    /// Writes the member `surface` of all slices; nothing if the object has no surfaces.
+    void write(CborWriter& w, const scene::Scene& scene);
+    /// Writes the member `surfaces` of the scene: how each level is drawn; nothing if the object has no surfaces.
+    template <typename W>
+    static void writeLook(W& w, const scene::SurfaceLook& look) {
+        if (look.empty()) return;
+        w.key("surfaces");
+        w.beginArray();
+        for (const scene::SurfaceLook::Level& level : look.levels) {
+            w.beginObject();
+            w.member("level", static_cast<std::uint64_t>(level.index));
+            w.member("color", level.color);
+            w.member("opacity", level.opacity);
+            w.member("caps", level.caps);
+            w.endObject();
+        }
+        w.endArray();
+    }
+
+  private:
+    void clear();
+    void add(const scene::Scene& scene, std::size_t slice);
+    template <typename W>
+    void writeArrays(W& w, const scene::Scene& scene) const;
+
+    std::vector<glm::vec3> points_, normals_;
+    std::vector<Triple> triangles_;
+    std::vector<std::uint32_t> level_, cap_, colors_, capColors_;  // level and cap per triangle, colors per point
+    std::vector<std::uint32_t> pointCounts_, triangleCounts_;      // per slice
+};
+
+}  // namespace oval4d::wire

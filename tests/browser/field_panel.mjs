@@ -1,0 +1,469 @@
+// The panel in which the formula of a field is written.
+import assert from "node:assert/strict";
+import { test } from "./support/suite.mjs";
+
+import { accurateBrowser, common, named, openPage, openWithScript, presented, ready, restart, scriptFor, spoken } from "./support/browser.mjs";
+import { picture } from "./support/drawing.mjs";
+import { change, focusSurface, formula, openPanel, surfacePixels, write } from "./support/field.mjs";
+import { distance } from "./support/pixels.mjs";
+import { rgb } from "./support/scene.mjs";
+import { startServer } from "./support/server.mjs";
+
+test("field panel: the button opens the panel and shows a field, and what is typed is shown", async () => {
+    const { page, script, errors, close } = await openPanel();
+    assert.equal(await page.evaluate(() => document.activeElement.id), "field-formula");
+    assert.equal(await page.locator("#tools").isVisible(), false, "the panel takes the place of the tools");
+    const before = await script.state();
+    await page.keyboard.press("Control+A");
+    await page.keyboard.type("x^2+y^2+z^2+w^2 < 1.5^2", { delay: 10 });
+    const { revision } = await script.until((state) => state.revision > before.revision, "the sphere");
+    await presented(page, revision);
+    const focus = await focusSurface(page, script);
+    for (let i = 0; i < focus.surface.points.length; i += 3) {
+        const radius = Math.hypot(...focus.surface.points.slice(i, i + 3));
+        assert.ok(Math.abs(radius - 1.5) < 0.01, `a point at the distance ${radius} of the center`);
+    }
+    const shown = await picture(page);
+    const background = rgb(focus.scene.colors.background);
+    const pixels = surfacePixels(shown, focus);
+    assert.ok(pixels.length > 20);
+    assert.ok(pixels.every((pixel) => distance(pixel, background) > 24), "the sphere is seen");
+    await page.click("#field-close");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "drawing");
+    assert.equal(await page.locator("#tools").isVisible(), true);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("field panel: a mistake is explained, and the wrong character is marked", async () => {
+    const { page, script, errors, close } = await openPanel();
+    const before = await script.state();
+    const says = (pattern) =>
+        page.waitForFunction(
+            (source) => new RegExp(source).test(document.getElementById("field-error").textContent),
+            pattern.source,
+        );
+    for (const [text, position, character] of [
+        ["x^2 + $ + y", 7, "$"],
+        ["x^2 + 2 (y", 9, "("],
+        ["sqrt(x", 7, "\u00a0"],
+    ]) {
+        await page.fill("#field-formula", text);
+        await says(new RegExp(`^Character ${position}: `));
+        assert.equal(await page.locator("#field-excerpt mark").textContent(), character);
+        assert.equal(await page.getAttribute("#field-formula", "aria-invalid"), "true");
+    }
+    assert.equal((await script.state()).revision, before.revision, "the last field is still shown");
+    await write(page, script, "x^2 + y^2 < 1");
+    await says(/^$/);
+    assert.equal(await page.locator("#field-excerpt").isVisible(), false);
+    assert.equal(await page.getAttribute("#field-formula", "aria-invalid"), "false");
+    await page.fill("#field-formula", "");
+    await says(/expected/);
+    await page.fill("[data-end='x to']", "-3");
+    assert.match(await page.locator("#field-box-error").textContent(), /^x: /);
+    assert.equal(await page.getAttribute("[data-end='x to']", "aria-invalid"), "true");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("field panel: a slider changes a named value in the text and the picture, and nothing else", async () => {
+    const { page, script, errors, close } = await openPanel();
+    await write(page, script, "x^2+y^2+z^2+w^2 < a^2; a=0.7, b=pi");
+    assert.equal(await page.locator("#field-constants input").count(), 1, "only numbers have sliders");
+    await script.request({ type: "set", slices: { focus: 1 }, levels: [0, 0.5], color: "w" });
+    await page.waitForFunction(() => document.getElementById("field-levels").value === "0, 0.5");
+    const before = await focusSurface(page, script);
+    await page.focus("[data-constant=a]");
+    let state;
+    for (let i = 0; i < 5; ++i) await page.keyboard.press("ArrowRight");
+    await page.waitForFunction(() => /a=0\.(75|8)/.test(document.getElementById("field-formula").value));
+    assert.match(await formula(page), /^x\^2\+y\^2\+z\^2\+w\^2 < a\^2; a=0\.\d+, b=pi$/);
+    const value = Number(/a=([\d.]+)/.exec(await formula(page))[1]);
+    assert.equal(await page.locator("#field-constants output").textContent(), String(value));
+    const reach = ({ surface }) => Math.max(...surface.points.filter((_, i) => i % 3 === 0));
+    for (let i = 0; i < 20; ++i) {
+        state = await script.state();
+        if (reach(await focusSurface(page, script)) > reach(before) + 0.01) break;
+        await page.waitForTimeout(100);
+    }
+    const after = await focusSurface(page, script);
+    const outermost = (a) => Math.sqrt(a * a + 0.5 - after.slice.w ** 2);
+    assert.ok(Math.abs(reach(after) - outermost(value)) < 0.03, `${reach(after)}, not ${outermost(value)}`);
+    state = await script.state();
+    assert.deepEqual([state.slices.focus, state.levels, state.color], [1, [0, 0.5], "w"]);
+    await script.request({ type: "undo" });
+    await page.waitForFunction(() => document.getElementById("field-formula").value.endsWith("; a=0.7, b=pi"));
+    assert.match((await script.state()).field.formula, /; a=0\.7, b=3\.14\d*$/, "one undo takes back the whole drag");
+    assert.equal(await page.locator("#field-constants output").textContent(), "0.7");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+/** Records the requests of the page, and how many formulas are on their way at once. */
+function recordLoads() {
+    window.loads = [];
+    window.most = 0;
+    const waiting = new Set();
+    const { send } = WebSocket.prototype;
+    WebSocket.prototype.send = function (text) {
+        const message = JSON.parse(text);
+        if (message.type === "load") {
+            window.loads.push(message.data);
+            waiting.add(message.id);
+            window.most = Math.max(window.most, waiting.size);
+            this.addEventListener("message", ({ data }) => {
+                if (typeof data === "string") waiting.delete(JSON.parse(data).id);
+            });
+        }
+        return send.call(this, text);
+    };
+}
+
+test("field panel: one formula is on its way at a time, the last one wins, and typing is waited for", async () => {
+    const { page, script, errors, close } = await openPanel({ before: recordLoads });
+    // Typed by timers of the page: from outside, the intervals would depend on how busy the machine is.
+    await page.evaluate(async () => {
+        window.loads = [];
+        const field = document.getElementById("field-formula");
+        field.value = "";
+        for (const character of "x^2+y^2+z^2-w") {
+            field.value += character;
+            field.dispatchEvent(new InputEvent("input", { bubbles: true }));
+            await new Promise((resolve) => setTimeout(resolve, 20));
+        }
+    });
+    await page.waitForFunction(() => window.loads.length > 0);
+    await page.waitForTimeout(300);
+    assert.deepEqual(await page.evaluate(() => window.loads), ["x^2+y^2+z^2-w"], "not what was typed on the way");
+    const last = await page.evaluate(async () => {
+        const field = document.getElementById("field-formula");
+        const enter = () => field.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
+        for (let i = 1; i <= 30; ++i) {
+            field.value = `x^2+y^2+z^2-w-${i}/10`;
+            enter();
+            await new Promise((resolve) => setTimeout(resolve, 1));
+        }
+        return field.value;
+    });
+    await page.waitForFunction((text) => window.loads.at(-1) === text, last);
+    assert.equal(await page.evaluate(() => window.most), 1);
+    assert.deepEqual(errors, []);
+    await script.state();
+    await close();
+});
+
+test("field panel: levels and their inside can be set, and follow the session", async () => {
+    const { page, script, errors, close } = await openPanel();
+    await write(page, script, "x^2+y^2+z^2+w^2");
+    await spoken(page, "formula");
+    await page.fill("#field-levels", "0.5, 1.5 2.5");
+    const set = await script.until(({ levels }) => levels?.length === 3, "three levels");
+    assert.deepEqual(set.levels, [0.5, 1.5, 2.5]);
+    await presented(page, set.revision);
+    const { surface } = await focusSurface(page, script);
+    assert.deepEqual([...new Set(surface.level)].sort(), [0, 1, 2]);
+    await page.locator("#field-inside label", { hasText: "above" }).click();
+    await script.until(({ inside }) => inside === "above", "the inside above");
+    const before = (await script.state()).revision;
+    for (const [text, expected] of [["1, 2, 3, 4, 5", /1 to 4/], ["one", /1 to 4/], ["", /1 to 4/], ["1, 1", /different/]]) {
+        await page.fill("#field-levels", text);
+        await page.waitForFunction(
+            (source) => new RegExp(source).test(document.getElementById("field-levels-error").textContent),
+            expected.source,
+        );
+        assert.equal(await page.getAttribute("#field-levels", "aria-invalid"), "true");
+    }
+    assert.equal((await script.state()).revision, before);
+    await page.focus("#field-formula");
+    await script.request({ type: "set", levels: [0.25], inside: "below" });
+    await page.waitForFunction(() => document.getElementById("field-levels").value === "0.25");
+    assert.equal(await page.locator("#field-levels-error").textContent(), "");
+    assert.equal(await page.isChecked("#field [value=below]"), true);
+    await spoken(page, "level 0.25, inside below");
+    await write(page, script, "x^2+y^2+z^2+w^2*2");
+    assert.deepEqual((await script.state()).levels, [0.25], "editing the formula keeps the levels");
+    await write(page, script, "x^2+y^2+z^2+w^2 < 1");
+    await script.until(({ levels }) => levels?.join() === "0", "a comparison has the level 0");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("field panel: keys act on the drawing while the panel is open", async () => {
+    const { page, script, errors, close } = await openPanel();
+    await page.keyboard.press("Escape");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "drawing");
+    await page.keyboard.press("y");
+    await script.until(({ last }) => last !== null, "a rotation");
+    assert.equal(await page.locator("#field").isVisible(), true);
+    const reached = new Set();
+    await page.focus("#field-close");
+    for (let i = 0; i < 30; ++i) {
+        reached.add(
+            await page.evaluate(() => {
+                const at = document.activeElement;
+                return at.closest("#field") ? at.id || at.dataset.end || at.dataset.velocity || at.dataset.constant || at.name : "";
+            }),
+        );
+        await page.keyboard.press("Tab");
+    }
+    const ends = ["x", "y", "z", "w"].flatMap((axis) => [`${axis} from`, `${axis} to`]);
+    const velocities = ["follow", "boost"].flatMap((name) => ["x", "y", "z"].map((axis) => `${name} ${axis}`));
+    const others = ["field-close", "field-example", "field-formula", "field-levels", "observer-pace", "field-link"];
+    for (const name of [...others, "a", "b", "c", "inside", ...ends, ...velocities]) {
+        assert.ok(reached.has(name), `${name} is reached with Tab`);
+    }
+    await page.focus("#field [value=below]");
+    await page.keyboard.press("ArrowRight");
+    await script.until(({ inside }) => inside === "above", "the inside above");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("field panel: every example is a field with a surface", async () => {
+    const { page, script, errors, close } = await openPanel();
+    const examples = await page.locator("#field-example option").count();
+    assert.ok(examples > 5);
+    for (let i = examples - 2; i >= 0; --i) {
+        const { revision } = await script.state();
+        await page.selectOption("#field-example", String(i));
+        const state = await script.until((one) => one.revision > revision, `example ${i}`);
+        await presented(page, state.revision);
+        const { slices } = await script.request({ type: "get", what: "slices" });
+        assert.ok(slices.filter(({ surface }) => surface).length >= 3, `example ${i}`);
+        assert.equal(await page.locator("#field-error").textContent(), "");
+    }
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("field panel: another formula colors the surfaces, and has the names of the first one", async () => {
+    const { page, script, errors, close } = await openPanel({ permissions: ["clipboard-read", "clipboard-write"] });
+    await write(page, script, "x^2+y^2+z^2+w^2 < a^2; a=1.5");
+    const colored = await change(page, script, "#field-values", "a*x");
+    assert.equal(colored.color, "value");
+    assert.equal(colored.field.values.formula, "a*x");
+    assert.deepEqual(colored.field.values.range, [-3, 3]);
+    const { surface } = await focusSurface(page, script);
+    for (let i = 0; i < surface.colors.length; ++i) {
+        const [r, , b] = rgb(surface.colors[i]);
+        const x = surface.points[3 * i];
+        if (Math.abs(x) > 0.1) assert.equal(x > 0, r > b, `at x = ${x}: ${r}, ${b}`);
+    }
+    // A mistake is shown where it is.
+    const before = (await script.state()).revision;
+    await page.fill("#field-values", "a*x + q");
+    await page.waitForFunction(() => /^Character 7: /.test(document.getElementById("field-values-error").textContent));
+    assert.equal(await page.locator("#field-values-excerpt mark").textContent(), "q");
+    assert.equal(await page.getAttribute("#field-values", "aria-invalid"), "true");
+    assert.equal(await page.textContent("#field-error"), "");
+    assert.equal((await script.state()).revision, before);
+    await page.fill("#field-formula", "x^2+$ < a^2; a=1.5");
+    await page.waitForFunction(() => /^Character 5: /.test(document.getElementById("field-error").textContent));
+    assert.equal(await page.textContent("#field-values-error"), "", "only the first mistake is known");
+    await script.request({ type: "set", levels: [0, 0.5] }); // so that what follows is another step of undo
+    await page.waitForFunction(() => document.getElementById("field-levels").value === "0, 0.5");
+    await page.fill("#field-values", "a*y");
+    await write(page, script, "x^2+y^2+z^2+w^2 < a^2; a=1.2");
+    assert.equal(await page.textContent("#field-values-error"), "");
+    await page.locator("#field-caps label", { hasText: "Open" }).click();
+    await script.until(({ caps }) => caps === "open", "open surfaces");
+    await page.click("#field-link");
+    await page.waitForFunction(() => /copied/.test(document.getElementById("notice").textContent));
+    const link = await page.evaluate(() => navigator.clipboard.readText());
+    assert.ok(link.includes("values=a*y&") && link.includes("caps=open"), link);
+    const second = await openPage({ url: link });
+    await named(second.page, "formula");
+    const other = await scriptFor(second.page);
+    const opened = await other.until(({ caps }) => caps === "open", "the rest of the address");
+    assert.deepEqual([opened.field.values.formula, opened.color], ["a*y", "value"]);
+    await second.page.waitForFunction(() => /\u22122\.4\s*2\.4/.test(document.querySelector(".scale")?.textContent));
+    await second.page.click("[data-page-tool=field]");
+    assert.equal(await second.page.inputValue("#field-values"), "a*y");
+    other.leave();
+    await second.close();
+    // Undo shows the former formula of the colors.
+    await page.click("#field-close");
+    for (let i = 0; i < 2; ++i) await page.keyboard.press("u");
+    await page.waitForFunction(() => document.getElementById("field-values").value === "a*x");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("field panel: an address opens a field, and the panel copies such an address", async () => {
+    const permissions = ["clipboard-read", "clipboard-write"];
+    const { page, script, close } = await openPanel({ permissions });
+    await write(page, script, "x^2+y^2 + 1/10 <= w*z; a=0.5");
+    await change(page, script, "[data-end='w to']", "3");
+    await script.request({ type: "set", levels: [0, 0.5], inside: "above" });
+    await page.waitForFunction(() => document.getElementById("field-levels").value === "0, 0.5");
+    await page.click("#field-link");
+    await page.waitForFunction(() => /copied/.test(document.getElementById("notice").textContent));
+    const link = await page.evaluate(() => navigator.clipboard.readText());
+    assert.ok(link.includes("formula=x^2+y^2%20+%201/10%20%3C=%20w*z;%20a=0.5&box=-2,2,-2,2,-2,2,-2,3&"), link);
+    const second = await openPage({ url: `${link}&slices=11` });
+    await ready(second.page);
+    await named(second.page, "formula");
+    const other = await scriptFor(second.page);
+    const state = await other.until(({ slices }) => slices.count === 11, "the rest of the address");
+    assert.deepEqual([state.levels, state.inside], [[0, 0.5], "above"]);
+    await second.page.click("[data-page-tool=field]");
+    assert.equal(await formula(second.page), "x^2+y^2 + 1/10 <= w*z; a=0.5");
+    assert.equal(await second.page.inputValue("[data-end='w to']"), "3");
+    assert.deepEqual(second.errors, []);
+    other.leave();
+    await second.close();
+    await close();
+});
+
+test("field panel: the panel continues with a formula of the command line", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    await page.keyboard.press(":");
+    await page.waitForSelector("#command:focus");
+    await page.keyboard.type("formula x^2+y^2-z < a*w; a=0.5 colored by a*z");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector("#command-line", { state: "hidden" });
+    const { revision } = await script.until(({ levels }) => levels !== undefined, "the field");
+    await page.click("[data-page-tool=field]");
+    assert.equal(await formula(page), "x^2+y^2-z < a*w; a=0.5");
+    assert.equal(await page.inputValue("#field-values"), "a*z");
+    assert.equal(await page.locator("#field-constants output").textContent(), "0.5");
+    assert.equal((await script.state()).revision, revision, "the panel shows the field that is there");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("field panel: the mistakes of an address are reported", async () => {
+    const { url } = await common();
+    const { page, close } = await openPage({ url: `${url}?formula=x^2+$&box=1,2&slices=11` });
+    await page.waitForFunction(() => /box=1,2/.test(document.getElementById("notice").textContent));
+    const notice = await page.locator("#notice").textContent();
+    assert.match(notice, /“formula=x\^2\+\$”.*position 5/);
+    assert.match(notice, /“box=1,2”: it must be eight numbers/);
+    await page.waitForFunction(() => document.querySelector("[data-state-field=slices]").textContent === "11");
+    await close();
+});
+
+test("field panel: after a restart of the server, the formula is loaded again", async () => {
+    const server = await startServer();
+    const { page, script, close } = await openPanel({ url: server.url });
+    await write(page, script, "x^2+y^2+z^2+w^2 < 1");
+    await script.request({ type: "set", levels: [0, 0.5] });
+    await page.waitForFunction(() => document.getElementById("field-levels").value === "0, 0.5");
+    script.leave();
+    const again = await restart(server, page);
+    const second = await scriptFor(page, again.url);
+    await second.until(({ levels }) => levels?.join() === "0,0.5", "the field in the new session");
+    second.leave();
+    await close();
+    await again.stop();
+});
+
+test("field panel: on a phone, the panel has large controls below the picture", async () => {
+    const phone = { viewport: { width: 375, height: 667 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
+    const { page, errors, close } = await openPanel(phone);
+    const { height } = await page.locator("#drawing").boundingBox();
+    assert.ok(height > 180, `the picture is ${height} high`);
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0);
+    for (const control of await page.locator("#field :is(button, select, textarea, input):visible").all()) {
+        await control.scrollIntoViewIfNeeded();
+        const box = await control.boundingBox();
+        const name = await control.evaluate((one) => one.outerHTML);
+        assert.ok(box.height >= 38 && box.width >= 38, `${name}: ${box.width} × ${box.height}`);
+        assert.ok(box.x >= 0 && box.x + box.width <= 375, name);
+    }
+    await page.tap("#field-close");
+    assert.equal(await page.locator("#tools").isVisible(), true);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("field panel: fog can be shown, edited by dragging and typing, and taken back", async () => {
+    const { page, script, errors, close } = await openPanel({ browser: await accurateBrowser() });
+    const fogOf = async () => (await script.state()).fog;
+    await spoken(page, "formula"); // after the first announcement, changes are announced
+    await page.waitForSelector("#fog-show");
+    assert.equal(await page.locator("#fog-curve").isVisible(), false);
+    await page.click("#fog-show");
+    const first = await script.until(({ fog }) => fog.length === 3, "fog");
+    await presented(page, first.revision);
+    assert.deepEqual(first.fog.map(({ opacity }) => opacity), [0.95, 0.5, 0]);
+    await spoken(page, ", fog from ");
+
+    // A drag changes one point in many steps, and is undone as one.
+    const handle = page.locator("#fog-curve [data-point='1'] .reach");
+    const { x, y, width, height } = await handle.boundingBox();
+    const [left, top] = [x + width / 2, y + height / 2];
+    await page.mouse.move(left, top);
+    await page.mouse.down();
+    for (let i = 1; i <= 8; ++i) await page.mouse.move(left + 2 * i, top - 3 * i);
+    await page.mouse.up();
+    await page.waitForFunction(() => Number(document.querySelector("[data-fog='opacity 2']").value) > 0.6);
+    const shown = await page.inputValue("[data-fog='opacity 2']");
+    const dragged = await script.until(({ fog }) => String(fog[1]?.opacity) === shown, "the last place of the drag");
+    assert.ok(dragged.fog[1].value > first.fog[1].value);
+    assert.deepEqual([dragged.fog[0], dragged.fog[2]], [first.fog[0], first.fog[2]]);
+    await script.request({ type: "undo" });
+    assert.deepEqual(await fogOf(), first.fog, "one undo takes back the whole drag");
+    await page.waitForFunction(() => document.querySelector("[data-fog='opacity 2']").value === "0.5");
+
+    // By keyboard: numbers, an added point, a removed one.
+    await page.fill("[data-fog='opacity 1']", "0.25");
+    await script.until(({ fog }) => fog[0]?.opacity === 0.25, "a typed opacity");
+    const { revision } = await script.state();
+    for (const [field, text] of [["opacity 1", "2"], ["value 1", "1e9"], ["opacity 3", "none"]]) {
+        const before = await page.inputValue(`[data-fog='${field}']`);
+        await page.fill(`[data-fog='${field}']`, text);
+        await page.waitForFunction(() => /least to the greatest/.test(document.getElementById("fog-error").textContent));
+        await page.fill(`[data-fog='${field}']`, before);
+        await page.waitForFunction(() => document.getElementById("fog-error").textContent === "");
+    }
+    await page.focus("#fog-add");
+    await page.keyboard.press("Enter");
+    const four = await script.until(({ fog }) => fog.length === 4, "a fourth point");
+    assert.ok(four.revision > revision);
+    assert.ok(four.fog.every(({ value }, i) => i === 0 || value > four.fog[i - 1].value));
+    await page.click("[aria-label='Remove point 2']");
+    await script.until(({ fog }) => fog.length === 3, "three points");
+    await page.locator("[data-fog='color 1']").evaluate((input) => {
+        input.value = "#00ff80";
+        input.dispatchEvent(new Event("input"));
+        input.dispatchEvent(new Event("change"));
+    });
+    const colored = await script.until(({ fog }) => fog[0].color === 0x00ff80, "a color");
+
+    // The colors of points without one are those of the picture.
+    const { scene } = await script.request({ type: "get", what: "slices" });
+    const last = await page.inputValue("[data-fog='color 3']");
+    const near = (a, b) => [16, 8, 0].every((shift) => Math.abs(((a >> shift) & 255) - ((b >> shift) & 255)) <= 6);
+    assert.ok(near(parseInt(last.slice(1), 16), scene.fog.table[255] & 0xffffff), last);
+    assert.equal(scene.fog.table[1] & 0xffffff, 0x00ff80);
+
+    await page.click("#fog-off");
+    await script.until(({ fog }) => fog.length === 0, "no fog");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "fog-show");
+    await script.request({ type: "undo" });
+    await page.waitForFunction(() => document.querySelector("[data-fog='color 1']")?.value === "#00ff80");
+    assert.deepEqual(await fogOf(), colored.fog);
+    await write(page, script, "x^2+y^2+z^2+w^2*2");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("field panel: an address has the fog", async () => {
+    const { page, script, close } = await openPanel({ permissions: ["clipboard-read", "clipboard-write"] });
+    const fog = [{ value: -1, opacity: 0.5 }, { value: 0.25, opacity: 1, color: 0x00ff80 }];
+    await script.request({ type: "set", fog });
+    await page.waitForSelector("[data-fog='value 2']");
+    await page.click("#field-link");
+    await page.waitForFunction(() => /copied/.test(document.getElementById("notice").textContent));
+    const link = await page.evaluate(() => navigator.clipboard.readText());
+    assert.ok(link.includes("&fog=-1:0.5,0.25:1:00ff80"), link);
+    const second = await openPage({ url: link });
+    await ready(second.page);
+    const other = await scriptFor(second.page);
+    assert.deepEqual((await other.until((state) => state.fog?.length === 2, "the fog")).fog, fog);
+    other.leave();
+    await second.close();
+    await close();
+});

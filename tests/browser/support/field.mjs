@@ -1,0 +1,56 @@
+// The panel of a field, and the surfaces of its slices.
+import { named, openWithScript, presented } from "./browser.mjs";
+import { pixelAt } from "./pixels.mjs";
+import { project } from "./scene.mjs";
+
+/** Opens the panel, and waits for its field. */
+export async function openPanel(options) {
+    const opened = await openWithScript(options);
+    await opened.page.locator("[data-page-tool=field]").dispatchEvent("click"); // on a phone it may be in a closed tab
+    const { revision } = await opened.script.until((state) => state.levels !== undefined, "a field");
+    await loaded(opened.page);
+    await presented(opened.page, revision);
+    await named(opened.page, "formula");
+    return opened;
+}
+
+export const formula = (page) => page.inputValue("#field-formula");
+
+/** Waits until the panel has no answer to wait for: a field is loaded by several requests. */
+const loaded = (page) => page.waitForSelector("#field[aria-busy=false]", { state: "attached" });
+
+/** Writes a formula, and waits until its picture is presented. */
+export function write(page, script, text) {
+    return change(page, script, "#field-formula", text);
+}
+
+/** Fills a control of a field, and waits until the field with its settings is loaded and presented. */
+export async function change(page, script, selector, text) {
+    const before = (await script.state()).revision;
+    await page.fill(selector, text);
+    await script.until(({ revision }) => revision > before, text);
+    await loaded(page);
+    const state = await script.state();
+    await presented(page, state.revision);
+    return state;
+}
+
+/** The surfaces of the focus slice. */
+export async function focusSurface(page, script) {
+    const { width, height } = await page.locator("#drawing").boundingBox();
+    const { scene, slices } = await script.request({ type: "get", what: "slices", width, height });
+    const slice = slices.find(({ focus }) => focus);
+    return { scene, slice, surface: slice.surface, size: { width, height } };
+}
+
+/** The pixels at the points of the focus slice's surface that lie nearest to the eye. */
+export function surfacePixels(shown, { scene, slice, surface, size }) {
+    const pixels = [];
+    for (let i = 0; i < surface.points.length; i += 3) {
+        if (surface.normals[i + 2] < 0.7) continue; // not toward the eye
+        const world = slice.position.map((at, k) => at + scene.scale * surface.points[i + k]);
+        const [x, y] = project(scene, world, size);
+        pixels.push(pixelAt(shown, Math.floor(x), Math.floor(y)));
+    }
+    return pixels;
+}

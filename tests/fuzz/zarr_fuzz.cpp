@@ -1,0 +1,56 @@
+// Fuzzes the reader of Zarr folders. The input is a list of files, separated by the byte 0x1e: the path of each, a line
+// feed and its contents.
+
+#include <algorithm>
+#include <map>
+
+#include "fields/readers/zarr.hpp"
+#include "support.hpp"
+
+using namespace oval4d;
+using fuzz::require;
+
+namespace {
+
+constexpr std::size_t kMaxSamples = 4096;
+
+void requireInFolder(const std::string& path) {
+    require(!path.starts_with('/') && ("/" + path + "/").find("/../") == std::string::npos,
+            "only files in the folder are read:", path);
+}
+
+void requireSound(const fields::ReadField& field) {
+    const std::size_t count = fields::sampleCount(field.shape);
+    require(field.samples.values().size() == count, "there is a sample for each point");
+    require(count <= kMaxSamples, "no array is larger than allowed");
+    const auto function = field.function();
+    if (!function) fuzz::requireSentence(function.error());
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    std::string_view rest = fuzz::textOf(data, size);
+    std::map<std::string, std::string_view> files;
+    while (!rest.empty()) {
+        std::string_view file = fuzz::takeUntil(rest, '\x1e');
+        const std::string_view path = fuzz::takeUntil(file, '\n');
+        files.try_emplace(std::string(path), file);
+    }
+    const fields::FolderReader folder = [&](const std::string& path) -> Result<std::optional<fields::FileContents>> {
+        requireInFolder(path);
+        const auto found = files.find(path);
+        if (found == files.end()) return std::optional<fields::FileContents>();
+        return std::optional(fields::FileContents::copyOf(found->second));
+    };
+    for (const char* variable : {"", "a", "../a"}) {
+        const auto field = fields::readZarr(folder, {.variable = variable, .maxSamples = kMaxSamples});
+        if (field) {
+            requireSound(*field);
+        } else {
+            fuzz::requireSentence(field.error());
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,276 @@
+"""Zarr folders in the data folder: equal to NumPy's files bit for bit; groups; hostile metadata and chunks."""
+
+import asyncio
+import json
+import zlib
+
+import numpy
+import pytest
+import zarr_files
+from array_files import npy, quadratic
+from harness import Server
+from test_data_folder import slices_of
+from wire import Client, Refused
+
+SHAPE = (5, 20, 22, 24)
+CHUNK = (2, 8, 22, 10)  # some chunks are beyond the end
+BOX = [[-1, 1]] * 4
+LARGE = ("--max-field-bytes", "64k")
+
+
+@pytest.fixture(name="folder")
+def empty_folder(tmp_path):
+    (tmp_path / "data").mkdir()
+    return tmp_path / "data"
+
+
+@pytest.fixture(name="shared", scope="module")
+def server_of_module(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("data")
+    with Server("--data", folder) as server:
+        server.folder = folder
+        yield server
+
+
+async def refusal(server, path, **members):
+    async with Client(server) as client:
+        with pytest.raises(Refused) as refused:
+            await client.request("load", name="run", path=path, **members)
+        await slices_of(client)  # the server and the session go on
+    return refused.value
+
+
+async def compare(server, folder, path, values, **members):
+    (folder / "same.npy").write_bytes(npy(values))
+    async with Client(server) as client:
+        await client.request("set", slices={"count": 5})
+        await client.request("load", name="run", path="same.npy", box=BOX)
+        expected = await client.request("get", what="state"), await slices_of(client)
+        await client.request("load", name="zarr", path=path, box=BOX, **members)
+        state = await client.request("get", what="state")
+        assert state["field"] == expected[0]["field"] and state["levels"] == expected[0]["levels"]
+        assert await slices_of(client) == expected[1]
+
+
+@pytest.mark.parametrize("options", [[], LARGE], ids=["in memory", "on the disk"])
+@pytest.mark.parametrize("version", [2, 3])
+@pytest.mark.parametrize("compressor", list(zarr_files.COMPRESSORS), ids=lambda name: name or "uncompressed")
+async def test_arrays_are_those_of_numpy(folder, options, version, compressor):
+    values = quadratic(SHAPE)
+    order = "F" if compressor in ("", "zstd") else "C"
+    zarr_files.write(folder / "run.zarr", values, CHUNK, version, compressor, order)
+    with Server("--data", folder, "--field-cache-folder", folder.parent, *options) as server:
+        await compare(server, folder, "run.zarr", values)
+
+
+@pytest.mark.parametrize("version", [2, 3])
+@pytest.mark.parametrize("type_", ["|b1", "|i1", "|u1", "<i2", ">i2", "<u2", "<i4", ">u4", "<i8", "<u8", "<f2", ">f2", ">f4",
+                                   "<f8", ">f8"])
+async def test_types_and_byte_orders(shared, version, type_):
+    values = (quadratic((3, 9, 10, 11), 1.5) * (1 if type_[1] in "bf" else 40)).clip(0)
+    values = values.astype(type_)
+    name = f"{version} {type_.replace('|', '').replace('<', 'little ').replace('>', 'big ')}"
+    zarr_files.write(shared.folder / name, values, (2, 4, 4, 11), version, separator="/")
+    await compare(shared, shared.folder, name, values)
+
+
+@pytest.mark.parametrize("version", [2, 3])
+async def test_missing_chunks_have_the_fill_value(shared, version):
+    values = quadratic(SHAPE)
+    for fill, number in ((0.5, 0.5), ("NaN", numpy.nan), (0, 0), ("-Infinity", numpy.nan)):
+        filled = values.copy()
+        filled[0:2, 8:16, :, 10:20] = number
+        filled[4:, 16:, :, 20:] = number
+        name = f"fill {version} {fill}"
+        zarr_files.write(shared.folder / name, values, CHUNK, version, "gzip", fill=fill, skipped={(0, 1, 0, 1), (2, 2, 0, 2)})
+        await compare(shared, shared.folder, name, filled)
+
+
+@pytest.mark.parametrize("version", [2, 3])
+async def test_names_of_dimensions_and_attributes(shared, version):
+    values = quadratic((4, 6, 8, 10))
+    packed = numpy.rint(values * 1000).astype("<i2")
+    name = f"group {version}"
+    root = shared.folder / name
+    zarr_files.write(root / "p", numpy.ascontiguousarray(packed.transpose(3, 2, 1, 0)), (10, 8, 3, 2), version,
+                     names=["x", "y", "z", "time"], attributes={"scale_factor": 0.5, "add_offset": 2, "units": "Pa"})
+    members = ["p"]
+    for axis, (size, first, step) in {"time": (4, 1000, 60), "x": (10, 0, 0.5), "y": (8, 7, -1), "z": (6, 1, 1)}.items():
+        at = first + step * numpy.arange(size)
+        zarr_files.write(root / axis, at.astype("<i8" if axis == "time" else "<f8"), (3,), version, "zlib", names=[axis])
+        members.append(axis)
+    if version == 2:
+        zarr_files.write_json(root / ".zgroup", {"zarr_format": 2})
+        zarr_files.write_json(root / ".zmetadata", {"metadata": {f"{m}/.zarray": {} for m in members}})
+    else:
+        zarr_files.write_json(root / "zarr.json", {
+            "zarr_format": 3, "node_type": "group", "consolidated_metadata": {"metadata": {
+                m: {"node_type": "array"} for m in members}}})
+    async with Client(shared) as client:
+        for extra in ({}, {"variable": "p"}, {"variable": "/p"}):
+            await client.request("load", name="run", path=name, **extra)
+            field = (await client.request("get", what="state"))["field"]
+            assert field["shape"] == [10, 8, 6, 4]
+            assert field["box"] == [[0, 4.5], [0, 7], [1, 6], [1000, 1180]]
+            assert field["range"] == [float(packed.min()) * 0.5 + 2, float(packed.max()) * 0.5 + 2]
+        refused = await refusal(shared, name, variable="q")
+        assert refused.code == "not_found" and "did you mean" in str(refused).lower() or refused.code == "out_of_range"
+
+
+@pytest.mark.parametrize("version", [2, 3])
+async def test_multiscale_images_show_their_finest_level(shared, version):
+    values = quadratic((3, 8, 16, 16))
+    name = f"image {version}"
+    root = shared.folder / name
+    for level, part in enumerate((values, values[:, ::2, ::2, ::2])):
+        zarr_files.write(root / str(level), numpy.ascontiguousarray(part[:, None]), (1, 1, 4, 8, 8), version, "zstd", separator="/")
+    scales = [{"path": str(level), "coordinateTransformations": [
+        {"type": "scale", "scale": [60, 1, 2 * 2**level, 0.5 * 2**level, 0.5 * 2**level]}]} for level in range(2)]
+    image = {"multiscales": [{"version": "0.4", "datasets": scales, "axes": [
+        {"name": "t", "type": "time", "unit": "second"}, {"name": "c", "type": "channel"},
+        *({"name": a, "type": "space", "unit": "micrometer"} for a in "zyx")]}]}
+    if version == 2:
+        zarr_files.write_json(root / ".zgroup", {"zarr_format": 2})
+        zarr_files.write_json(root / ".zattrs", image)
+    else:
+        zarr_files.write_json(root / "zarr.json", {"zarr_format": 3, "node_type": "group", "attributes": {"ome": image}})
+    async with Client(shared) as client:
+        await client.request("load", name="run", path=name)
+        field = (await client.request("get", what="state"))["field"]
+        assert field["shape"] == [16, 16, 8, 3]
+        assert field["box"] == [[0, 7.5], [0, 7.5], [0, 14], [0, 120]]
+        await client.request("load", name="coarse", path=name, variable="1")
+        field = (await client.request("get", what="state"))["field"]
+        assert field["shape"] == [8, 8, 4, 3]
+        assert field["box"] == [[0, 7], [0, 7], [0, 12], [0, 120]]
+
+
+async def test_the_catalogue_lists_zarr_folders(shared):
+    zarr_files.write(shared.folder / "listed.zarr", quadratic(SHAPE), CHUNK)
+    (shared.folder / "not zarr").mkdir()
+    (shared.folder / "not zarr" / "0.0").write_bytes(b"0")
+
+    async def listed():
+        async with Client(shared) as client:
+            entries = (await client.request("get", what="catalogue"))["polytopes"]
+        return [entry["name"] for entry in entries if entry["family"] == "data"]
+
+    names = await listed()
+    if "listed.zarr" not in names:
+        await asyncio.sleep(2.1)  # the server reads the folder at most every two seconds
+        names = await listed()
+    assert "listed.zarr" in names and "not zarr" not in names
+
+
+GOOD = {"zarr_format": 2, "shape": [4, 4], "chunks": [2, 4], "dtype": "<f4", "order": "C", "filters": None,
+        "fill_value": 0, "compressor": None}
+GOOD3 = {"zarr_format": 3, "node_type": "array", "shape": [4, 4], "data_type": "float32", "fill_value": 0,
+         "chunk_grid": {"name": "regular", "configuration": {"chunk_shape": [2, 4]}},
+         "chunk_key_encoding": {"name": "default"}, "codecs": [{"name": "bytes", "configuration": {"endian": "little"}}]}
+
+
+@pytest.mark.parametrize("changes, code", [
+    ({"shape": [0, 4]}, "bad_field"), ({"shape": [2**62, 4]}, "bad_field"), ({"shape": [-4, 4]}, "bad_field"),
+    ({"shape": [4.5, 4]}, "bad_field"), ({"shape": "4"}, "bad_field"), ({"shape": []}, "bad_field"), ({"shape": [4] * 5}, "bad_field"),
+    ({"shape": [2**24, 2**16], "chunks": [2**24, 2**16]}, "too_large"), ({"shape": [2**24, 2**15], "chunks": [1, 1]}, "too_large"),
+    ({"shape": [4] * 40}, "bad_field"), ({"chunks": [0, 4]}, "bad_field"), ({"chunks": [2]}, "bad_field"),
+    ({"chunks": [2**40, 2**40]}, "too_large"), ({"chunks": None}, "bad_field"), ({"dtype": "<f16"}, "unsupported_format"),
+    ({"dtype": [["a", "<f4"]]}, "unsupported_format"), ({"dtype": "<c8"}, "unsupported_format"), ({"dtype": "|O"}, "unsupported_format"),
+    ({"order": "X"}, "bad_field"), ({"filters": [{"id": "delta"}]}, "unsupported_format"),
+    ({"compressor": {"id": "lzma"}}, "unsupported_format"), ({"compressor": "zlib"}, "unsupported_format"),
+    ({"zarr_format": 1}, "bad_field"), ({"fill_value": {}}, "bad_field"), ({"dimension_separator": "../"}, "bad_field"),
+    ({"dimension_separator": "/../../"}, "bad_field"),
+])
+async def test_hostile_metadata_are_refused(shared, changes, code):
+    zarr_files.write_json(shared.folder / "hostile" / ".zarray", GOOD | changes)
+    refused = await refusal(shared, "hostile")
+    assert refused.code == code, str(refused)
+
+
+@pytest.mark.parametrize("changes, code", [
+    ({"shape": [0, 4]}, "bad_field"), ({"data_type": "complex64"}, "unsupported_format"), ({"data_type": {"name": "r8"}}, "unsupported_format"),
+    ({"chunk_grid": {"name": "rectilinear"}}, "unsupported_format"), ({"codecs": []}, "bad_field"), ({"codecs": None}, "bad_field"),
+    ({"codecs": [{"name": "sharding_indexed"}]}, "unsupported_format"),
+    ({"codecs": GOOD3["codecs"] + [{"name": "gzip"}] * 2}, "unsupported_format"),
+    ({"codecs": [{"name": "transpose", "configuration": {"order": [0, 0]}}, *GOOD3["codecs"]]}, "bad_field"),
+    ({"codecs": [{"name": "transpose", "configuration": {"order": [1, 2]}}, *GOOD3["codecs"]]}, "bad_field"),
+    ({"chunk_key_encoding": {"name": "../x"}}, "unsupported_format"), ({"fill_value": "0xzz"}, "bad_field"),
+    ({"chunk_key_encoding": {"name": "default", "configuration": {"separator": "/../"}}}, "bad_field"),
+    ({"node_type": "group"}, "out_of_range"), ({"zarr_format": 2}, "bad_field"),
+])
+async def test_hostile_metadata_of_version_3_are_refused(shared, changes, code):
+    zarr_files.write_json(shared.folder / "hostile 3" / "zarr.json", GOOD3 | changes)
+    refused = await refusal(shared, "hostile 3")
+    assert refused.code == code, str(refused)
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "null", pytest.param('{"a":' * 5000, id="deep"), "\x00", '{"shape": NaN}', '"'])
+async def test_metadata_that_are_not_json_are_refused(shared, text):
+    (shared.folder / "text").mkdir(exist_ok=True)
+    (shared.folder / "text" / "zarr.json").write_text(text)
+    assert (await refusal(shared, "text")).code in ("bad_field", "out_of_range")
+
+
+@pytest.mark.parametrize("variable", ["../secret", "..", "a/../../secret", "/../secret", "./../secret", "link", "a//b", "\0", "a/"])
+async def test_no_file_outside_of_the_folder_is_read(folder, variable):
+    zarr_files.write(folder.parent / "secret", quadratic(SHAPE), CHUNK)
+    zarr_files.write_json(folder / "group" / ".zgroup", {"zarr_format": 2})
+    (folder / "group" / "link").symlink_to(folder.parent / "secret")
+    zarr_files.write(folder / "group" / "linked", quadratic((4, 4)), (4, 4))
+    (folder / "group" / "linked" / "0.0").unlink()
+    (folder / "group" / "linked" / "0.0").symlink_to(folder.parent / "secret" / "0.0.0.0")
+    zarr_files.write_json(folder / "group" / ".zattrs", {"multiscales": [{"datasets": [{"path": "../../secret"}]}]})
+    with Server("--data", folder) as server:
+        for members in ({"variable": variable}, {}):
+            refused = await refusal(server, "group", **members)
+            assert refused.code in ("out_of_range", "not_found", "bad_message", "bad_field"), str(refused)
+        async with Client(server) as client:  # a link counts as a chunk that is missing
+            await client.request("load", name="run", path="group", variable="linked")
+            assert (await client.request("get", what="state"))["field"]["range"] == [0, 0]
+
+
+@pytest.mark.parametrize("compressor", list(zarr_files.COMPRESSORS), ids=lambda name: name or "uncompressed")
+async def test_damaged_chunks_are_refused(shared, compressor):
+    values = quadratic((4, 8, 8, 8))
+    folder = shared.folder / f"damaged {compressor}"
+    zarr_files.write(folder, values, (4, 8, 8, 8), 2, compressor)
+    chunk = (folder / "0.0.0.0").read_bytes()
+    pack = zarr_files.COMPRESSORS[compressor]
+    damaged = [b"", chunk[:-1], chunk[: len(chunk) // 2], chunk[:3], pack(values.tobytes()[:-4]), pack(values.tobytes() + b"1234"),
+               pack(bytes(100_000_000)) if compressor else bytes(1_000_000)]  # a bomb
+    for each in damaged:
+        (folder / "0.0.0.0").write_bytes(each)
+        refused = await refusal(shared, folder.name)
+        assert refused.code == "bad_field" and "0.0.0.0" in str(refused), (len(each), str(refused))
+    random = numpy.random.default_rng(1)
+    for _ in range(30):
+        noisy = bytearray(chunk)
+        for place in random.integers(0, len(noisy), 3):
+            noisy[place] ^= 1 << int(random.integers(0, 8))
+        (folder / "0.0.0.0").write_bytes(noisy)
+        async with Client(shared) as client:
+            try:
+                await client.request("load", name="run", path=folder.name)
+            except Refused as refused:
+                assert refused.code in ("bad_field",), str(refused)
+
+
+async def test_zlib_streams_with_a_tail_are_refused(shared):
+    values = quadratic((2, 4, 4, 4))
+    folder = shared.folder / "tail"
+    zarr_files.write(folder, values, values.shape, 2, "zlib")
+    (folder / "0.0.0.0").write_bytes(zlib.compress(values.tobytes())[:-2] + b"xx")  # a wrong checksum
+    assert (await refusal(shared, "tail")).code == "bad_field"
+
+
+async def test_a_sparse_array_is_read_chunk_by_chunk(folder):
+    """An array of 4 GB of which one chunk exists; the reader process may take 128 MB."""
+    zarr_files.write_json(folder / "sparse" / ".zarray", GOOD | {"shape": [8, 512, 512, 512], "chunks": [1, 128, 512, 512]})
+    (folder / "sparse" / "4.2.0.0").write_bytes(numpy.ones((128, 512, 512), "<f4").tobytes())
+    with Server("--data", folder, "--field-cache-folder", folder.parent, "--load-memory", "128M") as server:
+        async with Client(server) as client:
+            await client.request("load", name="run", path="sparse", deadline=120)
+            field = (await client.request("get", what="state"))["field"]
+            assert field["shape"] == [512, 512, 512, 8] and field["range"] == [0, 1] and field["estimated"] is True
+            assert server.metric("oval4d_field_cache_bytes") == 4 * 8 * 512**3
+        assert json.loads((folder / "sparse" / ".zarray").read_text())["chunks"] == [1, 128, 512, 512]

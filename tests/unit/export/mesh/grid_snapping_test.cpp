@@ -1,0 +1,114 @@
+#include "export/mesh/grid_snapping.hpp"
+
+#include <array>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "slicing/exact/exact_slicer.hpp"
+#include "unit/export/support.hpp"
+#include "unit/slicing/field_support.hpp"
+
+namespace {
+
+using namespace oval4d;
+using namespace oval4d::support;
+using namespace oval4d::exports;
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+// The exact surface of a random function has many points that are close together.
+slicing::ExactSurface waves(std::mt19937& random, int cells) {
+    std::normal_distribution<double> normal;
+    std::array<glm::dvec4, 4> waves{};
+    double slope = 0;
+    for (auto& wave : waves) {
+        wave = 3.0 * glm::dvec4(normal(random), normal(random), normal(random), normal(random));
+        slope += glm::length(wave);
+    }
+    const auto f = [&](const glm::dvec4& p) {
+        double sum = 0;
+        for (const auto& wave : waves) sum += std::sin(glm::dot(wave, p) + wave.x);
+        return sum;
+    };
+    const fields::Field field = slicing::testField(f, slope, {glm::dvec4(-1), glm::dvec4(1)});
+    slicing::ExactSurface surface;
+    slicing::ExactSlicer slicer(field, randomRotation(random), cells);
+    EXPECT_TRUE(slicer.slice(0.1, {.level = 0.2}, surface));
+    return surface;
+}
+
+TEST(GridSnapping, keepsSurfacesClosedManifolds) {
+    std::mt19937 random(50);
+    for (int trial = 0; trial < 6; ++trial) {
+        const slicing::ExactSurface surface = waves(random, 12);
+        ASSERT_GT(surface.triangles.size(), 100U);
+        std::vector<glm::dvec3> points;
+        for (const glm::dvec3& point : surface.points) points.push_back(10.0 * point);
+        double volume = 0;
+        for (const auto& [a, b, c] : surface.triangles)
+            volume += glm::dot(points[a], glm::cross(points[b], points[c])) / 6;
+        for (const double size : {60.0, 10'000.0}) {  // the second has steps of 1/16 of the size of the surface's cells
+            const Grid grid(size, size);
+            const SnappedSurface snapped = snapSurface(points, surface.triangles, grid, unhurried());
+            expectPrintable(snapped.mesh);
+            EXPECT_TRUE(isClosedManifold(snapped.mesh));
+            EXPECT_LE(snapped.mesh.triangles.size(), surface.triangles.size());
+            if (size > 100) {
+                EXPECT_LT(snapped.mesh.triangles.size(), surface.triangles.size()) << "some edges are collapsed";
+            }
+            EXPECT_NEAR(volumeOf(snapped.mesh) / volume, 1, size < 100 ? 1e-4 : 0.03);
+            ASSERT_EQ(snapped.source.size(), snapped.mesh.points.size());
+            for (std::size_t p = 0; p < snapped.source.size(); ++p) {
+                EXPECT_EQ(grid.snap(snapped.mesh.points[p]), snapped.mesh.points[p]);
+                EXPECT_LT(glm::distance(snapped.mesh.points[p], points[snapped.source[p]]), 8 * grid.step());
+            }
+        }
+    }
+}
+
+// Two tetrahedra with a common corner, and with a common edge: each gets its own.
+TEST(GridSnapping, separatesWhatTouches) {
+    const std::vector<glm::dvec3> points{{0, 0, 0},  {1, 0, 0},  {0, 1, 0},  {0, 0, 1},
+                                         {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {0, -1, -1}};
+    const Triangles first{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    const Grid grid(60, 60);
+    for (const Triangles& second : {Triangles{{0, 4, 5}, {0, 6, 4}, {0, 5, 6}, {4, 6, 5}},
+                                    Triangles{{0, 5, 1}, {0, 1, 7}, {0, 7, 5}, {1, 5, 7}}}) {
+        Triangles both = first;
+        both.insert(both.end(), second.begin(), second.end());
+        const SnappedSurface snapped = snapSurface(points, both, grid, unhurried());
+        EXPECT_EQ(snapped.mesh.triangles.size(), 8U);
+        EXPECT_EQ(snapped.mesh.points.size(), 8U);
+        EXPECT_TRUE(isClosedManifold(snapped.mesh));
+        std::set<Key> places;
+        for (const glm::dvec3& p : snapped.mesh.points) places.insert({float(p.x), float(p.y), float(p.z)});
+        EXPECT_EQ(places.size(), 8U);
+    }
+}
+
+TEST(GridSnapping, leavesOutSpecksAndRefusesOpenSurfaces) {
+    std::vector<glm::dvec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int i = 0; i < 4; ++i) points.push_back(5.0 + 1e-4 * points[static_cast<std::size_t>(i)]);
+    Triangles triangles{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}, {4, 6, 5}, {4, 5, 7}, {4, 7, 6}, {5, 6, 7}};
+    const Grid grid(60, 60);
+    EXPECT_EQ(snapSurface(points, triangles, grid, unhurried()).mesh.triangles.size(), 4U);
+    triangles.pop_back();
+    EXPECT_THROW(snapSurface(points, triangles, grid, unhurried()), std::invalid_argument);
+    const Budget late({.time = std::chrono::duration<double>(0)}, {});
+    triangles.push_back({5, 6, 7});
+    EXPECT_THROW(snapSurface(points, triangles, grid, late), ExportRefused);
+}
+
+// A tetrahedron with an additional point in the middle of an edge, and a triangle without area there.
+TEST(GridSnapping, flipsTrianglesWithoutArea) {
+    const std::vector<glm::dvec3> points{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}};
+    const Triangles triangles{{0, 2, 1}, {0, 4, 3}, {4, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 1, 4}};
+    const SnappedSurface snapped = snapSurface(points, triangles, Grid(60, 60), unhurried());
+    EXPECT_TRUE(isClosedManifold(snapped.mesh));
+    EXPECT_EQ(snapped.mesh.triangles.size(), 6U);
+    for (const auto& triangle : snapped.mesh.triangles) EXPECT_GT(glm::length(normalOf(snapped.mesh, triangle)), 0);
+    EXPECT_NEAR(volumeOf(snapped.mesh), 8.0 / 6, 1e-9);
+}
+
+}  // namespace

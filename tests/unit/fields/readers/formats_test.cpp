@@ -1,0 +1,375 @@
+// The same array in all formats, as the formats' own libraries write them.
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <netcdf.h>
+#include <nifti1_io.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <stdexcept>
+
+#include "fields/readers/field_reader.hpp"
+#include "fields/readers/hdf5.hpp"
+#include "fields/readers/netcdf.hpp"
+#include "fields/readers/nifti.hpp"
+#include "unit/fields/array/random_arrays.hpp"
+#include "unit/fields/readers/files.hpp"
+
+namespace oval4d::fields::test {
+namespace {
+
+constexpr Shape kShape{5, 4, 3, 2};  // nx, ny, nz, nw
+constexpr std::size_t kCount = 120;
+
+std::vector<float> numbers() {
+    std::mt19937 random(1);
+    auto samples = randomSamples(kShape, 0, random);
+    samples[7] = std::numeric_limits<float>::quiet_NaN();
+    return samples;
+}
+
+std::vector<std::uint32_t> bitsOf(const ReadField& field) {
+    std::vector<std::uint32_t> bits;
+    for (const float sample : field.samples.values()) bits.push_back(std::bit_cast<std::uint32_t>(sample));
+    return bits;
+}
+
+ReadField readOrFail(const std::string& bytes, const ReadOptions& options = {}) {
+    auto field = readField(FileContents::copyOf(bytes), options);
+    if (!field) throw std::runtime_error(field.error().message);
+    return *field;
+}
+
+void check(int status) { ASSERT_EQ(status, NC_NOERR) << nc_strerror(status); }
+
+// A variable f(t, z, y, x) of floats. `mode` is NC_NETCDF4, NC_64BIT_DATA …
+std::string netcdf(int mode, const std::vector<float>& samples) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.nc").string();
+    int file = 0, variable = 0;
+    check(nc_create(path.c_str(), mode | NC_CLOBBER, &file));
+    std::array<int, 4> dimensions{};
+    const std::array<const char*, 4> names{"t", "z", "y", "x"};
+    for (std::size_t i = 0; i < 4; ++i) check(nc_def_dim(file, names[i], kShape[3 - i], &dimensions[i]));
+    check(nc_def_var(file, "f", NC_FLOAT, 4, dimensions.data(), &variable));
+    check(nc_enddef(file));
+    check(nc_put_var_float(file, variable, samples.data()));
+    check(nc_close(file));
+    return readFile(path);
+}
+
+struct Hdf5Options {
+    bool compressed = false, bigEndian = false, external = false;
+};
+
+std::string hdf5(const std::vector<float>& samples, const Hdf5Options& options = {}) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.h5").string();
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t group = H5Gcreate2(file, "run", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    const std::array<hsize_t, 4> size{kShape[3], kShape[2], kShape[1], kShape[0]}, chunk{1, 2, 4, 3};
+    const hid_t space = H5Screate_simple(4, size.data(), nullptr), list = H5Pcreate(H5P_DATASET_CREATE);
+    if (options.compressed) {
+        H5Pset_chunk(list, 4, chunk.data());
+        H5Pset_deflate(list, 5);
+    }
+    if (options.external) H5Pset_external(list, "/etc/passwd", 0, kCount * sizeof(float));
+    const hid_t dataset = H5Dcreate2(group, "f", options.bigEndian ? H5T_IEEE_F32BE : H5T_IEEE_F32LE, space,
+                                     H5P_DEFAULT, list, H5P_DEFAULT);
+    if (!options.external) H5Dwrite(dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, samples.data());
+    H5Dclose(dataset);
+    H5Pclose(list);
+    H5Sclose(space);
+    H5Gclose(group);
+    H5Fclose(file);
+    return readFile(path);
+}
+
+// `changed` changes the header before the file is written.
+std::string nifti(const std::string& name, const std::vector<float>& samples,
+                  const std::function<void(nifti_image&)>& changed = {}) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / name).string();
+    const std::array<int, 8> size{4, 5, 4, 3, 2, 1, 1, 1};
+    nifti_image* const image = nifti_make_new_nim(size.data(), DT_FLOAT32, 1);
+    std::memcpy(image->data, samples.data(), kCount * sizeof(float));
+    nifti_set_filenames(image, path.c_str(), 0, 0);
+    if (changed) changed(*image);
+    nifti_image_write(image);
+    nifti_image_free(image);
+    return readFile(path);
+}
+
+std::string npyOf(const std::vector<float>& samples) { return npy("(2, 3, 4, 5)", samples); }
+
+TEST(FieldFormats, GiveTheSameBits) {
+    const auto samples = numbers();
+    const auto expected = bitsOf(readOrFail(npyOf(samples)));
+    ASSERT_EQ(expected.size(), kCount);
+    const std::vector<std::pair<std::string, std::string>> files{
+        {"netcdf", netcdf(0, samples)},
+        {"netcdf", netcdf(NC_64BIT_OFFSET, samples)},
+        {"netcdf", netcdf(NC_64BIT_DATA, samples)},
+        {"hdf5", netcdf(NC_NETCDF4, samples)},
+        {"hdf5", hdf5(samples)},
+        {"hdf5", hdf5(samples, {.compressed = true})},
+        {"hdf5", hdf5(samples, {.bigEndian = true})},
+        {"nifti", nifti("a.nii", samples)},
+        {"nifti", nifti("a.nii.gz", samples)},
+    };
+    for (const auto& [name, bytes] : files) {
+        const auto file = FileContents::copyOf(bytes);
+        const FieldFormat* const format = formatOfFile(file.bytes);
+        ASSERT_NE(format, nullptr);
+        EXPECT_EQ(format->name, name);
+        const auto field = readOrFail(bytes);
+        EXPECT_EQ(field.shape, kShape) << name;
+        EXPECT_EQ(bitsOf(field), expected) << name;
+        EXPECT_TRUE(field.warnings.empty()) << name << ": " << field.warnings.front();
+        EXPECT_TRUE(field.function());
+    }
+}
+
+TEST(FieldFormats, RejectOtherFiles) {
+    for (const std::string bytes : {"", "4OFF\n5 10 10 5\n", "\x89PNG\r\n\x1a\n", "CDF", "CDF\x07", "\x93NUMP"}) {
+        const auto field = readField(FileContents::copyOf(bytes), {});
+        ASSERT_FALSE(field);
+        EXPECT_EQ(field.error().code, ErrorCode::unsupported_format);
+    }
+}
+
+TEST(Netcdf, FollowsTheConventions) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.nc").string();
+    int file = 0;
+    check(nc_create(path.c_str(), NC_CLOBBER | NC_NETCDF4, &file));
+    const std::array<const char*, 4> names{"lon", "hours", "latitude", "nv"};
+    const std::array<std::size_t, 4> sizes{4, 3, 2, 2};
+    std::array<int, 4> dimensions{};
+    std::array<int, 3> coordinates{};
+    for (std::size_t i = 0; i < 4; ++i) check(nc_def_dim(file, names[i], sizes[i], &dimensions[i]));
+    for (std::size_t i = 0; i < 3; ++i)
+        check(nc_def_var(file, names[i], NC_DOUBLE, 1, &dimensions[i], &coordinates[i]));
+    const auto setText = [&](int variable, const char* name, const std::string& text) {
+        check(nc_put_att_text(file, variable, name, text.size(), text.c_str()));
+    };
+    setText(coordinates[0], "units", "degrees_east");
+    setText(coordinates[1], "units", "hours since 2020-01-01");
+    setText(coordinates[2], "standard_name", "latitude");
+    setText(coordinates[2], "bounds", "latitude_bounds");
+    int bounds = 0, variable = 0;
+    const std::array<int, 2> ofBounds{dimensions[2], dimensions[3]};
+    check(nc_def_var(file, "latitude_bounds", NC_DOUBLE, 2, ofBounds.data(), &bounds));
+    check(nc_def_var(file, "sst", NC_SHORT, 3, dimensions.data(), &variable));
+    setText(variable, "long_name", "sea surface temperature");
+    setText(variable, "units", "K");
+    const short fill = -999, range[2] = {-500, 100};
+    const double scale = 0.01, offset = 273.15;
+    check(nc_put_att_short(file, variable, "_FillValue", NC_SHORT, 1, &fill));
+    check(nc_put_att_short(file, variable, "valid_range", NC_SHORT, 2, range));
+    check(nc_put_att_double(file, variable, "scale_factor", NC_DOUBLE, 1, &scale));
+    check(nc_put_att_double(file, variable, "add_offset", NC_DOUBLE, 1, &offset));
+    check(nc_enddef(file));
+    const std::array<double, 4> lon{10, 20, 30, 40};
+    const std::array<double, 3> hours{0, 6, 12};
+    const std::array<double, 2> latitude{50, 40};  // from north to south
+    check(nc_put_var_double(file, coordinates[0], lon.data()));
+    check(nc_put_var_double(file, coordinates[1], hours.data()));
+    check(nc_put_var_double(file, coordinates[2], latitude.data()));
+    std::array<short, 24> stored{};
+    for (std::size_t i = 0; i < 24; ++i) stored[i] = static_cast<short>(i);
+    stored[3] = fill;
+    stored[4] = 101;
+    check(nc_put_var_short(file, variable, stored.data()));
+    check(nc_close(file));
+
+    const auto field = readOrFail(readFile(path));
+    EXPECT_EQ(field.shape, (Shape{4, 2, 1, 3}));
+    EXPECT_EQ(field.box, (Box{{10, 40, 0, 0}, {40, 50, 0, 12}}));
+    EXPECT_TRUE(field.boxIsKnown);
+    EXPECT_EQ(field.units, (std::array<std::string, 4>{"degrees_east", "", "", "hours since 2020-01-01"}));
+    EXPECT_EQ(field.quantity, "sea surface temperature");
+    EXPECT_EQ(field.quantityUnits, "K");
+    EXPECT_TRUE(field.warnings.empty()) << field.warnings.front();
+    for (std::size_t x = 0; x < 4; ++x) {
+        for (std::size_t t = 0; t < 3; ++t) {
+            for (std::size_t y = 0; y < 2; ++y) {
+                const short number = stored.at((x * 3 + t) * 2 + (1 - y));  // y is reversed
+                const float sample = field.samples.values()[x + 4 * (y + 2 * t)];
+                if (number == fill || number > 100)
+                    EXPECT_TRUE(std::isnan(sample));
+                else
+                    EXPECT_EQ(sample, static_cast<float>(number * scale + offset));
+            }
+        }
+    }
+    EXPECT_EQ(readOrFail(readFile(path), {.axes = "xyz"}).shape, (Shape{4, 3, 2, 1}));
+    EXPECT_EQ(readOrFail(readFile(path), {.variable = "/hours"}).shape, (Shape{1, 1, 1, 3}));
+    const auto missing = readField(FileContents::copyOf(readFile(path)), {.variable = "salinity"});
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().code, ErrorCode::not_found);
+}
+
+TEST(Netcdf, ValuesNeverWrittenAreMissing) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.nc").string();
+    int file = 0, dimension = 0, variable = 0;
+    check(nc_create(path.c_str(), NC_CLOBBER, &file));
+    check(nc_def_dim(file, "q", 3, &dimension));
+    check(nc_def_var(file, "f", NC_DOUBLE, 1, &dimension, &variable));
+    check(nc_enddef(file));
+    const std::size_t at = 1;
+    const double number = 2;
+    check(nc_put_var1_double(file, variable, &at, &number));
+    check(nc_close(file));
+    const auto field = readOrFail(readFile(path));
+    EXPECT_TRUE(std::isnan(field.samples.values()[0]));
+    EXPECT_EQ(field.samples.values()[1], 2);
+    EXPECT_FALSE(field.boxIsKnown);
+}
+
+TEST(Hdf5, FindsDatasetsByTheirPath) {
+    const auto samples = numbers();
+    const auto bytes = hdf5(samples);
+    EXPECT_EQ(readOrFail(bytes, {.variable = "/run/f"}).quantity, "f");
+    EXPECT_EQ(readOrFail(bytes, {.variable = "run/f", .maxSamples = 120}).shape, kShape);
+    for (const std::string path : {"run", "f", "/", "run/f/", "/run/g", "../a"}) {
+        const auto field = readHdf5(FileContents::copyOf(bytes), {.variable = path});
+        ASSERT_FALSE(field) << path;
+        EXPECT_EQ(field.error().code, ErrorCode::not_found);
+    }
+    EXPECT_EQ(readHdf5(FileContents::copyOf(bytes), {.maxSamples = 119}).error().code, ErrorCode::too_large);
+}
+
+TEST(Hdf5, UsesFloatsInPlace) {
+    const TemporaryFolder folder;
+    const auto samples = numbers();
+    writeFile(folder / "a.h5", hdf5(samples));
+    const auto file = FileContents::map(folder / "a.h5");
+    const auto field = readHdf5(*file, {});
+    ASSERT_TRUE(field);
+    EXPECT_EQ(field->samples.memory(), 0);
+    EXPECT_GT(readHdf5(*file, {.axes = "xyzt"})->samples.memory(), 0);
+}
+
+TEST(Hdf5, RefusesFilesThatReferToOthers) {
+    const auto field = readHdf5(FileContents::copyOf(hdf5({}, {.external = true})), {});
+    ASSERT_FALSE(field);
+    EXPECT_NE(field.error().message.find("other files"), std::string::npos);
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.h5").string();
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_external("/tmp/other.h5", "/f", file, "f", H5P_DEFAULT, H5P_DEFAULT);
+    H5Fclose(file);
+    const auto linked = readHdf5(FileContents::copyOf(readFile(path)), {.variable = "f"});
+    ASSERT_FALSE(linked);
+    EXPECT_NE(linked.error().message.find("other files"), std::string::npos);
+}
+
+TEST(Nifti, ReadsTheGeometry) {
+    const auto samples = numbers();
+    const auto place = [](nifti_image& image) {
+        image.pixdim[1] = image.dx = 2;
+        image.pixdim[2] = image.dy = 3;
+        image.pixdim[3] = image.dz = 4;
+        image.pixdim[4] = image.dt = 0.5F;
+        image.xyz_units = NIFTI_UNITS_MM;
+        image.time_units = NIFTI_UNITS_SEC;
+        image.toffset = 1.5F;
+    };
+    const auto plain = readOrFail(nifti("a.nii", samples, place));
+    EXPECT_EQ(plain.box, (Box{{-4, -4.5, -4, 1.5}, {4, 4.5, 4, 2}}));
+    EXPECT_EQ(plain.units, (std::array<std::string, 4>{"mm", "mm", "mm", "s"}));
+    EXPECT_EQ(readOrFail(nifti("a.nii.gz", samples, place)).box, plain.box);
+
+    // i goes along −y, j along x, k along z.
+    const auto turn = [&](nifti_image& image) {
+        place(image);
+        image.sform_code = 1;
+        image.sto_xyz = {{{0, 3, 0, 100}, {-2, 0, 0, 200}, {0, 0, 4, 300}, {0, 0, 0, 1}}};
+    };
+    const auto turned = readOrFail(nifti("a.nii", samples, turn));
+    EXPECT_EQ(turned.shape, (Shape{4, 5, 3, 2}));
+    EXPECT_EQ(turned.box, (Box{{100, 192, 300, 1.5}, {109, 200, 308, 2}}));
+    for (std::size_t i = 0; i < 5; ++i) {
+        for (std::size_t j = 0; j < 4; ++j)
+            EXPECT_EQ(turned.samples.values()[j + 4 * (4 - i) + 20], samples[i + 5 * j + 20]);
+    }
+
+    // The same by a quaternion: a rotation of 180° about z, and a reversed k.
+    const auto rotate = [&](nifti_image& image) {
+        place(image);
+        image.qform_code = 1;
+        image.quatern_b = image.quatern_c = 0;
+        image.quatern_d = 1;
+        image.qfac = image.pixdim[0] = -1;
+        image.qoffset_x = image.qoffset_y = image.qoffset_z = 10;
+    };
+    const auto rotated = readOrFail(nifti("a.nii", samples, rotate));
+    EXPECT_EQ(rotated.box, (Box{{2, 1, 2, 1.5}, {10, 10, 10, 2}}));
+    EXPECT_EQ(rotated.samples.values()[59], samples[0]);
+
+    const auto oblique = [&](nifti_image& image) {
+        turn(image);
+        image.sto_xyz.m[0][0] = 1;
+    };
+    EXPECT_EQ(readOrFail(nifti("a.nii", samples, oblique)).warnings.size(), 1);
+    EXPECT_EQ(readOrFail(nifti("a.nii", samples, oblique)).box, plain.box);
+}
+
+TEST(Nifti, ScalesNumbers) {
+    const auto field = readOrFail(nifti("a.nii", numbers(), [](nifti_image& image) {
+        auto* const shorts = static_cast<short*>(image.data);
+        for (short i = 0; i < static_cast<short>(kCount); ++i) shorts[i] = i;
+        image.datatype = DT_INT16;
+        image.nbyper = 2;
+        image.scl_slope = 0.5F;
+        image.scl_inter = -3;
+    }));
+    for (std::size_t i = 0; i < kCount; ++i) EXPECT_EQ(field.samples.values()[i], 0.5F * static_cast<float>(i) - 3);
+}
+
+TEST(Nifti, SurvivesEveryTruncationAndMutation) {
+    expectRobust(nifti("a.nii", numbers()), 352, readNifti);
+    expectRobust(nifti("a.nii.gz", numbers()), 1000, readNifti);
+}
+
+// The libraries may crash on damaged files, which are therefore read in another process. These do not make them crash.
+TEST(FieldFormats, SurviveTruncation) {
+    for (const auto& file : {netcdf(0, numbers()), netcdf(NC_64BIT_DATA, numbers())})
+        expectRobust(file, 0, readNetcdf, 7);
+    expectRobust(hdf5(numbers()), 0, readHdf5, 101);
+}
+
+TEST(FieldSeries, JoinsFilesAlongW) {
+    const TemporaryFolder folder;
+    for (const int moment : {10, 2, 1})
+        writeFile(folder / ("t" + std::to_string(moment) + ".npy"),
+                  npy("(2, 2, 2)", std::vector<float>(8, static_cast<float>(moment))));
+    writeFile(folder / "notes.txt", "not a field");
+    writeFile(folder / ".t0.npy", npy("(2, 2, 2)", std::vector<float>(8)));
+    std::filesystem::create_directory(folder / "more");
+    const auto paths = seriesFiles(folder.path());
+    ASSERT_TRUE(paths);
+    ASSERT_EQ(paths->size(), 3);
+    EXPECT_EQ((*paths)[1].filename(), "t2.npy");
+    std::vector<FileContents> files;
+    for (const auto& path : *paths) files.push_back(*FileContents::map(path));
+    const auto series = readSeries(files, {});
+    ASSERT_TRUE(series) << series.error().message;
+    EXPECT_EQ(series->shape, (Shape{2, 2, 2, 3}));
+    EXPECT_EQ(series->samples.values()[7], 1);
+    EXPECT_EQ(series->samples.values()[8], 2);
+    EXPECT_EQ(series->samples.values()[23], 10);
+    EXPECT_EQ(readSeries(files, {.maxSamples = 23}).error().code, ErrorCode::too_large);
+    EXPECT_EQ(readSeries({}, {}).error().code, ErrorCode::bad_field);
+    files.push_back(FileContents::copyOf(npy("(2, 2, 1)", std::vector<float>(4))));
+    EXPECT_NE(readSeries(files, {}).error().message.find("file 4"), std::string::npos);
+    EXPECT_EQ(seriesFiles(folder / "none").error().code, ErrorCode::not_found);
+}
+
+}  // namespace
+}  // namespace oval4d::fields::test

@@ -1,0 +1,93 @@
+// The histogram of a field's values in the picture.
+
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "fields/formula_field.hpp"
+#include "scene/composer.hpp"
+#include "slicing/slicer.hpp"
+
+namespace {
+
+using namespace oval4d;
+using slicing::CoordinateHistograms;
+
+slicing::Object radialField() {
+    auto field = fields::fieldFromFormula("formula", "x^2+y^2+z^2+w^2", {glm::dvec4(-1), glm::dvec4(1)});
+    return std::make_shared<const fields::Field>(*std::move(field));
+}
+
+/// Composes pictures of a field, without its surfaces.
+struct FieldPictures {
+    slicing::Object object = radialField();
+    slicing::SliceSet slices;
+    scene::Composer composer;
+    scene::Scene scene;
+
+    const scene::Scene& composed(const scene::Look& look, const geometry::Rotation& orientation = {},
+                                 scene::Viewport viewport = {}) {
+        slicing::Slicer().slice(object, orientation, {-10, 21, 0.1}, slices);
+        composer.compose(object, orientation, slices, 0, look, viewport, scene);
+        return scene;
+    }
+};
+
+scene::Look lookAt(std::vector<double> levels) {
+    scene::Look look;
+    look.parts.faces = false;
+    look.field.levels = std::move(levels);
+    return look;
+}
+
+TEST(Histogram, IsShownOfFieldsUnlessItIsHidden) {
+    FieldPictures pictures;
+    scene::Look look = lookAt({0.5, 2});
+    const scene::Scene& shown = pictures.composed(look);
+    EXPECT_TRUE(shown.look.parts.coordinates);
+    EXPECT_TRUE(shown.showsHistogram());
+    EXPECT_FALSE(shown.showsDensity());
+    EXPECT_EQ(shown.density.size(), std::size_t{CoordinateHistograms::kRows} * CoordinateHistograms::kColumns);
+    const double eye = shown.camera.shiftY;
+    look.parts.coordinates = false;
+    EXPECT_FALSE(pictures.composed(look).showsHistogram());
+    EXPECT_NE(shown.camera.shiftY, eye) << "the oval takes the room";
+}
+
+TEST(Histogram, HasALineForEachLevelInsideItsRange) {
+    FieldPictures pictures;
+    const scene::HistogramAxes& histogram = pictures.composed(lookAt({0.5, 2, 17, -1})).histogram;
+    ASSERT_EQ(histogram.levels.size(), 2U);
+    EXPECT_EQ(histogram.levels[0].value, 0.5);
+    EXPECT_EQ(histogram.levels[0].color, scene::levelColor(0, 4));
+    EXPECT_EQ(histogram.levels[1].color, scene::levelColor(1, 4));
+    EXPECT_EQ(histogram.height(histogram.least), 0);
+    EXPECT_EQ(histogram.height(histogram.greatest), 1);
+    EXPECT_EQ(pictures.composed(lookAt({1})).histogram.levels.size(), 1U);
+}
+
+TEST(Histogram, FollowsTheRotationAndTheObject) {
+    FieldPictures pictures;
+    const std::vector<std::uint8_t> straight = pictures.composed(lookAt({1})).density;
+    const geometry::Rotation turn(geometry::Turn{geometry::Plane::xw, 0.5, 0.3});
+    EXPECT_NE(pictures.composed(lookAt({1}), turn).density, straight);
+    EXPECT_EQ(pictures.composed(lookAt({1})).density, straight);
+    pictures.object = slicing::imageOf(pictures.object, {.follow = {0.5, 0, 0}});
+    EXPECT_NE(pictures.composed(lookAt({1})).density, straight);
+}
+
+TEST(Histogram, StaysInsideEveryViewport) {
+    FieldPictures pictures;
+    for (const scene::Viewport viewport :
+         {scene::Viewport{1280, 720}, {640, 640}, {375, 667}, {64, 900}, {3000, 300}}) {
+        const scene::CoordinatesLayout& layout = pictures.composed(lookAt({1}), {}, viewport).coordinates;
+        const double aspect = double(viewport.width) / viewport.height;
+        EXPECT_GT(layout.panel, 0);
+        EXPECT_GT(layout.lineStep, layout.panel);
+        EXPECT_GE(layout.left, 0);
+        EXPECT_LE(layout.left + 3 * layout.lineStep + layout.panel, aspect + 1e-12);
+        EXPECT_GT(layout.zero, layout.amplitude);
+    }
+}
+
+}  // namespace

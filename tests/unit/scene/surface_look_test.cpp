@@ -1,0 +1,68 @@
+#include "scene/surface_look.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "fields/formula_field.hpp"
+
+namespace oval4d::scene {
+namespace {
+
+TEST(ValueScale, DivergesAtZeroIfItIsInTheMiddle) {
+    const ValueScale even = valueScaleFor({-1, 3});
+    EXPECT_EQ(even, (ValueScale{-3, 3, true}));
+    EXPECT_EQ(even.color(0), divergingColor(0));
+    EXPECT_EQ(even.color(3), divergingColor(1));
+    EXPECT_EQ(even.color(-1.5), divergingColor(-0.5));
+    const ValueScale positive = valueScaleFor({0, 3});
+    EXPECT_EQ(positive, (ValueScale{0, 3, false}));
+    EXPECT_EQ(positive.color(3), sequentialColor(1));
+    EXPECT_EQ(valueScaleFor({-0.1, 3}), (ValueScale{-0.1, 3, false}));
+    EXPECT_EQ(valueScaleFor({-3, -1}), (ValueScale{-3, -1, false}));
+    EXPECT_EQ(positive.color(std::numeric_limits<double>::quiet_NaN()), noValueColor());
+    EXPECT_EQ(valueScaleFor({2, 2}).color(2), sequentialColor(0.5)) << "a constant";
+}
+
+int lightness(Color color) { return static_cast<int>((color >> 16U & 255U) + (color >> 8U & 255U) + (color & 255U)); }
+
+TEST(ValueScale, TheSequentialScaleBecomesLighter) {
+    int last = lightness(sequentialColor(0));
+    for (int i = 1; i <= 8; ++i) {
+        const int next = lightness(sequentialColor(i / 8.0));
+        EXPECT_GT(next, last) << i;
+        last = next;
+    }
+    EXPECT_EQ(sequentialColor(-5), sequentialColor(0));
+    EXPECT_EQ(sequentialColor(5), sequentialColor(1));
+}
+
+TEST(SurfaceLook, CapsFollowTheirSetting) {
+    const auto field = fields::fieldFromFormula("test", "x^2 - 1", fields::kFormulaBox, "y");
+    ASSERT_TRUE(field);
+    Look look;
+    SurfaceLook out;
+    const geometry::Hyperplanes planes{0, 1, 1, 0};
+    chooseSurfaceLook(*field, look, planes, out);
+    EXPECT_TRUE(out.levels.back().caps);
+    EXPECT_FALSE(out.colorsPoints() || out.colorsCapPoints());
+    look.caps = CapStyle::open;
+    look.coloring = Coloring::value;
+    chooseSurfaceLook(*field, look, planes, out);
+    EXPECT_FALSE(out.levels.back().caps);
+    EXPECT_TRUE(out.colorsPoints());
+    EXPECT_EQ(out.scale, (ValueScale{-2, 2, true}));
+    slicing::SliceSurface surface;
+    surface.values = {0, 0};
+    surface.secondValues = {-1, 2};
+    EXPECT_EQ(out.pointColor(surface, 0), divergingColor(-0.5));
+    EXPECT_EQ(out.pointColor(surface, 1), divergingColor(1));
+    look.caps = CapStyle::value;
+    look.coloring = Coloring::cell;
+    chooseSurfaceLook(*field, look, planes, out);
+    EXPECT_TRUE(out.levels.back().caps && out.colorsCapPoints() && !out.colorsPoints());
+    EXPECT_EQ(out.capPointColor(surface, 1), divergingColor(1));
+}
+
+}  // namespace
+}  // namespace oval4d::scene

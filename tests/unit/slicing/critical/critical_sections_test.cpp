@@ -1,0 +1,249 @@
+#include "slicing/critical/critical_sections.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <random>
+#include <span>
+#include <stop_token>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "fields/array/array_function.hpp"
+#include "fields/field.hpp"
+#include "fields/formula_field.hpp"
+#include "sanitizers/sanitized.hpp"
+#include "unit/polytopes/support.hpp"
+#include "unit/slicing/support.hpp"
+
+namespace oval4d::slicing {
+namespace {
+
+using enum SectionChange;
+
+constexpr double kRingA = 1, kRingB = 0.7, kTube = 0.3;
+constexpr std::string_view kTigerAlongW = "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 - 0.09";
+
+FieldPtr formulaObject(std::string_view text, const fields::Box& box = fields::kFormulaBox) {
+    auto field = fields::fieldFromFormula("field", text, box);
+    EXPECT_TRUE(field) << field.error().message;
+    return std::make_shared<const fields::Field>(std::move(*field));
+}
+
+/// Returns the field with its function sampled at `side` points along each axis.
+FieldPtr arrayOf(const FieldPtr& field, std::size_t side) {
+    const fields::Box& box = field->box;
+    const auto at = [&](int axis, std::size_t i) {
+        return static_cast<float>(box.min[axis] + (box.max[axis] - box.min[axis]) * static_cast<double>(i) /
+                                                      static_cast<double>(side - 1));
+    };
+    std::vector<float> samples(side * side * side * side), x(side), y(side), z(side), w(side);
+    for (std::size_t i = 0; i < side; ++i) x[i] = at(0, i);
+    for (std::size_t row = 0; row < samples.size() / side; ++row) {
+        std::ranges::fill(y, at(1, row % side));
+        std::ranges::fill(z, at(2, row / side % side));
+        std::ranges::fill(w, at(3, row / side / side));
+        field->function->evaluate({x, y, z, w}, std::span(samples).subspan(row * side, side));
+    }
+    auto function = std::make_shared<const fields::ArrayFunction>(fields::Shape{side, side, side, side}, box,
+                                                                  fields::Samples(std::move(samples)));
+    fields::Field array = fields::makeField("array", function, box);
+    array.array = function;
+    return std::make_shared<const fields::Field>(std::move(array));
+}
+
+CriticalSections criticalOf(const Object& object, const FieldSettings& settings = {},
+                            const geometry::Rotation& orientation = {}) {
+    auto found = findCriticalSections(object, orientation, settings, {.time = std::chrono::seconds(600)});
+    EXPECT_TRUE(found);
+    return found ? std::move(*found) : CriticalSections{};
+}
+
+struct Expected {
+    double w;
+    SectionChange change;
+    SectionTopology before, after;
+};
+
+void expectSections(const CriticalSections& found, const std::vector<Expected>& expected, double tolerance) {
+    ASSERT_EQ(found.all.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const CriticalSection& section = found.all[i];
+        EXPECT_NEAR(section.w, expected[i].w, tolerance) << i;
+        EXPECT_EQ(section.change, expected[i].change) << i;
+        EXPECT_EQ(section.before, expected[i].before) << i;
+        EXPECT_EQ(section.after, expected[i].after) << i;
+    }
+}
+
+constexpr SectionTopology kNothing{}, kBall{1, 0, 2}, kTwoBalls{2, 0, 4}, kTorus{1, 0, 0}, kTwoTori{2, 0, 0};
+
+const std::vector<Expected> kTigerSections{{-kRingB - kTube, appearance, kNothing, kTorus},
+                                           {-kRingB + kTube, split, kTorus, kTwoTori},
+                                           {kRingB - kTube, merge, kTwoTori, kTorus},
+                                           {kRingB + kTube, disappearance, kTorus, kNothing}};
+
+TEST(CriticalSections, BallAppearsAndVanishes) {
+    std::mt19937 random(1);
+    const FieldPtr ball = formulaObject("x^2 + y^2 + z^2 + w^2 - 1");
+    for (const geometry::Rotation& orientation : {geometry::Rotation(), support::randomRotation(random)}) {
+        expectSections(criticalOf(ball, {}, orientation),
+                       {{-1, appearance, kNothing, kBall}, {1, disappearance, kBall, kNothing}}, 2e-5);
+    }
+}
+
+TEST(CriticalSections, EachLevelHasItsOwn) {
+    SKIP_IF_SANITIZED();
+    const FieldPtr ball = formulaObject("x^2 + y^2 + z^2 + w^2");
+    const CriticalSections found = criticalOf(ball, {{0.25, 1, 2.25}});
+    ASSERT_EQ(found.all.size(), 6U);
+    const std::vector<double> radii{1.5, 1, 0.5, 0.5, 1, 1.5};
+    const std::vector<std::size_t> levels{2, 1, 0, 0, 1, 2};
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_NEAR(std::abs(found.all[i].w), radii[i], 2e-5);
+        EXPECT_EQ(found.all[i].level, levels[i]);
+    }
+}
+
+TEST(CriticalSections, OutsideOfABallIsACavity) {
+    SKIP_IF_SANITIZED();
+    const FieldPtr ball = formulaObject("x^2 + y^2 + z^2 + w^2 - 1");
+    const SectionTopology cube{1, 0, 2}, hollow{1, 1, 4};
+    expectSections(criticalOf(ball, {{0}, fields::Inside::above}),
+                   {{-1, cavity, cube, hollow}, {1, cavity, hollow, cube}}, 2e-5);
+}
+
+// The distance of the ring's points from the plane xy is at most b + r, and at least b − r.
+TEST(CriticalSections, TigerAlongItsAxis) {
+    expectSections(criticalOf(formulaObject(kTigerAlongW)), kTigerSections, 2e-4);
+}
+
+TEST(CriticalSections, ArrayOfTheTiger) {
+    SKIP_IF_SANITIZED();
+    const FieldPtr array = arrayOf(formulaObject(kTigerAlongW, {glm::dvec4(-1.5), glm::dvec4(1.5)}), 49);
+    expectSections(criticalOf(array), kTigerSections, 0.02);
+}
+
+// The tiger's surface is a torus of dimension 3 with the points ((a + r cos φ) e^iα, (b + r sin φ) e^iβ). The height
+// w = u · (x, y) + v · (z, w) has its critical points where α and β are in the directions of ±u and ±v, and φ in that
+// of (±|u|, ±|v|): w = ±a|u| ± b|v| ± r.
+TEST(CriticalSections, RotatedTiger) {
+    SKIP_IF_SANITIZED();
+    std::mt19937 random(2);
+    const FieldPtr tiger = formulaObject(kTigerAlongW);
+    for (int trial = 0; trial < 4; ++trial) {
+        const geometry::Rotation orientation = support::randomRotation(random);
+        const glm::dmat4 matrix = orientation.matrix();
+        const double u = std::hypot(matrix[0][3], matrix[1][3]), v = std::hypot(matrix[2][3], matrix[3][3]);
+        std::vector<double> expected;
+        for (int signs = 0; signs < 8; ++signs) {
+            const auto sign = [&](int bit) { return (signs >> bit & 1) != 0 ? 1 : -1; };
+            expected.push_back(sign(0) * kRingA * u + sign(1) * kRingB * v + sign(2) * kTube);
+        }
+        std::ranges::sort(expected);
+        const CriticalSections found = criticalOf(tiger, {}, orientation);
+        ASSERT_EQ(found.all.size(), 8U) << "|u| = " << u;
+        long euler = 0;
+        for (std::size_t i = 0; i < 8; ++i) {
+            EXPECT_NEAR(found.all[i].w, expected[i], 5e-5) << "|u| = " << u << ", number " << i;
+            EXPECT_EQ(found.all[i].before.euler, euler);
+            EXPECT_EQ(std::abs(found.all[i].after.euler - euler), 2) << "each critical point is one handle";
+            euler = found.all[i].after.euler;
+        }
+        EXPECT_EQ(found.all.front().change, appearance);
+        EXPECT_EQ(found.all.back().change, disappearance);
+    }
+}
+
+// Heat spreads from two points. Halfway between them, the temperature is 2 t^(−3/2) exp(−1 / 4t).
+TEST(CriticalSections, HeatKernelsMerge) {
+    SKIP_IF_SANITIZED();
+    constexpr double kLevel = 5, kFirst = 0.03, kLast = 0.5;
+    const auto halfway = [](double t) { return 2 * std::pow(t, -1.5) * std::exp(-1 / (4 * t)); };
+    const auto timeBetween = [&](double below, double above) {
+        for (int i = 0; i < 60; ++i) (halfway((below + above) / 2) < kLevel ? below : above) = (below + above) / 2;
+        return below;
+    };
+    constexpr double kHottest = 1.0 / 6;
+    const double merging = timeBetween(kFirst, kHottest), splitting = timeBetween(kLast, kHottest);
+    const FieldPtr heat = formulaObject("w^(-3/2) * (exp(-((x-1)^2+y^2+z^2)/(4*w)) + exp(-((x+1)^2+y^2+z^2)/(4*w)))",
+                                        {{-3, -3, -3, kFirst}, {3, 3, 3, kLast}});
+    const FieldSettings settings{{kLevel}, fields::Inside::above};
+    for (const auto& [object, tolerance] : {std::pair{heat, 1e-5}, std::pair{arrayOf(heat, 49), 5e-3}}) {
+        const CriticalSections found = criticalOf(object, settings);
+        ASSERT_EQ(found.all.size(), 3U);
+        const double center = (kFirst + kLast) / 2, accuracy = tolerance + 1e-4 * (kLast - kFirst);
+        EXPECT_NEAR(found.all[0].w + center, merging, accuracy);
+        EXPECT_EQ(found.all[0].change, merge);
+        EXPECT_NEAR(found.all[1].w + center, splitting, accuracy);
+        EXPECT_EQ(found.all[1].change, split);
+        EXPECT_EQ(found.all[2].change, disappearance);
+        EXPECT_EQ(found.all[2].before, kTwoBalls);
+    }
+}
+
+TEST(CriticalSections, DomainsEndsAreNotCritical) {
+    SKIP_IF_SANITIZED();
+    std::mt19937 random(3);
+    for (const std::string_view constant : {"-1", "1"}) {
+        const FieldPtr field = formulaObject(constant);
+        for (const geometry::Rotation& orientation : {geometry::Rotation(), support::randomRotation(random)})
+            EXPECT_TRUE(criticalOf(field, {}, orientation).all.empty()) << constant;
+    }
+}
+
+TEST(CriticalSections, OppositeOrientationsAgree) {
+    const FieldPtr field = formulaObject("x^2 + 2*y^2 + (z^2 + w^2 - 1)^2 + 0.3*z*w - 0.3 + 0.1*x + 0.05*w");
+    std::mt19937 random(4);
+    const geometry::Rotation orientation = support::randomRotation(random);
+    const geometry::Rotation half(geometry::Turn{geometry::Plane::zw, std::acos(-1), {}});  // takes w to −w
+    const CriticalSections up = criticalOf(field, {}, orientation), down = criticalOf(field, {}, half * orientation);
+    ASSERT_FALSE(up.all.empty());
+    ASSERT_EQ(up.all.size(), down.all.size());
+    for (std::size_t i = 0; i < up.all.size(); ++i) {
+        const CriticalSection& mirrored = down.all[up.all.size() - 1 - i];
+        EXPECT_NEAR(up.all[i].w, -mirrored.w, 1e-4);
+        EXPECT_EQ(up.all[i].before, mirrored.after);
+    }
+}
+
+TEST(CriticalSections, EndsInTime) {
+    auto found = findCriticalSections(formulaObject(kTigerAlongW), {}, {}, {.time = std::chrono::seconds(0)});
+    ASSERT_TRUE(found);
+    EXPECT_GT(found->tolerance, 1) << "nothing was halved";
+    std::stop_source stop;
+    stop.request_stop();
+    found = findCriticalSections(formulaObject(kTigerAlongW), {}, {}, {.stop = stop.get_token()});
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().code, ErrorCode::canceled);
+}
+
+TEST(CriticalSections, VerticesOfAPolytope) {
+    const polytopes::Polytope polytope = support::rectifiedFiveCell();
+    const CriticalSections found = criticalOf(support::objectOf(polytope));
+    std::size_t vertices = 0;
+    for (const CriticalSection& section : found.all) {
+        EXPECT_EQ(section.change, SectionChange::vertices);
+        vertices += section.vertices;
+    }
+    EXPECT_EQ(vertices, 10U);
+    EXPECT_NEAR(found.all.front().w, found.least, 1e-12);
+    EXPECT_NEAR(found.all.back().w, found.greatest, 1e-12);
+}
+
+TEST(CriticalSections, NextAndPrevious) {
+    CriticalSections sections;
+    for (const double w : {-1.0, 0.0, 2.0}) sections.all.push_back({.w = w});
+    EXPECT_EQ(nextCriticalW(sections, 0, true, 1e-9), 2.0);
+    EXPECT_EQ(nextCriticalW(sections, 1e-10, false, 1e-9), -1.0);
+    EXPECT_EQ(nextCriticalW(sections, 2, true, 1e-9), std::nullopt);
+    EXPECT_EQ(nextCriticalW(sections, -1, false, 1e-9), std::nullopt);
+}
+
+}  // namespace
+}  // namespace oval4d::slicing

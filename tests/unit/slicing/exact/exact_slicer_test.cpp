@@ -1,0 +1,397 @@
+#include "slicing/exact/exact_slicer.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <glm/matrix.hpp>
+
+#include "fields/array/array_function.hpp"
+#include "fields/array_field.hpp"
+#include "fields/formula_field.hpp"
+#include "slicing/field_slicer.hpp"
+#include "slicing/surfaces/surface_measurements.hpp"
+#include "unit/polytopes/support.hpp"
+#include "unit/slicing/field_support.hpp"
+
+namespace oval4d::slicing {
+namespace {
+
+using fields::Inside;
+
+// An array with random samples between −1 and 1, of which some are NaN.
+fields::Field randomArray(const fields::Shape& shape, const fields::Box& box, std::mt19937& random, double holes = 0) {
+    std::uniform_real_distribution<float> value(-1, 1);
+    std::uniform_real_distribution<double> chance(0, 1);
+    std::vector<float> samples(fields::sampleCount(shape));
+    for (float& sample : samples) sample = chance(random) < holes ? NAN : value(random);
+    auto function = std::make_shared<const fields::ArrayFunction>(shape, box, fields::Samples(std::move(samples)));
+    fields::Field field = fields::makeField("random", function, box);
+    field.array = function;
+    return field;
+}
+
+fields::Field formula(std::string_view text, const fields::Box& box) {
+    auto field = fields::fieldFromFormula("formula", text, box);
+    EXPECT_TRUE(field) << field.error().message;
+    return std::move(*field);
+}
+
+ExactSurface exactSlice(ExactSlicer& slicer, double w, double level, Inside inside = Inside::below) {
+    ExactSurface surface;
+    const auto done = slicer.slice(w, {.level = level, .inside = inside}, surface);
+    EXPECT_TRUE(done);
+    return surface;
+}
+
+// The number of directed edges minus that of their opposites, summed over all edges.
+std::size_t unmatchedEdges(const ExactSurface& surface) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    for (const auto& t : surface.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = t[i], b = t[(i + 1) % 3];
+            EXPECT_NE(a, b);
+            edges[std::minmax(a, b)] += a < b ? 1 : -1;
+        }
+    }
+    return static_cast<std::size_t>(std::ranges::count_if(edges, [](const auto& edge) { return edge.second != 0; }));
+}
+
+// Whether the triangles around each point form one ring, and each directed edge occurs once.
+bool isManifold(const ExactSurface& surface) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> next;  // around the first point
+    std::map<std::uint32_t, std::pair<std::size_t, std::uint32_t>> fans;    // their sizes, and a neighbor
+    for (const auto& t : surface.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!next.try_emplace({t[i], t[(i + 1) % 3]}, t[(i + 2) % 3]).second) return false;
+            auto& [size, neighbor] = fans[t[i]];
+            ++size;
+            neighbor = t[(i + 1) % 3];
+        }
+    }
+    for (const auto& [point, fan] : fans) {
+        std::size_t steps = 0;
+        std::uint32_t at = fan.second;
+        do {
+            const auto found = next.find({point, at});
+            if (found == next.end()) return false;
+            at = found->second;
+        } while (++steps < fan.first && at != fan.second);
+        if (steps != fan.first || at != fan.second) return false;
+    }
+    return true;
+}
+
+// The part of a simplex in which a linear function is below the level. An edge between a corner `below` and one above
+// is cut where the function has the value of the level, which divides the simplex in two; their shares are the parts of
+// the edge.
+double shareBelow(std::vector<double> below, std::vector<double> above, double level) {
+    if (above.empty()) return 1;
+    if (below.empty()) return 0;
+    const double a = below.back(), b = above.back(), t = (level - a) / (b - a);
+    std::vector<double> fewerBelow = below, fewerAbove = above;
+    fewerBelow.pop_back();
+    fewerAbove.pop_back();
+    return t * shareBelow(below, fewerAbove, level) + (1 - t) * shareBelow(fewerBelow, above, level);
+}
+
+struct Cut {
+    std::vector<glm::dvec4> corners;
+    std::vector<double> values;
+};
+
+// The simplices of the subdivision of an array's lattice, found from the definition: x ↦ the order of its fractional
+// parts. Simplices with a corner without a value are left out.
+std::vector<Cut> simplicesOf(const fields::Field& field, const geometry::Rotation& orientation) {
+    std::vector<Cut> simplices;
+    const fields::Shape shape = field.array->shape();
+    const glm::dmat4 toSlice = orientation.matrix() * glm::inverse(field.toFunction);
+    for (std::size_t cell = 0; cell < field.array->samples().size(); ++cell) {
+        std::array<std::size_t, 4> at{};
+        std::size_t rest = cell;
+        bool isLast = false;
+        for (std::size_t a = 0; a < 4; rest /= shape[a], ++a) {
+            at[a] = rest % shape[a];
+            isLast |= at[a] + 1 == shape[a];
+        }
+        if (isLast) continue;
+        std::array<std::size_t, 4> order{0, 1, 2, 3};
+        do {
+            Cut simplex;
+            auto corner = at;
+            for (std::size_t i = 0; i <= 4; ++i) {
+                if (i > 0) ++corner[order[i - 1]];
+                glm::dvec4 position;
+                for (std::size_t a = 0; a < 4; ++a) {
+                    const auto k = static_cast<int>(a);
+                    position[k] = glm::mix(field.box.min[k], field.box.max[k],
+                                           static_cast<double>(corner[a]) / static_cast<double>(shape[a] - 1));
+                }
+                simplex.corners.push_back(toSlice * (position - field.center));
+                simplex.values.push_back(
+                    field.array->samples()[corner[0] +
+                                           shape[0] * (corner[1] + shape[1] * (corner[2] + shape[2] * corner[3]))]);
+            }
+            if (std::ranges::none_of(simplex.values, [](double v) { return std::isnan(v); }))
+                simplices.push_back(simplex);
+        } while (std::ranges::next_permutation(order).found);
+    }
+    return simplices;
+}
+
+double bodyVolume(const std::vector<Cut>& simplices, double level, Inside inside) {
+    double sum = 0;
+    for (const Cut& s : simplices) {
+        std::vector<double> below, above;
+        for (const double value : s.values) (value < level ? below : above).push_back(value);
+        const double share = shareBelow(below, above, level);
+        const glm::dmat4 sides(s.corners[1] - s.corners[0], s.corners[2] - s.corners[0], s.corners[3] - s.corners[0],
+                               s.corners[4] - s.corners[0]);
+        sum += std::abs(glm::determinant(sides)) / 24 * (inside == Inside::below ? share : 1 - share);
+    }
+    return sum;
+}
+
+// The values of w between which the volume of the slices is a polynomial of degree 3: those of the vertices of the
+// body's simplices.
+std::vector<double> breakpoints(const std::vector<Cut>& simplices, double level) {
+    std::vector<double> all;
+    for (const Cut& s : simplices) {
+        for (std::size_t i = 0; i < 5; ++i) {
+            all.push_back(s.corners[i].w);
+            for (std::size_t j = 0; j < i; ++j) {
+                if ((s.values[i] < level) == (s.values[j] < level)) continue;
+                all.push_back(
+                    glm::mix(s.corners[i].w, s.corners[j].w, (level - s.values[i]) / (s.values[j] - s.values[i])));
+            }
+        }
+    }
+    std::ranges::sort(all);
+    return all;
+}
+
+// The integral of the slices' volumes over w is the 4-volume of the body, which follows from the volumes of the
+// simplices. Gauss's formula with two points is exact for polynomials of degree 3.
+TEST(ExactSlicer, VolumesAddUpToThatOfTheBody) {
+    std::mt19937 random(30);
+    for (int trial = 0; trial < 8; ++trial) {
+        const fields::Field field = randomArray({3, 2, 3, 2}, {glm::dvec4(-1, 0, 0.5, -2), glm::dvec4(1, 1.5, 2, 1)},
+                                                random, trial == 7 ? 0.1 : 0);
+        const geometry::Rotation orientation = trial < 2 ? geometry::Rotation() : support::randomRotation(random);
+        const double level = std::uniform_real_distribution<double>(-0.6, 0.6)(random);
+        const Inside inside = trial % 2 == 0 ? Inside::below : Inside::above;
+        const auto simplices = simplicesOf(field, orientation);
+        const std::vector<double> ws = breakpoints(simplices, level);
+        ExactSlicer slicer(field, orientation);
+        double sum = 0;
+        for (std::size_t i = 1; i < ws.size(); ++i) {
+            const double half = (ws[i] - ws[i - 1]) / 2, middle = (ws[i] + ws[i - 1]) / 2;
+            if (half < 1e-12) continue;
+            for (const double side : {-1.0, 1.0}) {
+                const ExactSurface surface =
+                    exactSlice(slicer, middle + side * half / std::numbers::sqrt3, level, inside);
+                EXPECT_EQ(unmatchedEdges(surface), 0U);
+                sum += half * measureSurface(surface).volume;
+            }
+        }
+        const double expected = bodyVolume(simplices, level, inside);
+        EXPECT_GT(expected, 0.1);
+        EXPECT_NEAR(sum / expected, 1, 1e-9) << "trial " << trial;
+    }
+}
+
+// Sums of waves on small lattices, of which the surfaces have many components and tunnels.
+TEST(ExactSlicer, SurfacesOfRandomFieldsAreClosedManifolds) {
+    std::mt19937 random(31);
+    std::uniform_int_distribution<std::size_t> samples(2, 6);
+    std::size_t triangles = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        const fields::Shape shape{samples(random), samples(random), samples(random), samples(random)};
+        const bool holes = trial % 4 == 3;
+        const fields::Field field =
+            randomArray(shape, {glm::dvec4(-1), glm::dvec4(1, 1, 1, 1.5)}, random, holes ? 0.05 : 0);
+        ExactSlicer slicer(field, trial % 5 == 0 ? geometry::Rotation() : support::randomRotation(random));
+        for (const double level : {-0.5, 0.0, 0.4}) {
+            // w = 0 is in the middle of the lattice, and often contains lattice points.
+            for (const double w : {-0.3, 0.0, 0.7}) {
+                const Inside inside = trial % 2 == 0 ? Inside::below : Inside::above;
+                const ExactSurface surface = exactSlice(slicer, w, level, inside);
+                triangles += surface.triangles.size();
+                EXPECT_EQ(unmatchedEdges(surface), 0U) << "trial " << trial;
+                if (!holes) {
+                    EXPECT_TRUE(isManifold(surface)) << "trial " << trial;
+                    EXPECT_EQ(measureSurface(surface).euler % 2, 0);
+                }
+                EXPECT_GE(measureSurface(surface).volume, 0);
+                EXPECT_LE(surface.firstCap, surface.triangles.size());
+            }
+        }
+    }
+    EXPECT_GT(triangles, 100'000U);
+}
+
+// What is below a level and what is above it fill the domain together.
+TEST(ExactSlicer, BothSidesOfALevelFillTheDomain) {
+    std::mt19937 random(32);
+    const fields::Field field = randomArray({4, 5, 3, 4}, {glm::dvec4(-1), glm::dvec4(1)}, random);
+    for (int trial = 0; trial < 20; ++trial) {
+        const geometry::Rotation orientation = trial == 0 ? geometry::Rotation() : support::randomRotation(random);
+        ExactSlicer slicer(field, orientation);
+        const double w = std::uniform_real_distribution<double>(-0.9, 0.9)(random);
+        const auto below = measureSurface(exactSlice(slicer, w, 0.1, Inside::below));
+        const auto above = measureSurface(exactSlice(slicer, w, 0.1, Inside::above));
+        const auto all = measureSurface(exactSlice(slicer, w, 2, Inside::below));
+        EXPECT_NEAR(below.volume + above.volume, all.volume, 1e-12);
+        EXPECT_NEAR(below.area, above.area, 1e-10);
+        EXPECT_NEAR(below.capArea + above.capArea, all.capArea, 1e-10);
+        EXPECT_EQ(all.area, 0);
+        EXPECT_EQ(all.components, 1U);
+        EXPECT_EQ(all.euler, 2);
+        if (trial == 0) {
+            EXPECT_NEAR(all.volume, 8, 1e-12);
+            EXPECT_NEAR(all.capArea, 24, 1e-12);
+        }
+    }
+}
+
+TEST(ExactSlicer, ConstantAndSmallFields) {
+    const auto constant = [](float value, const fields::Shape& shape) {
+        auto function = std::make_shared<const fields::ArrayFunction>(
+            shape, fields::Box{}, fields::Samples(std::vector<float>(fields::sampleCount(shape), value)));
+        fields::Field field = fields::makeField("constant", function, {});
+        field.array = function;
+        return field;
+    };
+    for (const fields::Shape& shape :
+         {fields::Shape{2, 2, 2, 2}, fields::Shape{1, 1, 1, 1}, fields::Shape{9, 1, 3, 2}}) {
+        const fields::Field field = constant(0.5F, shape);
+        ExactSlicer slicer(field, {});
+        EXPECT_NEAR(measureSurface(exactSlice(slicer, 0, 1)).volume, 8, 1e-12);
+        EXPECT_TRUE(exactSlice(slicer, 0, 0.5).triangles.empty()) << "a value on the level is outside";
+        EXPECT_TRUE(exactSlice(slicer, 0, 0.5, Inside::above).triangles.empty());
+        EXPECT_TRUE(exactSlice(slicer, 0, -1).triangles.empty());
+        EXPECT_TRUE(exactSlice(slicer, 1.5, 1).triangles.empty()) << "beside the domain";
+        EXPECT_TRUE(exactSlice(slicer, -1, 1).triangles.empty()) << "lattice points in the hyperplane are above it";
+        EXPECT_NEAR(measureSurface(exactSlice(slicer, 1, 1)).volume, 8, 1e-12);
+    }
+    const fields::Field nothing = constant(NAN, {3, 3, 3, 3});
+    ExactSlicer slicer(nothing, {});
+    EXPECT_TRUE(exactSlice(slicer, 0, 1).triangles.empty());
+}
+
+// A lattice of which one sample has no value: the pentatopes around it are missing.
+TEST(ExactSlicer, HolesHaveCaps) {
+    std::vector<float> samples(5 * 5 * 5 * 5, -1);
+    samples[2 + 5 * (2 + 5 * (2 + 5 * 2))] = NAN;
+    const fields::Box box{glm::dvec4(-2), glm::dvec4(2)};
+    auto function = std::make_shared<const fields::ArrayFunction>(fields::Shape{5, 5, 5, 5}, box,
+                                                                  fields::Samples(std::move(samples)));
+    fields::Field field = fields::makeField("hole", function, box);
+    field.array = function;
+    ExactSlicer slicer(field, {});
+    const ExactSurface surface = exactSlice(slicer, 0.25, 0);
+    EXPECT_EQ(unmatchedEdges(surface), 0U);
+    EXPECT_EQ(surface.firstCap, 0U);
+    const auto measured = measureSurface(surface);
+    EXPECT_EQ(measured.components, 1U);
+    EXPECT_EQ(measured.euler, 4) << "a cube with a cavity";
+    EXPECT_LT(measured.volume, 64);
+    EXPECT_GT(measured.volume, 56);  // the hole is within 8 cells
+}
+
+TEST(ExactSlicer, EllipsoidsConverge) {
+    // x²/a² + y²/b² + z²/c² + w²/d² < 1, rotated: the slice at w is an ellipsoid of the 3-volume
+    // 4/3 π abcd/h (1 − w²/h²)^(3/2), with h, the extent along w.
+    const glm::dvec4 axes(0.9, 0.7, 0.8, 0.6);
+    const fields::Field field =
+        formula("(x/0.9)^2 + (y/0.7)^2 + (z/0.8)^2 + (w/0.6)^2 < 1", {glm::dvec4(-1), glm::dvec4(1)});
+    std::mt19937 random(33);
+    for (int trial = 0; trial < 3; ++trial) {
+        const geometry::Rotation orientation = support::randomRotation(random);
+        const glm::dmat4 m = orientation.matrix();
+        const double extent = glm::length(glm::dvec4(m[0][3], m[1][3], m[2][3], m[3][3]) * axes), w = 0.2;
+        const double expected = 4.0 / 3 * std::numbers::pi * axes.x * axes.y * axes.z * axes.w / extent *
+                                std::pow(1 - w * w / (extent * extent), 1.5);
+        std::array<double, 3> errors{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            ExactSlicer slicer(field, orientation, 12 << i);
+            const auto measured = measureSurface(exactSlice(slicer, w, 0));
+            EXPECT_EQ(measured.euler, 2);
+            EXPECT_EQ(measured.components, 1U);
+            errors[i] = std::abs(measured.volume / expected - 1);
+        }
+        // The error of linear interpolation is of the second order.
+        EXPECT_LT(errors[1], errors[0] / 3);
+        EXPECT_LT(errors[2], errors[1] / 3);
+        EXPECT_LT(errors[2], 0.005);
+    }
+}
+
+TEST(ExactSlicer, TheInteractiveSurfacesConvergeToIt) {
+    const fields::Field field = formula("(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 < 0.09",
+                                        {glm::dvec4(-1.5, -1.5, -0.9, -1.2), glm::dvec4(1.5, 1.2, 1.2, 1.2)});
+    std::mt19937 random(34);
+    const geometry::Rotation orientation = support::randomRotation(random);
+    const geometry::Hyperplanes planes{-2, 5, 0.2, 0.03};
+    ExactSlicer exact(field, orientation, 96);
+    SliceSet slices;
+    SurfaceDetail detail;
+    setEvenDetail(field.circumradius, planes, Quality::file, detail);
+    FieldSlicer().slice(field, orientation, planes, {}, detail, slices);
+    for (int i = 0; i < planes.count; ++i) {
+        const auto expected = measureSurface(exactSlice(exact, planes.w(i), 0));
+        const auto measured = measureSurface(slices.surfaces[static_cast<std::size_t>(i)], 0);
+        ASSERT_GT(expected.volume, 0.1);
+        EXPECT_NEAR(measured.volume / expected.volume, 1, 0.01);
+        EXPECT_NEAR(measured.area / expected.area, 1, 0.01);
+        EXPECT_NEAR(measured.capArea, expected.capArea, 0.02);
+        EXPECT_LT(glm::distance(*measured.centroid, *expected.centroid), 0.01);
+        EXPECT_EQ(measured.components, expected.components);
+        EXPECT_EQ(measured.euler, expected.euler);
+    }
+}
+
+// The object's axes may be any linear images of the function's.
+TEST(ExactSlicer, LinearMapsOfTheObjectAreTakenIntoAccount) {
+    std::mt19937 random(35);
+    fields::Field field = randomArray({4, 4, 4, 4}, {glm::dvec4(-1), glm::dvec4(1)}, random);
+    glm::dmat4 sheared(1);
+    sheared[3][0] = 0.5;  // a moving frame: x' = x + t / 2
+    sheared[1][1] = 2;
+    field.toFunction = glm::inverse(sheared);
+    const geometry::Rotation orientation = support::randomRotation(random);
+    const auto simplices = simplicesOf(field, orientation);
+    const std::vector<double> ws = breakpoints(simplices, 0);
+    ExactSlicer slicer(field, orientation);
+    double sum = 0;
+    constexpr int kSlices = 400;
+    for (int i = 0; i < kSlices; ++i) {
+        const double w = glm::mix(ws.front(), ws.back(), (i + 0.5) / kSlices);
+        sum += (ws.back() - ws.front()) / kSlices * measureSurface(exactSlice(slicer, w, 0)).volume;
+    }
+    EXPECT_NEAR(sum / bodyVolume(simplices, 0, Inside::below), 1, 1e-4);
+}
+
+TEST(ExactSlicer, IsBoundedAndCancelable) {
+    std::mt19937 random(36);
+    const fields::Field field = randomArray({12, 12, 12, 12}, {glm::dvec4(-1), glm::dvec4(1)}, random);
+    ExactSlicer slicer(field, support::randomRotation(random));
+    ExactSurface surface;
+    auto done = slicer.slice(0, {.maxTriangles = 1000}, surface);
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().message.find("1000 triangles"), std::string::npos);
+    EXPECT_LT(surface.triangles.size(), 2000U);
+    int asked = 0;
+    done = slicer.slice(0, {.mustStop = [&] { return ++asked == 2; }}, surface);
+    ASSERT_FALSE(done);
+    EXPECT_EQ(asked, 2);
+    EXPECT_TRUE(slicer.slice(0, {}, surface));  // works again
+    EXPECT_EQ(unmatchedEdges(surface), 0U);
+}
+
+}  // namespace
+}  // namespace oval4d::slicing

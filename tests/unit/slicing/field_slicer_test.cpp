@@ -1,0 +1,269 @@
+#include "slicing/field_slicer.hpp"
+
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "fields/formula_field.hpp"
+#include "sanitizers/sanitized.hpp"
+#include "unit/polytopes/support.hpp"
+#include "unit/slicing/field_support.hpp"
+
+namespace oval4d::slicing {
+namespace {
+
+constexpr geometry::Hyperplanes kPlanes{-10, 21, 0.15, 0};
+
+SliceSet slicesOf(const fields::Field& field, const geometry::Rotation& orientation, const FieldSettings& settings = {},
+                  int detail = 64, const geometry::Hyperplanes& planes = kPlanes) {
+    FieldSlicer slicer;
+    SliceSet out;
+    slicer.slice(field, orientation, planes, settings, detailOf(field, planes, detail), out);
+    return out;
+}
+
+// The slice of a 4-D ellipsoid by a hyperplane is a 3-D ellipsoid: its volume and centroid are known.
+TEST(FieldSlicer, EllipsoidsHaveTheRightVolumesAndCentroids) {
+    std::mt19937 random(20);
+    std::uniform_real_distribution<double> axis(0.7, 1.5), shift(-0.2, 0.2);
+    for (int trial = 0; trial < 4; ++trial) {
+        const geometry::Rotation own = support::randomRotation(random), orientation = support::randomRotation(random);
+        const glm::dvec4 axes(axis(random), axis(random), axis(random), axis(random));
+        const glm::dvec4 center(shift(random), shift(random), shift(random), shift(random));
+        const auto f = [&](const glm::dvec4& p) { return glm::length(own(p - center) / axes) - 1; };
+        const fields::Field field = testField(f, 1 / 0.7, {glm::dvec4(-2), glm::dvec4(2)});
+        const SliceSet slices = slicesOf(field, orientation, {}, 128);
+        // The ellipsoid is {c + M u : |u| ≤ 1}, where M = orientation · own⁻¹ · diag(axes). With m, the last row of M,
+        // the slice at w is the set of u with m · u = w − c.w: a 3-ball.
+        const glm::dvec4 rotatedCenter = orientation(center);
+        glm::dmat4 m = (orientation * own.inverse()).matrix();
+        for (int k = 0; k < 4; ++k) m[k] *= axes[k];
+        const glm::dvec4 row(m[0][3], m[1][3], m[2][3], m[3][3]);
+        const double reach = glm::length(row);
+        const double volume4 = axes.x * axes.y * axes.z * axes.w;
+        for (int i = 0; i < kPlanes.count; ++i) {
+            const double height = (kPlanes.w(i) - rotatedCenter.w) / reach;
+            const Measure result = measure(slices.surfaces[static_cast<std::size_t>(i)], 0);
+            EXPECT_EQ(result.unpaired, 0U);
+            if (std::abs(height) >= 1) {
+                EXPECT_EQ(result.volume, 0) << height;
+                continue;
+            }
+            if (std::abs(height) > 0.97) continue;
+            const double radius = std::sqrt(1 - height * height);
+            const double expected = 4.0 / 3 * std::numbers::pi * radius * radius * radius * volume4 / reach;
+            EXPECT_EQ(result.euler, 2);
+            if (std::abs(height) < 0.8) {
+                EXPECT_NEAR(result.volume / expected, 1, 0.005) << "trial " << trial << " slice " << i;
+            }
+            const glm::dvec4 middle = rotatedCenter + m * (row / reach * height);
+            EXPECT_LT(glm::distance(result.moment / result.volume, glm::dvec3(middle)), 0.01);
+        }
+    }
+}
+
+// The whole domain is inside: the caps are the domain's slice.
+TEST(FieldSlicer, CapsFillTheDomainExactly) {
+    std::mt19937 random(21);
+    const fields::Field field =
+        testField([](const glm::dvec4&) { return -1; }, 0, {glm::dvec4(-1, -0.5, 0, 2), glm::dvec4(1, 0.7, 1, 3.5)});
+    for (int trial = 0; trial < 8; ++trial) {
+        const geometry::Rotation orientation = trial == 0 ? geometry::Rotation() : support::randomRotation(random);
+        const SliceSet slices = slicesOf(field, orientation, {}, 40, {-2, 5, 0.3, 0.01});
+        for (int i = 0; i < 5; ++i) {
+            double expected = 0;
+            for (std::size_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
+                const auto corner = [&](std::size_t c) {
+                    return slices.vertices[slices.vertexBegin[i] + slices.corners[c]];
+                };
+                const std::size_t first = slices.cornerBegin[f];
+                for (std::size_t c = first + 2; c < slices.cornerBegin[f + 1]; ++c)
+                    expected += glm::dot(corner(first), glm::cross(corner(c - 1), corner(c))) / 6;
+            }
+            const SliceSurface& surface = slices.surfaces[static_cast<std::size_t>(i)];
+            const Measure result = measure(surface, 0);
+            EXPECT_EQ(result.unpaired, 0U);
+            EXPECT_NEAR(result.volume / expected, 1, trial == 0 ? 1e-6 : 0.004) << "trial " << trial << " slice " << i;
+            // Where the domain is thinner than the lattice's step, it may fall apart.
+            EXPECT_EQ(result.euler, 2 * static_cast<long>(result.components));
+        }
+    }
+}
+
+// Sums of waves, whose level sets have many components and tunnels. Where two of them almost touch, faces of the
+// lattice have alternating corners.
+TEST(FieldSlicer, SurfacesOfRandomFieldsAreClosed) {
+    std::mt19937 random(22);
+    std::normal_distribution<double> normal;
+    std::size_t triangles = 0;
+    for (int trial = 0; trial < trials(200); ++trial) {
+        std::string text;
+        for (int i = 0; i < 5; ++i) {
+            text += (i > 0 ? " + sin(" : "sin(") + std::to_string(3 * normal(random));
+            for (const char axis : {'x', 'y', 'z', 'w'})
+                text += " + " + std::to_string(3 * normal(random)) + "*" + axis;
+            text += ")";
+        }
+        if (trial % 4 == 3) text += " + 0.1*sqrt(x^2 + y^2 + z^2 + w^2 - 0.5)";  // without values in a ball
+        const auto field = fields::fieldFromFormula("waves", text, {glm::dvec4(-1), glm::dvec4(1, 1, 1, 1.5)});
+        ASSERT_TRUE(field) << field.error().message;
+        FieldSettings settings{{-0.5, normal(random)}, trial % 2 == 0 ? fields::Inside::below : fields::Inside::above};
+        const SliceSet slices = slicesOf(*field, support::randomRotation(random), settings, 24, {-1, 3, 0.5, 0.05});
+        for (const SliceSurface& surface : slices.surfaces) {
+            triangles += surface.triangles.size();
+            for (std::size_t level = 0; level < 2; ++level) {
+                const Measure result = measure(surface, level);
+                EXPECT_EQ(result.unpaired, 0U) << "trial " << trial;
+                EXPECT_EQ(result.euler % 2, 0);
+                EXPECT_GE(result.volume, 0);
+            }
+        }
+    }
+    EXPECT_GT(triangles, trials(100'000U));
+}
+
+constexpr std::string_view kTiger = "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 < 0.09";
+
+// The tiger's 4-volume follows from Pappus' theorem: 4 π³ a b r².
+TEST(FieldSlicer, TheTigersVolumeDoesNotDependOnItsRotation) {
+    const auto tiger = fields::fieldFromFormula("tiger", kTiger, {glm::dvec4(-1.6), glm::dvec4(1.6)});
+    ASSERT_TRUE(tiger) << tiger.error().message;
+    const double expected = 4 * std::pow(std::numbers::pi, 3) * 0.7 * 0.09;
+    std::mt19937 random(23);
+    for (int trial = 0; trial < 5; ++trial) {
+        const geometry::Hyperplanes planes{-30, 61, 0.07};
+        const SliceSet slices =
+            slicesOf(*tiger, trial == 0 ? geometry::Rotation() : support::randomRotation(random), {}, 100, planes);
+        double volume = 0;
+        for (const SliceSurface& surface : slices.surfaces) volume += planes.spacing * measure(surface, 0).volume;
+        EXPECT_NEAR(volume / expected, 1, 0.005) << "trial " << trial;
+    }
+}
+
+// At w = 0 the tiger is two coaxial tori around the circle x² + y² = 1, at z = ±0.7; where |w| is between 0.7 − 0.3 and
+// 0.7 + 0.3, both merge to one torus, and beyond it is empty.
+TEST(FieldSlicer, TheTigersSlicesHaveTheRightTopology) {
+    const auto tiger = fields::fieldFromFormula("tiger", kTiger, {glm::dvec4(-1.6), glm::dvec4(1.6)});
+    ASSERT_TRUE(tiger) << tiger.error().message;
+    const geometry::Hyperplanes planes{0, 23, 0.05, 0.01};
+    const SliceSet slices = slicesOf(*tiger, {}, {}, 100, planes);
+    for (int i = 0; i < planes.count; ++i) {
+        const double w = planes.w(i);
+        const Measure result = measure(slices.surfaces[static_cast<std::size_t>(i)], 0);
+        EXPECT_EQ(result.euler, 0);  // tori have the Euler number 0
+        if (std::abs(w - 0.4) < 0.05) continue;
+        EXPECT_EQ(result.components, w < 0.4 ? 2U : w < 1 ? 1U : 0U) << "w = " << w;
+    }
+}
+
+// The same sphere as inside and as outside of a level, and under two levels at the same time.
+// The hyperplane z + s x = 1 meets the wall z = 1 in x = 0, at an angle that may be small. The lattice may have any
+// position.
+TEST(FieldSlicer, RimsAreSmoothWhereASurfaceMeetsTheBoxAtASmallAngle) {
+    std::mt19937 random(22);
+    for (const double slope : {1.0, 0.3, 0.1}) {
+        const auto f = [slope](const glm::dvec4& p) { return p.z + slope * p.x - 1; };
+        const fields::Field field = testField(f, 1 + slope, {glm::dvec4(-1), glm::dvec4(1)});
+        for (int trial = 0; trial < 4; ++trial) {
+            // Turned within the slices, so that each contains the whole rim.
+            const geometry::Rotation orientation =
+                geometry::Rotation(geometry::Turn{geometry::Plane::xy, 0.3 + trial, {}}) *
+                geometry::Rotation(geometry::Turn{geometry::Plane::xz, 0.8 * trial, {}}) *
+                geometry::Rotation(geometry::Turn{geometry::Plane::yz, 0.1 + 0.6 * trial, {}});
+            const SliceSet slices = slicesOf(field, orientation, {}, 64, {0, 1, 1, 0});
+            const SliceSurface& surface = slices.surfaces.front();
+            EXPECT_EQ(measure(surface, 0).unpaired, 0U);
+            std::vector<bool> onCap(surface.points.size()), onLevel(surface.points.size());
+            for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+                for (const std::uint32_t point : surface.triangles[t])
+                    (surface.isCap(t) ? onCap : onLevel)[point] = true;
+            }
+            std::size_t rim = 0;
+            for (std::size_t k = 0; k < surface.points.size(); ++k) {
+                const glm::dvec4 p = orientation.inverse()(glm::dvec4(surface.points[k], 0));
+                if (!onCap[k] || !onLevel[k] || std::abs(p.y) > 0.95 || std::abs(p.x) > 0.95) continue;
+                EXPECT_NEAR(p.x, 0, 1e-4) << "slope " << slope << ", trial " << trial;
+                EXPECT_NEAR(p.z, 1, 1e-4);
+                ++rim;
+            }
+            EXPECT_GT(rim, 30U);
+        }
+    }
+}
+
+TEST(FieldSlicer, LevelsAreIndependentOfEachOther) {
+    const auto ball = fields::fieldFromFormula("ball", "x^2 + y^2 + z^2 + w^2", {glm::dvec4(-1), glm::dvec4(1)});
+    ASSERT_TRUE(ball);
+    const SliceSet both = slicesOf(*ball, {}, {{0.25, 0.81}, fields::Inside::below}, 64, {0, 1, 1});
+    const SliceSet inner = slicesOf(*ball, {}, {{0.25}, fields::Inside::below}, 64, {0, 1, 1});
+    const SliceSet outside = slicesOf(*ball, {}, {{0.25}, fields::Inside::above}, 64, {0, 1, 1});
+    const double volume = 4.0 / 3 * std::numbers::pi * 0.125;
+    EXPECT_NEAR(measure(both.surfaces[0], 0).volume / volume, 1, 0.01);
+    EXPECT_EQ(measure(both.surfaces[0], 0).volume, measure(inner.surfaces[0], 0).volume);
+    EXPECT_NEAR(measure(both.surfaces[0], 1).volume / (volume * 1.8 * 1.8 * 1.8), 1, 0.01);
+    EXPECT_NEAR(measure(outside.surfaces[0], 0).volume, 8 - volume, 0.01);
+    EXPECT_EQ(measure(outside.surfaces[0], 0).euler, 4);  // a cube, and a spherical cavity
+}
+
+TEST(FieldSlicer, GrowthIsTheSpeedOfTheSurface) {
+    // The radius of the ball is 0.3 + 0.25 t.
+    const auto ball =
+        fields::fieldFromFormula("growing", "sqrt(x^2+y^2+z^2) < 0.3 + 0.25*t", {glm::dvec4(-1), glm::dvec4(1)});
+    ASSERT_TRUE(ball);
+    const SliceSet slices = slicesOf(*ball, {}, {}, 48, {0, 3, 0.3});
+    for (const SliceSurface& surface : slices.surfaces) {
+        ASSERT_FALSE(surface.points.empty());
+        for (const float growth : surface.growth) EXPECT_NEAR(growth, 0.25, 1e-4);
+    }
+}
+
+// The second function is that of the field's own point: the point of the slice, rotated back. This also holds in a
+// frame of reference, on caps, and for each level.
+TEST(FieldSlicer, SecondValuesAreThoseOfTheFieldsOwnPoints) {
+    std::mt19937 random(21);
+    const auto field = fields::fieldFromFormula(
+        "ball", "x^2+y^2+z^2+w^2", {glm::dvec4(-1, -2, -1, -1), glm::dvec4(2, 1, 1, 1)}, "x + 2*y - 3*z + sin(w)");
+    ASSERT_TRUE(field);
+    for (const geometry::ReferenceFrame& frame :
+         {geometry::ReferenceFrame{}, geometry::ReferenceFrame{2, glm::dvec3(0.3, 0, 0), glm::dvec3(0, 0.4, 0)}}) {
+        const fields::Field image = imageOf(*field, frame, 1);
+        const geometry::Rotation orientation = support::randomRotation(random);
+        const SliceSet slices = slicesOf(image, orientation, {{0.8, 1.5}, fields::Inside::below}, 40);
+        std::size_t points = 0;
+        for (int i = 0; i < kPlanes.count; ++i) {
+            const SliceSurface& surface = slices.surfaces[static_cast<std::size_t>(i)];
+            ASSERT_EQ(surface.secondValues.size(), surface.points.size());
+            for (std::size_t k = 0; k < surface.points.size(); ++k) {
+                const glm::dvec4 shown(glm::dvec3(surface.points[k]), kPlanes.w(i));
+                const glm::dvec4 p = image.center + image.toFunction * orientation.inverse()(shown);
+                EXPECT_NEAR(surface.secondValues[k], p.x + 2 * p.y - 3 * p.z + std::sin(p.w), 1e-4);
+                ++points;
+            }
+        }
+        EXPECT_GT(points, 1000U);
+    }
+}
+
+TEST(FieldSlicer, EvaluatesTheSecondFunctionOnlyIfItsValuesAreNeeded) {
+    const auto field = fields::fieldFromFormula("ball", "x^2+y^2+z^2+w^2", {glm::dvec4(-1), glm::dvec4(1)}, "x + y");
+    ASSERT_TRUE(field);
+    SurfaceDetail detail = detailOf(*field, kPlanes, 40);
+    detail.secondValues = false;
+    SliceSet slices;
+    FieldSlicer().slice(*field, {}, kPlanes, {{0.5}, fields::Inside::below}, detail, slices);
+    EXPECT_FALSE(slices.surfaces[10].points.empty());
+    EXPECT_TRUE(slices.surfaces[10].secondValues.empty());
+}
+
+TEST(FieldSlicer, WithoutASecondFunctionThereAreNoSecondValues) {
+    const SliceSet slices = slicesOf(*fields::fieldFromFormula("ball", "x^2+y^2+z^2+w^2 < 1"), {});
+    EXPECT_FALSE(slices.surfaces[10].points.empty());
+    EXPECT_TRUE(slices.surfaces[10].secondValues.empty());
+    EXPECT_EQ(&slices.surfaces[10].coloringValues(), &slices.surfaces[10].values);
+}
+
+}  // namespace
+}  // namespace oval4d::slicing

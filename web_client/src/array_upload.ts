@@ -1,0 +1,43 @@
+// Uploads arrays, the binary files of 4-D fields, which the server reads by itself.
+
+import type { Credentials, Done, ErrorMessage } from "@oval4d/protocol";
+
+import { FileError } from "./files";
+
+const kHeader = 512; // bytes: within them, every array has a character that texts do not contain
+
+/** Whether a file is binary. The server tells from its first bytes which format of arrays it has, if any. */
+export async function isBinary(file: File): Promise<boolean> {
+    const bytes = new Uint8Array(await file.slice(0, kHeader).arrayBuffer());
+    return bytes.some((byte) => byte < 0x20 && !"\t\n\v\f\r".includes(String.fromCharCode(byte)));
+}
+
+/**
+ * Loads an array into the session under a name. `sent` is called with the part that is sent, from 0 to 1. Throws
+ * FileError with the server's reason, or if the connection is lost.
+ */
+export function uploadArray(
+    file: File,
+    name: string,
+    { session, token }: Credentials,
+    sent: (part: number) => void,
+): Promise<Done> {
+    // fetch() does not report progress.
+    const request = new XMLHttpRequest();
+    const path = `api/v1/sessions/${encodeURIComponent(session)}/fields/${encodeURIComponent(name)}`;
+    request.open("PUT", new URL(path, new URL(".", location.href)));
+    request.setRequestHeader("Session-Token", token);
+    request.responseType = "json";
+    return new Promise((resolve, reject) => {
+        const lost = (): void => reject(new FileError("The connection was lost before the file was loaded. Try again."));
+        request.upload.onprogress = ({ loaded, total }) => sent(loaded / total);
+        request.onerror = request.onabort = lost;
+        request.onload = () => {
+            const answer = request.response as Done | ErrorMessage | null;
+            if (answer?.type === "done") resolve(answer);
+            else if (answer) reject(new FileError(answer.message));
+            else lost();
+        };
+        request.send(file);
+    });
+}

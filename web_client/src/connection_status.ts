@@ -1,0 +1,79 @@
+// Shows the status of the connection.
+
+import type { Status } from "@oval4d/protocol";
+
+import { byId } from "./element";
+import { capitalize, formatTime } from "./format";
+
+const kMaxWait = 1000; // milliseconds without an answer after which the page says that it waits
+
+export class ConnectionStatus {
+    private readonly root = byId("connection");
+    private readonly text = this.root.querySelector("span")!;
+    private readonly stale = byId("stale");
+    private readonly drawing = byId("drawing");
+    private readonly announcer = byId("connection-spoken");
+    private status: Status = { kind: "connecting" };
+    private presentedAt: Date | undefined;
+    private retryAt = 0; // when the next attempt to connect begins, in milliseconds as in Date.now()
+    private lateAnswers = 0; // number of requests that have been unanswered for kMaxWait
+    private countdown: ReturnType<typeof setInterval> | undefined;
+
+    update(status: Status): void {
+        if (status.kind !== this.status.kind && status.kind !== "connecting") {
+            this.announcer.textContent = statusText(status, 0);
+        }
+        this.status = status;
+        clearInterval(this.countdown);
+        this.retryAt = Date.now() + (status.kind === "waiting" ? status.seconds * 1000 : 0);
+        this.write();
+        if (status.kind === "waiting") this.countdown = setInterval(() => this.write(), 1000);
+    }
+
+    /** Says that the page waits for the server as long as this answer, or another one, is late. */
+    follow(answer: Promise<unknown>): void {
+        const count = (change: number): void => {
+            this.lateAnswers += change;
+            this.write();
+        };
+        let isLate = false;
+        const timer = setTimeout(() => {
+            isLate = true;
+            count(1);
+            if (this.lateAnswers === 1) this.announcer.textContent = this.text.textContent;
+        }, kMaxWait);
+        const settled = (): void => {
+            clearTimeout(timer);
+            if (isLate) count(-1);
+        };
+        answer.then(settled, settled);
+    }
+
+    /** Records that a picture has been presented; `latency` is the key-to-picture latency in milliseconds, if known. */
+    picturePresented(latency: number | undefined): void {
+        this.presentedAt = new Date();
+        if (this.status.kind !== "open") return;
+        this.root.title = latency === undefined ? "" : `Key-to-picture latency: ${latency.toFixed(0)} ms`;
+        this.root.dataset["latency"] = latency === undefined ? "" : latency.toFixed(1);
+    }
+
+    private write(): void {
+        const { kind } = this.status;
+        const isLate = kind === "open" && this.lateAnswers > 0;
+        const seconds = Math.max(0, this.retryAt - Date.now()) / 1000;
+        this.root.dataset["kind"] = isLate ? "late" : kind;
+        this.text.textContent = isLate ? "Waiting…" : statusText(this.status, seconds);
+        const isStale = kind !== "open" && this.presentedAt !== undefined;
+        this.drawing.toggleAttribute("data-stale", isStale);
+        this.stale.hidden = !isStale;
+        if (isStale) this.stale.textContent = `Not connected. This picture is from ${formatTime(this.presentedAt!)}.`;
+    }
+}
+
+function statusText(status: Status, seconds: number): string {
+    if (status.kind === "open") return "Connected";
+    if (status.kind === "connecting") return "Connecting…";
+    if (status.kind === "closed") return `Closed: ${status.reason}`;
+    const when = seconds < 1 ? "now" : `in ${Math.ceil(seconds)} s`;
+    return `${capitalize(status.reason)}; trying again ${when}`;
+}

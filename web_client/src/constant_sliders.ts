@@ -1,0 +1,59 @@
+// Sliders for the named constants of a formula, such as a in "x^2 - a; a=0.7". A slider rewrites the text.
+
+import { element } from "./element";
+import { constantsOf, rangeFor, textOfStep, withConstant } from "./formula";
+
+interface Row {
+    slider: HTMLInputElement;
+    value: HTMLOutputElement;
+    step: number;
+}
+
+export class ConstantSliders {
+    private readonly rows = new Map<string, Row>(); // by the constant's name
+    private formula = "";
+
+    /** `changed` is called with the new text of the formula. */
+    constructor(
+        private readonly root: HTMLElement,
+        private readonly changed: (formula: string) => void,
+    ) {}
+
+    /** Shows the constants of a formula. A slider keeps its range as long as it contains the value. */
+    update(formula: string): void {
+        this.formula = formula;
+        const constants = constantsOf(formula);
+        const names = constants.map(({ name }) => name);
+        if (names.join() !== [...this.rows.keys()].join()) {
+            const kept = new Map(this.rows);
+            this.rows.clear();
+            for (const name of names) this.rows.set(name, kept.get(name) ?? this.makeRow(name));
+            this.root.replaceChildren(...[...this.rows.values()].map(({ slider }) => slider.closest("label")!));
+        }
+        this.root.hidden = names.length === 0;
+        for (const { name, value } of constants) this.show(this.rows.get(name)!, value);
+    }
+
+    private show(row: Row, value: number): void {
+        const { slider } = row;
+        const text = String(value);
+        if (slider.min === "" || value < Number(slider.min) || value > Number(slider.max)) {
+            const { min, max, step } = rangeFor(value);
+            Object.assign(slider, { min: String(min), max: String(max), step: String(step) });
+            row.step = step;
+        }
+        row.value.textContent = text;
+        slider.value = text;
+    }
+
+    private makeRow(name: string): Row {
+        const slider = element("input", { type: "range", "data-constant": name, "aria-label": name });
+        const value = element("output");
+        element("label", {}, element("i", { "aria-hidden": "true" }, name), slider, value);
+        const row = { slider, value, step: 1 };
+        slider.addEventListener("input", () => {
+            this.changed(withConstant(this.formula, name, textOfStep(Number(slider.value), row.step)));
+        });
+        return row;
+    }
+}

@@ -1,0 +1,15 @@
+// The fields that are known by name: formulas to start from.
+
+import type { Box } from "@oval4d/protocol";
+
+import table from "../../protocol/fields.json";
+import type { FormulaField } from "./fields";
+
+const kTable: { name: string; formula: string; box: number[][]; values?: string }[] = table.fields;
+
+export const kExamples: (FormulaField & { title: string })[] = kTable.map(({ name, formula, box, values }) => ({
+    title: name.charAt(0).toUpperCase() + name.slice(1),
+    formula,
+    box: box as Box,
+    ...(values && { values }),
+}));

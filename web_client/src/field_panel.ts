@@ -1,0 +1,334 @@
+// The panel in which the formula of a field is written, with its constants, levels and domain. The picture follows every
+// change: at most one change is on its way to the server, and of those made meanwhile only the newest is sent.
+
+import type { Box, Caps, Inside, RequestError, Settings, Slices, State } from "@oval4d/protocol";
+
+import { byId, element } from "./element";
+import { kExamples } from "./field_examples";
+import { type FormulaField, isField, kFormulaName, kMaxLevels, kUsualBox, parseNumbers, queryOf } from "./fields";
+import { FogEditor } from "./fog_editor";
+import { toSentence } from "./format";
+import { comparisonOf } from "./formula";
+import { FormulaText } from "./formula_text";
+import { ConstantSliders } from "./constant_sliders";
+import { NewestOnly } from "./newest_only";
+import { ObserverControls } from "./observer_controls";
+import { readStored, writeStored } from "./tab_storage";
+
+export interface FieldEvents {
+    /**
+     * Loads a formula, then changes settings; returns the revision. `continues` tells whether it belongs to the undo step
+     * of the previous command. Throws an Error if the formula is refused.
+     */
+    load(field: FormulaField, settings: Settings, continues: boolean): Promise<number>;
+    /** Changes settings; throws an Error whose message is shown. */
+    set(settings: Settings & { continues?: boolean }): Promise<unknown>;
+    /** Gives the user a link to this address. */
+    shareAddress(address: string): void;
+    /** Called when the panel has been closed. */
+    closed(): void;
+}
+
+const kTypingDelay = 150; // milliseconds after the last change by typing
+const kSeries = 1500; // milliseconds between changes that are undone together
+const kMaxTyped = 100; // formulas whose typed text is kept for undo
+const kStorageKey = "oval4d.formula";
+const kAxes = ["x", "y", "z", "w"] as const;
+const kOfValues = /^values: /; // begins the error of the formula of values
+
+export class FieldPanel {
+    private readonly root = byId("field");
+    private readonly formula = this.formulaText("");
+    private readonly values = this.formulaText("-values");
+    private readonly levels = byId<HTMLInputElement>("field-levels");
+    private readonly levelsError = byId("field-levels-error");
+    private readonly boxError = byId("field-box-error");
+    private readonly example = byId<HTMLSelectElement>("field-example");
+    private readonly ends: HTMLInputElement[]; // of the box: eight
+    private readonly sliders = new ConstantSliders(byId("field-constants"), (text) => {
+        this.formula.value = text;
+        this.changed(0);
+    });
+    private readonly loads = new NewestOnly<FormulaField>((field) => this.load(field));
+    private readonly levelSettings = new NewestOnly<number[]>((levels) => this.apply({ levels }));
+    private readonly capSettings = new NewestOnly<Caps>((caps) => this.apply({ caps }));
+    private readonly insideSettings = new NewestOnly<Inside>((inside) => this.apply({ inside }));
+    private readonly fog = new FogEditor((settings) => this.events.set(settings));
+    private readonly observer = new ObserverControls((settings) => this.events.set(settings));
+    private loaded: FormulaField | undefined; // the formula that this page loaded last
+    private sent: { settings: Settings; revision: number } | undefined; // with the formula, until its state arrives
+    private state: State | undefined;
+    // The revision at which this page loaded its last formula, when it did, and whether pair() has seen it.
+    private last: { revision: number; time: number; isPaired: boolean } | undefined;
+    private shown = ""; // textOf() the state
+    private own = ""; // textOf() the state with the formula that this page loaded last
+    private readonly typed = new Map<string, FormulaField>(); // by textOf() the state: what was typed
+
+    constructor(private readonly events: FieldEvents) {
+        this.ends = kAxes.flatMap((axis) => ["from", "to"].map((end) => endInput(axis, end)));
+        byId("field-ranges").append(...kAxes.map((axis, i) => rangeRow(axis, this.ends[2 * i]!, this.ends[2 * i + 1]!)));
+        this.example.append(...kExamples.map(({ title }, i) => element("option", { value: String(i) }, title)));
+        this.loaded = readStored<FormulaField>(kStorageKey);
+        this.write(this.loaded ?? { formula: kExamples[0]!.formula, box: kUsualBox });
+        for (const end of this.ends) end.addEventListener("input", () => this.changed(kTypingDelay));
+        this.example.addEventListener("change", () => this.startFrom(Number(this.example.value)));
+        this.levels.addEventListener("input", () => this.changeLevels());
+        byId("field-inside").addEventListener("change", (event) => {
+            this.insideSettings.submit((event.target as HTMLInputElement).value as Inside, 0);
+        });
+        byId("field-caps").addEventListener("change", (event) => {
+            this.capSettings.submit((event.target as HTMLInputElement).value as Caps, 0);
+        });
+        byId("field-link").addEventListener("click", () => this.events.shareAddress(this.address()));
+        byId("field-close").addEventListener("click", () => this.close());
+        byId("field-form").addEventListener("submit", (event) => event.preventDefault());
+    }
+
+    private formulaText(of: string): FormulaText {
+        const ids = { input: of === "" ? "field-formula" : `field${of}`, error: `field${of}-error`, excerpt: `field${of}-excerpt` };
+        return new FormulaText(
+            ids,
+            () => this.changed(kTypingDelay),
+            () => this.changed(0),
+        );
+    }
+
+    get isOpen(): boolean {
+        return !this.root.hidden;
+    }
+
+    /** Opens the panel. Shows its formula, unless a field is shown. */
+    open(): void {
+        this.setOpen(true);
+        // On a touch screen, a text field with the focus would open the keyboard over the panel.
+        (matchMedia("(pointer: coarse)").matches ? byId("field-close") : this.formula.input).focus();
+        if (this.state && !isField(this.state)) this.changed(0);
+    }
+
+    close(): void {
+        this.setOpen(false);
+        this.events.closed();
+    }
+
+    /** Takes over a formula that was loaded elsewhere on the page, at this revision. */
+    adopt(field: FormulaField, revision: number): void {
+        this.write(field);
+        writeStored(kStorageKey, field);
+        this.noteLoaded(field, revision);
+        this.showError(undefined);
+    }
+
+    private noteLoaded(field: FormulaField, revision: number): void {
+        this.loaded = field;
+        this.last = { revision, time: performance.now(), isPaired: false };
+        this.pair();
+    }
+
+    update(state: State): void {
+        this.state = state;
+        if (this.sent && state.revision >= this.sent.revision) this.sent = undefined;
+        this.showFormulaOf(state);
+        const { levels = [], inside = "below", caps = "plain" } = state;
+        for (const control of this.root.querySelectorAll<HTMLInputElement>("[data-of=field]")) {
+            control.disabled = !isField(state);
+        }
+        if (document.activeElement !== this.levels) this.showLevels(levels);
+        this.observer.update(state);
+        this.fog.update(state);
+        for (const [name, value] of Object.entries({ inside, caps })) {
+            this.root.querySelector<HTMLInputElement>(`[name=${name}][value=${value}]`)!.checked = true;
+        }
+    }
+
+    updatePicture(picture: Slices): void {
+        this.fog.updatePicture(picture);
+    }
+
+    /**
+     * Records how the server writes the formula that this page loaded last, in the first state that has it: without
+     * superfluous blanks and parentheses, and with numbers as the values of constants.
+     */
+    private pair(): void {
+        const { last, state, loaded } = this;
+        if (!last || last.isPaired || !loaded || !state || state.revision < last.revision) return;
+        last.isPaired = true;
+        this.own = textOf(state);
+        if (this.typed.size >= kMaxTyped) this.typed.clear();
+        this.typed.set(this.own, loaded);
+    }
+
+    /** Shows the formula of a state that this page did not load, such as one that undo has restored. */
+    private showFormulaOf(state: State): void {
+        this.pair();
+        const text = textOf(state);
+        const isNew = text !== this.shown;
+        this.shown = text;
+        const { formula, box, values } = state.field ?? {};
+        const isOwn = text === this.own || this.last?.isPaired === false;
+        if (!isNew || formula === undefined || !box || this.loads.isBusy || isOwn) return;
+        this.own = text;
+        this.loaded = this.typed.get(text) ?? { formula, box, ...(values?.formula && { values: values.formula }) };
+        this.write(this.loaded);
+        this.showError(undefined);
+    }
+
+    private setOpen(open: boolean): void {
+        this.root.hidden = !open;
+        document.body.toggleAttribute("data-field-open", open); // the panel takes the place of the tools
+    }
+
+    /** Shows a formula in the fields. */
+    private write({ formula, box, values = "" }: FormulaField): void {
+        this.formula.value = formula;
+        this.values.value = values;
+        this.ends.forEach((end, i) => (end.value = String(box[Math.floor(i / 2)]![i % 2])));
+        this.sliders.update(formula);
+        this.readBox(); // which clears the error of another box
+    }
+
+    private startFrom(example: number): void {
+        this.write(kExamples[example]!);
+        this.loaded = undefined; // another field: its levels and slices are its own
+        this.example.selectedIndex = 0;
+        this.changed(0);
+    }
+
+    /** Reads the fields, and loads the formula after a delay in milliseconds. */
+    private changed(delay: number): void {
+        this.sliders.update(this.formula.value);
+        const box = this.readBox();
+        if (!box) return;
+        const field = this.written(box);
+        writeStored(kStorageKey, field);
+        this.loads.submit(field, delay);
+    }
+
+    /** What is written in the fields. */
+    private written(box: Box): FormulaField {
+        const values = this.values.value.trim();
+        return { formula: this.formula.value, box, ...(values !== "" && { values }) };
+    }
+
+    /** The box; undefined, with an error, if a range is not valid. */
+    private readBox(): Box | undefined {
+        const wrong = kAxes.filter((_, i) => {
+            const pair = [this.ends[2 * i]!, this.ends[2 * i + 1]!];
+            const [from = NaN, to = NaN] = pair.map(({ value }) => numberIn(value));
+            const isValid = from < to && to - from < Infinity;
+            for (const end of pair) end.setAttribute("aria-invalid", String(!isValid));
+            return !isValid;
+        });
+        this.boxError.textContent = wrong.length > 0 ? `${wrong.join(", ")}: from a smaller to a larger number.` : "";
+        if (wrong.length > 0) return undefined;
+        return kAxes.map((_, i) => [numberIn(this.ends[2 * i]!.value), numberIn(this.ends[2 * i + 1]!.value)]) as Box;
+    }
+
+    private async load(field: FormulaField): Promise<void> {
+        this.root.setAttribute("aria-busy", "true");
+        try {
+            const settings = this.keptSettings(field);
+            const revision = await this.events.load(field, settings, this.continues(field));
+            this.sent = { settings, revision };
+            this.noteLoaded(field, revision);
+            this.showError(undefined);
+        } catch (error) {
+            if ((error as RequestError).code !== "not_connected") this.showError((error as Error).message);
+        }
+        this.root.setAttribute("aria-busy", "false");
+    }
+
+    /**
+     * Whether the change to this field continues a series of changes, such as the steps of a drag, that are undone
+     * together.
+     */
+    private continues({ formula }: FormulaField): boolean {
+        const { loaded, last, state } = this;
+        if (!loaded || !last || !state || state.revision > last.revision) return false; // another command came between
+        return performance.now() - last.time < kSeries && comparisonOf(loaded.formula) === comparisonOf(formula);
+    }
+
+    /** The settings that stay the same when a formula is edited, although a new object has settings of its own. */
+    private keptSettings({ formula, box }: FormulaField): Settings {
+        const { loaded, state } = this;
+        if (!loaded || !state || !isField(state) || state.polytope.name !== kFormulaName) return {};
+        const { levels, inside, fog, slices, point } = { ...state, ...this.sent?.settings };
+        const keepsLevels = levels && inside && comparisonOf(loaded.formula) === comparisonOf(formula);
+        return {
+            ...(keepsLevels && { levels, inside, ...(fog && { fog }) }),
+            ...(String(loaded.box) === String(box) && { slices: placeOf(slices), point }),
+        };
+    }
+
+    /** Shows an error of the server at the formula that it concerns. */
+    private showError(message: string | undefined): void {
+        const isOfValues = message !== undefined && kOfValues.test(message);
+        this.formula.showError(isOfValues ? undefined : message);
+        this.values.showError(isOfValues ? message.replace(kOfValues, "") : undefined);
+    }
+
+    private changeLevels(): void {
+        const levels = parseNumbers(this.levels.value);
+        const isValid = levels.length > 0 && levels.length <= kMaxLevels && levels.every(Number.isFinite);
+        this.showLevelsError(isValid ? "" : `Type 1 to ${kMaxLevels} numbers, such as 0, 0.5.`);
+        if (isValid) this.levelSettings.submit(levels, kTypingDelay);
+    }
+
+    private async apply(settings: Settings): Promise<void> {
+        try {
+            await this.events.set(settings);
+            this.showLevelsError("");
+        } catch (error) {
+            this.showLevelsError(toSentence((error as Error).message));
+        }
+    }
+
+    /** Shows the levels of the state, which are valid. */
+    private showLevels(levels: number[]): void {
+        const text = levels.join(", ");
+        if (this.levels.value === text) return;
+        this.levels.value = text;
+        this.showLevelsError("");
+    }
+
+    private showLevelsError(error: string): void {
+        this.levelsError.textContent = error;
+        this.levels.setAttribute("aria-invalid", String(error !== ""));
+    }
+
+    /** An address that opens the field. */
+    private address(): string {
+        const address = new URL(location.href);
+        address.hash = "";
+        address.search = "";
+        const box = this.readBox() ?? kUsualBox;
+        return `${address.href}?${queryOf(this.written(box), this.state ?? {})}`;
+    }
+}
+
+/** A text by which the formulas of states are compared. */
+function textOf({ field }: State): string {
+    return field?.formula === undefined ? "" : `${field.formula} ${String(field.box)} ${field.values?.formula ?? ""}`;
+}
+
+/** Where the slices are; the distances between them belong to the object. */
+function placeOf({ focus = 0, offset = 0 }: NonNullable<Settings["slices"]>): NonNullable<Settings["slices"]> {
+    return { focus, offset };
+}
+
+/** The number that a text consists of; NaN for other texts. */
+function numberIn(text: string): number {
+    const numbers = parseNumbers(text);
+    return numbers.length === 1 ? numbers[0]! : NaN;
+}
+
+function endInput(axis: string, end: string): HTMLInputElement {
+    return element("input", {
+        ...{ type: "text", inputmode: "text", autocomplete: "off", spellcheck: "false" },
+        ...{ "aria-label": `${axis} ${end}`, "aria-describedby": "field-box-error", "data-end": `${axis} ${end}` },
+    });
+}
+
+function rangeRow(axis: string, from: HTMLInputElement, to: HTMLInputElement): HTMLElement {
+    const name = element("b", { class: `plane axis-${axis}`, "aria-hidden": "true" }, axis);
+    return element("div", {}, name, from, element("span", { "aria-hidden": "true" }, "to"), to);
+}

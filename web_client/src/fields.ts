@@ -1,0 +1,97 @@
+// Fields: what the page shows of a 4-D field besides its picture.
+
+import type { Box, Settings, State } from "@oval4d/protocol";
+
+import { textOfFog } from "./fog";
+import { formatCoordinate } from "./format";
+import { frameQuery } from "./reference_frame";
+
+/** A formula and its domain, from which the server makes a field. */
+export interface FormulaField {
+    formula: string;
+    box: Box;
+    /** The formula whose values color the surfaces, if there is one. */
+    values?: string;
+}
+
+/** What is shown of a field, and its frame of reference. */
+export type FieldLook = Pick<Settings, "levels" | "inside" | "caps" | "fog" | "pace" | "follow" | "boost">;
+
+/** The name under which the page and the command `formula` load a formula. */
+export const kFormulaName = "formula";
+
+/** The domain of a formula if none is given. */
+export const kUsualBox: Box = [
+    [-2, 2],
+    [-2, 2],
+    [-2, 2],
+    [-2, 2],
+];
+
+export const kMaxLevels = 4;
+
+/** Whether the object of this state is a field. */
+export function isField({ levels }: State): boolean {
+    return levels !== undefined;
+}
+
+/** The `load` message of a formula, without its type. */
+export interface FormulaLoad {
+    name: string;
+    format: "formula";
+    data: string;
+    box: Box;
+    values?: string;
+}
+
+export function loadOf({ formula, box, values }: FormulaField): FormulaLoad {
+    return { name: kFormulaName, format: "formula", data: formula, box, ...(values && { values }) };
+}
+
+/** The field that a line such as "formula x^2 < 1 colored by y" shows; undefined for other commands. */
+export function fieldOfLine(line: string): FormulaField | undefined {
+    const [, formula, values] = /^\s*:?\s*formula\s+(.*?\S)(?:\s+colored by\s+(.*?\S))?\s*$/s.exec(line) ?? [];
+    return formula === undefined ? undefined : { formula, box: kUsualBox, ...(values && { values }) };
+}
+
+/** A text for screen readers such as "levels 0, 0.5, inside below, fog from −1 to 2"; "" for other objects. */
+export function spokenLevels({ levels, inside = "below", fog = [] }: State): string {
+    if (!levels) return "";
+    const named = levels.length === 1 ? "level" : "levels";
+    const ends = [fog[0], fog.at(-1)].map((point) => formatCoordinate(point?.value ?? 0));
+    const fogText = fog.length > 0 ? `, fog from ${ends.join(" to ")}` : "";
+    return `${named} ${levels.map(formatCoordinate).join(", ")}, inside ${inside}${fogText}`;
+}
+
+/** Reads numbers that commas or blanks separate; a minus sign may be typed as such. NaN stands for other texts. */
+export function parseNumbers(text: string): number[] {
+    const words = text.replaceAll("\u2212", "-").split(/[\s,;]+/);
+    return words.filter((word) => word !== "").map(Number);
+}
+
+/** The box of eight numbers, the ranges of x, y, z and w; undefined if there are more or fewer, or others. */
+export function boxOf(numbers: number[]): Box | undefined {
+    if (numbers.length !== 8 || !numbers.every(Number.isFinite)) return undefined;
+    return [0, 2, 4, 6].map((i) => [numbers[i]!, numbers[i + 1]!]) as Box;
+}
+
+/** The query of an address that opens this field, without the question mark. */
+export function queryOf({ formula, box, values }: FormulaField, look: FieldLook): string {
+    const { levels, inside, caps, fog } = look;
+    const parameters = {
+        formula,
+        ...(values && { values }),
+        ...(String(box) !== String(kUsualBox) && { box: String(box) }),
+        ...(levels && String(levels) !== "0" && { levels: String(levels) }),
+        ...(inside && inside !== "below" && { inside }),
+        ...(caps && caps !== "plain" && { caps }),
+        ...(fog && fog.length > 0 && { fog: textOfFog(fog) }),
+        ...frameQuery(look),
+    };
+    // Of the characters that an address may contain, those that formulas use stay readable.
+    const encoded = (text: string): string =>
+        encodeURIComponent(text).replace(/%(2B|5E|3D|2C|3B|2F|3A)/g, (code) => decodeURIComponent(code));
+    return Object.entries(parameters)
+        .map(([name, value]) => `${name}=${encoded(value)}`)
+        .join("&");
+}

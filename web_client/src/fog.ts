@@ -1,0 +1,101 @@
+// The transfer function of fog: the opacity and the color of each value of a field.
+
+import type { FogPoint, Inside, Slices } from "@oval4d/protocol";
+
+export const kMinFogPoints = 2;
+export const kMaxFogPoints = 8;
+
+/** The colors at the ends and in the middle of the scale that gives points without a color theirs. */
+const kScale = [0x418dfa, 0xa7abb1, 0xf3a00f] as const;
+
+/** The distribution of a field's values. */
+export interface ValueDistribution {
+    range: [number, number];
+    /** From the least value to the greatest, evenly spaced; each from 0 to 1. */
+    tones: number[];
+}
+
+/** The distribution of values that the histogram of a picture shows; undefined if it has none. */
+export function distributionOf({ histogram, density, scene }: Slices): ValueDistribution | undefined {
+    if (!histogram) return undefined;
+    const { columns } = scene.coordinates;
+    const rows = density.length / columns;
+    // Tones are cube roots of how often a value occurs. The greatest value is in row 0.
+    const counts = Array.from({ length: rows }, (_, row) => {
+        const tones = density.subarray((rows - 1 - row) * columns, (rows - row) * columns);
+        return tones.reduce((sum, tone) => sum + tone ** 3, 0);
+    });
+    const most = Math.max(...counts, 1);
+    return { range: histogram.range, tones: counts.map((count) => Math.cbrt(count / most)) };
+}
+
+/** Fog for a body inside a level: dense where it is farthest inside, and thin at the level. */
+export function usualFog([least, greatest]: [number, number], level: number, inside: Inside): FogPoint[] {
+    const [deep, far] = inside === "below" ? [least, greatest] : [greatest, least];
+    const edge = level > least && level < greatest ? level : (least + greatest) / 2;
+    const points = [
+        { value: deep, opacity: 0.95 },
+        { value: edge, opacity: 0.5 },
+        { value: edge + (far - edge) / 4, opacity: 0 },
+    ];
+    return (inside === "below" ? points : points.reverse()).map(({ value, opacity }) => ({ value: rounded(value), opacity }));
+}
+
+/** The text of a transfer function on the command line and in addresses. */
+export function textOfFog(points: FogPoint[]): string {
+    const textOf = ({ value, opacity, color }: FogPoint): string =>
+        [value, opacity, ...(color === undefined ? [] : [hexOf(color)])].join(":");
+    return points.length === 0 ? "off" : points.map(textOf).join(",");
+}
+
+/** A color as six hexadecimal digits. */
+export function hexOf(color: number): string {
+    return color.toString(16).padStart(6, "0");
+}
+
+/** The color of point i: its own, or that of the scale, which extends from the first point to the last. */
+export function colorOf(points: FogPoint[], i: number): number {
+    const { value, color } = points[i]!;
+    if (color !== undefined) return color;
+    const [first, last] = [points[0]!.value, points.at(-1)!.value];
+    const place = (2 * (value - first)) / (last - first);
+    const [from, to] = place < 1 ? [kScale[0], kScale[1]] : [kScale[1], kScale[2]];
+    const part = place < 1 ? place : place - 1;
+    return [16, 8, 0].reduce((sum, shift) => {
+        const [a, b] = [(from >> shift) & 255, (to >> shift) & 255];
+        return sum | (Math.round(a + part * (b - a)) << shift);
+    }, 0);
+}
+
+/** Whether the server accepts these points: their values increase. */
+export function isTransferFunction(points: FogPoint[]): boolean {
+    return points.every(
+        ({ value, opacity }, i) =>
+            Number.isFinite(value) && opacity >= 0 && opacity <= 1 && (i === 0 || value > points[i - 1]!.value),
+    );
+}
+
+/** Moves point i, as far as its neighbors and these ends of the values allow. */
+export function withPoint(points: FogPoint[], i: number, value: number, opacity: number, ends: [number, number]): FogPoint[] {
+    const gap = (ends[1] - ends[0]) / 1000;
+    const least = i > 0 ? points[i - 1]!.value + gap : ends[0];
+    const most = i < points.length - 1 ? points[i + 1]!.value - gap : ends[1];
+    const within = (number: number, from: number, to: number): number => Math.max(from, Math.min(to, number));
+    const moved = { ...points[i]!, value: rounded(within(value, least, most)), opacity: rounded(within(opacity, 0, 1)) };
+    const result = points.map((point, k) => (k === i ? moved : point));
+    return isTransferFunction(result) ? result : points;
+}
+
+/** Adds a point in the middle of the longest segment. */
+export function withNewPoint(points: FogPoint[]): FogPoint[] {
+    const lengths = points.slice(1).map(({ value }, i) => value - points[i]!.value);
+    const at = lengths.indexOf(Math.max(...lengths));
+    const [from, to] = [points[at]!, points[at + 1]!];
+    const middle = { value: rounded((from.value + to.value) / 2), opacity: rounded((from.opacity + to.opacity) / 2) };
+    return [...points.slice(0, at + 1), middle, ...points.slice(at + 1)];
+}
+
+/** A number with four significant digits. */
+function rounded(value: number): number {
+    return Number(value.toPrecision(4));
+}

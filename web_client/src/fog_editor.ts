@@ -1,0 +1,250 @@
+// The editor of the transfer function of fog: a curve over the distribution of the values, whose points can be dragged,
+// and number fields for the same points.
+
+import type { FogPoint, Settings, Slices, State } from "@oval4d/protocol";
+
+import { byId, element } from "./element";
+import { type ValueDistribution, colorOf, distributionOf, hexOf, isTransferFunction } from "./fog";
+import { kMaxFogPoints, kMinFogPoints, usualFog, withNewPoint, withPoint } from "./fog";
+import { parseNumbers } from "./fields";
+import { toSentence } from "./format";
+import { NewestOnly } from "./newest_only";
+
+const kTypingDelay = 150; // milliseconds after the last change by typing
+const [kWidth, kHeight, kMargin] = [240, 96, 9]; // of the drawing, in its units
+const kSvg = "http://www.w3.org/2000/svg";
+
+interface Row {
+    root: HTMLElement;
+    value: HTMLInputElement;
+    opacity: HTMLInputElement;
+    color: HTMLInputElement;
+    remove: HTMLButtonElement;
+}
+
+export class FogEditor {
+    private readonly curve = byId("fog-curve");
+    private readonly list = byId("fog-points");
+    private readonly error = byId("fog-error");
+    private mistake = ""; // in the text of the fields; "" if there is none
+    private refusal = ""; // why the server refused the last change; "" if it did not
+    private readonly add = byId<HTMLButtonElement>("fog-add");
+    private readonly show = byId<HTMLButtonElement>("fog-show");
+    private readonly off = byId<HTMLButtonElement>("fog-off");
+    private readonly changes = new NewestOnly<{ fog: FogPoint[]; continues: boolean }>((change) => this.apply(change));
+    private rows: Row[] = [];
+    private points: FogPoint[] = []; // what the editor shows
+    private state: State | undefined;
+    private distribution: ValueDistribution | undefined; // of the newest picture with a histogram
+    private ends: [number, number] = [0, 1]; // of the values that the drawing shows
+    private dragged: number | undefined; // a point
+    private isContinued = false; // whether the next change belongs to the undo step of the last one
+
+    /** `set` changes settings; it throws an Error whose message is shown. */
+    constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<unknown>) {
+        this.add.addEventListener("click", () => this.change(withNewPoint(this.points)));
+        this.show.addEventListener("click", () => this.change(this.usual()));
+        this.off.addEventListener("click", () => {
+            this.change([]);
+            this.show.focus(); // this button disappears
+        });
+        this.curve.addEventListener("pointerdown", (event) => this.grab(event));
+        this.curve.addEventListener("pointermove", (event) => this.drag(event));
+        for (const end of ["pointerup", "pointercancel"]) this.curve.addEventListener(end, () => this.release());
+    }
+
+    update(state: State): void {
+        this.state = state;
+        this.show.disabled = state.fog === undefined;
+        if (this.dragged !== undefined || this.changes.isBusy) return; // the state is older than the editor
+        this.points = state.fog ?? [];
+        this.draw();
+    }
+
+    /** Takes over the histogram of a picture. */
+    updatePicture(picture: Slices): void {
+        const { histogram } = picture;
+        if (!histogram || String(histogram.range) === String(this.distribution?.range)) return;
+        this.distribution = distributionOf(picture);
+        if (this.dragged === undefined) this.draw();
+    }
+
+    private usual(): FogPoint[] {
+        const { levels = [0], inside = "below" } = this.state ?? {};
+        const level = levels[0]!;
+        return usualFog(this.distribution?.range ?? [level - 1, level + 1], level, inside);
+    }
+
+    private change(points: FogPoint[], delay = 0, continues = false): void {
+        this.points = points;
+        this.mistake = "";
+        this.draw();
+        this.changes.submit({ fog: points, continues: continues && this.isContinued }, delay);
+        this.isContinued = continues;
+    }
+
+    private async apply({ fog, continues }: { fog: FogPoint[]; continues: boolean }): Promise<void> {
+        try {
+            await this.set({ fog, ...(continues && { continues }) });
+            this.refusal = "";
+        } catch (error) {
+            this.refusal = toSentence((error as Error).message);
+        }
+        this.showErrors();
+    }
+
+    /** Shows what is wrong with the text in the fields, else why the server refused the last change. */
+    private showErrors(): void {
+        this.error.textContent = this.mistake || this.refusal;
+    }
+
+    // The curve
+
+    private grab(event: PointerEvent): void {
+        const handle = (event.target as Element).closest<SVGElement>("[data-point]");
+        if (!handle) return;
+        event.preventDefault();
+        this.curve.setPointerCapture(event.pointerId);
+        this.dragged = Number(handle.dataset["point"]);
+        this.isContinued = false;
+    }
+
+    private drag(event: PointerEvent): void {
+        if (this.dragged === undefined) return;
+        const { left, top, width, height } = this.curve.getBoundingClientRect();
+        const along = ((event.clientX - left) / width) * kWidth;
+        const down = ((event.clientY - top) / height) * kHeight;
+        const value = this.ends[0] + ((along - kMargin) / (kWidth - 2 * kMargin)) * (this.ends[1] - this.ends[0]);
+        const opacity = 1 - (down - kMargin) / (kHeight - 2 * kMargin);
+        this.change(withPoint(this.points, this.dragged, value, opacity, this.ends), 0, true);
+    }
+
+    private release(): void {
+        this.dragged = undefined;
+        this.isContinued = false;
+        this.draw();
+    }
+
+    private draw(): void {
+        const { points } = this;
+        const isOn = points.length > 0;
+        for (const part of [this.curve, this.list, this.add, this.off]) part.toggleAttribute("hidden", !isOn);
+        this.show.textContent = isOn ? "Reset" : "Show fog";
+        this.add.disabled = points.length >= kMaxFogPoints;
+        this.showRows();
+        if (!isOn) return;
+        if (this.dragged === undefined) {
+            const { range = [points[0]!.value, points.at(-1)!.value] } = this.distribution ?? {};
+            this.ends = [Math.min(range[0], points[0]!.value), Math.max(range[1], points.at(-1)!.value)];
+        }
+        const places = points.map(({ value, opacity }) => [this.x(value), this.y(opacity)] as const);
+        const inner = places.map(([x, y]) => `${x},${y}`).join(" ");
+        const line = `${kMargin},${places[0]![1]} ${inner} ${kWidth - kMargin},${places.at(-1)![1]}`;
+        const floor = kHeight - kMargin;
+        const stops = places.map(([x], i) => {
+            const offset = String((x - kMargin) / (kWidth - 2 * kMargin));
+            return shape("stop", { offset, "stop-color": `#${hexOf(colorOf(points, i))}` });
+        });
+        const gradient = shape("linearGradient", {
+            ...{ id: "fog-colors", gradientUnits: "userSpaceOnUse" },
+            ...{ x1: String(kMargin), x2: String(kWidth - kMargin) },
+        });
+        gradient.append(...stops);
+        this.curve.replaceChildren(
+            gradient,
+            shape("path", { class: "values", d: this.bars() }),
+            shape("polygon", { class: "fog", points: `${kMargin},${floor} ${line} ${kWidth - kMargin},${floor}` }),
+            shape("polyline", { points: line }),
+            ...places.map(([x, y], i) => {
+                const place = { cx: String(x), cy: String(y) };
+                const handle = shape("g", { "data-point": String(i) });
+                const fill = `#${hexOf(colorOf(points, i))}`;
+                handle.append(shape("circle", { ...place, r: "11", class: "reach" }), shape("circle", { ...place, r: "5", fill }));
+                return handle;
+            }),
+        );
+    }
+
+    private x(value: number): number {
+        const [least, greatest] = this.ends;
+        return kMargin + ((value - least) / (greatest - least)) * (kWidth - 2 * kMargin);
+    }
+
+    private y(opacity: number): number {
+        return kHeight - kMargin - opacity * (kHeight - 2 * kMargin);
+    }
+
+    /** The outline of the distribution of the values. */
+    private bars(): string {
+        if (!this.distribution) return "";
+        const { range, tones } = this.distribution;
+        const at = tones.map((tone, i) => {
+            const value = range[0] + (i / (tones.length - 1)) * (range[1] - range[0]);
+            return `${this.x(value).toFixed(2)} ${this.y(tone).toFixed(2)}`;
+        });
+        return `M${this.x(range[0])} ${this.y(0)}L${at.join("L")}L${this.x(range[1])} ${this.y(0)}Z`;
+    }
+
+    // The fields
+
+    private showRows(): void {
+        while (this.rows.length < this.points.length) this.rows.push(this.makeRow(this.rows.length));
+        this.rows.length = this.points.length;
+        if (this.list.children.length !== this.rows.length) this.list.replaceChildren(...this.rows.map(({ root }) => root));
+        this.points.forEach(({ value, opacity }, i) => {
+            const row = this.rows[i]!;
+            for (const [input, number] of [[row.value, value], [row.opacity, opacity]] as const) {
+                if (document.activeElement === input || parseNumbers(input.value)[0] === number) continue;
+                input.value = String(number);
+            }
+            if (document.activeElement !== row.color) row.color.value = `#${hexOf(colorOf(this.points, i))}`;
+            row.remove.disabled = this.points.length <= kMinFogPoints;
+        });
+    }
+
+    private typed(): void {
+        const points = this.points.map((point, i) => {
+            const [value = NaN, opacity = NaN] = [this.rows[i]!.value, this.rows[i]!.opacity].map(
+                (input) => parseNumbers(input.value)[0] ?? NaN,
+            );
+            return { ...point, value, opacity };
+        });
+        const isValid = isTransferFunction(points);
+        this.mistake = isValid ? "" : "Type values from the least to the greatest, and opacities from 0 to 1.";
+        this.refusal = "";
+        this.showErrors();
+        if (isValid) this.change(points, kTypingDelay);
+    }
+
+    private makeRow(i: number): Row {
+        const field = (name: string): HTMLInputElement => {
+            const input = element("input", {
+                ...{ type: "text", inputmode: "text", autocomplete: "off", spellcheck: "false" },
+                ...{ "aria-label": `${name} of point ${i + 1}`, "aria-describedby": "fog-error", "data-fog": `${name} ${i + 1}` },
+            });
+            input.addEventListener("input", () => this.typed());
+            return input;
+        };
+        const [value, opacity] = [field("value"), field("opacity")];
+        const color = element("input", { type: "color", "aria-label": `color of point ${i + 1}`, "data-fog": `color ${i + 1}` });
+        color.addEventListener("input", () => {
+            const chosen = parseInt(color.value.slice(1), 16);
+            this.change(
+                this.points.map((point, k) => (k === i ? { ...point, color: chosen } : point)),
+                kTypingDelay,
+                true,
+            );
+        });
+        color.addEventListener("change", () => (this.isContinued = false));
+        const remove = element("button", { type: "button", "aria-label": `Remove point ${i + 1}`, title: "Remove" }, "\u00d7");
+        remove.addEventListener("click", () => this.change(this.points.filter((_, k) => k !== i)));
+        const root = element("div", { role: "group", "aria-label": `Point ${i + 1}` }, value, opacity, color, remove);
+        return { root, value, opacity, color, remove };
+    }
+}
+
+function shape(name: string, attributes: Record<string, string>): SVGElement {
+    const made = document.createElementNS(kSvg, name) as SVGElement;
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+    return made;
+}

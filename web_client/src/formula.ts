@@ -1,0 +1,72 @@
+// The text of a formula: its named constants, and the place of a mistake.
+
+/** A constant such as a=0.7 after the formula, whose value is a number. */
+export interface Constant {
+    name: string;
+    value: number;
+    /** Where the text of the value begins and ends. */
+    from: number;
+    to: number;
+}
+
+/** A mistake that the server has found. */
+export interface Mistake {
+    what: string;
+    /** The wrong character, counted from 0; the length of the text if something is missing at its end. */
+    at: number;
+}
+
+// A formula has no "=" within parentheses, so a name and "=" after a comma or a semicolon always define a constant.
+const kDefinitions = /[;,]\s*[A-Za-z]\w*\s*=.*$/s;
+const kConstant = /([;,]\s*([A-Za-z]\w*)\s*=\s*)([-+\u2212]?\s*(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?=\s*(?:[;,]|$))/g;
+
+/** The constants whose values are numbers, in the order of the text. */
+export function constantsOf(formula: string): Constant[] {
+    return [...formula.matchAll(kConstant)].map((match) => {
+        const [, before = "", name = "", text = ""] = match;
+        const from = match.index + before.length;
+        const value = Number(text.replace("\u2212", "-").replace(/\s/g, ""));
+        return { name, value, from, to: from + text.length };
+    });
+}
+
+/** The formula with another value of a constant; unchanged if it has no such constant. */
+export function withConstant(formula: string, name: string, value: string): string {
+    const constant = constantsOf(formula).find((one) => one.name === name);
+    return constant ? formula.slice(0, constant.from) + value + formula.slice(constant.to) : formula;
+}
+
+/** The comparison in the formula, which determines what its levels mean; "" if there is none. */
+export function comparisonOf(formula: string): string {
+    return /[<>]=?|=/.exec(formula.replace(kDefinitions, ""))?.[0] ?? "";
+}
+
+/** The mistake in a formula that an error message of the server describes; undefined if it names no position. */
+export function mistakeOf(message: string): Mistake | undefined {
+    const [, position, what = ""] = /^.*, position (\d+): (.*)$/s.exec(message) ?? [];
+    return position === undefined ? undefined : { what, at: Number(position) - 1 };
+}
+
+/** A part of the text around a character, counted from 0, in three pieces: before it, the character, after it. */
+export function around(text: string, at: number, reach: number): [before: string, character: string, after: string] {
+    const characters = [...text];
+    const [from, to] = [Math.max(0, at - reach), at + 1 + reach];
+    return [
+        (from > 0 ? "…" : "") + characters.slice(from, at).join(""),
+        characters[at] ?? "",
+        characters.slice(at + 1, to).join("") + (to < characters.length ? "…" : ""),
+    ];
+}
+
+/** A range for the slider of a constant: from 0 to twice its value, and a step that is a power of ten. */
+export function rangeFor(value: number): { min: number; max: number; step: number } {
+    const reach = 2 * Math.abs(value) || 1;
+    const step = 10 ** Math.floor(Math.log10(reach / 50));
+    const most = Math.ceil(reach / step - 1e-9) * step;
+    return value < 0 ? { min: -most, max: 0, step } : value > 0 ? { min: 0, max: most, step } : { min: -1, max: 1, step };
+}
+
+/** A value of a slider with the decimals of its step. */
+export function textOfStep(value: number, step: number): string {
+    return String(Number(value.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))));
+}

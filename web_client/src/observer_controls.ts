@@ -1,0 +1,103 @@
+// Controls of the frame of reference in which the object is shown: the pace of time, a velocity to follow, and the
+// velocity of a Lorentz boost.
+
+import type { Settings, State, Vector } from "@oval4d/protocol";
+
+import { byId, element } from "./element";
+import { parseNumbers } from "./fields";
+import { formatDecimal, toSentence } from "./format";
+import { NewestOnly } from "./newest_only";
+import type { Velocity } from "./reference_frame";
+
+const kTypingDelay = 150; // milliseconds after the last change by typing
+const kPaceDigits = 2; // significant digits of the paces that the slider offers
+const kAxes = ["x", "y", "z"] as const;
+const kVelocities: Record<Velocity, string> = {
+    follow: "What moves with this velocity stands still",
+    boost: "Lorentz boost to an observer with this velocity; that of light is 1",
+};
+
+export class ObserverControls {
+    private readonly pace = byId<HTMLInputElement>("observer-pace");
+    private readonly paceValue = byId("observer-pace-value");
+    private readonly error = byId("observer-error");
+    private readonly components: Record<Velocity, HTMLInputElement[]> = { follow: [], boost: [] };
+    private readonly paces = new NewestOnly<number>((pace) => this.applyPace(pace));
+    private readonly velocities: Record<Velocity, NewestOnly<Vector>> = {
+        follow: new NewestOnly((follow) => this.apply({ follow }, "follow")),
+        boost: new NewestOnly((boost) => this.apply({ boost }, "boost")),
+    };
+    private isDragged = false; // whether the next pace belongs to the undo step of the last one
+
+    /** `set` changes settings; it throws an Error whose message is shown. */
+    constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<unknown>) {
+        for (const begin of ["pointerdown", "keydown"]) {
+            this.pace.addEventListener(begin, () => (this.isDragged = false));
+        }
+        this.pace.addEventListener("input", () => {
+            const pace = Number((10 ** Number(this.pace.value)).toPrecision(kPaceDigits));
+            this.showPace(pace);
+            this.paces.submit(pace, 0);
+        });
+        for (const name of ["follow", "boost"] as const) {
+            this.components[name] = kAxes.map((axis) => this.componentInput(name, axis));
+            const title = element("span", { title: kVelocities[name] }, name === "follow" ? "Follow" : "Boost");
+            byId("observer-velocities").append(element("div", {}, title, ...this.components[name]));
+        }
+    }
+
+    /** Shows the frame of a state. What is being typed stays. */
+    update(state: State): void {
+        if (document.activeElement !== this.pace) this.pace.value = String(Math.log10(state.pace));
+        this.showPace(state.pace);
+        for (const name of ["follow", "boost"] as const) {
+            this.components[name].forEach((input, i) => {
+                if (document.activeElement === input || parseNumbers(input.value)[0] === state[name][i]) return;
+                input.value = String(state[name][i]);
+                this.showError(name, "");
+            });
+        }
+    }
+
+    private showPace(pace: number): void {
+        const text = formatDecimal(pace, 3);
+        this.paceValue.textContent = text;
+        this.pace.setAttribute("aria-valuetext", text);
+    }
+
+    private changed(name: Velocity): void {
+        const velocity = this.components[name].flatMap(({ value }) => parseNumbers(value));
+        const isValid = velocity.length === kAxes.length && velocity.every(Number.isFinite);
+        this.showError(name, isValid ? "" : "Type a number for each of x, y and z, such as 0.3.");
+        if (isValid) this.velocities[name].submit(velocity as Vector, kTypingDelay);
+    }
+
+    private async applyPace(pace: number): Promise<void> {
+        const continues = this.isDragged;
+        this.isDragged = true;
+        await this.apply({ pace, continues });
+    }
+
+    private async apply(change: Settings & { continues?: boolean }, name?: Velocity): Promise<void> {
+        try {
+            await this.set(change);
+            if (name) this.showError(name, "");
+        } catch (error) {
+            if (name) this.showError(name, toSentence((error as Error).message));
+        }
+    }
+
+    private showError(name: Velocity, error: string): void {
+        this.error.textContent = error;
+        for (const input of this.components[name]) input.setAttribute("aria-invalid", String(error !== ""));
+    }
+
+    private componentInput(name: Velocity, axis: string): HTMLInputElement {
+        const input = element("input", {
+            ...{ type: "text", inputmode: "text", autocomplete: "off", spellcheck: "false", value: "0" },
+            ...{ "aria-label": `${name} ${axis}`, "aria-describedby": "observer-error", "data-velocity": `${name} ${axis}` },
+        });
+        input.addEventListener("input", () => this.changed(name));
+        return input;
+    }
+}

@@ -1,0 +1,296 @@
+// Draws the surfaces of a field with a depth buffer, as server/render/slices/surface_batch.cpp does: first the opaque
+// ones, and later the translucent ones in front of what is already drawn. The arrays of a picture are uploaded as they
+// are; each slice has its own range of the buffers, and the vertex shader puts it in its place. Shares the context with
+// three.js, which must know when its state changes.
+
+import type { WebGLRenderer } from "three";
+
+import type { Slice, Slices, Surface, SurfaceLevel, Vector } from "@oval4d/protocol";
+
+import type { Lens } from "./lens";
+import { makeProgram } from "./shader_program";
+import { TriangleGroups } from "./triangle_groups";
+
+const kLight = `
+uniform vec3 light;
+uniform vec4 shading;  // ambient, diffuse, specular, shininess
+vec3 lit(vec3 color, vec3 n) {
+    vec3 h = normalize(light + vec3(0.0, 0.0, 1.0));
+    float specular = shading.z * pow(max(dot(n, h), 0.0), shading.w);
+    return min(color * (shading.x + shading.y * max(dot(n, light), 0.0)) + specular, 1.0);
+}
+`;
+
+const kVertexShader = `#version 300 es
+precision highp float;
+layout(location = 0) in vec3 point;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 pointColor;  // blue, green, red, 0
+uniform mat4 view, projection;
+uniform vec4 place;  // the world position of the slice's origin, and the scale
+uniform vec4 color;  // not multiplied by alpha
+uniform bool hasPointColors;
+out vec3 seen, tint, material;
+${kLight}
+void main() {
+    seen = (view * vec4(place.xyz + place.w * point, 1.0)).xyz;
+    gl_Position = projection * vec4(seen, 1.0);
+    vec3 n = normalize(mat3(view) * normal);
+    if (dot(n, seen) > 0.0) n = -n;
+    material = hasPointColors ? pointColor.bgr : color.rgb;
+    tint = color.a * lit(material, n);
+}
+`;
+
+const kFragmentShader = `#version 300 es
+precision highp float;
+in vec3 seen, tint, material;
+uniform vec4 color;
+uniform bool isCap;  // caps are flat
+out vec4 pixel;
+${kLight}
+void main() {
+    vec3 flatTint = color.a * lit(material, normalize(cross(dFdx(seen), dFdy(seen))));
+    pixel = vec4(isCap ? flatTint : tint, color.a);
+}
+`;
+
+const kUniforms = ["view", "projection", "place", "color", "hasPointColors", "isCap", "light", "shading"] as const;
+
+/** The buffers, in the order of the attributes' locations, and the indices. */
+const kBuffers = ["points", "normals", "colors", "capColors", "triangles"] as const;
+type BufferName = (typeof kBuffers)[number];
+
+/** The objects of one WebGL context, with which they are lost. */
+interface Resources {
+    program: WebGLProgram;
+    uniforms: Record<(typeof kUniforms)[number], WebGLUniformLocation | null>;
+    arrays: WebGLVertexArrayObject;
+    buffers: Record<BufferName, { buffer: WebGLBuffer; size: number }>;
+}
+
+/** The surfaces of one slice. */
+interface Part {
+    slice: Slice;
+    surface: Surface;
+    position: Vector;
+    groups: TriangleGroups;
+    depth: number; // of the slice's origin
+    firstPoint: number;
+    firstByte: number; // of its indices
+}
+
+export class SurfacePainter {
+    private readonly parts: Part[] = []; // sorted from far to near when they are drawn
+    private readonly spare: Part[] = [];
+    private picture: Slices | undefined; // undefined if it has no surfaces
+    private levels: SurfaceLevel[] = []; // from the innermost to the outermost
+    private resources: Resources | undefined; // created when they are needed
+    private readonly gl: WebGL2RenderingContext;
+
+    constructor(private readonly renderer: WebGLRenderer) {
+        this.gl = renderer.getContext() as WebGL2RenderingContext;
+    }
+
+    /** Takes over the surfaces of a new picture; returns whether the picture shows a field. */
+    update(picture: Slices): boolean {
+        this.spare.push(...this.parts.splice(0));
+        this.levels = picture.scene.surfaces ?? [];
+        this.picture = undefined;
+        for (const slice of picture.slices) {
+            const { surface, drawn, position } = slice;
+            if (!surface || !drawn) continue;
+            const part = this.spare.pop() ?? emptyPart(slice, surface);
+            Object.assign(part, { slice, surface, position });
+            part.groups.update(surface);
+            this.parts.push(part);
+        }
+        if (this.parts.length > 0) {
+            this.picture = picture;
+            this.upload();
+        }
+        return picture.scene.surfaces !== undefined;
+    }
+
+    /** Uploads everything again, after the context has been lost and restored. */
+    restore(): void {
+        this.resources = undefined;
+        if (this.picture) this.upload();
+    }
+
+    dispose(): void {
+        if (!this.resources) return;
+        const { program, arrays, buffers } = this.resources;
+        this.gl.deleteProgram(program);
+        this.gl.deleteVertexArray(arrays);
+        for (const { buffer } of Object.values(buffers)) this.gl.deleteBuffer(buffer);
+        this.resources = undefined;
+    }
+
+    private upload(): void {
+        const { gl, parts } = this;
+        if (gl.isContextLost()) return;
+        const { arrays } = (this.resources ??= makeResources(gl));
+        let [points, bytes] = [0, 0];
+        for (const part of parts) {
+            part.firstPoint = points;
+            part.firstByte = bytes;
+            points += part.surface.points.length / 3;
+            bytes += Math.ceil(part.groups.triangles.byteLength / 4) * 4; // offsets of 32-bit indices are multiples of 4
+        }
+        gl.bindVertexArray(arrays);
+        this.reserve("points", 12 * points);
+        for (const { surface, firstPoint } of parts) gl.bufferSubData(gl.ARRAY_BUFFER, 12 * firstPoint, surface.points);
+        this.reserve("normals", 12 * points);
+        for (const { surface, firstPoint } of parts) gl.bufferSubData(gl.ARRAY_BUFFER, 12 * firstPoint, surface.normals);
+        this.reserve("colors", this.hasColors(0) ? 4 * points : 0);
+        for (const { surface, firstPoint } of parts) {
+            if (surface.colors) gl.bufferSubData(gl.ARRAY_BUFFER, 4 * firstPoint, surface.colors);
+        }
+        this.reserve("capColors", this.hasColors(1) ? 4 * points : 0);
+        for (const { surface, firstPoint } of parts) {
+            if (surface.cap_colors) gl.bufferSubData(gl.ARRAY_BUFFER, 4 * firstPoint, surface.cap_colors);
+        }
+        this.reserve("triangles", bytes);
+        for (const { groups, firstByte } of parts) {
+            gl.bufferSubData(gl.ELEMENT_ARRAY_BUFFER, firstByte, groups.triangles);
+        }
+        gl.bindVertexArray(null);
+        this.renderer.resetState();
+    }
+
+    /** Whether the points of level sets (0) or those of caps (1) have colors of their own. */
+    private hasColors(cap: number): boolean {
+        const surface = this.parts[0]?.surface;
+        return (cap === 1 ? surface?.cap_colors : surface?.colors) !== undefined;
+    }
+
+    /** Binds a buffer, and enlarges it if it has fewer bytes. */
+    private reserve(name: BufferName, bytes: number): void {
+        const { gl } = this;
+        const target = name === "triangles" ? gl.ELEMENT_ARRAY_BUFFER : gl.ARRAY_BUFFER;
+        const entry = this.resources!.buffers[name];
+        gl.bindBuffer(target, entry.buffer);
+        if (bytes <= entry.size) return;
+        entry.size = 2 ** Math.ceil(Math.log2(bytes));
+        gl.bufferData(target, entry.size, gl.DYNAMIC_DRAW);
+    }
+
+    /** Draws the opaque surfaces, or the translucent ones from far to near: those of all slices, or of one. */
+    draw(which: "opaque" | "translucent", lens: Lens, only?: Slice): void {
+        const { gl, picture, parts } = this;
+        const opaque = which === "opaque";
+        if (!picture || !this.resources || !this.levels.some((level) => isOpaque(level) === opaque)) return;
+        const { program, uniforms, arrays } = this.resources;
+        const { light } = picture.scene;
+        for (const part of parts) part.depth = lens.depthOf(part.position);
+        parts.sort((a, b) => b.depth - a.depth);
+        gl.useProgram(program);
+        gl.bindVertexArray(arrays);
+        gl.uniformMatrix4fv(uniforms.view, false, lens.view.elements);
+        gl.uniformMatrix4fv(uniforms.projection, false, lens.projection.elements);
+        const [x, y, z] = light.direction;
+        const length = Math.hypot(x, y, z);
+        gl.uniform3f(uniforms.light, x / length, y / length, z / length);
+        gl.uniform4f(uniforms.shading, light.ambient, light.diffuse, light.specular, light.shininess);
+        gl.enable(gl.DEPTH_TEST);
+        gl.depthFunc(gl.LESS);
+        gl.depthMask(opaque);
+        if (opaque) gl.disable(gl.BLEND);
+        else gl.enable(gl.BLEND);
+        gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+        gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
+        // Opaque surfaces need no order, but are drawn faster if the nearer ones come first.
+        for (let i = 0; i < parts.length; ++i) {
+            const part = parts[opaque ? parts.length - 1 - i : i]!;
+            if (!only || part.slice === only) this.drawPart(part, opaque);
+        }
+        gl.bindVertexArray(null);
+        this.renderer.resetState();
+    }
+
+    private drawPart(part: Part, opaque: boolean): void {
+        const { gl } = this;
+        const { uniforms, buffers } = this.resources!;
+        const { position, firstPoint } = part;
+        gl.uniform4f(uniforms.place, ...position, this.picture!.scene.scale);
+        gl.bindBuffer(gl.ARRAY_BUFFER, buffers.points.buffer);
+        gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 12 * firstPoint);
+        gl.bindBuffer(gl.ARRAY_BUFFER, buffers.normals.buffer);
+        gl.vertexAttribPointer(1, 3, gl.FLOAT, false, 0, 12 * firstPoint);
+        for (const level of this.levels) {
+            if (isOpaque(level) === opaque) this.drawLevel(part, level);
+        }
+    }
+
+    private drawLevel(part: Part, level: SurfaceLevel): void {
+        const { gl } = this;
+        const { uniforms } = this.resources!;
+        const color = part.surface.color ?? level.color;
+        gl.uniform4f(uniforms.color, (color >> 16) / 255, ((color >> 8) & 255) / 255, (color & 255) / 255, level.opacity);
+        if (!isOpaque(level)) {
+            for (const hidden of [gl.FRONT, gl.BACK]) this.drawSides(part, level, hidden);
+        } else if (level.caps) {
+            this.drawSides(part, level, gl.BACK); // a closed surface hides its own back
+        } else {
+            this.drawSides(part, level, undefined);
+        }
+    }
+
+    /** Draws the triangles of a level, except those that face forward or backward. */
+    private drawSides({ groups, firstByte, firstPoint }: Part, { level, caps }: SurfaceLevel, hidden: GLenum | undefined): void {
+        const { gl } = this;
+        const { uniforms } = this.resources!;
+        if (hidden === undefined) {
+            gl.disable(gl.CULL_FACE);
+        } else {
+            gl.enable(gl.CULL_FACE);
+            gl.cullFace(hidden);
+        }
+        const size = groups.triangles.BYTES_PER_ELEMENT;
+        const type = size === 4 ? gl.UNSIGNED_INT : size === 2 ? gl.UNSIGNED_SHORT : gl.UNSIGNED_BYTE;
+        for (const cap of [0, 1]) {
+            const [begin, end] = groups.range(level, cap);
+            if (begin === end || (cap === 1 && !caps)) continue;
+            gl.uniform1i(uniforms.isCap, cap);
+            this.useColors(cap, firstPoint);
+            gl.drawElements(gl.TRIANGLES, 3 * (end - begin), type, firstByte + 3 * begin * size);
+        }
+    }
+
+    /**
+     * Selects the colors for what is drawn next: those of the points of level sets (0) or caps (1), or the color of the
+     * level.
+     */
+    private useColors(cap: number, firstPoint: number): void {
+        const { gl } = this;
+        const { uniforms, buffers } = this.resources!;
+        gl.uniform1i(uniforms.hasPointColors, Number(this.hasColors(cap)));
+        if (this.hasColors(cap)) {
+            gl.enableVertexAttribArray(2);
+            gl.bindBuffer(gl.ARRAY_BUFFER, (cap === 1 ? buffers.capColors : buffers.colors).buffer);
+            gl.vertexAttribPointer(2, 4, gl.UNSIGNED_BYTE, true, 0, 4 * firstPoint);
+        } else {
+            gl.disableVertexAttribArray(2);
+        }
+    }
+}
+
+function isOpaque({ opacity }: SurfaceLevel): boolean {
+    return opacity === 1;
+}
+
+function emptyPart(slice: Slice, surface: Surface): Part {
+    return { slice, surface, position: [0, 0, 0], groups: new TriangleGroups(), depth: 0, firstPoint: 0, firstByte: 0 };
+}
+
+function makeResources(gl: WebGL2RenderingContext): Resources {
+    const { program, uniforms } = makeProgram(gl, "surfaces", kVertexShader, kFragmentShader, kUniforms);
+    const arrays = gl.createVertexArray();
+    gl.bindVertexArray(arrays);
+    gl.enableVertexAttribArray(0);
+    gl.enableVertexAttribArray(1);
+    gl.bindVertexArray(null);
+    const buffers = Object.fromEntries(kBuffers.map((name) => [name, { buffer: gl.createBuffer(), size: 0 }]));
+    return { program, uniforms, arrays, buffers } as Resources;
+}

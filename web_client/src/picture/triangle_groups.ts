@@ -1,0 +1,59 @@
+// The triangles of a surface, grouped by level, with the caps of a level in a group of their own. Triangles that are
+// already in this order are not copied.
+
+import type { Integers, Surface } from "@oval4d/protocol";
+
+const kMaxLevels = 4; // of a field, as in the specification
+const kGroups = 2 * kMaxLevels;
+
+export class TriangleGroups {
+    /** Triples of points, group by group. Valid until the surface changes. */
+    triangles: Integers = new Uint8Array(0);
+    private readonly begin = new Uint32Array(kGroups + 1); // group g has the triangles begin[g] … begin[g + 1] − 1
+    private readonly next = new Uint32Array(kGroups);
+    private memory = new ArrayBuffer(0); // for the triangles in another order
+
+    /** Groups the triangles of a surface. */
+    update(surface: Surface): void {
+        const { level, cap, triangles } = surface;
+        const { begin, next } = this;
+        begin.fill(0);
+        let sorted = true;
+        for (let t = 0, previous = 0; t < level.length; ++t) {
+            const group = groupOf(level[t]!, cap[t]!);
+            ++begin[group + 1]!;
+            sorted &&= group >= previous;
+            previous = group;
+        }
+        for (let g = 0; g < kGroups; ++g) begin[g + 1]! += begin[g]!;
+        this.triangles = sorted ? triangles : this.roomLike(triangles);
+        if (sorted) return;
+        next.set(begin.subarray(0, kGroups));
+        const out = this.triangles;
+        for (let t = 0; t < level.length; ++t) {
+            const to = 3 * next[groupOf(level[t]!, cap[t]!)]!++;
+            out[to] = triangles[3 * t]!;
+            out[to + 1] = triangles[3 * t + 1]!;
+            out[to + 2] = triangles[3 * t + 2]!;
+        }
+    }
+
+    /** The triangles of a level: those of its caps (cap = 1), or the others (cap = 0). */
+    range(level: number, cap: number): [begin: number, end: number] {
+        const group = groupOf(level, cap);
+        return [this.begin[group]!, this.begin[group + 1]!];
+    }
+
+    /** Returns an array of the same type and length in memory that is reused. */
+    private roomLike(triangles: Integers): Integers {
+        if (triangles.byteLength > this.memory.byteLength) {
+            this.memory = new ArrayBuffer(2 ** Math.ceil(Math.log2(triangles.byteLength)));
+        }
+        const Numbers = triangles.constructor as new (memory: ArrayBuffer, from: number, length: number) => Integers;
+        return new Numbers(this.memory, 0, triangles.length);
+    }
+}
+
+function groupOf(level: number, cap: number): number {
+    return (2 * level + cap) & (kGroups - 1);
+}

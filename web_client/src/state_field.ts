@@ -1,0 +1,121 @@
+// A value in the header: a button that turns into a text field, in which the value can be changed.
+
+import { byId, element } from "./element";
+import { toSentence } from "./format";
+
+export interface FieldEvents {
+    /** The value for editing. */
+    editable(): string;
+    /** Applies what the user has typed; throws an Error whose message is shown at the field. */
+    apply(text: string): Promise<unknown>;
+}
+
+export class StateField {
+    readonly root: HTMLElement;
+    private readonly output: HTMLElement;
+    private readonly button: HTMLElement;
+    private readonly label: HTMLElement;
+    private readonly input: HTMLInputElement;
+    private readonly error: HTMLElement;
+    private readonly note: HTMLElement;
+    private before = ""; // the value when editing began
+    private refused: string | undefined; // the text that could not be applied
+    private focusAfter: HTMLElement | undefined; // receives the focus after editing
+
+    constructor(
+        name: string,
+        symbol: string,
+        meaning: string,
+        hint: string,
+        private readonly events: FieldEvents,
+    ) {
+        const symbolElement = (): HTMLElement =>
+            element("span", { class: symbol.length === 1 ? "symbol" : "word" }, symbol);
+        this.output = element("span", { "data-state-field": name }, "\u2013");
+        const title = `${meaning}. Click to change`;
+        this.button = element("button", { type: "button", title }, symbolElement(), " ", this.output);
+        this.input = element("input", {
+            type: "text",
+            "data-field": name,
+            "aria-label": `${symbol}: ${meaning}`,
+            "aria-describedby": `state-field-hint-${name} state-field-error-${name}`,
+            autocomplete: "off",
+            autocapitalize: "none",
+            spellcheck: "false",
+            enterkeyhint: "go",
+        });
+        this.label = element("label", { hidden: true }, symbolElement(), " ", this.input);
+        this.error = element("span", { id: `state-field-error-${name}`, role: "alert" });
+        const hintElement = element("span", { id: `state-field-hint-${name}` }, hint);
+        this.note = element("p", { class: "state-field-note", hidden: true }, this.error, hintElement);
+        this.root = element("div", { class: "state-field" }, this.button, this.label, this.note);
+
+        this.button.addEventListener("click", () => this.open());
+        this.input.addEventListener("keydown", (event) => this.keydown(event));
+        this.input.addEventListener("input", () => this.showError(""));
+        this.input.addEventListener("blur", () => this.blurred());
+    }
+
+    /** Shows a value; a field that is open keeps its text. */
+    show(value: string): void {
+        if (this.output.textContent !== value) this.output.textContent = value;
+    }
+
+    private open(): void {
+        this.before = this.events.editable();
+        this.refused = undefined;
+        // After a click with the mouse, the drawing still has the focus and gets it back.
+        this.focusAfter = document.activeElement === this.button ? this.button : byId("drawing");
+        this.input.value = this.before;
+        this.input.size = Math.max(5, this.before.length + 1);
+        this.showError("");
+        this.setOpen(true);
+        this.input.select();
+    }
+
+    private setOpen(open: boolean): void {
+        this.button.hidden = open;
+        this.label.hidden = this.note.hidden = !open;
+    }
+
+    /** Closes the field, and moves the focus to where it was. */
+    private close(): void {
+        const hadFocus = document.activeElement === this.input;
+        this.before = this.input.value; // nothing is left to apply when the field loses the focus
+        this.setOpen(false);
+        if (hadFocus) this.focusAfter?.focus();
+    }
+
+    private keydown(event: KeyboardEvent): void {
+        if (event.isComposing) return;
+        if (event.key === "Escape") {
+            event.stopPropagation(); // elsewhere, Escape moves the focus to the drawing
+            this.close();
+        }
+        if (event.key === "Enter") void this.submit();
+    }
+
+    /** Applies a change when the focus leaves the field, unless it leaves the window. */
+    private blurred(): void {
+        if (this.label.hidden || !document.hasFocus() || this.input.value === this.refused) return;
+        void this.submit();
+    }
+
+    private async submit(): Promise<void> {
+        const text = this.input.value.trim();
+        if (text === this.before.trim()) return this.close();
+        try {
+            await this.events.apply(text);
+            this.close();
+        } catch (error) {
+            this.refused = this.input.value;
+            this.showError((error as Error).message);
+        }
+        return undefined;
+    }
+
+    private showError(error: string): void {
+        this.error.textContent = error === "" ? "" : toSentence(error);
+        this.input.setAttribute("aria-invalid", String(error !== ""));
+    }
+}

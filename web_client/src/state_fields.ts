@@ -1,0 +1,143 @@
+// Shows the main values of the state in fields that change them, and announces changes of the state to screen readers.
+
+import type { State } from "@oval4d/protocol";
+
+import { angleExpression, editableAngle, withoutBlanks } from "./angles";
+import { spokenColoring, spokenKinds } from "./colors";
+import { byId } from "./element";
+import { spokenLevels } from "./fields";
+import { formatCoordinate, formatDegrees, focusW, formatLength, formatRotation } from "./format";
+import { StateField } from "./state_field";
+import { spokenFrame } from "./reference_frame";
+import { makeToolbar } from "./toolbar";
+
+/** A field of the header: the part of the state that it shows, and the command that changes it. */
+interface FieldDescription {
+    name: string;
+    symbol: string;
+    /** Describes the value. */
+    meaning: string;
+    /** Describes what can be typed. */
+    hint: string;
+    value(state: State): string;
+    spoken(state: State): string;
+    /** The value for editing; by default, as it is shown. */
+    editable?(state: State): string;
+    /** The command that applies what the user has typed; throws an Error if the text cannot be understood. */
+    command(text: string, state: State): string;
+}
+
+const kAngleHint = "In degrees, or for example pi/8";
+
+const kFields: FieldDescription[] = [
+    {
+        ...field("alpha", "α", "Angle of the rotation keys", ({ alpha }) => formatDegrees(alpha)),
+        hint: kAngleHint,
+        editable: ({ alpha }) => editableAngle(alpha),
+        command: (text) => `set alpha=${angleExpression(text)}`,
+    },
+    {
+        ...field("beta", "β", "Angle in the second plane", ({ beta }) => formatDegrees(beta)),
+        hint: kAngleHint,
+        editable: ({ beta }) => editableAngle(beta),
+        command: (text) => `set beta=${angleExpression(text)}`,
+    },
+    {
+        ...field("w", "w", "Position of the focus slice", focusW),
+        hint: "Any w: all hyperplanes move with the focus slice",
+        command: (text) => `set w=${withoutBlanks(text)}`,
+    },
+    {
+        ...field("spacing", "δ", "Distance between slices", ({ slices }) => formatLength(slices.spacing)),
+        hint: "A length, for example 0.1 or 1/8",
+        command: (text) => `set spacing=${withoutBlanks(text)}`,
+    },
+    {
+        ...field("slices", "Slices", "Number of slices", ({ slices }) => String(slices.count)),
+        hint: "An odd number",
+        command: (text) => `set slices=${withoutBlanks(text)}`,
+    },
+    {
+        ...field("last", "Last rotation", "Planes and angles of the last rotation", ({ last }) =>
+            last ? formatRotation(last) : "none",
+        ),
+        hint: "Turn by other angles: xw 10° or xw 10°, yz 5°",
+        spoken: ({ last }) => (last ? `turned ${formatRotation(last)}` : ""),
+        editable: ({ last }) =>
+            last?.planes.map((plane, i) => `${plane} ${editableAngle(last.angles[i]!)}`).join(", ") ?? "",
+        command: rotateCommand,
+    },
+];
+
+const kSpeechDelay = 700; // milliseconds without a change before the state is announced
+
+export class StateFields {
+    private readonly root = byId("state-fields");
+    private readonly announcer = byId("spoken");
+    private readonly fields = new Map<string, StateField>();
+    private state: State | undefined;
+    private announced: string[] | undefined; // by announcementsOf()
+    private timer: ReturnType<typeof setTimeout> | undefined;
+
+    /** `run` executes a command; it throws an Error whose message is shown at the field. */
+    constructor(run: (command: string) => Promise<unknown>) {
+        for (const { name, symbol, meaning, hint, value, editable = value, command } of kFields) {
+            const stateField = new StateField(name, symbol, meaning, hint, {
+                editable: () => (this.state ? editable(this.state) : ""),
+                apply: async (text) => this.state && run(command(text, this.state)),
+            });
+            this.fields.set(name, stateField);
+            this.root.append(stateField.root);
+        }
+        makeToolbar(this.root, "Current values");
+    }
+
+    update(state: State): void {
+        for (const { name, value } of kFields) this.fields.get(name)!.show(value(state));
+        this.state = state;
+        this.announced ??= ["", ...announcementsOf(state).slice(1)];
+        if (state.turning && this.timer !== undefined) return; // otherwise each step would delay the announcement
+        clearTimeout(this.timer);
+        this.timer = setTimeout(() => this.announce(), kSpeechDelay);
+    }
+
+    /** Announces the polytope's name at first, and the changes since the last announcement. */
+    private announce(): void {
+        this.timer = undefined;
+        const before = this.announced!;
+        this.announced = announcementsOf(this.state!);
+        const changed = this.announced.filter((text, i) => text !== "" && text !== before[i]);
+        if (changed.length > 0) this.announcer.textContent = changed.join(", ");
+    }
+}
+
+/** What a screen reader can say of a state: the polytope's name, then one text for each part. */
+function announcementsOf(state: State): string[] {
+    const onOff = (part: string, isShown: boolean): string => `${part} ${isShown ? "on" : "off"}`;
+    return [
+        state.polytope.name,
+        ...kFields.map((one) => one.spoken(state)),
+        state.section.name ? `section: ${state.section.name}` : "",
+        `${state.view} view`,
+        state.view === "matrix" ? `focus point ${state.point.map(formatCoordinate).join(", ")}` : "",
+        state.turning ? "turning" : "at rest",
+        spokenColoring(state),
+        spokenKinds(state),
+        spokenLevels(state),
+        spokenFrame(state) || "observer at rest",
+        state.highlight ? `${state.highlight.element} ${state.highlight.number} highlighted` : "no highlight",
+        ...Object.entries(state.shown).map(([part, isShown]) => onOff(part, isShown as boolean)),
+    ];
+}
+
+function field(name: string, symbol: string, meaning: string, value: (state: State) => string) {
+    return { name, symbol, meaning, value, spoken: (state: State) => `${symbol} ${value(state)}` };
+}
+
+/** The command for a rotation such as "xw 10°, yz 5°" or "xw,yz 10 5". */
+function rotateCommand(text: string): string {
+    const words = text.split(/[\s,;]+/).filter((word) => word !== "");
+    const isPlane = (word: string, i: number): boolean => i === 0 || /^[xyzw]{2}$/.test(word);
+    const angles = words.filter((word, i) => !isPlane(word, i)).map(angleExpression);
+    return `rotate ${words.filter(isPlane).join(",")} ${angles.join(" ")}`;
+}
