@@ -145,7 +145,7 @@ compile() {
 }
 
 # build_sanitized <asan-ubsan|tsan> <targets …>: builds the targets with sanitizers. For the fuzzers, asan-ubsan needs
-# Clang, in the version whose runtime libraries tests/packages.txt installs.
+# Clang, in the version whose runtime libraries tests/packages/fuzz.txt names.
 build_sanitized() {
     local compiler=() clang
     if [[ $1 == asan-ubsan ]]; then

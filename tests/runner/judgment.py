@@ -1,0 +1,160 @@
+"""Runs the checks of parts, runs once more what failed, and says what that means."""
+
+import concurrent.futures
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Callable
+
+from results import Result
+
+# With more unstable tests than this, the run fails.
+MOST_UNSTABLE = 2
+# The end of the output, which alone may be seen: the table, and the failures with their messages.
+LINES_AT_THE_END = 60
+LINES_OF_A_MESSAGE = 6
+LENGTH_OF_A_LINE = 240
+
+
+@dataclass
+class Part:
+    """A part of the tests. `checks` makes its checks; `presets` are the builds that they need. `budget` is the time in
+    seconds that the part takes at most on two idle cores when everything is built and cached."""
+
+    name: str
+    budget: float
+    checks: Callable
+    presets: tuple = ()
+    at_once: int = 1  # how many of its checks run at the same time
+
+
+@dataclass
+class Outcome:
+    """A test case that failed in the first run."""
+
+    first: Result
+    logs: list[Path]
+    second: Result | None = None  # of the second run, alone
+
+    @property
+    def unstable(self):
+        return self.second is not None and self.second.outcome == "passed"
+
+
+@dataclass
+class PartResults:
+    """What became of the tests of a part."""
+
+    part: Part
+    seconds: float = 0
+    passed: int = 0
+    skipped: int = 0
+    failures: list[Outcome] = field(default_factory=list)
+
+
+def run_part(part, folder, say):
+    """Runs all checks of a part once. Returns its results, and the checks with failures: (check, outcomes)."""
+    folder.mkdir(parents=True, exist_ok=True)
+    found, again, start = PartResults(part), [], time.monotonic()
+
+    def run(check):
+        began = time.monotonic()
+        results, log = check.run(folder)
+        failed = [Outcome(result, [log]) for result in results if result.outcome == "failed"]
+        say(f"{part.name}: {check.name}: {f'{len(failed)} FAILED' if failed else 'passed'}, {time.monotonic() - began:.0f} s")
+        return check, results, failed
+
+    with concurrent.futures.ThreadPoolExecutor(part.at_once) as pool:
+        for check, results, failed in pool.map(run, part.checks(folder)):
+            found.passed += sum(result.outcome == "passed" for result in results)
+            found.skipped += sum(result.outcome == "skipped" for result in results)
+            found.failures += failed
+            if failed:
+                again.append((check, failed))
+    found.seconds = time.monotonic() - start
+    return found, again
+
+
+def run_again(check, failed, folder, say):
+    """Runs the failed tests of a check once more, with nothing beside them, and enters what became of them."""
+    results, log = check.run(folder, [outcome.first for outcome in failed])
+    by_name = {result.name: result for result in results}
+    whole = None if any(result.outcome == "failed" for result in results) else Result(check.name, "passed")
+    for outcome in failed:
+        outcome.second = by_name.get(outcome.first.name, whole if outcome.first.case is None else None)
+        outcome.logs.append(log)
+        say(f"again: {outcome.first.name}: {'passed this time' if outcome.unstable else 'FAILED again'}")
+
+
+def judge(parts, results_folder, say):
+    """Runs the parts, and what failed once more at the end. Returns the results of each part, and the seconds that the
+    second runs took."""
+    all_results, again = [], []
+    for part in parts:
+        found, failed_checks = run_part(part, results_folder / part.name, say)
+        all_results.append(found)
+        again += [(check, failed, results_folder / part.name) for check, failed in failed_checks]
+    start = time.monotonic()
+    for check, failed, folder in again:
+        run_again(check, failed, folder, say)
+    return all_results, time.monotonic() - start
+
+
+def verdict(all_results):
+    """Returns the numbers of passed and failed tests, the unstable outcomes and the failed ones. Up to MOST_UNSTABLE
+    unstable tests count as passed; more of them count as failed."""
+    outcomes = [outcome for found in all_results for outcome in found.failures]
+    unstable = [outcome for outcome in outcomes if outcome.unstable]
+    failed = [outcome for outcome in outcomes if not outcome.unstable]
+    passed = sum(found.passed for found in all_results)
+    if len(unstable) <= MOST_UNSTABLE:
+        return passed + len(unstable), len(failed), unstable, failed
+    return passed, len(outcomes), unstable, failed
+
+
+def table(all_results, other_seconds):
+    """Returns the lines of the table: numbers of tests and the time of each part. `other_seconds` maps names of further
+    rows, which have only a time, to seconds."""
+    lines = [f"{'part':<12}{'passed':>8}{'unstable':>9}{'failed':>8}{'skipped':>9}{'time':>8}"]
+    lines += [f"{name:<12}{'':>34}{seconds:>6.0f} s" for name, seconds in other_seconds.items()]
+    for found in all_results:
+        unstable = sum(outcome.unstable for outcome in found.failures)
+        late = found.seconds > found.part.budget
+        lines.append(f"{found.part.name:<12}{found.passed:>8}{unstable:>9}{len(found.failures) - unstable:>8}{found.skipped:>9}"
+                     f"{found.seconds:>6.0f} s" + (f"  over its budget of {found.part.budget:.0f} s" if late else ""))
+    return lines
+
+
+def explain(outcome, root, lines_of_message):
+    """Returns the lines about a failure: its name, the message of its last run that failed, and the files of its logs."""
+    last = outcome.second if outcome.second and not outcome.unstable else outcome.first
+    message = [line for line in last.message.splitlines() if line.strip()]
+    logs = " and ".join(str(log.relative_to(root) if log.is_relative_to(root) else log) for log in outcome.logs)
+    return ([f"  {outcome.first.name}"[:LENGTH_OF_A_LINE]] +
+            [f"      {line}"[:LENGTH_OF_A_LINE] for line in message[-lines_of_message:]] + [f"      {logs}"])
+
+
+def summary(all_results, other_seconds, root, report):
+    """Returns the last lines of output, at most LINES_AT_THE_END, and the exit status. If not all failures fit in, the
+    rest is only in the file `report`, which has all of them with whole messages."""
+    passed, count, unstable, failed = verdict(all_results)
+    lines = [*table(all_results, other_seconds), ""]
+    groups = [("FAILED", failed), ("unstable: failed, and passed when run again alone", unstable)]
+    whole = [line for title, outcomes in groups if outcomes
+             for line in [title, *(text for outcome in outcomes for text in explain(outcome, root, 10_000))]]
+    report.write_text("\n".join([*lines, *whole, ""]), encoding="utf-8")
+    room = LINES_AT_THE_END - len(lines) - len(groups) - 3
+    for title, outcomes in groups:
+        if outcomes:
+            lines.append(f"{title}:")
+        for k, outcome in enumerate(outcomes):
+            text = explain(outcome, root, LINES_OF_A_MESSAGE)
+            if len(text) > room:
+                lines.append(f"  … and {len(outcomes) - k} more: see {report.relative_to(root)}")
+                room = 0
+                break
+            lines += text
+            room -= len(text)
+    if len(unstable) > MOST_UNSTABLE:
+        lines.append(f"{len(unstable)} tests are unstable; more than {MOST_UNSTABLE} are a failure")
+    return [*lines, f"{passed} passed, {count} failed"], 1 if count else 0

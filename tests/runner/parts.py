@@ -1,0 +1,153 @@
+"""The parts of the tests."""
+
+import functools
+import subprocess
+import sys
+from pathlib import Path
+
+from checks import Check, GoogleTest, ListedTests, Pytest
+from judgment import Part
+
+ROOT = Path(__file__).resolve().parents[2]
+TESTS = ROOT / "tests"
+
+# With sanitizers, the service tests run the code of the other folders. With ThreadSanitizer, only what has threads is of
+# interest; the service tests that are left out use the same threads in the same way.
+SANITIZED_UNITS = {
+    "asan-ubsan": ("fields", "file_reading", "geometry", "image", "parallel", "polytopes", "process", "raster", "render", "slicing"),
+    "tsan": ("parallel", "polytopes", "raster", "store"),
+}
+SANITIZED_FILTERS = {("tsan", "polytopes"): "PolytopeCache*"}
+SANITIZED_SERVICE = {
+    "asan-ubsan": ("",),
+    "tsan": ("conversation", "critical", "data_folder", "drafts", "drawing", "frames", "hanging", "large_fields", "limits", "pacing",
+             "sessions", "store", "uploads"),
+}
+
+
+def program(name, preset="release"):
+    return ROOT / "build" / preset / "bin" / name
+
+
+def pytest(name, *arguments, preset="release", wrapper=(), variables=None):
+    """Returns a check by pytest. The tests start the server of that build."""
+    command = [*wrapper, sys.executable, "-m", "pytest", "-q", "-o", "faulthandler_timeout=600", *arguments]
+    return Pytest(name, command, {"OVAL4D": str(program("oval4d", preset))} | (variables or {}))
+
+
+def page(name, *options):
+    """Returns a check of the page in a browser."""
+    return ListedTests(name, ["node", TESTS / "browser/run.mjs", *options], {"OVAL4D": str(program("oval4d"))})
+
+
+def runner(_):
+    return [pytest("runner", TESTS / "runner")]
+
+
+def lint(_):
+    return [ListedTests("lint", [TESTS / "lint"])]
+
+
+def unit(_):
+    return [GoogleTest(f"unit_{folder.name}", [program(f"unit_{folder.name}")]) for folder in sorted((TESTS / "unit").iterdir())
+            if folder.is_dir()]
+
+
+def corpus(_):
+    return [GoogleTest("corpus", [program("corpus_tests")])]
+
+
+def service(_):
+    return [pytest("service", TESTS / "service", "--numprocesses=2")]
+
+
+def attack(_):
+    return [pytest("attack", TESTS / "attack", "--numprocesses=2")]
+
+
+def failover(_):
+    return [pytest("failover", TESTS / "failover")]
+
+
+def browser(_):
+    return [page("browser")]
+
+
+def latencies(_):
+    return [pytest("latencies", TESTS / "latencies"), page("page", "--latencies")]
+
+
+def container(_):
+    return [pytest("container", TESTS / "container")]
+
+
+def firefox(_):
+    return [page("firefox", "--firefox")]
+
+
+def fuzz(folder):
+    """Each fuzzer searches for 15 seconds, beginning with its corpus, to find faults of parsers soon; tests/fuzz/long
+    searches for hours. Findings are left in the folder."""
+    checks = []
+    for source in sorted((TESTS / "fuzz").glob("*_fuzz.cpp")):
+        subject = source.stem.removesuffix("_fuzz")
+        found = folder / "corpus" / subject
+        found.mkdir(parents=True, exist_ok=True)
+        checks.append(Check(subject, [TESTS / "fuzz/one", subject, folder, "-max_total_time=15", found]))
+    return checks
+
+
+@functools.cache
+def without_address_randomization():
+    """GCC 12's ThreadSanitizer fails with the address space randomization of newer kernels."""
+    wrapper = ("setarch", "--addr-no-randomize")
+    return wrapper if subprocess.run([*wrapper, "true"], check=False, stderr=subprocess.DEVNULL).returncode == 0 else ()
+
+
+def sanitized(preset, folder):
+    """Returns the checks of a build with sanitizers. The last one fails if any process has written a report."""
+    reports = folder / f"{preset}.report"
+    variables = {
+        "LP_NUM_THREADS": "0",  # llvmpipe without threads, because it is not instrumented
+        "LSAN_OPTIONS": f"suppressions={TESTS}/sanitizers/lsan.supp:print_suppressions=0",
+        "ASAN_OPTIONS": f"detect_stack_use_after_return=1:log_path={reports}",
+        "UBSAN_OPTIONS": f"print_stacktrace=1:log_path={reports}",
+        "TSAN_OPTIONS": f"suppressions={TESTS}/sanitizers/tsan.supp:log_path={reports}",
+    }
+    wrapper = without_address_randomization()
+    checks = []
+    for unit_folder in SANITIZED_UNITS[preset]:
+        command = [*wrapper, program(f"unit_{unit_folder}", preset)]
+        chosen = SANITIZED_FILTERS.get((preset, unit_folder))
+        checks.append(GoogleTest(f"{preset}-unit-{unit_folder}", command, variables | ({"GTEST_FILTER": chosen} if chosen else {})))
+    files = [TESTS / "service" / (f"test_{subject}.py" if subject else "") for subject in SANITIZED_SERVICE[preset]]
+    checks.append(pytest(f"{preset}-service", *files, "--numprocesses=2", preset=preset, wrapper=wrapper, variables=variables))
+    # The search for leaks, at the end of a process, also reports a thread that ends while it looks; that is no fault.
+    script = '! head -qn 50 "$0".* 2>/dev/null | grep -v "Unable to get registers from thread"'
+    checks.append(Check(f"{preset}-reports", ["bash", "-c", script, reports]))
+    return checks
+
+
+def sanitizers(folder):
+    return [check for preset in SANITIZED_UNITS for check in sanitized(preset, folder)]
+
+
+# What is deterministic, and needs one build. Budgets are in seconds: see Part.
+GATE = [
+    Part("runner", 15, runner),
+    Part("lint", 60, lint, ("release",)),
+    Part("unit", 60, unit, ("release",), at_once=2),
+    Part("corpus", 20, corpus, ("release",)),
+    Part("service", 100, service, ("release",)),
+    Part("attack", 100, attack, ("release",)),
+    Part("failover", 30, failover, ("release",)),
+    Part("browser", 180, browser, ("release",)),
+]
+# What measures, searches, or needs other builds.
+DEEP = [
+    Part("latencies", 300, latencies, ("release",)),
+    Part("container", 400, container, ("release",)),
+    Part("firefox", 100, firefox, ("release",)),
+    Part("fuzz", 120, fuzz, ("asan-ubsan",), at_once=2),
+    Part("sanitizers", 1200, sanitizers, ("asan-ubsan", "tsan")),
+]
