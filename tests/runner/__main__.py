@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 from checks import Check, end_all
 from judgment import judge, summary
