@@ -2,6 +2,7 @@
 
 import contextlib
 import http.client
+import itertools
 import os
 import re
 import signal
@@ -20,22 +21,45 @@ def is_sanitizer_build():
     return b"__tsan_init" in program or b"__asan_init" in program
 
 
-# Deadlines are multiplied by this factor, because sanitizers and busy machines are slow. Tests stop waiting as soon as
-# their condition holds.
-SLOW = float(os.environ.get("OVAL4D_TEST_SLOW") or (6 if is_sanitizer_build() else 1))
-DEADLINE = 20 * SLOW
+# The seconds after which whatever a test waits for counts as hung: the only bound on the duration of anything.
+DEADLINE = int(Path(__file__).parents[1].joinpath("hang_limit_seconds").read_text(encoding="ascii"))
+SLOW = 1
+
+# The server's own limits on the duration of anything. A test whose subject is one of them sets it, and no other test
+# depends on them, however slow the machine is.
+TIMES = ("--draw-timeout", "--hello-timeout", "--idle-timeout", "--load-timeout", "--max-file-time", "--ping-interval",
+         "--write-timeout")
+LONG_TIME = 10 * DEADLINE
 
 
 def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    """Returns a TCP port that belongs to this process until its end.
+
+    Only a program with a fixed port can take it: it is outside the range from which the kernel chooses ports, and other
+    tests see that the abstract socket of its name is taken.
+    """
+    first, last = map(int, Path("/proc/sys/net/ipv4/ip_local_port_range").read_text(encoding="ascii").split())
+    for port in itertools.chain(range(first - 1, 9999, -1), range(last + 1, 1 << 16)):
+        mark = socket.socket(socket.AF_UNIX)
+        try:
+            mark.bind(f"\0oval4d-test-port-{port}")
+            with socket.socket() as probe:
+                probe.bind(("127.0.0.1", port))
+        except OSError:
+            mark.close()
+            continue
+        _port_marks.append(mark)
+        return port
+    raise AssertionError("no port is free outside the range from which the kernel chooses")
+
+
+_port_marks = []
 
 
 def is_listening(host, port):
     """Returns whether a program listens at this address and port."""
     with socket.socket() as probe:
-        probe.settimeout(1)
+        probe.settimeout(DEADLINE)
         return probe.connect_ex((host, port)) == 0
 
 
@@ -66,9 +90,7 @@ class Server:
     def __init__(self, *options, **variables):
         self.log_file = tempfile.NamedTemporaryFile(prefix="oval4d-", suffix=".log")
         environment = {name: value for name, value in os.environ.items() if not name.startswith("OVAL4D")}
-        defaults = [("--port", 0), ("--workers", 2), ("--io-threads", 2)]
-        if SLOW > 1:  # the limit of an export is a time that the program needs for itself
-            defaults.append(("--max-file-time", DEADLINE))
+        defaults = [("--port", 0), ("--workers", 2), ("--io-threads", 2), *((name, LONG_TIME) for name in TIMES)]
         arguments = [word for pair in defaults if pair[0] not in options for word in pair]
         command = [str(PROGRAM), *map(str, arguments), *map(str, options)]
         self.process = self.start(command, environment | variables)
