@@ -192,6 +192,11 @@ class Server:
         pages = Path(f"/proc/{self.process.pid}/statm").read_text(encoding="ascii").split()[1]
         return int(pages) * os.sysconf("SC_PAGE_SIZE")
 
+    def peak_memory(self):
+        """Returns the greatest resident memory that the server has had so far, in bytes."""
+        status = Path(f"/proc/{self.process.pid}/status").read_text(encoding="ascii")
+        return 1024 * int(re.search(r"VmHWM:\s+(\d+) kB", status).group(1))
+
     def anonymous_memory(self, pid=None):
         """Returns the anonymous resident memory of the server, or of another process, in bytes. It does not include
         code and the pixels that the server shares with drawing processes."""
