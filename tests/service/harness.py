@@ -30,6 +30,9 @@ SLOW = 1
 TIMES = ("--draw-timeout", "--hello-timeout", "--idle-timeout", "--load-timeout", "--max-file-time", "--ping-interval",
          "--write-timeout")
 LONG_TIME = 10 * DEADLINE
+LONG_TIMES = [(name, LONG_TIME) for name in TIMES]
+# The same for servers that are started without options.
+LONG_TIME_VARIABLES = {f"OVAL4D_{name[2:].upper().replace('-', '_')}": str(LONG_TIME) for name in TIMES}
 
 
 def free_port():
@@ -102,7 +105,7 @@ class Server:
     def __init__(self, *options, **variables):
         self.log_file = tempfile.NamedTemporaryFile(prefix="oval4d-", suffix=".log")
         environment = {name: value for name, value in os.environ.items() if not name.startswith("OVAL4D")}
-        defaults = [("--port", 0), ("--workers", 2), ("--io-threads", 2), *((name, LONG_TIME) for name in TIMES)]
+        defaults = [("--port", 0), ("--workers", 2), ("--io-threads", 2), *LONG_TIMES]
         arguments = [word for pair in defaults if pair[0] not in options for word in pair]
         command = [str(PROGRAM), *map(str, arguments), *map(str, options)]
         self.process = self.start(command, environment | variables)
