@@ -6,7 +6,7 @@ import time
 
 from harness import Server
 from test_files import LONG_FILE, requested_files
-from test_large_fields import folder, open_server, sparse_npy  # noqa: F401
+from test_large_fields import empty_folder, open_server, sparse_npy  # noqa: F401
 from wire import Client
 
 SIZE = {"width": 320, "height": 180}
