@@ -43,7 +43,7 @@ async def test_a_session_and_its_polytopes_survive_a_restart(store_path):
             before = await client.request("get", what="state")
             credentials = credentials_of(client)
     with Server("--store", f"sqlite:{store_path}") as server:
-        assert server.metric("oval4d_sessions") == 1
+        server.wait_for(lambda: server.metric("oval4d_sessions") == 1)
         async with Client(server, **credentials) as client:
             assert {**await client.request("get", what="state"), "id": 0} == {**before, "id": 0}
             await client.request("undo")
