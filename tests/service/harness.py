@@ -2,6 +2,7 @@
 
 import contextlib
 import http.client
+import itertools
 import os
 import re
 import signal
@@ -20,22 +21,50 @@ def is_sanitizer_build():
     return b"__tsan_init" in program or b"__asan_init" in program
 
 
-# Deadlines are multiplied by this factor, because sanitizers and busy machines are slow. Tests stop waiting as soon as
-# their condition holds.
-SLOW = float(os.environ.get("OVAL4D_TEST_SLOW") or (6 if is_sanitizer_build() else 1))
-DEADLINE = 20 * SLOW
+# The seconds after which whatever a test waits for counts as hung: the only bound on the duration of anything.
+DEADLINE = int(Path(__file__).parents[1].joinpath("hang_limit_seconds").read_text(encoding="ascii"))
+SLOW = 1
+
+# The server's own limits on the duration of anything. A test whose subject is one of them sets it, and no other test
+# depends on them, however slow the machine is.
+LONG_TIME = 10 * DEADLINE
+LONG_TIMES = {name: LONG_TIME for name in ("--draw-timeout", "--hello-timeout", "--idle-timeout", "--load-timeout",
+                                           "--max-file-time", "--write-timeout")}
+# A client may be silent for twice this time. During a long command, the server reads nothing for half of it, and the
+# Python client gives up if a ping of its own has no answer after 40 s.
+LONG_TIMES["--ping-interval"] = DEADLINE / 2
+# The same for servers that are started without options.
+LONG_TIME_VARIABLES = {f"OVAL4D_{name[2:].upper().replace('-', '_')}": str(time) for name, time in LONG_TIMES.items()}
 
 
 def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    """Returns a TCP port that belongs to this process until its end.
+
+    Only a program with a fixed port can take it: it is outside the range from which the kernel chooses ports, and other
+    tests see that the abstract socket of its name is taken.
+    """
+    first, last = map(int, Path("/proc/sys/net/ipv4/ip_local_port_range").read_text(encoding="ascii").split())
+    for port in itertools.chain(range(first - 1, 9999, -1), range(last + 1, 1 << 16)):
+        mark = socket.socket(socket.AF_UNIX)
+        try:
+            mark.bind(f"\0oval4d-test-port-{port}")
+            with socket.socket() as probe:
+                probe.bind(("127.0.0.1", port))
+        except OSError:
+            mark.close()
+            continue
+        _port_marks.append(mark)
+        return port
+    raise AssertionError("no port is free outside the range from which the kernel chooses")
+
+
+_port_marks = []
 
 
 def is_listening(host, port):
     """Returns whether a program listens at this address and port."""
     with socket.socket() as probe:
-        probe.settimeout(1)
+        probe.settimeout(DEADLINE)
         return probe.connect_ex((host, port)) == 0
 
 
@@ -52,12 +81,24 @@ def wait_for_processes_to_end(pids):
     wait_until(lambda: all(map(has_ended, pids)), "the end of the processes")
 
 
+def process_state(pid):
+    """Returns the state of the process in /proc: "T" if it is suspended, "t" if it has stopped for its tracer, "Z" if
+    only its parent has to take notice of its end, and "X" if it does not exist."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace").rsplit(") ", 1)[1][0]
+    except (FileNotFoundError, ProcessLookupError):
+        return "X"
+
+
 def has_ended(pid):
     """Returns whether the process has ended; a zombie counts as ended."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rsplit(") ", 1)[1].startswith("Z")
-    except FileNotFoundError:
-        return True
+    return process_state(pid) in "XZ"
+
+
+def cpu_seconds(pid):
+    """Returns the CPU time of a process in seconds."""
+    fields = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 class Server:
@@ -66,9 +107,7 @@ class Server:
     def __init__(self, *options, **variables):
         self.log_file = tempfile.NamedTemporaryFile(prefix="oval4d-", suffix=".log")
         environment = {name: value for name, value in os.environ.items() if not name.startswith("OVAL4D")}
-        defaults = [("--port", 0), ("--workers", 2), ("--io-threads", 2)]
-        if SLOW > 1:  # the limit of an export is a time that the program needs for itself
-            defaults.append(("--max-file-time", DEADLINE))
+        defaults = [("--port", 0), ("--workers", 2), ("--io-threads", 2), *LONG_TIMES.items()]
         arguments = [word for pair in defaults if pair[0] not in options for word in pair]
         command = [str(PROGRAM), *map(str, arguments), *map(str, options)]
         self.process = self.start(command, environment | variables)
@@ -139,6 +178,12 @@ class Server:
                 os.kill(pid, number)
         return pids
 
+    def suspend_drawing_processes(self):
+        """Suspends all drawing processes; returns their process IDs once none of them runs."""
+        pids = self.signal_drawing_processes(signal.SIGSTOP)
+        wait_until(lambda: all(has_ended(pid) or process_state(pid) in "Tt" for pid in pids), "suspended processes")
+        return pids
+
     def open_files(self):
         """Returns the targets of the server's open file descriptors."""
         targets = []
@@ -151,6 +196,11 @@ class Server:
         """Returns the server's resident memory in bytes."""
         pages = Path(f"/proc/{self.process.pid}/statm").read_text(encoding="ascii").split()[1]
         return int(pages) * os.sysconf("SC_PAGE_SIZE")
+
+    def peak_memory(self):
+        """Returns the greatest resident memory that the server has had so far, in bytes."""
+        status = Path(f"/proc/{self.process.pid}/status").read_text(encoding="ascii")
+        return 1024 * int(re.search(r"VmHWM:\s+(\d+) kB", status).group(1))
 
     def anonymous_memory(self, pid=None):
         """Returns the anonymous resident memory of the server, or of another process, in bytes. It does not include
