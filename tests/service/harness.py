@@ -76,12 +76,24 @@ def wait_for_processes_to_end(pids):
     wait_until(lambda: all(map(has_ended, pids)), "the end of the processes")
 
 
+def process_state(pid):
+    """Returns the state of the process in /proc: "T" if it is suspended, "t" if it has stopped for its tracer, "Z" if
+    only its parent has to take notice of its end, and "X" if it does not exist."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace").rsplit(") ", 1)[1][0]
+    except (FileNotFoundError, ProcessLookupError):
+        return "X"
+
+
 def has_ended(pid):
     """Returns whether the process has ended; a zombie counts as ended."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text(encoding="ascii").rsplit(") ", 1)[1].startswith("Z")
-    except FileNotFoundError:
-        return True
+    return process_state(pid) in "XZ"
+
+
+def cpu_seconds(pid):
+    """Returns the CPU time of a process in seconds."""
+    fields = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 class Server:
@@ -159,6 +171,12 @@ class Server:
         for pid in pids:
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, number)
+        return pids
+
+    def suspend_drawing_processes(self):
+        """Suspends all drawing processes; returns their process IDs once none of them runs."""
+        pids = self.signal_drawing_processes(signal.SIGSTOP)
+        wait_until(lambda: all(has_ended(pid) or process_state(pid) in "Tt" for pid in pids), "suspended processes")
         return pids
 
     def open_files(self):

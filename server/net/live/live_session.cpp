@@ -517,13 +517,17 @@ void LiveSession::markChanged(Clock::time_point now) {
 /// Returns `draft` while a field moves or changes in quick succession, so that pictures follow fast; else `full`.
 slicing::Quality LiveSession::wantedQuality() const {
     if (slicing::fieldIn(session_.current.object) == nullptr) return slicing::Quality::full;
-    const bool changing = changesQuickly_ && Clock::now() - changed_ < kRest;
-    return session_.current.moves() || changing ? slicing::Quality::draft : slicing::Quality::full;
+    return session_.current.moves() || changesQuickly_ ? slicing::Quality::draft : slicing::Quality::full;
 }
 
-/// Schedules pictures of full quality for the time when the session has rested for kRest.
+/// Schedules pictures of full quality for the time when the session has rested for kRest. Until the timer runs, the
+/// quality stays the same, so that a busy server does not skip the draft right after a change.
 void LiveSession::scheduleRefinement() {
-    if (!session_.current.moves()) refineTimer_.start(weak_from_this(), changed_ + kRest, &LiveSession::update);
+    if (session_.current.moves()) return;
+    refineTimer_.start(weak_from_this(), changed_ + kRest, [](LiveSession& session) {
+        if (Clock::now() - session.changed_ >= kRest) session.changesQuickly_ = false;
+        session.update();
+    });
 }
 
 /// Returns the snapshot of the current revision in this quality, or null if it has not been made.

@@ -216,7 +216,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     std::map<const Peer*, Subscriber> clients_;
     Clock::time_point changed_;                    // the time at which the session reached its revision
     std::optional<Clock::time_point> lastChange_;  // empty before the first change since the session was opened
-    bool changesQuickly_ = false;                  // whether the last change soon followed another one
+    bool changesQuickly_ = false;                  // whether the last change soon followed another one, and no rest has followed
     SnapshotPtr snapshot_;      // the newest snapshot, kept while a client waits for a picture; else null
     EncodedPictures pictures_;  // pictures of snapshot_
     SharedBytes stateText_;     // the `state` message of stateRevision_, for clients without a stream
