@@ -4,8 +4,7 @@ The control is a second server, which nobody loads. One operation on each altern
 alike by whatever else the machine does, and their ratio tells what the load of the server costs its other clients. Only
 statistics that a few outliers do not move are compared: medians, and 90th percentiles of hundreds of samples.
 
-Attackers run in separate processes at the lowest priority, so that what the server does for them delays others, not
-their own work.
+Attackers run in separate processes.
 """
 
 import asyncio
@@ -88,7 +87,6 @@ def run_attackers(address, attack, arguments, host_and_port, count):
 
     async def run_all():
         await asyncio.gather(*(repeat_attack(attack, ServerAddress, address, arguments) for _ in range(count)))
-    os.nice(19)
     asyncio.run(run_all())
 
 
