@@ -182,4 +182,4 @@ def start_control_server():
 @pytest.mark.parametrize("name", ATTACKS)
 def test_a_session_stays_responsive_during_an_attack(name, data_folder, control_server):
     with Server("--data", data_folder) as server:
-        compare_frames(name, server, control_server, ATTACKS[name], VICTIM_ADDRESS).assert_at_most(5, 10)
+        compare_frames(name, server, control_server, ATTACKS[name], VICTIM_ADDRESS).assert_at_most(4, 10)
