@@ -91,9 +91,9 @@ def run_attackers(address, attack, arguments, host_and_port, count):
 
 
 @contextlib.contextmanager
-def under_attack(server, attacks):
+def under_attack(server, attacks, seconds=0.5):
     """Runs attacking processes, one for each (address, attack, arguments, number of clients). The `with` block begins
-    once the server works for them."""
+    once the server has worked for them for some seconds of processor time."""
     context = multiprocessing.get_context("spawn")
     processes = [context.Process(target=run_attackers, daemon=True,
                                  args=(address, attack, arguments, (server.host, server.port), count))
@@ -101,7 +101,7 @@ def under_attack(server, attacks):
     for process in processes:
         process.start()
     try:
-        wait_until_busy(server, 0.5)
+        wait_until_busy(server, seconds)
         yield
     finally:
         for process in processes:
