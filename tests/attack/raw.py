@@ -3,7 +3,6 @@
 import base64
 import hashlib
 import json
-import os
 import select
 import socket
 import struct
@@ -80,10 +79,6 @@ class Socket:
             pass
         return self.read_exactly(len(self.buffer))
 
-    def is_silent(self, seconds):
-        """Returns whether neither data nor the end of the connection arrives within `seconds`."""
-        return not self.buffer and not select.select([self.socket], [], [], seconds)[0]
-
     def reset(self):
         """Ends the connection with a TCP reset."""
         self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
@@ -110,7 +105,7 @@ class Socket:
         try:
             while sent < max_bytes:
                 assert time.monotonic() < deadline, f"the connection is still open after {sent} bytes"
-                readable, writable, _ = select.select([self.socket], [self.socket], [], 0.1)
+                readable, writable, _ = select.select([self.socket], [self.socket], [], DEADLINE)
                 if readable and not self.receive():
                     return sent
                 if writable:
@@ -122,6 +117,29 @@ class Socket:
             return sent
         finally:
             self.socket.settimeout(DEADLINE)
+
+
+def send_as_far_as_read(sockets, data, serve_another):
+    """Sends the data on each connection until the server does not read on: until several rounds, in each of which
+    `serve_another()` has requests of another client answered, send nothing. Returns the number of bytes sent."""
+    rest = {raw: memoryview(data) for raw in sockets}
+    sent, rounds_without = 0, 0
+    while rest and rounds_without < 5:
+        rounds_without += 1
+        for raw in list(rest):
+            try:
+                count = raw.socket.send(rest[raw], socket.MSG_DONTWAIT)
+            except BlockingIOError:
+                continue
+            except ConnectionError:
+                del rest[raw]
+                continue
+            sent, rounds_without = sent + count, 0
+            rest[raw] = rest[raw][count:]
+            if not rest[raw]:
+                del rest[raw]
+        serve_another()
+    return sent
 
 
 class Response:
@@ -202,7 +220,7 @@ def close_frame(code=None, reason=b""):
 
 def handshake(target="/ws", *fields, key=None, host="localhost", protocol="oval4d.v1"):
     """Returns a valid handshake request; `fields` are additional header lines."""
-    key = key or base64.b64encode(os.urandom(16)).decode()
+    key = key or base64.b64encode(b"sixteen bytes...").decode()
     offered = [f"Sec-WebSocket-Protocol: {protocol}"] if protocol else []
     return request(target, "Upgrade: websocket", "Connection: Upgrade", "Sec-WebSocket-Version: 13",
                    f"Sec-WebSocket-Key: {key}", *offered, *fields, host=host)

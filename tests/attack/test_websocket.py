@@ -388,7 +388,7 @@ def test_pending_requests_do_not_prevent_a_close(session):
 
 def test_the_server_ends_the_connection_if_its_close_is_not_answered():
     """The server begins to close, and the client sends no close frame."""
-    with Server("--ping-interval", 0.5) as impatient, WebSocket(impatient) as peer:
+    with Server() as impatient, WebSocket(impatient) as peer:
         peer.send(frame(BINARY, b"x"))
         assert peer.wait_for_close_code(answers=False) == UNSUPPORTED
         impatient.wait_for(lambda: impatient.metric("oval4d_websockets") == 0)
