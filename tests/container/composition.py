@@ -15,7 +15,7 @@ import image
 import yaml
 
 sys.path.insert(0, str(image.ROOT / "tests/service"))
-from harness import DEADLINE, is_listening, wait_until  # noqa: E402
+from harness import DEADLINE, LONG_TIME_VARIABLES, is_listening, wait_until  # noqa: E402
 
 FILE = image.ROOT / "docker/compose.yaml"
 BRIDGE, NET = "oval4d-br", "10.213.77"
@@ -169,7 +169,7 @@ class Composition:
         user and without capabilities."""
         service = self.services["oval4d"]
         assert service["read_only"] and service["cap_drop"] == ["ALL"] and service["security_opt"] == ["no-new-privileges:true"]
-        variables = self.image_variables | service["environment"]
+        variables = self.image_variables | LONG_TIME_VARIABLES | service["environment"]
         settings = " ".join(f"{name}='{value}'" for name, value in variables.items())
         files = self.files
         return f"""

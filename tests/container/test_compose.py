@@ -34,8 +34,10 @@ def metric(server, name):
     return next(float(line.rsplit(" ", 1)[1]) for line in lines if line.rsplit(" ", 1)[0] == name)
 
 
-def open_session_counts(running_composition):
-    return [metric(server, "oval4d_open_sessions") for server in running_composition.servers()]
+async def wait_for_open_sessions(running_composition, count):
+    """Waits until the servers together have this many open sessions."""
+    counts = lambda: [metric(server, "oval4d_open_sessions") for server in running_composition.servers()]
+    await asyncio.to_thread(wait_until, lambda: sum(counts()) == count, f"{count} open sessions")
 
 
 def serves_page(proxy):
@@ -68,7 +70,7 @@ async def add_stop_and_kill_servers(running_composition):
         await wait_until_all_press(clients)
         # The proxy may have found only one of the servers when the first sessions began.
         await start_sessions_until_shared(servers)
-        assert sum(open_session_counts(running_composition)) == len(clients)
+        await wait_for_open_sessions(running_composition, len(clients))
 
         # The proxy finds an added server through the service's name, and sends it new sessions.
         added = running_composition.add_server()
@@ -80,7 +82,8 @@ async def add_stop_and_kill_servers(running_composition):
         running_composition.remove_container(servers[0])
         await wait_until_all_press(clients)
         moved = [client for client in clients if client.interruptions]
-        assert moved and sum(open_session_counts(running_composition)) == len(clients)
+        assert moved
+        await wait_for_open_sessions(running_composition, len(clients))
 
         # One server is killed, and its address remains in the name server.
         await in_thread(None, servers[1].stop, signal.SIGKILL)

@@ -9,7 +9,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/service"))
-from harness import Server, is_listening, free_port, wait_until  # noqa: E402
+from harness import DEADLINE, LONG_TIME, Server, free_port, is_listening, wait_until  # noqa: E402
 
 NO_OUTPUT = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
@@ -17,8 +17,8 @@ NO_OUTPUT = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr"
 class Redis:
     """A redis-server with its data in `folder`; tests stop, pause and restart it."""
 
-    def __init__(self, folder, *options, port=None):
-        self.port = port or free_port()
+    def __init__(self, folder, *options):
+        self.port = free_port()
         self.words = ["redis-server", "--port", str(self.port), "--bind", "127.0.0.1", "--dir", str(folder), "--save", "",
                       "--appendonly", "yes", *options]
         self.process = None
@@ -29,7 +29,8 @@ class Redis:
         wait_until(lambda: self.command("PING") == "PONG", "Redis")
 
     def command(self, *words):
-        output = subprocess.run(["redis-cli", "-p", str(self.port), *words], capture_output=True, text=True, check=False)
+        output = subprocess.run(["redis-cli", "-p", str(self.port), *words], capture_output=True, text=True, check=False,
+                                timeout=DEADLINE)
         return output.stdout.strip()
 
     def kill(self, number=signal.SIGKILL):
@@ -53,6 +54,8 @@ class Proxy:
         self.host, self.port = "127.0.0.1", free_port()
         text = (ROOT / "docker/haproxy.cfg").read_text(encoding="utf-8")
         text = text.replace("bind :8080", f"bind 127.0.0.1:{self.port}")
+        # A server may take long to answer a health check. One that is killed or drained refuses it at once.
+        text = text.replace("defaults\n", f"defaults\n    timeout check {DEADLINE}s\n")
         text = re.sub(r"resolvers names\n(    .*\n)+", "", text)
         server_lines = "\n    ".join(f"server oval4d{i} 127.0.0.1:{port}" for i, port in enumerate(servers, 1))
         text, replaced = re.subn(r"server-template .*", server_lines, text)
@@ -73,5 +76,7 @@ class Proxy:
 
 
 def start_server(redis, port, *options):
+    # A slow Redis does not count as failed.
+    patience = () if "--store-timeout" in options else ("--store-timeout", LONG_TIME)
     return Server("--port", port, "--store", redis.url, "--log-level", "debug" if os.environ.get("DEBUG") else "info",
-                  "--workers", "1", *options)
+                  "--workers", "1", *patience, *options)

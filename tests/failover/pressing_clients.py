@@ -21,26 +21,27 @@ class PressingClient:
         self.interruptions = []  # the duration of each interruption in seconds
         self.faults = []
         self.stopping = False
+        self.random = random.Random(number)
 
     async def run(self):
         lost_at, pause = None, 0.1
         while not self.stopping:
             try:
                 async with websockets.connect(f"ws://{self.proxy.host}:{self.proxy.port}{self.path}", subprotocols=[SUBPROTOCOL],
-                                              ping_interval=None, compression=None, open_timeout=5) as socket:
+                                              ping_interval=None, compression=None, open_timeout=DEADLINE / 4) as socket:
                     await self.join(socket)
                     if lost_at is not None:
                         self.interruptions.append(time.monotonic() - lost_at)
                     lost_at, pause = None, 0.1
                     while not self.stopping:
                         await self.press(socket)
-                        await asyncio.sleep(0.3 * (0.5 + random.random()))
+                        await asyncio.sleep(0.3 * (0.5 + self.random.random()))
             except (OSError, websockets.WebSocketException, asyncio.TimeoutError) as fault:
                 if getattr(fault, "code", None) in (4401, 4404):
                     self.faults.append(f"session {self.number} is lost: {fault}")
                     return
                 lost_at = lost_at or time.monotonic()
-                await asyncio.sleep(pause * (0.5 + random.random()))
+                await asyncio.sleep(pause * (0.5 + self.random.random()))
                 pause = min(2 * pause, 5)
 
     async def request(self, socket, id_, **message):
@@ -84,11 +85,14 @@ class PressingClient:
 
 
 async def wait_until_all_press(clients):
-    """Waits until one more key of every client has been acknowledged."""
-    before = [client.pressed for client in clients]
-    limit = time.monotonic() + 2 * DEADLINE
-    while any(client.pressed <= count and not client.faults for client, count in zip(clients, before)):
-        assert time.monotonic() < limit, f"{sum(s.pressed <= c for s, c in zip(clients, before))} sessions hang"
+    """Waits until one more key of every client has been acknowledged; fails once none that waits for it makes progress."""
+    before = {client: client.pressed for client in clients}
+    limit = time.monotonic() + DEADLINE
+    while waiting := [client for client in before if client.pressed <= before[client] and not client.faults]:
+        if len(waiting) < len(before):
+            before = {client: before[client] for client in waiting}
+            limit = time.monotonic() + DEADLINE
+        assert time.monotonic() < limit, f"{len(waiting)} sessions hang"
         await asyncio.sleep(0.05)
     faults = [fault for client in clients for fault in client.faults]
     assert not faults, faults[:10]

@@ -27,9 +27,14 @@ SLOW = 1
 
 # The server's own limits on the duration of anything. A test whose subject is one of them sets it, and no other test
 # depends on them, however slow the machine is.
-TIMES = ("--draw-timeout", "--hello-timeout", "--idle-timeout", "--load-timeout", "--max-file-time", "--ping-interval",
-         "--write-timeout")
 LONG_TIME = 10 * DEADLINE
+LONG_TIMES = {name: LONG_TIME for name in ("--draw-timeout", "--hello-timeout", "--idle-timeout", "--load-timeout",
+                                           "--max-file-time", "--write-timeout")}
+# A client may be silent for twice this time. During a long command, the server reads nothing for half of it, and the
+# Python client gives up if a ping of its own has no answer after 40 s.
+LONG_TIMES["--ping-interval"] = DEADLINE / 2
+# The same for servers that are started without options.
+LONG_TIME_VARIABLES = {f"OVAL4D_{name[2:].upper().replace('-', '_')}": str(time) for name, time in LONG_TIMES.items()}
 
 
 def free_port():
@@ -102,7 +107,7 @@ class Server:
     def __init__(self, *options, **variables):
         self.log_file = tempfile.NamedTemporaryFile(prefix="oval4d-", suffix=".log")
         environment = {name: value for name, value in os.environ.items() if not name.startswith("OVAL4D")}
-        defaults = [("--port", 0), ("--workers", 2), ("--io-threads", 2), *((name, LONG_TIME) for name in TIMES)]
+        defaults = [("--port", 0), ("--workers", 2), ("--io-threads", 2), *LONG_TIMES.items()]
         arguments = [word for pair in defaults if pair[0] not in options for word in pair]
         command = [str(PROGRAM), *map(str, arguments), *map(str, options)]
         self.process = self.start(command, environment | variables)
@@ -191,6 +196,11 @@ class Server:
         """Returns the server's resident memory in bytes."""
         pages = Path(f"/proc/{self.process.pid}/statm").read_text(encoding="ascii").split()[1]
         return int(pages) * os.sysconf("SC_PAGE_SIZE")
+
+    def peak_memory(self):
+        """Returns the greatest resident memory that the server has had so far, in bytes."""
+        status = Path(f"/proc/{self.process.pid}/status").read_text(encoding="ascii")
+        return 1024 * int(re.search(r"VmHWM:\s+(\d+) kB", status).group(1))
 
     def anonymous_memory(self, pid=None):
         """Returns the anonymous resident memory of the server, or of another process, in bytes. It does not include

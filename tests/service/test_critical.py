@@ -3,11 +3,10 @@
 import asyncio
 import math
 import sys
-import time
 from pathlib import Path
 
 import pytest
-from harness import DEADLINE, Server
+from harness import DEADLINE, LONG_TIME, Server, cpu_seconds, wait_until
 from surfaces import field_client
 from wire import Client, Refused
 
@@ -19,8 +18,21 @@ TIGER = "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 - 0.09"
 
 
 async def critical_of(client):
-    # A search takes up to one and a half times --max-file-time.
-    return await client.request("get", what="critical", deadline=2 * DEADLINE)
+    # Some searches compute for many seconds on a fast machine, and the server ends one that hangs.
+    return await client.request("get", what="critical", deadline=LONG_TIME)
+
+
+async def begin_search(client):
+    """Sends a request for the critical w; returns its number, for client.answer_to(). The server executes what the client
+    sends afterward after it has begun the search."""
+    await client.send("get", id=500, what="critical")
+    return 500
+
+
+async def canceled(client, number):
+    """Waits for the answer that the search has been canceled."""
+    answer = await client.wait_until(lambda: client.answer_to(number))
+    assert (answer["type"], answer.get("code")) == ("error", "canceled")
 
 
 @pytest.mark.release_only
@@ -61,26 +73,24 @@ async def test_the_changes_of_a_polytope_are_its_vertices(server):
 async def test_keys_move_the_focus(server):
     async with field_client(server, TIGER) as client:
         async def press(key):
-            await client.request("key", key=key)
+            await client.request("key", key=key, deadline=LONG_TIME)
             return (await client.request("get", what="state"))["section"]["w"]
 
         assert [await press(")") for _ in range(3)] == pytest.approx([0.4, 1, 1], abs=4e-4)
         assert [await press("(") for _ in range(5)] == pytest.approx([0.4, -0.4, -1, -1, -1], abs=4e-4)
 
 
-# Each sine takes its time; a search takes many seconds.
+# Each sine takes its time: a search takes minutes, and ends only when it is canceled.
 SLOW_FIELD = " + ".join(f"sin({n}*x*y+w)*cos({n}*z*w-x)" for n in range(1, 40)) + " < 0"
 
 
 async def test_requests_are_answered_during_a_search(server):
     async with field_client(server, SLOW_FIELD) as client:
-        search = asyncio.create_task(critical_of(client))
-        await asyncio.sleep(0.1)
+        search = await begin_search(client)
         for _ in range(3):
             await client.request("set", slices={"spacing": 0.1})
             await client.request("key", key="a")
-        assert not search.done()
-        search.cancel()
+        assert not client.answer_to(search)
 
 
 @pytest.mark.parametrize("command", [{"type_": "rotate", "planes": ["xw"], "angles": [0.1]},
@@ -88,36 +98,33 @@ async def test_requests_are_answered_during_a_search(server):
                                      {"type_": "set", "pace": 2}, {"type_": "set", "polytope": "24-cell"}])
 async def test_a_search_ends_when_it_is_obsolete(server, command):
     async with field_client(server, SLOW_FIELD) as client:
-        search = asyncio.create_task(critical_of(client))
-        await asyncio.sleep(0.1)
+        search = await begin_search(client)
         await client.request(**command)
-        with pytest.raises(Refused) as refused:
-            await asyncio.wait_for(search, DEADLINE / 4)
-        assert refused.value.code == "canceled"
+        await canceled(client, search)
 
 
 async def test_another_client_ends_the_search_of_a_key(server):
     async with field_client(server, SLOW_FIELD) as client:
         welcome = client.welcome
         async with Client(server, welcome["session"], token=welcome["token"], stream="none") as other:
-            press = asyncio.create_task(client.request("key", key=")", deadline=2 * DEADLINE))
-            await asyncio.sleep(0.1)
-            await other.request("rotate", planes=["xw"], angles=[0.1])
-            with pytest.raises(Refused) as refused:
-                await press
-            assert refused.value.code == "canceled"
+            await client.send("key", id=500, key=")")
+            while not client.answer_to(500):  # a rotation may come before the key
+                await other.request("rotate", planes=["xw"], angles=[0.1])
+                await asyncio.sleep(0.05)
+            await canceled(client, 500)
 
 
 @pytest.mark.parametrize("request_", [{"type_": "get", "what": "critical"}, {"type_": "key", "key": ")"}])
 async def test_a_search_ends_when_its_client_leaves(request_):
     # There is one worker for searches. If it went on, the second session would wait for it.
-    with Server("--file-workers", 1, "--max-file-time", 3 * DEADLINE) as server:
+    with Server("--file-workers", 1) as server:
         async with field_client(server, SLOW_FIELD) as client:
+            before = cpu_seconds(server.process.pid)
             await client.send(**request_)
-            await asyncio.sleep(0.2)
+            await asyncio.to_thread(wait_until, lambda: cpu_seconds(server.process.pid) > before + 0.1, "the search")
         async with Client(server, stream="none") as client:
             await client.request("set", polytope="120-cell")
-            await asyncio.wait_for(critical_of(client), DEADLINE)
+            await critical_of(client)
 
 
 @pytest.mark.release_only
@@ -130,22 +137,26 @@ async def test_results_are_kept_up_to_a_limit():
 
 
 async def test_a_search_does_not_delay_other_sessions(server):
-    async with field_client(server, BALL) as client, Client(server, stream="none") as other:
-        search = asyncio.create_task(critical_of(client))
-        await asyncio.sleep(0.05)
-        await other.request("key", key="y")
-        assert not search.done()
-        assert len((await search)["sections"]) == 2
+    async with field_client(server, SLOW_FIELD) as client, Client(server, stream="none") as other:
+        search = await begin_search(client)
+        await client.request("get", what="state")  # the search has begun
+        for _ in range(5):
+            await other.request("key", key="y")
+        assert not client.answer_to(search)
 
 
 @pytest.mark.release_only
 async def test_a_client_that_waits_for_a_search_is_not_dropped():
-    # A client that is silent for twice this time is dropped, and the search takes longer; but the client answers pings.
-    with Server("--ping-interval", 0.4) as server:
-        async with field_client(server, TIGER) as client:
-            start = time.monotonic()
-            assert len((await critical_of(client))["sections"]) == 4
-            assert time.monotonic() - start > 0.8
+    """A client that is silent for twice the interval is dropped, and the search takes longer; but it answers pings."""
+    for interval in (0.5, 2, 8, 32):  # until it suffices for this machine to answer a ping
+        with Server("--ping-interval", interval) as server:
+            async with field_client(server, SLOW_FIELD) as client:
+                # The client's later messages wait for the search of a key.
+                await client.send("key", id=500, key=")")
+                await asyncio.sleep(4 * interval)
+                if client.close_code is None and not client.answer_to(500):
+                    return
+    pytest.fail("a client that waits for a search is dropped")
 
 
 def test_from_python(server):

@@ -154,8 +154,8 @@ async def test_metrics_count_messages_and_pictures(server):
         await client.wait_for_slices(done["revision"])
     assert server.metric('oval4d_errors_total{code="unknown_key"}') == before + 1
     assert server.metric('oval4d_pictures_total{stream="geometry"}') >= 2
-    assert server.metric('oval4d_picture_step_seconds_count{step="slice"}') >= 2
-    assert server.metric("oval4d_bytes_sent_total") > 1000
+    server.wait_for(lambda: server.metric('oval4d_picture_step_seconds_count{step="slice"}') >= 2)
+    server.wait_for(lambda: server.metric("oval4d_bytes_sent_total") > 1000)
     text = server.get("/metrics").body.decode()
     assert "# TYPE oval4d_connections gauge" in text
 

@@ -165,7 +165,7 @@ async def test_the_size_of_the_polytope_cache_is_limited():
                     await client.request("set", polytope=name)
                     state = await client.request("get", what="state")
                     assert state["polytope"]["name"] == name
-            assert least <= server.metric("oval4d_polytope_cache_bytes") <= most
+            server.wait_for(lambda: least <= server.metric("oval4d_polytope_cache_bytes") <= most)
 
 
 @pytest.mark.parametrize("answering", [False, True])

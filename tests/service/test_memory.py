@@ -39,17 +39,14 @@ async def test_memory_is_freed_after_a_burst():
         for hello in streams:
             await receive_pictures(server, "5-cell", 3, **hello)
         warm = server.anonymous_memory()
-        onlookers = [await connect(server) for _ in range(600)]
+        onlookers = [await connect(server) for _ in range(900)]
         theirs = server.anonymous_memory() - warm
+        print(f"900 connections take {theirs / 1e6:.1f} MB")
 
         await asyncio.gather(*(receive_pictures(server, LARGEST, 12, **hello) for hello in 2 * streams))
-        assert server.anonymous_memory() > warm + theirs + 2 * NOISE
         await wait_for_memory_below(server, warm + theirs + NOISE)
-        await asyncio.sleep(1)  # the last busy worker frees its memory a little later
 
         # The memory of connections is freed, too, even if no picture is requested afterward.
-        rest = server.anonymous_memory()
         await asyncio.gather(*(onlooker.close() for onlooker in onlookers))
-        await wait_for_memory_below(server, rest - theirs / 4)
-        assert server.anonymous_memory() < warm + NOISE
+        await wait_for_memory_below(server, warm + NOISE)
         assert await reference_picture(server) == before

@@ -7,7 +7,7 @@ import socket
 
 import png
 import pytest
-from harness import DEADLINE, SLOW, Server
+from harness import DEADLINE, LONG_TIME, Server, is_sanitizer_build
 from wire import Client
 
 
@@ -20,7 +20,7 @@ def slices_revisions(client):
 
 
 async def test_at_most_two_pictures_are_in_flight():
-    with Server("--shown-timeout", 1000) as server:
+    with Server("--shown-timeout", LONG_TIME) as server:
         async with Client(server, stream="geometry", acknowledges=False) as client:
             await client.wait_for_slices(0)
             for _ in range(20):
@@ -95,7 +95,7 @@ async def test_continuous_turning_is_one_undo_step(server):
 
 
 async def test_continuous_turning_waits_for_acknowledgments():
-    with Server("--shown-timeout", 1000) as server:
+    with Server("--shown-timeout", LONG_TIME) as server:
         async with Client(server, stream="geometry", acknowledges=False) as client:
             await client.request("key", key="r")
             await client.request("key", key=" ")
@@ -104,6 +104,7 @@ async def test_continuous_turning_waits_for_acknowledgments():
             assert (await client.request("get", what="state"))["revision"] == still
             await client.send("shown", revision=still)
             await client.wait_until(lambda: len(client.pictures()) > 2)
+            assert slices_revisions(client)[2] <= still + 1  # until then, it did not turn
 
 
 def open_nonreading_socket(server, *messages, buffer=4096):
@@ -136,10 +137,11 @@ def masked_frame(text, opcode=1, final=True):
 
 
 async def test_clients_that_never_read_are_disconnected():
-    with Server("--write-timeout", 0.5 * SLOW, "--max-unsent", "64k") as server:
+    # The pictures of the client that reads are small: they do not wait for it, but fit in the kernel's buffers.
+    with Server("--write-timeout", 0.5, "--max-unsent", "64k") as server:
         hello = '{"type":"hello","stream":"frames","width":1600,"height":1200}'
         requests = ['{"type":"set","polytope":"600-cell"}'] + ['{"type":"get","what":"slices"}'] * 200
-        before = server.resident_memory()
+        before = server.peak_memory()
         nonreading = [open_nonreading_socket(server, hello, *requests) for _ in range(5)]
         async with Client(server, stream="geometry") as client:
             loop = asyncio.get_running_loop()
@@ -151,7 +153,7 @@ async def test_clients_that_never_read_are_disconnected():
             await dropped
         await loop.run_in_executor(None, lambda: server.wait_for(lambda: server.metric("oval4d_websockets") == 0))
         # Buffering 200 answers of 200 kB for each of five clients would take 200 MB.
-        assert server.resident_memory() - before < 100e6 * SLOW
+        assert server.peak_memory() - before < 100e6 * (6 if is_sanitizer_build() else 1)
         for raw in nonreading:
             raw.close()
 

@@ -10,7 +10,7 @@ import threading
 from pathlib import Path
 
 import pytest
-from harness import DEADLINE, Server
+from harness import DEADLINE, Server, free_port
 
 PYTHON = Path(__file__).resolve().parents[2] / "protocol/python"
 sys.path.insert(0, str(PYTHON))
@@ -304,11 +304,10 @@ def test_an_ended_connection_raises_its_close_code(server):
 
 
 def test_the_client_rejoins_its_session_after_restarts(tmp_path):
-    port = None
+    port = free_port()
     for round_ in range(3):
-        with Server("--store", f"sqlite:{tmp_path / 'sessions'}", *([] if port is None else ["--port", port])) as server:
-            if port is None:
-                port = server.port
+        with Server("--store", f"sqlite:{tmp_path / 'sessions'}", "--port", port) as server:
+            if round_ == 0:
                 oval = connect(server.url, timeout=DEADLINE)
                 session = oval.hello("geometry", encoding="cbor")["session"]
             assert oval.key("y")["revision"] == round_ + 1

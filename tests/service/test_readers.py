@@ -1,15 +1,14 @@
-"""The Python and TypeScript clients refuse damaged messages as documented, without much time or memory."""
+"""The Python and TypeScript clients refuse damaged messages as documented, without much memory."""
 
 import json
 import random
 import resource
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
-from harness import DEADLINE, SLOW
+from harness import DEADLINE
 from wire import connect
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -91,12 +90,10 @@ async def test_the_python_client_reads_or_refuses_damaged_messages(server, messa
             assert read(whole)["revision"] == len(STATES[int(file.stem)])
             for _ in range(600):
                 data = damaged_copy(whole, rng)
-                start = time.monotonic()
                 try:
                     assert isinstance(read(data), dict)
                 except ValueError:
                     refused += 1
-                assert time.monotonic() - start < 2 * SLOW
         assert refused > 100, f"few damaged {kind} messages were refused"
     grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
     assert grown < 300_000, f"reading took {grown} KiB"
@@ -118,6 +115,13 @@ def test_the_python_client_refuses_invalid_data_with_value_error(data):
 @pytest.mark.release_only
 async def test_the_typescript_client_reads_or_refuses_damaged_messages(server, message_folder):
     await write_messages(server, message_folder)
+    counts = read_damaged(message_folder)
+    assert set(counts) == {"cbor", "json", "png", "link"}
+    assert counts["cbor"]["refused"] > 200 and counts["json"]["refused"] > 200 and counts["link"]["refused"] == 0
+
+
+def read_damaged(message_folder):
+    """Lets the TypeScript client read damaged copies of the messages in the folder; returns what happened, by format."""
     modules = ROOT / "web_client/node_modules"
     entry = message_folder / "readers.ts"
     entry.write_text("".join(f'export * from "{ROOT / file}";\n' for file in
@@ -126,8 +130,6 @@ async def test_the_typescript_client_reads_or_refuses_damaged_messages(server, m
                     f"--alias:@oval4d/protocol={ROOT}/protocol/ts/index.ts", f"--outfile={message_folder}/readers.mjs"],
                    check=True, env={"NODE_PATH": str(modules), "PATH": "/usr/bin:/bin:/usr/local/bin"})
     done = subprocess.run(["node", "--max-old-space-size=256", ROOT / "tests/service/read_damaged.mjs", message_folder, "7"],
-                          capture_output=True, text=True, timeout=6 * DEADLINE)
+                          capture_output=True, text=True, timeout=DEADLINE)
     assert done.returncode == 0, done.stderr
-    counts = json.loads(done.stdout)
-    assert set(counts) == {"cbor", "json", "png", "link"}
-    assert counts["cbor"]["refused"] > 200 and counts["json"]["refused"] > 200 and counts["link"]["refused"] == 0
+    return json.loads(done.stdout)

@@ -2,13 +2,14 @@
 
 import asyncio
 import json
+import time
 import zlib
 
 import numpy
 import pytest
 import zarr_files
 from array_files import npy, quadratic
-from harness import Server
+from harness import DEADLINE, Server
 from test_data_folder import slices_of
 from wire import Client, Refused
 
@@ -155,11 +156,11 @@ async def test_the_catalogue_lists_zarr_folders(shared):
             entries = (await client.request("get", what="catalogue"))["polytopes"]
         return [entry["name"] for entry in entries if entry["family"] == "data"]
 
-    names = await listed()
-    if "listed.zarr" not in names:
-        await asyncio.sleep(2.1)  # the server reads the folder at most every two seconds
-        names = await listed()
-    assert "listed.zarr" in names and "not zarr" not in names
+    limit = time.monotonic() + DEADLINE
+    while "listed.zarr" not in (names := await listed()):  # the server reads the folder only now and then
+        assert time.monotonic() < limit
+        await asyncio.sleep(0.1)
+    assert "not zarr" not in names
 
 
 GOOD = {"zarr_format": 2, "shape": [4, 4], "chunks": [2, 4], "dtype": "<f4", "order": "C", "filters": None,
@@ -269,7 +270,7 @@ async def test_a_sparse_array_is_read_chunk_by_chunk(folder):
     (folder / "sparse" / "4.2.0.0").write_bytes(numpy.ones((128, 512, 512), "<f4").tobytes())
     with Server("--data", folder, "--field-cache-folder", folder.parent, "--load-memory", "128M") as server:
         async with Client(server) as client:
-            await client.request("load", name="run", path="sparse", deadline=120)
+            await client.request("load", name="run", path="sparse")
             field = (await client.request("get", what="state"))["field"]
             assert field["shape"] == [512, 512, 512, 8] and field["range"] == [0, 1] and field["estimated"] is True
             assert server.metric("oval4d_field_cache_bytes") == 4 * 8 * 512**3

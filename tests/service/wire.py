@@ -15,6 +15,7 @@ def connect(server, session="", **keywords):
     """Opens a WebSocket without hello; the client sends no pings and does not limit the size of messages."""
     url = f"ws://{server.host}:{server.port}/ws" + (f"/{session}" if session else "")
     keywords.setdefault("subprotocols", [SUBPROTOCOL])
+    keywords.setdefault("open_timeout", DEADLINE)
     return websockets.connect(url, max_size=None, max_queue=None, ping_interval=None, compression=None, **keywords)
 
 
