@@ -124,11 +124,13 @@ def send_as_far_as_read(sockets, data, serve_another):
     `serve_another()` has requests of another client answered, send nothing. Returns the number of bytes sent."""
     rest = {raw: memoryview(data) for raw in sockets}
     sent, rounds_without = 0, 0
+    for raw in sockets:
+        raw.socket.setblocking(False)
     while rest and rounds_without < 5:
         rounds_without += 1
         for raw in list(rest):
             try:
-                count = raw.socket.send(rest[raw], socket.MSG_DONTWAIT)
+                count = raw.socket.send(rest[raw])
             except BlockingIOError:
                 continue
             except ConnectionError:
@@ -139,6 +141,8 @@ def send_as_far_as_read(sockets, data, serve_another):
             if not rest[raw]:
                 del rest[raw]
         serve_another()
+    for raw in sockets:
+        raw.socket.settimeout(DEADLINE)
     return sent
 
 

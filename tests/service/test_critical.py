@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from harness import DEADLINE, Server, cpu_seconds, wait_until
+from harness import DEADLINE, LONG_TIME, Server, cpu_seconds, wait_until
 from surfaces import field_client
 from wire import Client, Refused
 
@@ -18,7 +18,8 @@ TIGER = "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 - 0.09"
 
 
 async def critical_of(client):
-    return await client.request("get", what="critical")
+    # Some searches compute for many seconds on a fast machine, and the server ends one that hangs.
+    return await client.request("get", what="critical", deadline=LONG_TIME)
 
 
 async def begin_search(client):
@@ -72,7 +73,7 @@ async def test_the_changes_of_a_polytope_are_its_vertices(server):
 async def test_keys_move_the_focus(server):
     async with field_client(server, TIGER) as client:
         async def press(key):
-            await client.request("key", key=key)
+            await client.request("key", key=key, deadline=LONG_TIME)
             return (await client.request("get", what="state"))["section"]["w"]
 
         assert [await press(")") for _ in range(3)] == pytest.approx([0.4, 1, 1], abs=4e-4)
