@@ -4,7 +4,7 @@ import { readFile, readdir } from "node:fs/promises";
 import { join } from "node:path";
 import { setTimeout as pause } from "node:timers/promises";
 
-import { effects, prepare, strokes, table } from "./keys.mjs";
+import { effects, prepare, strokes, table } from "./support/keys.mjs";
 import { common, shownValues } from "./support/browser.mjs";
 import { openInFirefox, presented, type } from "./support/firefox.mjs";
 import { compare, covered, decode } from "./support/pixels.mjs";

@@ -5,7 +5,6 @@ import { test } from "./support/suite.mjs";
 import { common, named, openPage, openWithScript, ready, scriptFor } from "./support/browser.mjs";
 import { covered, decode } from "./support/pixels.mjs";
 
-const { url } = await common();
 const kBackground = [16, 20, 28];
 
 const isShown = (page, selector) => page.locator(selector).isVisible();
@@ -32,6 +31,7 @@ test("first visit: a turned polytope fills the oval, and the welcome says what i
 });
 
 test("first visit: the second visit of a browser is an ordinary one", async () => {
+    const { url } = await common();
     const { page, context, close } = await openPage({ firstVisit: true });
     await named(page, "24-cell");
     const second = await context.newPage();
@@ -46,6 +46,7 @@ test("first visit: the second visit of a browser is an ordinary one", async () =
 });
 
 test("first visit: an address with a view or a session is shown as it is", async () => {
+    const { url } = await common();
     const query = await openPage({ firstVisit: true, url: `${url}?polytope=16-cell` });
     await named(query.page, "16-cell");
     assert.equal(await isShown(query.page, "#welcome"), false);

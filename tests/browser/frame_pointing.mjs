@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { setTimeout as pause } from "node:timers/promises";
 
-import { columnsOf, faceIn, frames, label, labeled, openTurned, rounded } from "./pointing.mjs";
+import { columnsOf, faceIn, frames, label, labeled, openTurned, rounded } from "./support/pointing.mjs";
 import { presented } from "./support/browser.mjs";
 import { project, worldPoints } from "./support/scene.mjs";
 import { test } from "./support/suite.mjs";

@@ -1,7 +1,7 @@
 // The matrix of planar sections: the elements under the pointer in its panels, and the focus point that they move.
 import assert from "node:assert/strict";
 
-import { assertSame, columnsOf, faceIn, frames, labeled, litAt, middle, openTurned, rounded, shot } from "./pointing.mjs";
+import { assertSame, columnsOf, faceIn, frames, labeled, litAt, middle, openTurned, rounded, shot } from "./support/pointing.mjs";
 import { presented } from "./support/browser.mjs";
 import { kPanels, panelOf } from "./support/matrix.mjs";
 import { distance, pixelAt } from "./support/pixels.mjs";
