@@ -4,7 +4,7 @@ import { existsSync } from "node:fs";
 import { chromium } from "playwright-core";
 
 import { kHangLimit, within } from "./hang_limit.mjs";
-import { stopTime } from "./page_time.mjs";
+import { passTime, stopTime } from "./page_time.mjs";
 import { joinSession } from "./script.mjs";
 import { startServer } from "./server.mjs";
 import { afterTest, atEnd } from "./suite.mjs";
@@ -21,6 +21,7 @@ export async function startBrowser(args = []) {
     return browser;
 }
 
+const kOpening = 1000; // milliseconds after which a page has adapted to its size
 const kContextOptions = { viewport: { width: 1280, height: 720 } };
 
 // Without a graphics card, pages are composed faster without the emulation of OpenGL, which only WebGL needs then. But 2-D
@@ -77,6 +78,10 @@ export async function openPage(given = {}) {
     if (process.env.OVAL4D_SLOWDOWN) await slowDown(page, Number(process.env.OVAL4D_SLOWDOWN));
     await page.goto(url ?? usual.url);
     if (picture) await presented(page, 0);
+    if (isStopped) {
+        await passTime(page, kOpening);
+        await idle(page);
+    }
     return { page, context, errors, close };
 }
 
