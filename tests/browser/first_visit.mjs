@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { common, named, openPage, openWithScript, ready, scriptFor } from "./support/browser.mjs";
+import { common, named, openPage, openWithScript, presented, ready, scriptFor } from "./support/browser.mjs";
 import { covered, decode } from "./support/pixels.mjs";
 
 const kBackground = [16, 20, 28];
@@ -14,7 +14,8 @@ const focused = (page) => page.evaluate(() => document.activeElement.id);
 test("first visit: a turned polytope fills the oval, and the welcome says what is seen", async () => {
     const { page, script, errors, close } = await openWithScript({ firstVisit: true });
     await named(page, "24-cell");
-    const { orientation, last } = await script.state();
+    const { orientation, last, revision } = await script.state();
+    await presented(page, revision);
     assert.ok(orientation[3][3] < 0.99, "it is turned");
     assert.ok(last.angles.every((angle) => Math.abs(angle) < 0.1), "the space bar turns it slowly");
     assert.match(await page.locator("#welcome p").innerText(), /slice.*4-D object.*y.*turn.*h.*l.*focus/s);
