@@ -14,7 +14,7 @@ import { parseArgs } from "node:util";
 import { buildSync } from "esbuild";
 
 import { writeJunit } from "./support/junit.mjs";
-import { runJobs } from "./support/pool.mjs";
+import { runJobs, runningTests } from "./support/pool.mjs";
 
 const kLatencies = "performance.mjs";
 const kFirefox = "firefox.mjs";
@@ -75,7 +75,8 @@ function finish() {
 
 for (const signal of ["SIGINT", "SIGTERM"]) {
     process.on(signal, () => {
-        finished({ name: "the run is completed", seconds: 0, failure: `interrupted by ${signal}` });
+        const names = [...runningTests, "the run is completed"];
+        for (const name of names) finished({ name, seconds: 0, failure: `interrupted by ${signal}` });
         finish(); // the processes of the tests end with this one
     });
 }

@@ -6,6 +6,9 @@ import { fileURLToPath } from "node:url";
 import { kHangLimit } from "./hang_limit.mjs";
 
 const kWorker = fileURLToPath(new URL("worker.mjs", import.meta.url));
+/** The names of the tests that are running now. */
+export const runningTests = new Set();
+
 const kWaitsOfTest = 20; // a test chains several waits, each of which ends after the limit, but not more than these
 
 /**
@@ -42,7 +45,9 @@ function runJob(worker, job, finished) {
         };
         const received = (message) => {
             watch();
+            runningTests.delete(running);
             running = message.started;
+            if (running !== undefined) runningTests.add(running);
             if (message.finished) {
                 const { finished: name, seconds, failure } = message;
                 done.push(name);
@@ -54,6 +59,7 @@ function runJob(worker, job, finished) {
         };
         const crashed = (reason) => {
             clearTimeout(hanging);
+            runningTests.delete(running);
             const failure = `the process of the tests ended: ${reason}`;
             finished({ name: running ?? `${job.files.join(", ")}: the file is run`, file, seconds: 0, failure });
             resolve({ isCrashed: true, rest: running && { ...job, skip: [...done, running] } });
@@ -68,10 +74,17 @@ function startWorker() {
     const child = fork(kWorker, { detached: true }); // a group of processes, with its servers
     let [received, crashed] = [() => {}, () => {}];
     let killed; // why
-    const kill = () => process.kill(-child.pid, "SIGKILL");
+    const kill = () => {
+        try {
+            process.kill(-child.pid, "SIGKILL");
+        } catch {
+            // Nothing of the group is left.
+        }
+    };
     child.on("message", (message) => received(message));
     const ended = new Promise((resolve) => {
         child.on("exit", (code, signal) => {
+            kill(); // its servers, if it has left any
             crashed(killed ?? `exit status ${code ?? signal}`);
             resolve();
         });
