@@ -6,10 +6,10 @@ import { fileURLToPath } from "node:url";
 import { kHangLimit } from "./hang_limit.mjs";
 
 const kWorker = fileURLToPath(new URL("worker.mjs", import.meta.url));
+const kWaitsOfTest = 20; // a test chains several waits, each of which ends after the limit, but not more than these
+
 /** The names of the tests that are running now. */
 export const runningTests = new Set();
-
-const kWaitsOfTest = 20; // a test chains several waits, each of which ends after the limit, but not more than these
 
 /**
  * Runs jobs, {files, only}, and resolves when all are done. `finished` is called with {name, file, seconds, failure} for
