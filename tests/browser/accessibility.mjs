@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { openPage, openWithScript, ready, spoken } from "./support/browser.mjs";
+import { eventually } from "./support/hang_limit.mjs";
 import { decode, distance, pixelAt } from "./support/pixels.mjs";
 
 /** The dialogs, with the key that opens each. */
@@ -54,10 +55,10 @@ async function withPanels(page, look) {
     for (const [name, open] of Object.entries(panels)) {
         await open(page);
         await look(name);
-        while ((await page.evaluate(() => document.activeElement.id)) !== "drawing") {
+        await eventually(async () => {
             await page.keyboard.press("Escape");
-            await page.waitForTimeout(20);
-        }
+            return page.evaluate(() => document.activeElement.id === "drawing");
+        }, "the focus on the drawing");
     }
 }
 

@@ -2,16 +2,11 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { common, openWithScript, presented } from "./support/browser.mjs";
+import { openWithScript, presented, stateAfter } from "./support/browser.mjs";
 import { bytesOf } from "./support/downloads.mjs";
+import { table } from "./support/keys.mjs";
 import { decode } from "./support/pixels.mjs";
-import { joinSession } from "./support/script.mjs";
 import { pngText } from "./node_modules/.oval4d/client.mjs";
-
-const { url } = await common();
-const asking = await joinSession(url);
-const { keys: table } = await asking.request({ type: "get", what: "keymap" });
-asking.leave();
 
 const comparable = ({ id, revision, ...state }) => state;
 
@@ -78,7 +73,7 @@ test("buttons: a held button repeats until it is released", async () => {
     const { alpha } = await script.until((one) => one.revision >= revision + 3, "three steps of a held button");
     await page.mouse.up();
     assert.ok(alpha > (3 * Math.PI) / 180);
-    const rest = await script.state();
+    const rest = await stateAfter(page, script);
     await page.locator("#drawing").focus();
     await page.keyboard.press("J");
     const after = await script.until((one) => one.beta < rest.beta, "another key's change");

@@ -9,12 +9,11 @@ import { decode } from "./support/pixels.mjs";
 import { startProxy } from "./support/proxy.mjs";
 import { joinSession } from "./support/script.mjs";
 import { atEnd, test } from "./support/suite.mjs";
-import { within } from "./support/within.mjs";
-
-const { url } = await common();
+import { within } from "./support/hang_limit.mjs";
 
 /** A client, and a function that returns a promise of its next event. */
-function listen(options) {
+async function listen(options) {
+    const { url } = await common();
     const waiting = {};
     const told = (event) => (value) => waiting[event]?.(value);
     const client = new Client({
@@ -33,7 +32,7 @@ function listen(options) {
 test("client: slices are the same from JSON and from CBOR", async () => {
     const pictures = [];
     for (const encoding of ["json", "cbor"]) {
-        const { client, next } = listen({ stream: "geometry", encoding, viewport: { width: 640, height: 480 } });
+        const { client, next } = await listen({ stream: "geometry", encoding, viewport: { width: 640, height: 480 } });
         const slices = next("slices");
         client.connect();
         pictures.push(await slices);
@@ -52,7 +51,7 @@ test("client: slices are the same from JSON and from CBOR", async () => {
 });
 
 test("client: a requested frame is not mistaken for one of the stream", async () => {
-    const { client, next } = listen({ stream: "frames", viewport: { width: 320, height: 200 } });
+    const { client, next } = await listen({ stream: "frames", viewport: { width: 320, height: 200 } });
     const first = next("frame");
     client.connect();
     assert.equal(decode(await first).width, 320);
@@ -70,7 +69,7 @@ test("client: a requested frame is not mistaken for one of the stream", async ()
 });
 
 test("client: errors are RequestErrors with their code", async () => {
-    const script = await joinSession(url);
+    const script = await joinSession((await common()).url);
     await assert.rejects(script.request({ type: "set", polytope: "25-cell" }), (error) => {
         assert.ok(error instanceof RequestError);
         assert.equal(error.code, "unknown_polytope");
@@ -82,8 +81,8 @@ test("client: errors are RequestErrors with their code", async () => {
 });
 
 test("client: the client reconnects to its session automatically", async () => {
-    const proxy = await startProxy(url, "/under");
-    const { client, next } = listen({ url: proxy.url });
+    const proxy = await startProxy((await common()).url, "/under");
+    const { client, next } = await listen({ url: proxy.url });
     const opened = next("open");
     client.connect();
     await opened;

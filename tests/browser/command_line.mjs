@@ -3,8 +3,9 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "./support/suite.mjs";
 
-import { named, openPage, openWithScript, ready } from "./support/browser.mjs";
-import { bytesOf } from "./support/downloads.mjs";
+import { idle, named, openPage, openWithScript, ready } from "./support/browser.mjs";
+import { bytesOf, pagesOf } from "./support/downloads.mjs";
+import { within } from "./support/hang_limit.mjs";
 
 const protocol = (name) => JSON.parse(readFileSync(new URL(`../../protocol/${name}.json`, import.meta.url)));
 const { commands } = protocol("commands");
@@ -17,6 +18,16 @@ async function type(page, line) {
     await page.waitForSelector("#command:focus");
     await page.keyboard.type(line);
     await page.keyboard.press("Enter");
+}
+
+/** Types a line, and waits until it has been executed. */
+async function executed(page, line) {
+    await type(page, line);
+    // The line closes, or explains why it could not be executed.
+    await page.waitForFunction(() => {
+        return document.getElementById("command-line").hidden || document.getElementById("command-error").textContent !== "";
+    });
+    assert.equal(await error(page), "", line);
 }
 
 test("command line: executes the typed command, and returns the focus", async () => {
@@ -53,6 +64,38 @@ test("command line: errors are readable, and the typed line stays for correction
         assert.equal(await page.locator("#command-line").isVisible(), false);
         assert.equal(await page.evaluate(() => document.activeElement.id), "drawing");
         await page.keyboard.press(":");
+    }
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("command line: a line that is being typed is not closed by the answer to the line before", async () => {
+    const { page, script, errors, close } = await openWithScript({
+        before: () => {
+            const { send } = WebSocket.prototype;
+            window.held = [];
+            WebSocket.prototype.send = function (text) {
+                if (JSON.parse(text).type !== "command") send.call(this, text);
+                else window.held.push(() => send.call(this, text)); // the server receives it later
+            };
+        },
+    });
+    for (const [line, holds] of [
+        ["set slices=31", (state) => state.slices.count === 31],
+        ["polytope 25-cell", () => true], // which is refused
+    ]) {
+        await type(page, line);
+        await page.waitForFunction(() => window.held.length === 1);
+        await page.keyboard.press("Escape");
+        await page.keyboard.press(":");
+        await page.keyboard.type("rotate x");
+        await page.evaluate(() => window.held.shift()());
+        await idle(page);
+        await script.until(holds, line);
+        await page.keyboard.type("y");
+        assert.equal(await page.inputValue("#command"), "rotate xy");
+        assert.equal(await error(page), "");
+        await page.keyboard.press("Escape");
     }
     assert.deepEqual(errors, []);
     await close();
@@ -259,25 +302,36 @@ test("command line: it does not cover the parallel coordinates", async () => {
     }
 });
 
+/** Executes a line that saves a file; returns the download. */
+async function save(page, line) {
+    const saving = page.waitForEvent("download", { timeout: 0 }); // a wait that begins later explains more
+    saving.catch(() => {});
+    await executed(page, line);
+    await page.waitForSelector("#drawing:focus");
+    return within(saving, `the file of “${line}”`);
+}
+
 test("command line: :export saves a file in each format, as the export dialog does", async () => {
+    for (const some of pagesOf(formats.filter(({ objects }) => objects !== "fields"))) {
+        const { page, script, errors, close } = await openWithScript();
+        await script.request({ type: "set", polytope: "8-cell" });
+        await named(page, "8-cell");
+        for (const { name, bodies, of, group } of some) {
+            const download = await save(page, `export ${name}`);
+            const part = bodies || of ? "-w-0" : group === "figure" ? "-coordinates" : "";
+            assert.equal(download.suggestedFilename(), `8-cell${part}.${name}`);
+            assert.ok((await bytesOf(download)).length > 50, name);
+        }
+        assert.deepEqual(errors, []);
+        await close();
+    }
+});
+
+test("command line: :export explains what it cannot save, and without a format opens the dialog", async () => {
     const { page, script, errors, close } = await openWithScript();
     await script.request({ type: "set", polytope: "8-cell" });
     await named(page, "8-cell");
-    const save = async (line) => {
-        const saving = page.waitForEvent("download");
-        await type(page, line);
-        const download = await saving;
-        await page.waitForSelector("#drawing:focus");
-        return download;
-    };
-    for (const { name, bodies, of, group, objects } of formats) {
-        if (objects === "fields") continue;
-        const download = await save(`export ${name}`);
-        const part = bodies || of ? "-w-0" : group === "figure" ? "-coordinates" : "";
-        assert.equal(download.suggestedFilename(), `8-cell${part}.${name}`);
-        assert.ok((await bytesOf(download)).length > 50, name);
-    }
-    assert.equal((await save("export PNG")).suggestedFilename(), "8-cell.png");
+    assert.equal((await save(page, "export PNG")).suggestedFilename(), "8-cell.png");
     assert.equal(await page.locator("#export").isVisible(), false);
 
     await type(page, "export stel");

@@ -2,9 +2,12 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { common, named, openPage, openWithScript, presented, ready, scriptFor } from "./support/browser.mjs";
-import { startProxy } from "./support/proxy.mjs";
-import { startServer } from "./support/server.mjs";
+import { common, idle, named, openPage, openWithScript, presented, ready, scriptFor } from "./support/browser.mjs";
+import { passTime } from "./support/page_time.mjs";
+import { startProxy, startReplaceableServer } from "./support/proxy.mjs";
+
+const kLate = 1000; // milliseconds without an answer after which the page says that it waits
+const kLost = 8000; // the same, after which it gives up the connection
 
 const connection = (page) => page.locator("#connection").textContent();
 const isOpen = (page) => page.waitForSelector("#connection[data-kind=open]");
@@ -51,7 +54,7 @@ test("connection: a lost connection is reported and restored, and the session co
 test("connection: the page says that the server does not answer, or that the network is offline", async () => {
     const { url } = await common();
     const proxy = await startProxy(url, "/frozen");
-    const { page, errors, close } = await openPage({ url: proxy.url });
+    const { page, errors, close } = await openPage({ url: proxy.url, isStopped: true });
     await ready(page);
     const actions = [
         () => page.keyboard.press("y"),
@@ -63,17 +66,21 @@ test("connection: the page says that the server does not answer, or that the net
     for (const act of actions) {
         proxy.freeze();
         await act();
-        await page.waitForSelector("#connection[data-kind=late]", { timeout: 5000 });
+        await page.waitForSelector("#connection:not([data-unanswered='0'])");
+        await passTime(page, kLate);
+        await page.waitForSelector("#connection[data-kind=late]");
         assert.equal(await connection(page), "Waiting…");
         assert.equal(await page.locator("#connection-spoken").textContent(), "Waiting…");
         proxy.thaw();
+        await idle(page);
         await isOpen(page);
         assert.equal(await connection(page), "Connected");
     }
     assert.deepEqual(errors, []);
     proxy.freeze();
     await page.evaluate(() => window.dispatchEvent(new Event("offline")));
-    await page.waitForSelector("#connection[data-kind=waiting]", { timeout: 15_000 });
+    await passTime(page, kLost);
+    await page.waitForSelector("#connection[data-kind=waiting]");
     assert.match(await connection(page), /does not answer|No answer/);
     await close();
     await proxy.stop();
@@ -116,7 +123,7 @@ test("connection: the page works under a strict content security policy", async 
 });
 
 test("connection: after a restart of the server, a new session has the same view, and the page says so", async () => {
-    const server = await startServer();
+    const server = await startReplaceableServer();
     const { page, close } = await openPage({ url: server.url });
     await ready(page);
     const script = await scriptFor(page, server.url);
@@ -134,10 +141,10 @@ test("connection: after a restart of the server, a new session has the same view
     await page.keyboard.press("y");
     await page.waitForFunction(() => /no connection/.test(document.getElementById("notice").textContent));
 
-    const again = await startServer({ port: server.port });
+    await server.startAnother();
     await isOpen(page);
     await page.waitForFunction(() => /new one/.test(document.getElementById("notice").textContent));
-    const second = await scriptFor(page, again.url);
+    const second = await scriptFor(page, server.url);
     assert.notEqual(second.client.credentials.session, script.client.credentials.session);
     const after = await second.until((one) => one.polytope.name === "24-cell", "the view in the new session");
     assert.equal(after.alpha, 0.25);
@@ -147,11 +154,11 @@ test("connection: after a restart of the server, a new session has the same view
     await presented(page, pressed.revision);
     second.leave();
     await close();
-    await again.stop();
+    await server.stop();
 });
 
 test("connection: an unreachable server is reported", async () => {
-    const server = await startServer();
+    const server = await startReplaceableServer();
     const { page, close } = await openPage({ url: server.url });
     await server.stop();
     await page.waitForSelector("#connection[data-kind=waiting]");

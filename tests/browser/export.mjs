@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { named, openWithScript } from "./support/browser.mjs";
-import { bytesOf } from "./support/downloads.mjs";
+import { bytesOf, pagesOf } from "./support/downloads.mjs";
 import { decode } from "./support/pixels.mjs";
 import { startServer } from "./support/server.mjs";
 import { pngText } from "./node_modules/.oval4d/client.mjs";
@@ -51,9 +51,6 @@ async function exported(page, choices = {}, numbers = {}) {
 }
 
 test("export: every format makes its file, with a descriptive name", async () => {
-    const { page, script, press, errors, close } = await openWithScript();
-    await script.request({ type: "set", polytope: "24-cell" });
-    await press("4");
     const begins = {
         "3mf": /^PK/,
         stl: /^[ -~]/,
@@ -67,15 +64,20 @@ test("export: every format makes its file, with a descriptive name", async () =>
         x3d: /^<\?xml[^]*<X3D/,
         vtp: /^<\?xml[^]*<PolyData/,
     };
-    for (const [format, expected] of Object.entries(begins)) {
-        const { name, bytes } = await exported(page, { format });
-        assert.match(name, new RegExp(`^24-cell.*\\.${format}$`));
-        assert.match(text(bytes, 400), expected, format);
+    for (const some of pagesOf(Object.entries(begins))) {
+        const { page, script, press, errors, close } = await openWithScript();
+        await script.request({ type: "set", polytope: "24-cell" });
+        await press("4");
+        for (const [format, expected] of some) {
+            const { name, bytes } = await exported(page, { format });
+            assert.match(name, new RegExp(`^24-cell.*\\.${format}$`));
+            assert.match(text(bytes, 400), expected, format);
+        }
+        assert.equal(await page.evaluate(() => document.activeElement.id), "drawing", "the focus is returned");
+        await press("4");
+        assert.deepEqual(errors, []);
+        await close();
     }
-    assert.equal(await page.evaluate(() => document.activeElement.id), "drawing", "the focus is returned");
-    await press("4");
-    assert.deepEqual(errors, []);
-    await close();
 });
 
 test("export: size, body and slices are as chosen", async () => {

@@ -2,20 +2,24 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { accurateBrowser, common, named, openPage, openWithScript, presented, ready, restart, scriptFor, spoken } from "./support/browser.mjs";
+import { accurateBrowser, common, idle, named, openPage, openWithScript, presented, ready, restart, scriptFor, spoken, stateAfter } from "./support/browser.mjs";
 import { picture } from "./support/drawing.mjs";
 import { change, focusSurface, formula, openPanel, surfacePixels, write } from "./support/field.mjs";
+import { passTime } from "./support/page_time.mjs";
 import { distance } from "./support/pixels.mjs";
 import { rgb } from "./support/scene.mjs";
-import { startServer } from "./support/server.mjs";
+import { startReplaceableServer } from "./support/proxy.mjs";
+
+const kTyping = 150; // milliseconds after the last change by typing, until it is sent
 
 test("field panel: the button opens the panel and shows a field, and what is typed is shown", async () => {
-    const { page, script, errors, close } = await openPanel();
+    const { page, script, errors, close } = await openPanel({ isStopped: true });
     assert.equal(await page.evaluate(() => document.activeElement.id), "field-formula");
     assert.equal(await page.locator("#tools").isVisible(), false, "the panel takes the place of the tools");
     const before = await script.state();
     await page.keyboard.press("Control+A");
-    await page.keyboard.type("x^2+y^2+z^2+w^2 < 1.5^2", { delay: 10 });
+    await page.keyboard.type("x^2+y^2+z^2+w^2 < 1.5^2");
+    await passTime(page, kTyping);
     const { revision } = await script.until((state) => state.revision > before.revision, "the sphere");
     await presented(page, revision);
     const focus = await focusSurface(page, script);
@@ -68,29 +72,24 @@ test("field panel: a mistake is explained, and the wrong character is marked", a
 });
 
 test("field panel: a slider changes a named value in the text and the picture, and nothing else", async () => {
-    const { page, script, errors, close } = await openPanel();
+    const { page, script, errors, close } = await openPanel({ isStopped: true });
     await write(page, script, "x^2+y^2+z^2+w^2 < a^2; a=0.7, b=pi");
     assert.equal(await page.locator("#field-constants input").count(), 1, "only numbers have sliders");
     await script.request({ type: "set", slices: { focus: 1 }, levels: [0, 0.5], color: "w" });
     await page.waitForFunction(() => document.getElementById("field-levels").value === "0, 0.5");
     const before = await focusSurface(page, script);
     await page.focus("[data-constant=a]");
-    let state;
     for (let i = 0; i < 5; ++i) await page.keyboard.press("ArrowRight");
     await page.waitForFunction(() => /a=0\.(75|8)/.test(document.getElementById("field-formula").value));
     assert.match(await formula(page), /^x\^2\+y\^2\+z\^2\+w\^2 < a\^2; a=0\.\d+, b=pi$/);
     const value = Number(/a=([\d.]+)/.exec(await formula(page))[1]);
     assert.equal(await page.locator("#field-constants output").textContent(), String(value));
     const reach = ({ surface }) => Math.max(...surface.points.filter((_, i) => i % 3 === 0));
-    for (let i = 0; i < 20; ++i) {
-        state = await script.state();
-        if (reach(await focusSurface(page, script)) > reach(before) + 0.01) break;
-        await page.waitForTimeout(100);
-    }
+    const state = await stateAfter(page, script);
     const after = await focusSurface(page, script);
     const outermost = (a) => Math.sqrt(a * a + 0.5 - after.slice.w ** 2);
+    assert.ok(reach(after) > reach(before) + 0.01);
     assert.ok(Math.abs(reach(after) - outermost(value)) < 0.03, `${reach(after)}, not ${outermost(value)}`);
-    state = await script.state();
     assert.deepEqual([state.slices.focus, state.levels, state.color], [1, [0, 0.5], "w"]);
     await script.request({ type: "undo" });
     await page.waitForFunction(() => document.getElementById("field-formula").value.endsWith("; a=0.7, b=pi"));
@@ -121,8 +120,7 @@ function recordLoads() {
 }
 
 test("field panel: one formula is on its way at a time, the last one wins, and typing is waited for", async () => {
-    const { page, script, errors, close } = await openPanel({ before: recordLoads });
-    // Typed by timers of the page: from outside, the intervals would depend on how busy the machine is.
+    const { page, errors, close } = await openPanel({ before: recordLoads, isStopped: true });
     await page.evaluate(async () => {
         window.loads = [];
         const field = document.getElementById("field-formula");
@@ -130,26 +128,29 @@ test("field panel: one formula is on its way at a time, the last one wins, and t
         for (const character of "x^2+y^2+z^2-w") {
             field.value += character;
             field.dispatchEvent(new InputEvent("input", { bubbles: true }));
-            await new Promise((resolve) => setTimeout(resolve, 20));
+            await window.passTime(100);
         }
     });
-    await page.waitForFunction(() => window.loads.length > 0);
-    await page.waitForTimeout(300);
-    assert.deepEqual(await page.evaluate(() => window.loads), ["x^2+y^2+z^2-w"], "not what was typed on the way");
+    await idle(page);
+    const loads = () => page.evaluate(() => window.loads);
+    assert.deepEqual(await loads(), [], "not what was typed on the way");
+    await passTime(page, kTyping);
+    await idle(page);
+    assert.deepEqual(await loads(), ["x^2+y^2+z^2-w"]);
     const last = await page.evaluate(async () => {
         const field = document.getElementById("field-formula");
         const enter = () => field.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
         for (let i = 1; i <= 30; ++i) {
             field.value = `x^2+y^2+z^2-w-${i}/10`;
             enter();
-            await new Promise((resolve) => setTimeout(resolve, 1));
+            await new Promise((resolve) => setTimeout(resolve));
         }
         return field.value;
     });
-    await page.waitForFunction((text) => window.loads.at(-1) === text, last);
+    await idle(page);
+    assert.equal((await loads()).at(-1), last);
     assert.equal(await page.evaluate(() => window.most), 1);
     assert.deepEqual(errors, []);
-    await script.state();
     await close();
 });
 
@@ -238,7 +239,8 @@ test("field panel: every example is a field with a surface", async () => {
 });
 
 test("field panel: another formula colors the surfaces, and has the names of the first one", async () => {
-    const { page, script, errors, close } = await openPanel({ permissions: ["clipboard-read", "clipboard-write"] });
+    const permissions = ["clipboard-read", "clipboard-write"];
+    const { page, script, errors, close } = await openPanel({ permissions, isStopped: true });
     await write(page, script, "x^2+y^2+z^2+w^2 < a^2; a=1.5");
     const colored = await change(page, script, "#field-values", "a*x");
     assert.equal(colored.color, "value");
@@ -253,12 +255,14 @@ test("field panel: another formula colors the surfaces, and has the names of the
     // A mistake is shown where it is.
     const before = (await script.state()).revision;
     await page.fill("#field-values", "a*x + q");
+    await passTime(page, kTyping);
     await page.waitForFunction(() => /^Character 7: /.test(document.getElementById("field-values-error").textContent));
     assert.equal(await page.locator("#field-values-excerpt mark").textContent(), "q");
     assert.equal(await page.getAttribute("#field-values", "aria-invalid"), "true");
     assert.equal(await page.textContent("#field-error"), "");
     assert.equal((await script.state()).revision, before);
     await page.fill("#field-formula", "x^2+$ < a^2; a=1.5");
+    await passTime(page, kTyping);
     await page.waitForFunction(() => /^Character 5: /.test(document.getElementById("field-error").textContent));
     assert.equal(await page.textContent("#field-values-error"), "", "only the first mistake is known");
     await script.request({ type: "set", levels: [0, 0.5] }); // so that what follows is another step of undo
@@ -345,18 +349,18 @@ test("field panel: the mistakes of an address are reported", async () => {
 });
 
 test("field panel: after a restart of the server, the formula is loaded again", async () => {
-    const server = await startServer();
+    const server = await startReplaceableServer();
     const { page, script, close } = await openPanel({ url: server.url });
     await write(page, script, "x^2+y^2+z^2+w^2 < 1");
     await script.request({ type: "set", levels: [0, 0.5] });
     await page.waitForFunction(() => document.getElementById("field-levels").value === "0, 0.5");
     script.leave();
-    const again = await restart(server, page);
-    const second = await scriptFor(page, again.url);
+    await restart(server, page);
+    const second = await scriptFor(page, server.url);
     await second.until(({ levels }) => levels?.join() === "0,0.5", "the field in the new session");
     second.leave();
     await close();
-    await again.stop();
+    await server.stop();
 });
 
 test("field panel: on a phone, the panel has large controls below the picture", async () => {

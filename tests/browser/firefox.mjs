@@ -2,10 +2,10 @@
 import assert from "node:assert/strict";
 import { readFile, readdir } from "node:fs/promises";
 import { join } from "node:path";
-import { setTimeout as pause } from "node:timers/promises";
 
-import { effects, prepare, strokes, table } from "./keys.mjs";
+import { effects, prepare, strokes, table } from "./support/keys.mjs";
 import { common, shownValues } from "./support/browser.mjs";
+import { eventually } from "./support/hang_limit.mjs";
 import { openInFirefox, presented, type } from "./support/firefox.mjs";
 import { compare, covered, decode } from "./support/pixels.mjs";
 import { assertMatrix } from "./support/rotation.mjs";
@@ -161,12 +161,11 @@ test("firefox: exports a file", async () => {
     await page.click('#export label:has([name=format][value="stl"])');
     await page.click("#export-submit");
     const name = "8-cell-w-0.stl";
-    const deadline = Date.now() + 20_000;
     const complete = async () => {
         const files = await readdir(downloads);
         return files.includes(name) && files.length === 1; // while it downloads, there is also a .part file
     };
-    while (!(await complete()) && Date.now() < deadline) await pause(50);
+    await eventually(complete, "the download");
     const bytes = await readFile(join(downloads, name));
     assert.equal(bytes.length, 84 + 50 * bytes.readUInt32LE(80));
     await page.waitForSelector("#drawing:focus");

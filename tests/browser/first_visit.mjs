@@ -2,10 +2,9 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { common, named, openPage, openWithScript, ready, scriptFor } from "./support/browser.mjs";
+import { common, named, openPage, openWithScript, presented, ready, scriptFor } from "./support/browser.mjs";
 import { covered, decode } from "./support/pixels.mjs";
 
-const { url } = await common();
 const kBackground = [16, 20, 28];
 
 const isShown = (page, selector) => page.locator(selector).isVisible();
@@ -15,7 +14,8 @@ const focused = (page) => page.evaluate(() => document.activeElement.id);
 test("first visit: a turned polytope fills the oval, and the welcome says what is seen", async () => {
     const { page, script, errors, close } = await openWithScript({ firstVisit: true });
     await named(page, "24-cell");
-    const { orientation, last } = await script.state();
+    const { orientation, last, revision } = await script.state();
+    await presented(page, revision);
     assert.ok(orientation[3][3] < 0.99, "it is turned");
     assert.ok(last.angles.every((angle) => Math.abs(angle) < 0.1), "the space bar turns it slowly");
     assert.match(await page.locator("#welcome p").innerText(), /slice.*4-D object.*y.*turn.*h.*l.*focus/s);
@@ -32,6 +32,7 @@ test("first visit: a turned polytope fills the oval, and the welcome says what i
 });
 
 test("first visit: the second visit of a browser is an ordinary one", async () => {
+    const { url } = await common();
     const { page, context, close } = await openPage({ firstVisit: true });
     await named(page, "24-cell");
     const second = await context.newPage();
@@ -46,6 +47,7 @@ test("first visit: the second visit of a browser is an ordinary one", async () =
 });
 
 test("first visit: an address with a view or a session is shown as it is", async () => {
+    const { url } = await common();
     const query = await openPage({ firstVisit: true, url: `${url}?polytope=16-cell` });
     await named(query.page, "16-cell");
     assert.equal(await isShown(query.page, "#welcome"), false);

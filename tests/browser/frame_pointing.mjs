@@ -1,15 +1,15 @@
 // The element under the pointer in the server's pictures: when the page asks for its name, and when it shows it.
 import assert from "node:assert/strict";
-import { setTimeout as pause } from "node:timers/promises";
 
-import { columnsOf, faceIn, frames, label, labeled, openTurned, rounded } from "./pointing.mjs";
-import { presented } from "./support/browser.mjs";
+import { columnsOf, faceIn, frames, label, labeled, openTurned, rounded } from "./support/pointing.mjs";
+import { idle, presented } from "./support/browser.mjs";
+import { passTime } from "./support/page_time.mjs";
 import { project, worldPoints } from "./support/scene.mjs";
 import { test } from "./support/suite.mjs";
 
 const kRest = 200; // milliseconds without a new picture after which the page asks
 const kInterval = 70; // milliseconds between two requests, at least
-const kMargin = 300; // milliseconds after which a request that is due has been sent, on a busy machine, too
+const kLong = 1000; // milliseconds after which each request that is due has been sent
 const kBackground = [4, 4];
 
 /** Runs in the page: logs what the page asks about points, and can hold the answers back, or the keys. */
@@ -47,13 +47,27 @@ function watchRequests() {
 
 /** Opens the page with a picture of the server's, which rests. */
 async function openServed() {
-    const opened = await openTurned({}, { before: watchRequests });
+    const opened = await openTurned({}, { before: watchRequests, isStopped: true });
     const { page } = opened;
     await page.click("[data-page-tool=frames]");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
-    await pause(kRest + kMargin);
+    /** Lets time pass, and waits for what the page does then, unless it waits for an answer that is held back. */
+    const pass = async (milliseconds, { isHeld = false } = {}) => {
+        await frames(page);
+        await passTime(page, milliseconds);
+        await (isHeld ? frames(page) : idle(page));
+    };
+    await idle(page);
+    await presented(page, (await opened.script.state()).revision);
+    await pass(kLong);
     return {
         ...opened,
+        pass,
+        /** Moves the mouse, and lets the page ask and answer. */
+        async hoverAt(x, y) {
+            await opened.moveTo(x, y);
+            await pass(kLong);
+        },
         asked: () => page.evaluate(() => window.asked),
         forget: () => page.evaluate(() => void (window.asked.length = 0)),
         /** Waits until the page has asked this often. */
@@ -76,11 +90,11 @@ async function openServed() {
 }
 
 test("frame pointing: the server names what is under the mouse, with the words of the page's own picture", async () => {
-    const { page, script, errors, size, picture, moveTo, asked, close } = await openServed();
+    const { page, script, errors, size, picture, hoverAt, asked, close } = await openServed();
     const seen = await picture();
     const { at, source } = faceIn(seen, size, 1);
     const { revision } = await script.state();
-    await moveTo(...at);
+    await hoverAt(...at);
     const text = await labeled(page, /./);
     assert.match(text, new RegExp(`^Cell ${source} · octahedron · w −?[\\d.]+ … −?[\\d.]+ · slice w 0.2$`));
     const [{ type, what, width, height, x, y }] = await asked();
@@ -89,7 +103,7 @@ test("frame pointing: the server names what is under the mouse, with the words o
 
     const vertex = 7;
     const w = rounded(seen.coordinates[4 * vertex + 3]);
-    await moveTo(...columnsOf(seen.scene, size)(vertex));
+    await hoverAt(...columnsOf(seen.scene, size)(vertex));
     assert.equal(await labeled(page, /^Vertex/), `Vertex ${vertex} · w ${w}`);
 
     const [whole] = seen.projection.parts;
@@ -98,66 +112,69 @@ test("frame pointing: the server names what is under the mouse, with the words o
     const { eye } = seen.scene.camera;
     const near = points.map((point) => Math.hypot(...point.map((value, k) => value - eye[k])));
     const nearest = near.indexOf(Math.min(...near));
-    await moveTo(...project(seen.scene, points[nearest], size));
+    await hoverAt(...project(seen.scene, points[nearest], size));
     await labeled(page, new RegExp(`^Vertex ${whole.of.vertices[nearest] - 96} · w −?[\\d.]+$`));
 
-    await moveTo(...kBackground);
+    await hoverAt(...kBackground);
     await labeled(page, /^$/);
     assert.equal((await script.state()).revision, revision, "pointing changes nothing");
     await page.click("[data-page-tool=geometry]");
     await page.waitForSelector("#drawing[data-drawn-by=geometry]");
-    await moveTo(...at);
+    await hoverAt(...at);
     assert.equal(await labeled(page, /./), text);
     assert.deepEqual(errors, []);
     await close();
 });
 
 test("frame pointing: the label goes when the mouse leaves, drags or touches, and the page asks nothing then", async () => {
-    const { page, size, picture, moveTo, asked, forget, close } = await openServed();
+    const { page, script, size, picture, moveTo, hoverAt, pass, asked, forget, close } = await openServed();
     const { at, source } = faceIn(await picture(), size, 1);
     const assertNamed = () => labeled(page, new RegExp(`^Cell ${source} `));
-    await moveTo(...at);
+    await hoverAt(...at);
     await assertNamed();
     await page.hover("#help-button");
     await labeled(page, /^$/);
-    await moveTo(...at);
+    await hoverAt(...at);
     await assertNamed();
     await forget();
     await page.mouse.down();
     await labeled(page, /^$/);
     await moveTo(at[0] + 2, at[1]);
     await moveTo(at[0] + 1, at[1]);
-    await pause(kMargin);
+    await pass(kLong);
     assert.deepEqual(await asked(), [], "while a button is down");
     await moveTo(...at);
     await page.mouse.up(); // a click, which highlights the cell in a new picture
-    await page.waitForFunction(() => window.asked.length > 0);
+    const { revision } = await script.until(({ highlight }) => highlight !== null, "the highlight");
+    await presented(page, revision);
+    await pass(kLong);
+    assert.ok((await asked()).length > 0);
     await assertNamed();
 
     await page.hover("#help-button");
     await forget();
     await page.evaluate((place) => window.movePointer("touch", place), at);
-    await pause(kMargin);
+    await pass(kLong);
     assert.deepEqual(await asked(), [], "a finger");
     assert.equal(await label(page), "");
     await close();
 });
 
 test("frame pointing: one request is in flight, and the next one is about the newest place", async () => {
-    const { page, size, picture, moveTo, asked, untilAsked, hold, passFirst, close } = await openServed();
+    const { page, size, picture, moveTo, pass, asked, untilAsked, hold, passFirst, close } = await openServed();
     const { at, source } = faceIn(await picture(), size, 1);
     await hold("answers");
     await moveTo(...at);
     await untilAsked(1);
     for (let i = 0; i <= 20; ++i) await moveTo(at[0] + (kBackground[0] - at[0]) * (i / 20), at[1] * (1 - i / 20) + 4);
-    await pause(kMargin);
+    await pass(kLong, { isHeld: true });
     assert.equal((await asked()).length, 1, "one in flight");
     assert.equal(await passFirst("answers"), "", "the pointer is far from the cell of this answer");
     await untilAsked(2);
     const { x, y } = (await asked())[1];
     assert.deepEqual([x, y], kBackground, "the places between are skipped");
     assert.equal(await passFirst("answers"), "");
-    await pause(kMargin);
+    await pass(kLong);
     assert.equal((await asked()).length, 2);
 
     // The pointer has moved by a few pixels when the answer arrives.
@@ -166,6 +183,7 @@ test("frame pointing: one request is in flight, and the next one is about the ne
     await moveTo(at[0] + 3, at[1] + 2);
     await frames(page);
     assert.match(await passFirst("answers"), new RegExp(`^Cell ${source} `));
+    await pass(kInterval, { isHeld: true });
     await untilAsked(4);
 
     // The label goes along for some pixels, but not farther, without an answer.
@@ -183,7 +201,7 @@ test("frame pointing: one request is in flight, and the next one is about the ne
 });
 
 test("frame pointing: a pointer that is back before the next request is answered", async () => {
-    const { page, size, picture, hold, release, close } = await openServed();
+    const { page, size, picture, pass, hold, release, close } = await openServed();
     const { at, source } = faceIn(await picture(), size, 1);
     await hold("answers");
     await page.evaluate(
@@ -199,39 +217,46 @@ test("frame pointing: a pointer that is back before the next request is answered
         [at, kBackground],
     );
     await release("answers");
+    await pass(kLong);
     await labeled(page, new RegExp(`^Cell ${source} `));
     await close();
 });
 
 test("frame pointing: requests keep their distance, and only another pixel is worth one", async () => {
-    const { page, size, picture, moveTo, asked, forget, close } = await openServed();
+    const { page, size, picture, hoverAt, asked, forget, close } = await openServed();
     const { at } = faceIn(await picture(), size, 1);
-    const until = Date.now() + 1500;
-    for (let i = 0; Date.now() < until; ++i) await moveTo(at[0] + (i % 40) - 20, at[1]);
+    await page.evaluate(
+        async ([x, y]) => {
+            const { dataset } = document.getElementById("connection");
+            for (let i = 0; i < 150; ++i) {
+                window.movePointer("mouse", [x + (i % 40) - 20, y]);
+                await window.passTime(10);
+                while (dataset.unanswered !== "0") await new Promise((resolve) => setTimeout(resolve));
+            }
+        },
+        at,
+    );
     const times = (await asked()).map(({ time }) => time);
-    assert.ok(times.length >= 3, `${times.length} requests`);
+    assert.ok(times.length >= 15, `${times.length} requests`);
     for (let i = 1; i < times.length; ++i) {
         assert.ok(times[i] - times[i - 1] >= kInterval - 2, `${times[i] - times[i - 1]} ms between two requests`);
     }
 
-    await moveTo(Math.round(at[0]), Math.round(at[1]));
+    await hoverAt(Math.round(at[0]), Math.round(at[1]));
     await labeled(page, /./);
-    await pause(kMargin);
     await forget();
-    await pause(kMargin);
-    await moveTo(Math.round(at[0]) + 0.3, Math.round(at[1]) - 0.3);
-    await pause(kMargin);
+    await hoverAt(Math.round(at[0]) + 0.3, Math.round(at[1]) - 0.3);
     assert.deepEqual(await asked(), []);
-    await moveTo(Math.round(at[0]) + 1, Math.round(at[1]));
-    await page.waitForFunction(() => window.asked.length === 1);
+    await hoverAt(Math.round(at[0]) + 1, Math.round(at[1]));
+    assert.equal((await asked()).length, 1);
     await close();
 });
 
 test("frame pointing: a new picture ends the label, and the page asks again when the picture rests", async () => {
-    const { page, script, size, picture, press, moveTo, asked, forget, untilAsked, hold, passFirst, release, close } =
+    const { page, script, size, picture, press, hoverAt, pass, asked, forget, untilAsked, hold, passFirst, release, close } =
         await openServed();
     const { at } = faceIn(await picture(), size, 0);
-    await moveTo(...at);
+    await hoverAt(...at);
     await labeled(page, /^Cell/);
     await hold("answers");
     const turn = async () => {
@@ -240,10 +265,12 @@ test("frame pointing: a new picture ends the label, and the page asks again when
     };
     await turn();
     assert.equal(await label(page), "");
+    await pass(kRest, { isHeld: true });
     await page.waitForFunction(() => window.held.answers.length === 1);
     await turn();
     assert.equal(await passFirst("answers"), "", "the answer is about the picture before");
     await release("answers");
+    await pass(kLong);
     await labeled(page, /^Cell/);
     for (const { rested } of await asked()) assert.ok(rested >= kRest - 2, `${rested} ms after a picture`);
 
@@ -253,23 +280,23 @@ test("frame pointing: a new picture ends the label, and the page asks again when
     await forget();
     const { revision: first } = await script.state();
     await script.until((state) => state.revision > first + 5, "the turning");
-    await moveTo(at[0] + 2, at[1]);
-    await pause(kMargin);
+    await hoverAt(at[0] + 2, at[1]);
     assert.deepEqual(await asked(), []);
     await press("Space");
+    await pass(kLong);
     await untilAsked(1);
     await close();
 });
 
 test("frame pointing: commands go first, and the requests of pointing fail silently", async () => {
-    const { page, errors, size, picture, moveTo, asked, untilAsked, hold, release, close } = await openServed();
+    const { page, errors, size, picture, moveTo, hoverAt, pass, asked, untilAsked, hold, release, close } = await openServed();
     const { at } = faceIn(await picture(), size, 0);
     await page.focus("#drawing");
     await hold("keys");
     await page.keyboard.press("0"); // the focus is at 0 already: there will be no new picture
     await page.waitForFunction(() => window.held.keys.length === 1);
     await moveTo(...at);
-    await pause(kMargin);
+    await pass(kLong, { isHeld: true });
     assert.deepEqual(await asked(), [], "while a key is unanswered");
     await release("keys");
     await untilAsked(1);
@@ -282,12 +309,11 @@ test("frame pointing: commands go first, and the requests of pointing fail silen
             return send.call(this, text.replace(/"x":\d+/, '"x":"left"'));
         };
     });
-    await moveTo(at[0] + 1, at[1]);
+    await hoverAt(at[0] + 1, at[1]);
     await untilAsked(2);
-    await pause(kMargin);
     assert.equal((await asked())[1].x, "left", "the server has refused this one");
     assert.equal(await page.locator("#notice").isVisible(), false);
-    await moveTo(at[0] + 2, at[1]);
+    await hoverAt(at[0] + 2, at[1]);
     await untilAsked(3);
     await labeled(page, /./);
     assert.deepEqual(errors, []);

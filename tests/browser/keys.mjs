@@ -2,102 +2,24 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { common, openWithScript, presented, shownValues } from "./support/browser.mjs";
-import { assertMatrix, isNear, turned } from "./support/rotation.mjs";
-import { joinSession } from "./support/script.mjs";
+import { idle, openWithScript, presented, shownValues, stateAfter } from "./support/browser.mjs";
+import { effects, prepare, strokes, table } from "./support/keys.mjs";
+import { assertMatrix, turned } from "./support/rotation.mjs";
 
-const close = (a, b) => Math.abs(a - b) < 1e-9;
-
-const toggles = (part) => (before, after) => assert.equal(after.shown[part], !before.shown[part]);
-const adds = (angle, sign) => (before, after) => assert.ok(close(after[angle], before[angle] + sign * before.step));
-
-const moves = (before, after) => assert.ok(after.moving || !isNear(after.orientation, before.orientation));
-
-/** Checks of the state after each action. */
-export const effects = {
-    rotate: (before, after, { planes }) => {
-        assertMatrix(after.orientation, turned(before.orientation, planes, [before.alpha, before.beta]));
-    },
-    alpha_up: adds("alpha", 1),
-    alpha_down: adds("alpha", -1),
-    beta_up: adds("beta", 1),
-    beta_down: adds("beta", -1),
-    focus_right: (before, after) => assert.equal(after.slices.focus, before.slices.focus + 1),
-    focus_left: (before, after) => assert.equal(after.slices.focus, before.slices.focus - 1),
-    focus_zero: (_, after) => assert.equal(after.slices.focus, 0),
-    focus_first: (before, after) => assert.ok(after.slices.focus < 0 && after.slices.focus < before.slices.focus),
-    focus_last: (before, after) => assert.ok(after.slices.focus > 0 && after.slices.focus > before.slices.focus),
-    undo: (before, after) => assert.notDeepEqual(after.orientation, before.orientation),
-    redo: (before, after) => assert.notDeepEqual(after.orientation, before.orientation),
-    repeat: (before, after) => {
-        assertMatrix(after.orientation, turned(before.orientation, before.last.planes, before.last.angles));
-    },
-    toward_vertex: moves,
-    toward_edge: moves,
-    toward_face: moves,
-    toward_cell: moves,
-    vertex_next: (before, after) => assert.ok(after.section.w > before.section.w && after.section.vertices !== ""),
-    vertex_previous: (before, after) => assert.ok(after.section.w < before.section.w && after.section.vertices !== ""),
-    turn: (before, after) => assert.equal(after.turning, !before.turning),
-    spacing_smaller: (before, after) => assert.ok(close(after.slices.spacing, before.slices.spacing / 1.1)),
-    spacing_larger: (before, after) => assert.ok(close(after.slices.spacing, before.slices.spacing * 1.1)),
-    slices_fewer: (before, after) => assert.equal(after.slices.count, before.slices.count - 2),
-    slices_more: (before, after) => assert.equal(after.slices.count, before.slices.count + 2),
-    polytope_next: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
-    polytope_previous: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
-    view: (_, after) => assert.equal(after.view, "single"),
-    matrix: (_, after) => assert.equal(after.view, "matrix"),
-    projection: (_, after) => assert.equal(after.projection, "perspective"),
-    cells: toggles("cells"),
-    back: toggles("back"),
-    sections: toggles("sections"),
-    coordinates: toggles("coordinates"),
-    labels: toggles("labels"),
-    faces: toggles("faces"),
-    bars: toggles("bars"),
-    balls: toggles("balls"),
-};
-
-/** The key presses of a binding in Playwright's notation, on a US keyboard. */
-export function strokes({ key, code, ctrl }, inverse = false) {
-    if (key.length > 1) return [...key];
-    const name = code ?? (/[A-Z()]/.test(key) ? `Shift+${key}` : key);
-    if (ctrl) return [`Control+${key}`];
-    return [inverse ? (code ? `Shift+${code}` : `Shift+${key.toUpperCase()}`) : name];
-}
-
-const kShown = {
-    ...{ faces: true, bars: true, balls: true, coordinates: true, labels: true },
-    ...{ cells: true, back: true, sections: false },
-};
-
-/** Sets the same state before each key: rotated, focus not at w = 0, with something to undo or redo. */
-export async function prepare(script, { action }) {
-    await script.request({ type: "set", polytope: "24-cell", view: "oval", projection: "off", turning: false });
-    await script.request({ type: "reset" });
-    await script.request({ type: "set", shown: kShown });
-    await script.request({ type: "set", alpha: 0.3, beta: 0.2, slices: { count: 21, spacing: 0.2, focus: 2 } });
-    await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.25, 0.5] });
-    if (action === "redo") await script.request({ type: "undo" });
-    return script.state();
-}
-
-const { url } = await common();
-const asking = await joinSession(url);
-export const { keys: table } = await asking.request({ type: "get", what: "keymap" });
-asking.leave();
-
-test("keys: the table is complete", () => {
+test("keys: the table is complete, and the server has the same", async () => {
     const names = table.map(({ name }) => name).sort();
     const expected = [..."234567rtykjKJlh0Gu.[]{}()sinNompafbwcWCex:?←→↓↑-+", "gg", "zc", "zf", "ze", "zv", "Ctrl-r", "Space", "Home"].sort();
     assert.deepEqual(names, expected);
+    const { script, close } = await openWithScript();
+    assert.deepEqual((await script.request({ type: "get", what: "keymap" })).keys, table);
+    await close();
 });
 
 let shared; // one page for all keys
 
 for (const binding of table.filter(({ client }) => !client)) {
     test(`keys: ${binding.name} – ${binding.text}`, async () => {
-        shared ??= await openWithScript();
+        shared ??= await openWithScript({ lasting: true });
         const { page, script, press, errors } = shared;
         const before = await prepare(script, binding);
         await press(...strokes(binding));
@@ -337,28 +259,27 @@ test("keys: arrows orbit, + and - zoom, Home moves the camera back, and so do th
 
 test("keys: a held key repeats no faster than pictures arrive, and stops when released", async () => {
     const { page, script, close: end } = await openWithScript();
-    await script.request({ type: "set", polytope: "600-cell" });
     await page.evaluate(() => {
         window.sent = 0;
-        window.most = 0;
+        window.held = [];
         const { send } = WebSocket.prototype;
-        let open = 0;
         WebSocket.prototype.send = function (text) {
-            const { type } = JSON.parse(text);
-            if (type === "key") ((window.most = Math.max(window.most, ++open)), ++window.sent);
-            if (type === "shown") open = 0;
-            return send.call(this, text);
+            if (JSON.parse(text).type !== "key") return send.call(this, text);
+            ++window.sent;
+            return void window.held.push(() => send.call(this, text)); // the server receives it later
         };
     });
-    await page.keyboard.down("y");
-    let pressed = 1;
-    for (const deadline = Date.now() + 30_000; Date.now() < deadline; ) {
-        for (let i = 0; i < 50; ++i, ++pressed) await page.keyboard.down("y"); // as the keyboard repeats it
-        if ((await page.evaluate(() => window.sent)) >= 3) break;
+    const sent = () => page.evaluate(() => window.sent);
+    for (let times = 1; times <= 3; ++times) {
+        for (let i = 0; i < 20; ++i) await page.keyboard.down("y"); // as the keyboard repeats it
+        assert.equal(await sent(), times, "a key is sent only after the previous one's picture was presented");
+        const { revision } = await script.state();
+        await page.evaluate(() => window.held.shift()());
+        await script.until((one) => one.revision > revision, "the turn");
+        await presented(page, (await stateAfter(page, script)).revision);
     }
     await page.keyboard.up("y");
-    const { sent, most } = await page.evaluate(() => ({ sent: window.sent, most: window.most }));
-    assert.ok(sent >= 3 && sent < pressed, `${sent} of ${pressed} were sent`);
-    assert.equal(most, 1, "a key is sent only after the previous one's picture was presented");
+    await idle(page);
+    assert.equal(await sent(), 3, "nothing is sent any more");
     await end();
 });

@@ -4,9 +4,8 @@ import { test } from "./support/suite.mjs";
 
 import { common, named, openPage, openWithScript, presented, ready, scriptFor } from "./support/browser.mjs";
 
-const { url } = await common();
-
 test("links: a query opens its view", async () => {
+    const { url } = await common();
     const query =
         "?polytope=24-cell&rotate=xw,yz:pi/8,pi/sqrt(3)-pi/8&rotate=xy:0.1+0.1&slices=31&alpha=pi/8&width=640";
     const { page, errors, close } = await openPage({ url: url + query });
@@ -33,6 +32,7 @@ test("links: a query opens its view", async () => {
 });
 
 test("links: a query opens the matrix at a point", async () => {
+    const { url } = await common();
     const query = "?view=matrix&polytope=24-cell&point=0.2,-0.1,sqrt(2)/4,0.5";
     const { page, errors, close } = await openPage({ url: url + query });
     await ready(page);
@@ -46,6 +46,7 @@ test("links: a query opens the matrix at a point", async () => {
 });
 
 test("links: all errors in a query are reported, and the rest of the query applies", async () => {
+    const { url } = await common();
     const { page, errors, close } = await openPage({ url: `${url}?polytope=25-cell&alpha=two&slices=11&sides=3` });
     await page.waitForFunction(() => /“set sides=3”/.test(document.getElementById("notice").textContent));
     const lines = (await page.locator("#notice").textContent()).split("\n");
@@ -58,6 +59,7 @@ test("links: all errors in a query are reported, and the rest of the query appli
 });
 
 test("links: a shared link joins the session, and both see every change", async () => {
+    const { url } = await common();
     const first = await openWithScript({ permissions: ["clipboard-read", "clipboard-write"] });
     await first.press("4");
     await first.page.click("#share-button");
@@ -78,6 +80,7 @@ test("links: a shared link joins the session, and both see every change", async 
 });
 
 test("links: a link pasted into an open tab joins its session", async () => {
+    const { url } = await common();
     const { script, close } = await openWithScript();
     await script.request({ type: "set", polytope: "24-cell" });
     const { session, token } = script.client.credentials;
@@ -100,6 +103,7 @@ test("links: a link pasted into an open tab joins its session", async () => {
 });
 
 test("links: a session that cannot be opened is reported, and a new one begins", async () => {
+    const { url } = await common();
     const { script, close } = await openWithScript();
     const { session } = script.client.credentials;
     for (const fragment of ["session=nonesuch&token=x", `session=${session}&token=wrong`]) {

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { common, named, openWithScript, presented, restart, scriptFor } from "./support/browser.mjs";
+import { startReplaceableServer } from "./support/proxy.mjs";
 import { startServer } from "./support/server.mjs";
 
 const file = (name, text) => ({ name, mimeType: "", buffer: Buffer.from(text) });
@@ -150,9 +151,20 @@ test("loading: a picture and a state are shown again, and files without a state 
     await close();
 });
 
+/** Runs in the page: counts the connections that it opens. */
+function countSockets() {
+    window.sockets = 0;
+    window.WebSocket = class extends WebSocket {
+        constructor(...given) {
+            super(...given);
+            ++window.sockets;
+        }
+    };
+}
+
 test("loading: unreadable files are refused before they are sent", async () => {
     const server = await startServer({ options: ["--max-message", "4096"] });
-    const { page, script, close } = await openWithScript({ url: server.url });
+    const { page, script, close } = await openWithScript({ url: server.url, before: countSockets });
     const cases = [
         [`# ${"x".repeat(5000)}`, /too large: 5 KiB .* up to 4 KiB/],
         ["\n".repeat(3000), /too large/], // twice as long in JSON
@@ -167,7 +179,8 @@ test("loading: unreadable files are refused before they are sent", async () => {
         );
         await page.click("#loading [data-close]");
     }
-    assert.equal(await page.locator("#connection").getAttribute("data-kind"), "open", "the connection is still open");
+    await page.waitForSelector("#connection[data-kind=open]"); // "waiting" would be a lost connection, "late" a slow one
+    assert.equal(await page.evaluate(() => window.sockets), 1, "the connection is still the first one");
     await page.setInputFiles("#file", file("b.off", simplex));
     await script.until((one) => one.polytope.name === "b.off", "a file within the limit");
     await close();
@@ -199,22 +212,22 @@ test("loading: the progress is shown and announced", async () => {
 });
 
 test("loading: after a restart of the server, the file is loaded again", async () => {
-    const server = await startServer();
+    const server = await startReplaceableServer();
     const { page, script, close } = await openWithScript({ url: server.url });
     await page.setInputFiles("#file", file("kept.off", simplex));
     await script.until((one) => one.polytope.name === "kept.off", "the file's polytope");
     await named(page, "kept.off");
     script.leave();
-    const again = await restart(server, page);
-    const second = await scriptFor(page, again.url);
+    await restart(server, page);
+    const second = await scriptFor(page, server.url);
     await second.until((one) => one.polytope.name === "kept.off", "the file in the new session");
     second.leave();
     await close();
-    await again.stop();
+    await server.stop();
 });
 
 test("loading: if a polytope cannot be loaded again, the rest of the view is restored", async () => {
-    const server = await startServer();
+    const server = await startReplaceableServer();
     const { page, script, close } = await openWithScript({ url: server.url });
     await script.request({ type: "load", name: "another's", format: "off", data: simplex }); // not loaded by this page
     const { revision: turned } = await script.request({ type: "set", alpha: 0.25 });
@@ -222,15 +235,15 @@ test("loading: if a polytope cannot be loaded again, the rest of the view is res
     script.leave();
     await server.stop();
     await page.waitForSelector("#connection[data-kind=waiting]");
-    const again = await startServer({ port: server.port });
+    await server.startAnother();
     await page.waitForSelector("#connection[data-kind=open]");
     await page.waitForFunction(() => /another's/.test(document.getElementById("notice").textContent));
-    const second = await scriptFor(page, again.url);
+    const second = await scriptFor(page, server.url);
     const { revision } = await second.until((one) => one.alpha === 0.25, "the rest of the view");
     await presented(page, revision);
     second.leave();
     await close();
-    await again.stop();
+    await server.stop();
 });
 
 test("loading: several files are loaded one after the other, and the picker lists all of them", async () => {

@@ -1,8 +1,8 @@
 // The matrix of planar sections: the elements under the pointer in its panels, and the focus point that they move.
 import assert from "node:assert/strict";
 
-import { assertSame, columnsOf, faceIn, frames, labeled, litAt, middle, openTurned, rounded, shot } from "./pointing.mjs";
-import { presented } from "./support/browser.mjs";
+import { assertSame, columnsOf, faceIn, frames, labeled, litAt, middle, openTurned, rounded, shot } from "./support/pointing.mjs";
+import { idle, presented } from "./support/browser.mjs";
 import { kPanels, panelOf } from "./support/matrix.mjs";
 import { distance, pixelAt } from "./support/pixels.mjs";
 import { rgb } from "./support/scene.mjs";
@@ -198,7 +198,7 @@ for (const mode of ["geometry", "frames"]) {
         await page.mouse.down();
         for (let i = 1; i <= 10; ++i) {
             await moveTo(...yw.at(0.3 - 0.08 * i, 0.2 + 0.03 * i));
-            await frames(page);
+            await idle(page); // so that each move is sent
         }
         await pointAt(script, [0.2, 0.5, -0.3, -0.5], "the point under the pointer");
         await moveTo(...yw.at(-9, 0.1));

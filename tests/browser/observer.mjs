@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { openPage, named, ready, scriptFor, openWithScript, spoken } from "./support/browser.mjs";
+import { idle, openPage, named, ready, scriptFor, openWithScript, spoken } from "./support/browser.mjs";
 import { focusSurface, openPanel, write } from "./support/field.mjs";
 
 const kMovingBall = "(x-0.5*t)^2 + y^2 + z^2 < 0.09";
@@ -74,7 +74,7 @@ test("observer: the slider sets the pace, and a drag is one step of undo", async
     await page.mouse.down();
     for (let i = 1; i <= 8; ++i) {
         await page.mouse.move(x + width * (0.5 + 0.04 * i), y + height / 2);
-        await page.waitForTimeout(60);
+        await idle(page); // so that each value is sent
     }
     await page.mouse.up();
     const { pace } = await script.until((state) => state.pace > 3, "a faster pace");

@@ -2,7 +2,8 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { openWithScript, presented } from "./support/browser.mjs";
+import { openWithScript, presented, stateAfter } from "./support/browser.mjs";
+import { passTime } from "./support/page_time.mjs";
 import { compare, decode } from "./support/pixels.mjs";
 import { project, worldPoints } from "./support/scene.mjs";
 import { assertMatrix, isNear, turned } from "./support/rotation.mjs";
@@ -29,6 +30,12 @@ async function dragWith(page, keys, from, to) {
 /** Waits until the polytope has this orientation. */
 const orientationOf = (script, expected, tolerance, what) =>
     script.until(({ orientation }) => isNear(orientation, expected, tolerance), what);
+
+/** Waits for this many animation frames of the page. */
+const animationFrames = (page, count) =>
+    page.evaluate(async (all) => {
+        for (let i = 0; i < all; ++i) await new Promise((resolve) => requestAnimationFrame(resolve));
+    }, count);
 
 /** Radians by which a drag of one pixel turns. */
 const perPixel = (page) => page.evaluate(() => Math.PI / document.getElementById("drawing").clientHeight);
@@ -127,10 +134,7 @@ test("pointer: orbiting and zooming keep half of the slices in the picture, and 
             const { revision } = await script.state();
             await move();
             await script.until((one) => one.revision > revision, `moving the camera ${direction}`);
-            let { camera } = await settled(script);
-            // The page learns the layout of the server's pictures when the camera is first moved.
-            const first = mode === "frames" && direction === "left";
-            for (let i = 0; first && i < 20 && (await share()) < 0.5; ++i) ({ camera } = await settled(script));
+            const { camera } = await stateAfter(page, script);
             assert.ok((await share()) >= 0.5, `${await share()} of the slices after moving ${direction} in ${mode}`);
             assert.ok(camera.zoom >= 0.25 && camera.zoom < 3);
             await script.request({ type: "set", camera: { azimuth: 0, elevation: 0, zoom: 1 } });
@@ -141,7 +145,7 @@ test("pointer: orbiting and zooming keep half of the slices in the picture, and 
     await page.mouse.move(500, 300);
     // From a position beyond the limit, which a command can choose, the camera can move back.
     await script.request({ type: "set", camera: { azimuth: 0, elevation: 0, zoom: 8 } });
-    const { revision } = await settled(script);
+    const { revision } = await stateAfter(page, script);
     await presented(page, revision);
     await page.mouse.wheel(0, 300);
     const { camera } = await script.until((one) => one.camera.zoom < 8, "zooming out");
@@ -154,16 +158,6 @@ const sizeOf = (page) =>
         const { clientWidth: width, clientHeight: height } = document.getElementById("drawing");
         return { width, height };
     });
-
-/** The state after no change has arrived for a while. */
-async function settled(script) {
-    for (let state = await script.state(); ; ) {
-        await new Promise((resolve) => setTimeout(resolve, 200));
-        const next = await script.state();
-        if (next.revision === state.revision) return next;
-        state = next;
-    }
-}
 
 test("pointer: Alt-drag rolls the 4-D ball, Alt-Shift-drag the ball of every slice", async () => {
     const { page, script, errors, close } = await openWithScript();
@@ -208,9 +202,9 @@ test("pointer: a gesture is one undo step", async () => {
     const { page, script, press, close } = await openWithScript();
     const { orientation: start } = await script.state();
     await dragWith(page, ["Alt"], [500, 300], [600, 250]);
-    const { orientation: between } = await settled(script);
+    const { orientation: between } = await stateAfter(page, script);
     await dragWith(page, ["Alt"], [500, 300], [420, 330]);
-    const { orientation: end } = await settled(script);
+    const { orientation: end } = await stateAfter(page, script);
     assert.ok(!isNear(start, between) && !isNear(between, end));
     assertMatrix((await press("u")).orientation, between);
     assertMatrix((await press("u")).orientation, start);
@@ -265,7 +259,7 @@ test("pointer: dragging two fingers rolls the 4-D ball, twisting them turns in z
     await send("touchStart", [460, 300], [540, 300]);
     for (let x = 10; x <= 100; x += 10) await send("touchMove", [460 + x, 300], [540 + x, 300]);
     await send("touchEnd");
-    const dragged = await settled(script);
+    const dragged = await stateAfter(page, script);
     assert.ok(dragged.orientation[0][3] > 0.2, "+w moves toward +x");
     assert.ok(Math.abs(dragged.orientation[2][3]) < 1e-9 && Math.abs(dragged.orientation[0][1]) < 1e-9);
     assert.ok(Math.abs(dragged.camera.zoom - 1) < 1e-6, "fingers that keep their distance do not zoom");
@@ -278,7 +272,7 @@ test("pointer: dragging two fingers rolls the 4-D ball, twisting them turns in z
     await send("touchStart", ...around(0));
     for (let angle = 0.05; angle <= 0.8; angle += 0.05) await send("touchMove", ...around(angle));
     await send("touchEnd");
-    const { orientation } = await settled(script);
+    const { orientation } = await stateAfter(page, script);
     const angle = Math.atan2(orientation[3][2], orientation[2][2]);
     assert.ok(angle > 0.4 && angle < 0.8, `a turn by ${angle}`);
     assert.ok(isNear(orientation, turned(start, ["zw"], [angle]), 1e-6));
@@ -287,6 +281,7 @@ test("pointer: dragging two fingers rolls the 4-D ball, twisting them turns in z
 
 test("pointer: a gamepad's sticks and triggers turn the polytope", async () => {
     const { page, script, errors, press, close } = await openWithScript({
+        isStopped: true,
         before: () => {
             const buttons = Array.from({ length: 17 }, () => ({ pressed: false, touched: false, value: 0 }));
             window.gamepad = { connected: true, mapping: "standard", axes: [0, 0, 0, 0], buttons };
@@ -294,12 +289,19 @@ test("pointer: a gamepad's sticks and triggers turn the polytope", async () => {
             navigator.getGamepads = () => (++window.polls, [null, window.gamepad]);
         },
     });
+    const polls = () => page.evaluate(() => window.polls);
+    /** Lets time pass, and waits until the gamepad has been polled after it. */
+    const poll = async (milliseconds) => {
+        await passTime(page, milliseconds);
+        const before = await polls();
+        await page.waitForFunction((count) => window.polls > count, before);
+    };
     const { orientation: start, revision } = await script.state();
-    assert.equal(await page.evaluate(() => window.polls), 0, "no gamepad is polled before one is connected");
+    assert.equal(await polls(), 0, "no gamepad is polled before one is connected");
     await page.evaluate(() => window.dispatchEvent(new Event("gamepadconnected")));
     await page.evaluate(() => (window.gamepad.axes[1] = 0.1)); // within the dead zone
-    await page.waitForFunction(() => window.polls > 10);
-    assert.equal((await script.state()).revision, revision);
+    for (let i = 0; i < 5; ++i) await poll(20);
+    assert.equal((await stateAfter(page, script)).revision, revision);
     const controls = {
         xw: (pad, value) => (pad.axes[0] = value),
         yw: (pad, value) => (pad.axes[1] = value),
@@ -309,11 +311,15 @@ test("pointer: a gamepad's sticks and triggers turn the polytope", async () => {
         xy: (pad, value) => (pad.buttons[5].value = value),
     };
     for (const [plane, control] of Object.entries(controls)) {
+        await poll(1000); // the gesture before has ended
         const before = await script.state();
         await page.evaluate(`(${control})(window.gamepad, 1)`);
-        await script.until((one) => one.revision > before.revision + 1, `a turn in ${plane}`);
+        for (let i = 0; i < 3; ++i) {
+            await poll(50);
+            await script.until((one) => one.revision > before.revision + i, `a turn in ${plane}`);
+        }
         await page.evaluate(`(${control})(window.gamepad, 0)`);
-        const { orientation, last } = await settled(script);
+        const { orientation, last } = await stateAfter(page, script);
         assert.deepEqual(last.planes, [plane]);
         const [a, b] = [..."xyzw"].flatMap((axis, i) => (plane.includes(axis) ? [i] : []));
         const angle = Math.atan2(orientation[b][a], orientation[a][a]);
@@ -321,10 +327,9 @@ test("pointer: a gamepad's sticks and triggers turn the polytope", async () => {
         assertMatrix((await press("u")).orientation, start);
     }
     await page.evaluate(() => (window.gamepad.connected = false));
-    const polls = () => page.evaluate(() => window.polls);
-    await page.waitForTimeout(200);
+    await animationFrames(page, 2);
     const before = await polls();
-    await page.waitForTimeout(200);
+    await animationFrames(page, 5);
     assert.equal(await polls(), before, "a disconnected gamepad is not polled");
     assert.deepEqual(errors, []);
     await close();
@@ -363,14 +368,14 @@ test("pointer: a drag, a click beside the slices and a click with a modifier lea
     await dragWith(page, [], [x, y], [x + 30, y]);
     await dragWith(page, ["Alt"], [x, y], [x + 30, y]);
     await script.request({ type: "set", camera: { azimuth: 0 } });
-    const { revision } = await settled(script);
+    const { revision } = await stateAfter(page, script);
     await presented(page, revision);
     await page.mouse.click(500, 70);
     await page.mouse.click(x, y, { button: "right" });
     await page.keyboard.down("Shift");
     await page.mouse.click(x, y);
     await page.keyboard.up("Shift");
-    assert.equal((await settled(script)).slices.focus, 0);
+    assert.equal((await stateAfter(page, script)).slices.focus, 0);
     await page.mouse.click(x, y);
     await script.until(({ slices }) => slices.focus === 2, "a click without a modifier");
     await close();

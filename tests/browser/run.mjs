@@ -1,26 +1,102 @@
-// Runs the browser tests; options are passed to node's test runner. OVAL4D names the server's binary, OVAL4D_WEB_ROOT
-// the built page, OVAL4D_CHROMIUM and OVAL4D_FIREFOX the browsers.
-import { spawnSync } from "node:child_process";
+// Runs the browser tests: `node run.mjs [options] [FILE.mjs …]`. Without files, all but those of the options:
+//   --latencies    instead, the tests that measure speed
+//   --firefox      instead, the tests in Firefox
+//   --only FILE    of these tests, only those whose names are the lines of FILE, one after the other in one process
+//   --junit FILE   writes the results as JUnit XML
+//   --processes N  runs N files at once
+//   --slowdown N   slows the pages N times, to find tests that depend on speed
+// OVAL4D names the server's binary, OVAL4D_WEB_ROOT the built page, OVAL4D_CHROMIUM and OVAL4D_FIREFOX the browsers.
+import { readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { parseArgs } from "node:util";
 
 import { buildSync } from "esbuild";
 
-const here = dirname(fileURLToPath(import.meta.url));
+import { writeJunit } from "./support/junit.mjs";
+import { runJobs, runningTests } from "./support/pool.mjs";
 
-// Bundles the TypeScript client for the tests.
-buildSync({
-    entryPoints: [join(here, "../../protocol/ts/index.ts")],
-    outfile: join(here, "node_modules/.oval4d/client.mjs"),
-    bundle: true,
-    platform: "node",
-    format: "esm",
-    nodePaths: [join(here, "node_modules")],
-    banner: { js: 'import { createRequire } from "node:module"; const require = createRequire(import.meta.url);' },
-    logLevel: "warning",
+const kLatencies = "performance.mjs";
+const kFirefox = "firefox.mjs";
+const kLongest = ["picture.mjs", "keys.mjs", "axe.mjs", "fields.mjs", "accessibility.mjs", "field_panel.mjs"]; // these begin
+
+const here = dirname(fileURLToPath(import.meta.url));
+const { values: options, positionals } = parseArgs({
+    options: {
+        latencies: { type: "boolean" },
+        firefox: { type: "boolean" },
+        only: { type: "string" },
+        junit: { type: "string" },
+        processes: { type: "string", default: "3" },
+        slowdown: { type: "string" },
+    },
+    allowPositionals: true,
 });
-const options = process.argv.slice(2);
-const { status } = spawnSync(process.execPath, ["--test", ...options, join(here, "all.test.mjs")], {
-    stdio: "inherit",
-});
-process.exit(status ?? 1);
+
+function chosenFiles() {
+    if (positionals.length > 0) return positionals.map((path) => path.split("/").at(-1));
+    if (options.latencies) return [kLatencies];
+    if (options.firefox) return [kFirefox];
+    const all = readdirSync(here).filter((name) => name.endsWith(".mjs"));
+    const others = all.filter((name) => !["run.mjs", kLatencies, kFirefox, ...kLongest].includes(name));
+    return [...kLongest, ...others];
+}
+
+/** Bundles the TypeScript client for the tests. */
+function bundleClient() {
+    buildSync({
+        entryPoints: [join(here, "../../protocol/ts/index.ts")],
+        outfile: join(here, "node_modules/.oval4d/client.mjs"),
+        bundle: true,
+        platform: "node",
+        format: "esm",
+        nodePaths: [join(here, "node_modules")],
+        banner: { js: 'import { createRequire } from "node:module"; const require = createRequire(import.meta.url);' },
+        logLevel: "warning",
+    });
+}
+
+const results = [];
+
+function finished(result) {
+    const { name, seconds, failure } = result;
+    results.push(result);
+    if (failure === undefined) console.log(`ok ${seconds.toFixed(1)} s  ${name}`);
+    else console.log(`FAILED ${seconds.toFixed(1)} s  ${name}\n${failure.replace(/^/gm, "    ")}`);
+}
+
+function finish() {
+    if (options.junit) writeJunit(options.junit, results);
+    const failed = results.filter(({ failure }) => failure !== undefined);
+    console.log(`${results.length - failed.length} passed, ${failed.length} failed`);
+    for (const { name } of failed) console.log(`  ${name}`);
+    process.exit(failed.length === 0 && results.length > 0 ? 0 : 1);
+}
+
+for (const signal of ["SIGINT", "SIGTERM"]) {
+    process.on(signal, () => {
+        const names = [...runningTests, "the run is completed"];
+        for (const name of names) finished({ name, seconds: 0, failure: `interrupted by ${signal}` });
+        finish(); // the processes of the tests end with this one
+    });
+}
+
+bundleClient();
+if (options.slowdown) process.env.OVAL4D_SLOWDOWN = options.slowdown;
+const files = chosenFiles();
+if (options.only) {
+    const only = readFileSync(options.only, "utf8").split(/\r?\n/).filter((line) => line !== "");
+    await runJobs([{ files, only }], { processes: 1, finished });
+    for (const name of only.filter((one) => !results.some((result) => result.name === one))) {
+        finished({ name, seconds: 0, failure: "no test has this name" });
+    }
+} else {
+    // Several files at once would disturb the tests that measure speed.
+    const processes = options.latencies ? 1 : Number(options.processes);
+    await runJobs(files.map((file) => ({ files: [file] })), { processes, finished });
+}
+const names = results.map(({ name }) => name);
+for (const name of new Set(names.filter((one, i) => names.indexOf(one) !== i))) {
+    finished({ name: `${name} (again)`, seconds: 0, failure: "two tests have this name" });
+}
+finish();

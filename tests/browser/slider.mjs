@@ -1,11 +1,13 @@
 // The slider of the focus slice, its marks, and playing.
 import assert from "node:assert/strict";
-import { setTimeout as pause } from "node:timers/promises";
 import { test } from "./support/suite.mjs";
 
-import { openWithScript, presented } from "./support/browser.mjs";
+import { idle, openWithScript, presented, stateAfter } from "./support/browser.mjs";
+import { passTime } from "./support/page_time.mjs";
 
 const kSlider = "#focus-w";
+const kRest = 200; // milliseconds without a turn after which the page requests the exact marks
+const kSweepTime = 8; // seconds from one end of the slider to the other
 const kGolden = (1 + Math.sqrt(5)) / 2;
 
 /** The distinct w of the 600-cell's vertices with a vertex toward +w, in circumradii (Coxeter, table V(iii)). */
@@ -18,6 +20,7 @@ async function openSlider(options) {
     await opened.script.request({ type: "set", polytope: "600-cell" });
     const { revision } = await opened.script.request({ type: "toward", element: "vertex", immediately: true });
     await presented(opened.page, revision);
+    if (options?.isStopped) await passTime(opened.page, kRest);
     // The exact values replace the rounded ones.
     await opened.page.waitForFunction(
         (most) => Math.abs(document.getElementById("focus-w").max - most) < 1e-12,
@@ -241,36 +244,68 @@ test("slider: follows keys, undo and other clients", async () => {
     await close();
 });
 
+/** Lets time pass in small steps, as when the page is drawn smoothly. */
+async function passFrames(page, seconds) {
+    const kStep = 50; // milliseconds, less than the page's longest step
+    const steps = Math.round((1000 * seconds) / kStep);
+    await page.evaluate(
+        async ([count, step]) => {
+            for (let i = 0; i < count; ++i) {
+                await window.passTime(step);
+                await new Promise((resolve) => requestAnimationFrame(resolve));
+            }
+        },
+        [steps, kStep],
+    );
+}
+
 test("slider: Play moves the focus to and fro until it is pressed again, and never by itself", async () => {
-    const { page, script, errors, close } = await openSlider();
-    await page.waitForTimeout(300);
-    assert.ok(!(await isPlaying(page)) && near((await script.state()).section.w, 0));
+    const { page, script, errors, close } = await openSlider({ isStopped: true });
+    await passFrames(page, 1);
+    assert.ok(!(await isPlaying(page)) && near((await stateAfter(page, script)).section.w, 0));
     assert.equal(await page.locator("#focus-speed").inputValue(), "1");
     await page.focus("#drawing");
-    const start = performance.now();
     await play(page);
     assert.ok(await isPlaying(page));
     assert.equal((await page.locator("#focus-play").innerText()).trim(), "Pause");
     await page.waitForSelector("#drawing:focus"); // a click leaves the focus
-    const { section } = await script.until((one) => one.section.w > 0.1 * kRadius, "moving up");
-    const most = ((2 * kRadius) / 8) * ((performance.now() - start) / 1000);
-    assert.ok(section.w <= most + 0.05, `${section.w} is at most ${most}: a sweep takes 8 s`);
+    const perSecond = (2 * kRadius) / kSweepTime;
+    await passFrames(page, 1);
+    await untilAt(script, perSecond, 1e-6, "moving up");
     await page.selectOption("#focus-speed", "2");
-    await script.until((one) => near(one.section.w, kRadius, 1e-9), "the top");
+    await passFrames(page, 1);
+    await untilAt(script, 3 * perSecond, 1e-6, "moving up twice as fast");
+    await passFrames(page, 0.5);
+    await untilAt(script, kRadius, 1e-6, "the top");
+    await passFrames(page, 1);
     await script.until((one) => one.section.w < 0.9 * kRadius, "moving down");
     await play(page);
     assert.ok(!(await isPlaying(page)));
     assert.equal((await page.locator("#focus-play").innerText()).trim(), "Play");
-    await page.waitForTimeout(200);
-    const { revision } = await script.state();
-    await page.waitForTimeout(300);
-    assert.equal((await script.state()).revision, revision, "nothing moves any more");
+    const { revision } = await stateAfter(page, script);
+    await passFrames(page, 1);
+    assert.equal((await stateAfter(page, script)).revision, revision, "nothing moves any more");
     assert.deepEqual(errors, []);
     await close();
 });
 
+/** Runs in the page: holds its moves of the focus back while `window.isHeld`. */
+function holdMoves() {
+    const { send } = WebSocket.prototype;
+    const held = [];
+    WebSocket.prototype.send = function (text) {
+        if (window.isHeld && JSON.parse(text).slices) held.push(() => send.call(this, text));
+        else send.call(this, text);
+    };
+    window.release = () => {
+        window.isHeld = false;
+        held.splice(0).forEach((sendNow) => sendNow());
+    };
+}
+
 test("slider: playing stops at a drag, a key that moves the focus, another client, or when the page is hidden", async () => {
-    const { page, script, close } = await openSlider();
+    const { page, script, close } = await openSlider({ isStopped: true, before: holdMoves });
+    const stopped = () => page.waitForSelector("#focus-play[aria-pressed=false]");
     const ways = {
         async drag() {
             const [x, y] = await pointAt(page, 0.3);
@@ -280,11 +315,11 @@ test("slider: playing stops at a drag, a key that moves the focus, another clien
         key: () => page.locator("#drawing").press("h"),
         "click on a slice": () => page.click("#drawing", { position: { x: 60, y: 60 } }),
         async script() {
-            // The page sees only the newest state, so a move of its own may hide one of another client.
-            for (let i = 0; i < 100 && (await isPlaying(page)); ++i) {
-                await script.request({ type: "set", slices: { w: -2 } });
-                await pause(100);
-            }
+            // The page sees only the newest state, so a move of its own could hide one of another client.
+            await page.evaluate(() => (window.isHeld = true));
+            await script.request({ type: "set", slices: { w: -2 } });
+            await stopped();
+            await page.evaluate(() => window.release());
         },
         hidden: () =>
             page.evaluate(() => {
@@ -295,10 +330,12 @@ test("slider: playing stops at a drag, a key that moves the focus, another clien
     for (const [name, stop] of Object.entries(ways)) {
         const { section } = await script.state();
         await play(page);
+        await passFrames(page, 0.2);
         await script.until((one) => one.section.w !== section.w, "playing");
         assert.ok(await isPlaying(page), name);
         await stop();
-        await page.waitForSelector("#focus-play[aria-pressed=false]");
+        await stopped();
+        await idle(page);
     }
     await close();
 });

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { openWithScript, presented, startBrowser } from "./support/browser.mjs";
+import { within } from "./support/hang_limit.mjs";
 import { covered, decode } from "./support/pixels.mjs";
 
 test("without WebGL: the server renders, and the page says why", async () => {
@@ -61,9 +62,16 @@ test("without WebGL: a restored context does not change the renderer that the us
     const { page, errors, close } = await openWithScript();
     await page.click("[data-page-tool=frames]");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
+    const changes = await page.evaluateHandle(() =>
+        // After the listeners of the page, because they are older.
+        ["lost", "restored"].map((change) => {
+            const canvas = document.querySelector("#drawing .solids");
+            return new Promise((resolve) => canvas.addEventListener(`webglcontext${change}`, resolve, { once: true }));
+        }),
+    );
     const restore = await loseContext(page);
     await restore();
-    await page.waitForTimeout(300);
+    await within(changes.evaluate(async (all) => void (await Promise.all(all))), "the restored context");
     assert.equal(await page.getAttribute("#drawing", "data-mode"), "frames");
     await page.click("[data-page-tool=geometry]");
     await page.waitForSelector("#drawing[data-mode=geometry][data-drawn-by=geometry]");

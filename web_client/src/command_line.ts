@@ -34,6 +34,7 @@ export class CommandLine {
     private historyPosition = 0; // counted from the end of the history; 0 is the line being typed
     private draft = ""; // the line being typed, while an earlier one is shown
     private cycle: Cycle | undefined;
+    private openings = 0; // how often the line has been opened
     private loading: Promise<unknown> | undefined; // of the names of polytopes
 
     constructor(private readonly events: CommandLineEvents) {
@@ -64,6 +65,7 @@ export class CommandLine {
     open(loading: Promise<unknown>): void {
         this.loading = loading;
         void loading.finally(() => (this.loading = undefined));
+        ++this.openings;
         this.form.hidden = false;
         this.historyPosition = 0;
         this.setText("");
@@ -198,10 +200,13 @@ export class CommandLine {
         this.history = [...this.history.filter((earlier) => earlier !== line), line].slice(-kMaxHistory);
         this.historyPosition = 0;
         writeStored(kHistoryKey, this.history);
+        const { openings } = this;
+        const isSame = (): boolean => openings === this.openings; // otherwise the user is typing another line
         try {
             await this.events.run(line);
-            this.close();
+            if (isSame()) this.close();
         } catch (error) {
+            if (!isSame()) return undefined;
             this.showError((error as Error).message);
             this.input.select();
         }

@@ -16,6 +16,7 @@ export class ConnectionStatus {
     private status: Status = { kind: "connecting" };
     private presentedAt: Date | undefined;
     private retryAt = 0; // when the next attempt to connect begins, in milliseconds as in Date.now()
+    private unanswered = 0; // number of requests without an answer
     private lateAnswers = 0; // number of requests that have been unanswered for kMaxWait
     private countdown: ReturnType<typeof setInterval> | undefined;
 
@@ -30,8 +31,9 @@ export class ConnectionStatus {
         if (status.kind === "waiting") this.countdown = setInterval(() => this.write(), 1000);
     }
 
-    /** Says that the page waits for the server as long as this answer, or another one, is late. */
+    /** Counts the request that this answers, and says that the page waits for the server while an answer is late. */
     follow(answer: Promise<unknown>): void {
+        this.countUnanswered(1);
         const count = (change: number): void => {
             this.lateAnswers += change;
             this.write();
@@ -43,6 +45,7 @@ export class ConnectionStatus {
             if (this.lateAnswers === 1) this.announcer.textContent = this.text.textContent;
         }, kMaxWait);
         const settled = (): void => {
+            this.countUnanswered(-1);
             clearTimeout(timer);
             if (isLate) count(-1);
         };
@@ -55,6 +58,11 @@ export class ConnectionStatus {
         if (this.status.kind !== "open") return;
         this.root.title = latency === undefined ? "" : `Key-to-picture latency: ${latency.toFixed(0)} ms`;
         this.root.dataset["latency"] = latency === undefined ? "" : latency.toFixed(1);
+    }
+
+    private countUnanswered(change: number): void {
+        this.unanswered += change;
+        this.root.dataset["unanswered"] = String(this.unanswered);
     }
 
     private write(): void {

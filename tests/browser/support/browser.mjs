@@ -3,9 +3,11 @@ import { existsSync } from "node:fs";
 
 import { chromium } from "playwright-core";
 
+import { kHangLimit, within } from "./hang_limit.mjs";
+import { passTime, stopTime } from "./page_time.mjs";
 import { joinSession } from "./script.mjs";
 import { startServer } from "./server.mjs";
-import { atEnd } from "./suite.mjs";
+import { afterTest, atEnd } from "./suite.mjs";
 
 const kArguments = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
@@ -14,11 +16,12 @@ const executablePath = process.env.OVAL4D_CHROMIUM ?? kBrowsers.find((path) => e
 
 /** Starts a browser; it is closed after all tests. */
 export async function startBrowser(args = []) {
-    const browser = await chromium.launch({ executablePath, args: [...kArguments, ...args] });
+    const browser = await chromium.launch({ executablePath, args: [...kArguments, ...args], timeout: kHangLimit });
     atEnd(() => browser.close());
     return browser;
 }
 
+const kOpening = 1000; // milliseconds after which a page has adapted to its size
 const kContextOptions = { viewport: { width: 1280, height: 720 } };
 
 // Without a graphics card, pages are composed faster without the emulation of OpenGL, which only WebGL needs then. But 2-D
@@ -53,23 +56,61 @@ export function common() {
 /**
  * Opens the page and waits for its first picture. `before` runs in the page before its scripts; `seen` is called with
  * each response; `errors` collects the console's errors and uncaught exceptions. The browser has opened the page before,
- * unless this is the `firstVisit`.
+ * unless this is the `firstVisit`. If time `isStopped`, it passes only by passTime(). The page is closed at the end of the
+ * test, or if it is `lasting`, after all tests.
  */
-export async function openPage({ url, browser, picture = true, before, seen, firstVisit = false, ...options } = {}) {
+export async function openPage(given = {}) {
+    const { url, browser, picture = true, before, seen, firstVisit = false, isStopped, lasting, ...options } = given;
     const usual = await common();
     const own = browser !== undefined || firstVisit || seen !== undefined || Object.keys(options).length > 0;
     const context = own ? await (browser ?? usual.browser).newContext({ ...kContextOptions, ...options }) : usual.context;
     const page = await context.newPage();
-    page.setDefaultTimeout(30_000);
+    const close = () => (own ? context.close() : page.close());
+    (lasting ? atEnd : afterTest)(close);
+    page.setDefaultTimeout(kHangLimit);
     const errors = [];
     page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
     page.on("pageerror", (error) => errors.push(error.message));
     if (!firstVisit) await page.addInitScript(() => localStorage.setItem("oval4d.visited", "1"));
+    if (isStopped) await page.addInitScript(stopTime);
     if (before) await page.addInitScript(before);
     if (seen) page.on("response", seen);
+    if (process.env.OVAL4D_SLOWDOWN) await slowDown(page, Number(process.env.OVAL4D_SLOWDOWN));
     await page.goto(url ?? usual.url);
     if (picture) await presented(page, 0);
-    return { page, context, errors, close: () => (own ? context.close() : page.close()) };
+    if (isStopped) {
+        await passTime(page, kOpening);
+        await idle(page);
+    }
+    return { page, context, errors, close };
+}
+
+/** Lets the page's scripts take this many times as long. */
+async function slowDown(page, rate) {
+    const session = await page.context().newCDPSession(page);
+    await session.send("Emulation.setCPUThrottlingRate", { rate });
+}
+
+/**
+ * Waits until the page has done what previous input asks for: it has nothing to send any more, and all its requests have
+ * been answered.
+ */
+export async function idle(page) {
+    const quiet = page.evaluate(async () => {
+        const { dataset } = document.getElementById("connection");
+        // A request may be sent in the next animation frame, or in one after a timer.
+        for (let frames = 0; frames < 3; frames = dataset.unanswered === "0" ? frames + 1 : 0) {
+            await new Promise((resolve) => setTimeout(resolve));
+            await new Promise((resolve) => requestAnimationFrame(resolve));
+        }
+    });
+    await within(quiet, "the answers to all requests of the page");
+}
+
+/** The state of the session after everything that the page was asked to do. */
+export async function stateAfter(page, script) {
+    await idle(page);
+    return script.state();
 }
 
 /** Waits until the page has presented this revision or a newer one. */
@@ -96,14 +137,13 @@ export async function scriptFor(page, url) {
     return joinSession(url ?? (await common()).url, credentials);
 }
 
-/** Stops the server of a page and starts another one at its port; waits until the page says that its session is new. */
+/** Replaces the server of a page by another one; waits until the page says that its session is new. */
 export async function restart(server, page) {
     await server.stop();
     await page.waitForSelector("#connection[data-kind=waiting]");
-    const again = await startServer({ port: server.port });
+    await server.startAnother();
     await page.waitForSelector("#connection[data-kind=open]");
     await page.waitForFunction(() => /new one/.test(document.getElementById("notice").textContent));
-    return again;
 }
 
 /** Waits until the page shows the name of this polytope. */

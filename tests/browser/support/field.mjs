@@ -1,11 +1,16 @@
 // The panel of a field, and the surfaces of its slices.
 import { named, openWithScript, presented } from "./browser.mjs";
+import { passTime } from "./page_time.mjs";
 import { pixelAt } from "./pixels.mjs";
 import { project } from "./scene.mjs";
+
+const kLong = 1000; // milliseconds after which what was typed has been sent
+const stoppedPages = new WeakSet();
 
 /** Opens the panel, and waits for its field. */
 export async function openPanel(options) {
     const opened = await openWithScript(options);
+    if (options?.isStopped) stoppedPages.add(opened.page);
     await opened.page.locator("[data-page-tool=field]").dispatchEvent("click"); // on a phone it may be in a closed tab
     const { revision } = await opened.script.until((state) => state.levels !== undefined, "a field");
     await loaded(opened.page);
@@ -28,6 +33,7 @@ export function write(page, script, text) {
 export async function change(page, script, selector, text) {
     const before = (await script.state()).revision;
     await page.fill(selector, text);
+    if (stoppedPages.has(page)) await passTime(page, kLong);
     await script.until(({ revision }) => revision > before, text);
     await loaded(page);
     const state = await script.state();

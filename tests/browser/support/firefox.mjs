@@ -8,7 +8,7 @@ import puppeteer from "puppeteer-core";
 
 import { common, ready, scriptFor } from "./browser.mjs";
 import { atEnd } from "./suite.mjs";
-import { within } from "./within.mjs";
+import { kHangLimit, within } from "./hang_limit.mjs";
 
 const kBrowsers = ["/usr/bin/firefox-esr", "/usr/bin/firefox"];
 const executablePath = process.env.OVAL4D_FIREFOX ?? kBrowsers.find((path) => existsSync(path));
@@ -36,6 +36,7 @@ function firefox() {
         atEnd(() => rmSync(downloads, { recursive: true, force: true }));
         const display = await startDisplay();
         const browser = await puppeteer.launch({
+            ...{ timeout: kHangLimit, protocolTimeout: kHangLimit },
             ...{ browser: "firefox", executablePath, headless: false, env: { ...process.env, DISPLAY: `:${display}` } },
             defaultViewport: { width: 1000, height: 640 },
             extraPrefsFirefox: {
@@ -55,7 +56,7 @@ function firefox() {
 export async function openInFirefox({ url, viewport } = {}) {
     const { browser, downloads } = await firefox();
     const page = await browser.newPage();
-    page.setDefaultTimeout(30_000);
+    page.setDefaultTimeout(kHangLimit);
     if (viewport) await page.setViewport(viewport);
     const errors = [];
     page.on("console", (message) => message.type() === "error" && errors.push(message.text()));

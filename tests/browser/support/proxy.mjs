@@ -2,10 +2,26 @@
 import { createServer, request } from "node:http";
 import { connect } from "node:net";
 
+import { startServer } from "./server.mjs";
 import { atEnd } from "./suite.mjs";
 
-export async function startProxy(target, prefix, extraHeaders = {}) {
-    const { hostname, port } = new URL(target);
+/** A server at an address that stays the same when another server takes its place. */
+export async function startReplaceableServer() {
+    let server = await startServer();
+    const proxy = await startProxy(server.url, "");
+    return {
+        url: proxy.url,
+        /** Stops the server as an operator does; then nothing answers at the address. */
+        stop: () => server.stop(),
+        async startAnother() {
+            server = await startServer();
+            proxy.target = server.url;
+        },
+    };
+}
+
+export async function startProxy(firstTarget, prefix, extraHeaders = {}) {
+    let target = new URL(firstTarget);
     const sockets = new Set();
     let broken = false;
     const outside = []; // requested URLs that are not under the prefix
@@ -18,6 +34,7 @@ export async function startProxy(target, prefix, extraHeaders = {}) {
         const path = inner(incoming.url);
         if (path === undefined) return outgoing.writeHead(404).end();
         const { method, headers } = incoming;
+        const { hostname, port } = target;
         const onward = request({ hostname, port, path, method, headers }, (answer) => {
             outgoing.writeHead(answer.statusCode, { ...answer.headers, ...extraHeaders });
             answer.pipe(outgoing);
@@ -28,7 +45,7 @@ export async function startProxy(target, prefix, extraHeaders = {}) {
     server.on("upgrade", (incoming, socket, head) => {
         const path = inner(incoming.url);
         if (path === undefined || broken) return socket.destroy();
-        const onward = connect(Number(port), hostname, () => {
+        const onward = connect(Number(target.port), target.hostname, () => {
             const lines = [`${incoming.method} ${path} HTTP/1.1`];
             for (let i = 0; i < incoming.rawHeaders.length; i += 2) {
                 lines.push(`${incoming.rawHeaders[i]}: ${incoming.rawHeaders[i + 1]}`);
@@ -50,6 +67,10 @@ export async function startProxy(target, prefix, extraHeaders = {}) {
     return {
         url: `http://127.0.0.1:${server.address().port}${prefix}/`,
         outside,
+        /** The server of later connections. */
+        set target(url) {
+            target = new URL(url);
+        },
         /** Breaks all WebSockets, like a network failure, and refuses new ones until restore(). */
         cut() {
             broken = true;

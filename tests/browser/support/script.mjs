@@ -3,7 +3,7 @@ import WebSocket from "ws";
 
 import { Client } from "../node_modules/.oval4d/client.mjs";
 import { atEnd } from "./suite.mjs";
-import { within } from "./within.mjs";
+import { within } from "./hang_limit.mjs";
 
 /** Joins a session, or creates one. */
 export async function joinSession(url, credentials) {

@@ -4,20 +4,23 @@ import { existsSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
+import { within } from "./hang_limit.mjs";
 import { atEnd } from "./suite.mjs";
 
 const top = join(dirname(fileURLToPath(import.meta.url)), "../../..");
 const binary = process.env.OVAL4D ?? process.env.OVAL4D_SERVER ?? join(top, "build/release/bin/oval4d");
 const webRoot = process.env.OVAL4D_WEB_ROOT ?? join(top, "web_client/dist");
 
-/** Starts a server; port 0 means any free port. */
-export async function startServer({ port = 0, options = [] } = {}) {
+/** Starts a server at any free port. */
+export async function startServer({ options = [] } = {}) {
     if (!existsSync(binary)) throw new Error(`there is no server at ${binary}: build it, or set OVAL4D`);
     if (!existsSync(join(webRoot, "app.js"))) throw new Error(`there is no page in ${webRoot}: build web_client`);
-    const child = spawn(binary, ["--port", String(port), "--web-root", webRoot, ...options]);
-    atEnd(() => child.kill());
+    const child = spawn(binary, ["--port", "0", "--web-root", webRoot, ...options]);
+    const kill = () => child.kill();
+    atEnd(kill);
+    process.on("exit", kill);
     let said = "";
-    const url = await new Promise((resolve, reject) => {
+    const listening = new Promise((resolve, reject) => {
         const listen = (chunk) => {
             said += chunk;
             const [, found] = /listening url=(\S+)/.exec(said) ?? [];
@@ -28,13 +31,14 @@ export async function startServer({ port = 0, options = [] } = {}) {
         child.once("exit", (code) => reject(new Error(`the server ended with ${code}:\n${said}`)));
     });
     const ended = new Promise((resolve) => child.once("exit", resolve));
+    void ended.then(() => process.off("exit", kill));
+    const url = await within(listening, "the server to listen");
     return {
         url,
-        port: Number(new URL(url).port),
         /** Stops the server as an operator does. */
         async stop() {
             child.kill("SIGTERM");
-            await ended;
+            await within(ended, "the server to end");
         },
     };
 }

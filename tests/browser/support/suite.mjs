@@ -1,25 +1,35 @@
-// Runs all tests in one suite, one after the other. Functions registered with atEnd run at the end, even if tests fail.
-import { after, describe, it } from "node:test";
+// Collects the tests of the files that a process imports, and what is to be closed after them.
+import { within } from "./hang_limit.mjs";
 
-const kTimeout = 90_000; // milliseconds per test
+const tests = new Map(); // functions by name
+const closings = { test: [], process: [] };
 
-const tests = [];
-const closings = [];
-
+/** Adds a test. Its name is unique among all files, because it identifies the test in reports and in `--only`. */
 export function test(name, run) {
-    tests.push([name, run]);
+    if (tests.has(name)) throw new Error(`two tests are called “${name}”`);
+    tests.set(name, run);
 }
 
-/** Registers a function that is called after all tests. */
+/** The tests that have been added since the last call. */
+export function takeTests() {
+    const taken = [...tests];
+    tests.clear();
+    return taken;
+}
+
+/** Registers a function that is called after all tests of this process. */
 export function atEnd(close) {
-    closings.push(close);
+    closings.process.push(close);
 }
 
-export function runAll(name) {
-    describe(name, () => {
-        for (const [title, run] of tests) it(title, { timeout: kTimeout }, run);
-        after(async () => {
-            for (const close of closings.reverse()) await close();
-        });
-    });
+/** Registers a function that is called after the current test, whether it fails or not. */
+export function afterTest(close) {
+    closings.test.push(close);
+}
+
+/** Calls the functions registered with afterTest ("test") or atEnd ("process"), the last one first. */
+export async function closeAll(after) {
+    for (const close of closings[after].splice(0).reverse()) {
+        await within(close(), "the end").catch((error) => console.error(error.message));
+    }
 }

@@ -1,0 +1,25 @@
+// Results of tests as JUnit XML.
+import { mkdirSync, writeFileSync } from "node:fs";
+import { dirname } from "node:path";
+
+const kEscapes = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\n": "&#10;" };
+
+/** Text of an attribute or an element, without the characters that XML 1.0 does not allow. */
+function escaped(text) {
+    // eslint-disable-next-line no-control-regex
+    return text.replace(/\u001b\[[\d;]*m/g, "").replace(/[^\t\n\r -\ud7ff\ue000-\ufffd]/gu, "\ufffd").replace(/[&<>"\n]/g, (one) => kEscapes[one]);
+}
+
+/** Writes {name, file, seconds, failure} of all tests. */
+export function writeJunit(path, results) {
+    const cases = results.map(({ name, file, seconds, failure }) => {
+        const attributes = `name="${escaped(name)}" classname="browser"${file ? ` file="${file}"` : ""} time="${seconds.toFixed(3)}"`;
+        if (failure === undefined) return `  <testcase ${attributes}/>`;
+        const [message] = failure.split("\n    at ");
+        return `  <testcase ${attributes}>\n    <failure message="${escaped(message)}">${escaped(failure)}</failure>\n  </testcase>`;
+    });
+    const failed = results.filter(({ failure }) => failure !== undefined).length;
+    const head = `<testsuite name="browser" tests="${results.length}" failures="${failed}">`;
+    mkdirSync(dirname(path), { recursive: true });
+    writeFileSync(path, ['<?xml version="1.0" encoding="UTF-8"?>', head, ...cases, "</testsuite>", ""].join("\n"));
+}

@@ -1,0 +1,84 @@
+// The key table, how its keys are pressed, and what they do.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+
+import { assertMatrix, isNear, turned } from "./rotation.mjs";
+
+/** The key table, which the server has, too. */
+export const { keys: table } = JSON.parse(readFileSync(new URL("../../../protocol/keymap.json", import.meta.url), "utf8"));
+
+const close = (a, b) => Math.abs(a - b) < 1e-9;
+
+const toggles = (part) => (before, after) => assert.equal(after.shown[part], !before.shown[part]);
+const adds = (angle, sign) => (before, after) => assert.ok(close(after[angle], before[angle] + sign * before.step));
+
+const moves = (before, after) => assert.ok(after.moving || !isNear(after.orientation, before.orientation));
+
+/** Checks of the state after each action. */
+export const effects = {
+    rotate: (before, after, { planes }) => {
+        assertMatrix(after.orientation, turned(before.orientation, planes, [before.alpha, before.beta]));
+    },
+    alpha_up: adds("alpha", 1),
+    alpha_down: adds("alpha", -1),
+    beta_up: adds("beta", 1),
+    beta_down: adds("beta", -1),
+    focus_right: (before, after) => assert.equal(after.slices.focus, before.slices.focus + 1),
+    focus_left: (before, after) => assert.equal(after.slices.focus, before.slices.focus - 1),
+    focus_zero: (_, after) => assert.equal(after.slices.focus, 0),
+    focus_first: (before, after) => assert.ok(after.slices.focus < 0 && after.slices.focus < before.slices.focus),
+    focus_last: (before, after) => assert.ok(after.slices.focus > 0 && after.slices.focus > before.slices.focus),
+    undo: (before, after) => assert.notDeepEqual(after.orientation, before.orientation),
+    redo: (before, after) => assert.notDeepEqual(after.orientation, before.orientation),
+    repeat: (before, after) => {
+        assertMatrix(after.orientation, turned(before.orientation, before.last.planes, before.last.angles));
+    },
+    toward_vertex: moves,
+    toward_edge: moves,
+    toward_face: moves,
+    toward_cell: moves,
+    vertex_next: (before, after) => assert.ok(after.section.w > before.section.w && after.section.vertices !== ""),
+    vertex_previous: (before, after) => assert.ok(after.section.w < before.section.w && after.section.vertices !== ""),
+    turn: (before, after) => assert.equal(after.turning, !before.turning),
+    spacing_smaller: (before, after) => assert.ok(close(after.slices.spacing, before.slices.spacing / 1.1)),
+    spacing_larger: (before, after) => assert.ok(close(after.slices.spacing, before.slices.spacing * 1.1)),
+    slices_fewer: (before, after) => assert.equal(after.slices.count, before.slices.count - 2),
+    slices_more: (before, after) => assert.equal(after.slices.count, before.slices.count + 2),
+    polytope_next: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
+    polytope_previous: (_, after) => assert.notEqual(after.polytope.name, "24-cell"),
+    view: (_, after) => assert.equal(after.view, "single"),
+    matrix: (_, after) => assert.equal(after.view, "matrix"),
+    projection: (_, after) => assert.equal(after.projection, "perspective"),
+    cells: toggles("cells"),
+    back: toggles("back"),
+    sections: toggles("sections"),
+    coordinates: toggles("coordinates"),
+    labels: toggles("labels"),
+    faces: toggles("faces"),
+    bars: toggles("bars"),
+    balls: toggles("balls"),
+};
+
+/** The key presses of a binding in Playwright's notation, on a US keyboard. */
+export function strokes({ key, code, ctrl }, inverse = false) {
+    if (key.length > 1) return [...key];
+    const name = code ?? (/[A-Z()]/.test(key) ? `Shift+${key}` : key);
+    if (ctrl) return [`Control+${key}`];
+    return [inverse ? (code ? `Shift+${code}` : `Shift+${key.toUpperCase()}`) : name];
+}
+
+const kShown = {
+    ...{ faces: true, bars: true, balls: true, coordinates: true, labels: true },
+    ...{ cells: true, back: true, sections: false },
+};
+
+/** Sets the same state before each key: rotated, focus not at w = 0, with something to undo or redo. */
+export async function prepare(script, { action }) {
+    await script.request({ type: "set", polytope: "24-cell", view: "oval", projection: "off", turning: false });
+    await script.request({ type: "reset" });
+    await script.request({ type: "set", shown: kShown });
+    await script.request({ type: "set", alpha: 0.3, beta: 0.2, slices: { count: 21, spacing: 0.2, focus: 2 } });
+    await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.25, 0.5] });
+    if (action === "redo") await script.request({ type: "undo" });
+    return script.state();
+}

@@ -1,0 +1,107 @@
+// What is under the pointer: where elements are in the picture, their label, and their light.
+import assert from "node:assert/strict";
+
+import { openWithScript, presented } from "./browser.mjs";
+import { decode, distance, pixelAt } from "./pixels.mjs";
+import { project, worldPoints } from "./scene.mjs";
+
+/** Opens the page with a turned 24-cell and its projection, whose elements lie in no hyperplane. */
+export async function openTurned(settings = {}, options = {}) {
+    const opened = await openWithScript(options);
+    const { page, script } = opened;
+    await script.request({ type: "set", polytope: "24-cell", projection: "perspective", ...settings });
+    const planes = ["xw", "yz"];
+    const { revision } = await script.request({ type: "rotate", planes, angles: [0.41, 1.13] });
+    await presented(page, revision);
+    const box = await page.locator("#drawing").boundingBox();
+    const size = { width: box.width, height: box.height };
+    const picture = () => script.request({ type: "get", what: "slices", ...size });
+    return {
+        ...opened,
+        size,
+        picture,
+        /** Moves the mouse to a point of the drawing, or clicks there. */
+        moveTo: (x, y) => page.mouse.move(box.x + x, box.y + y),
+        click: (x, y) => page.mouse.click(box.x + x, box.y + y),
+    };
+}
+
+export const label = (page) =>
+    page.evaluate(() => {
+        const { hidden, textContent } = document.getElementById("pointed");
+        return hidden ? "" : textContent;
+    });
+
+export async function labeled(page, pattern) {
+    await page.waitForFunction(
+        ([source, flags]) => {
+            const { hidden, textContent } = document.getElementById("pointed");
+            return new RegExp(source, flags).test(hidden ? "" : textContent);
+        },
+        [pattern.source, pattern.flags],
+    );
+    return label(page);
+}
+
+/** Two animation frames later, everything is drawn. */
+export const frames = (page) =>
+    page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+export async function shot(page) {
+    await frames(page);
+    return decode(await page.locator("#drawing").screenshot());
+}
+
+/** Whether a pixel has the hue of the highlight, 0xff4fb8, in some light or faintly. */
+const isLit = ([r, g, b]) => r > 90 && r - g > 45 && b - g > 25 && r > b;
+
+/** Whether the pixels around this point have become lit. */
+export function litAt(before, after, [x, y]) {
+    for (let dx = -3; dx <= 3; ++dx) {
+        for (let dy = -3; dy <= 3; ++dy) {
+            const [was, is] = [before, after].map((one) => pixelAt(one, x + dx, y + dy));
+            if (isLit(is) && distance(was, is) > 24) return true;
+        }
+    }
+    return false;
+}
+
+export const middle = (points) => points[0].map((_, k) => points.reduce((sum, point) => sum + point[k], 0) / points.length);
+
+export const loopOf = ({ faces }, f) => [...faces.corners.slice(faces.begin[f], faces.begin[f + 1])];
+
+/** The center of the front face with the most room in the slice with this index, and the cell it was cut from. */
+export function faceIn({ scene, slices }, size, index) {
+    const slice = slices.find((one) => one.index === index);
+    const points = worldPoints(scene, slice);
+    const areas = [...slice.of.faces].map((source, f) => {
+        const loop = loopOf(slice, f).map((v) => project(scene, points[v], size));
+        const twice = loop.reduce((sum, [x, y], i) => {
+            const [a, b] = loop[(i + 1) % loop.length];
+            return sum + y * a - x * b;
+        }, 0); // positive if counterclockwise on the screen, where y points down
+        return { source, area: twice, at: middle(loop) };
+    });
+    return areas.reduce((best, one) => (one.area > best.area ? one : best));
+}
+
+export const rounded = (value) => String(Math.round(value * 1000) / 1000).replace("-", "−");
+
+/** Asserts that two pictures agree everywhere but at the label of this point. */
+export function assertSame(one, other, [left, top]) {
+    let differing = 0;
+    for (let y = 0; y < one.height; ++y) {
+        for (let x = 0; x < one.width; ++x) {
+            const isLabel = Math.abs(x - left) < 400 && Math.abs(y - top) < 60;
+            if (!isLabel && distance(pixelAt(one, x, y), pixelAt(other, x, y)) > 24) ++differing;
+        }
+    }
+    assert.ok(differing < 20, `${differing} pixels differ`);
+}
+
+/** A function that returns a point of vertex v's column between its lines. */
+export function columnsOf({ coordinates: layout }, { height }) {
+    const x = (v) => layout.left + (v % layout.per_row) * layout.column_step + 1.5 * layout.line_step + layout.line_width;
+    const zero = (v) => layout.zero - Math.floor(v / layout.per_row) * layout.row_step;
+    return (v) => [x(v) * height, (1 - zero(v) + 0.9 * layout.amplitude) * height];
+}
