@@ -103,7 +103,7 @@ def test_the_server_listens_only_on_the_given_host():
 
 
 def test_the_port_can_be_reused_at_once_after_a_stop():
-    with Server() as server:
+    with Server("--stop-timeout", 0.1) as server:
         port = server.port
         with WebSocket(server) as peer:
             peer.request(type="hello")
