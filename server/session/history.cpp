@@ -15,6 +15,44 @@ State withOrbit(State state, const scene::CameraOrbit& orbit) {
     return state;
 }
 
+// Returns whether the states differ at most in the camera. Ignores whether images of the same object in the same frame
+// of reference have been made more than once.
+bool isSameStep(const State& a, const State& b) {
+    State compared = withOrbit(a, b.look.orbit);
+    if (a.source == b.source && a.referenceFrame == b.referenceFrame) compared.object = b.object;
+    return compared == b;
+}
+
+// Returns whether the change from `before` to `next` is a step of its own. The end of continuous turning belongs to the
+// step that started it.
+bool isNewStep(State before, const State& next) {
+    before.turning = before.turning && next.turning;
+    return !isSameStep(before, next);
+}
+
+// Appends `state` to `steps`. Replaces the last step if it is the same.
+template <typename Steps>
+void addStep(Steps& steps, const State& state) {
+    if (!steps.empty() && isSameStep(steps.back(), state)) steps.pop_back();
+    steps.push_back(state);
+}
+
+// Makes the last step of `from` that differs from the current state the current one, and appends the former current
+// state to `to`. Removes the step, and those after it, from `from`. Returns false and changes nothing if no step
+// differs.
+template <typename From, typename To>
+bool moveToLastStep(Session& session, From& from, To& to) {
+    const auto isOther = [&](const State& step) { return !isSameStep(step, session.current); };
+    const auto found = std::find_if(from.rbegin(), from.rend(), isOther);
+    if (found == from.rend()) return false;
+    State next = withOrbit(std::move(*found), session.current.look.orbit);
+    from.erase(std::prev(found.base()), from.end());
+    addStep(to, session.current);
+    session.current = std::move(next);
+    ++session.revision;
+    return true;
+}
+
 std::size_t bytesOfFilter(const State& state) {
     return sizeof(std::uint32_t) * (state.look.cellTypes.hidden.size() + state.look.cellTypes.faded.size());
 }
@@ -45,29 +83,31 @@ void limitHistoryBytes(Session& session, std::size_t maxBytes) {
     }
 }
 
+// Makes `next`, which differs from the current state, the current state.
+void replaceCurrent(Session& session, State next, const Limits& limits) {
+    const bool historyGrows = session.current.object != next.object || session.current.source != next.source ||
+                              bytesOfFilter(session.current) > 0;
+    session.current = std::move(next);
+    ++session.revision;
+    if (historyGrows) limitHistoryBytes(session, limits.maxUndoBytes);
+}
+
 }  // namespace
 
 void commit(Session& session, State next, const Limits& limits) {
     if (next == session.current) return;
-    State before = withOrbit(session.current, next.look.orbit);
-    before.turning = before.turning && next.turning;  // stopping belongs to the history step that started turning
-    if (before != next) {
-        if (limits.maxUndo > 0) session.undoSteps.push_back(session.current);
+    if (isNewStep(session.current, next)) {
+        addStep(session.undoSteps, session.current);
         while (session.undoSteps.size() > limits.maxUndo) session.undoSteps.pop_front();
         session.redoSteps.clear();
     }
-    session.current = std::move(next);
-    ++session.revision;
-    const bool grows = !session.undoSteps.empty() && (session.undoSteps.back().object != session.current.object ||
-                                                      bytesOfFilter(session.undoSteps.back()) > 0);
-    if (grows) limitHistoryBytes(session, limits.maxUndoBytes);
+    replaceCurrent(session, std::move(next), limits);
 }
 
 void amend(Session& session, State next, const Limits& limits) {
     if (session.undoSteps.empty() || !session.redoSteps.empty()) return commit(session, std::move(next), limits);
     if (next == session.current) return;
-    session.current = std::move(next);
-    ++session.revision;
+    replaceCurrent(session, std::move(next), limits);
 }
 
 void forgetOlderHalf(Session& session) {
@@ -76,23 +116,13 @@ void forgetOlderHalf(Session& session) {
 }
 
 Result<std::monostate> undo(Session& session) {
-    if (session.undoSteps.empty())
-        return Error{ErrorCode::nothing_to_undo, "nothing to undo: the session is at its first state"};
-    session.redoSteps.push_back(session.current);
-    session.current = withOrbit(std::move(session.undoSteps.back()), session.current.look.orbit);
-    session.undoSteps.pop_back();
-    ++session.revision;
-    return std::monostate{};
+    if (moveToLastStep(session, session.undoSteps, session.redoSteps)) return std::monostate{};
+    return Error{ErrorCode::nothing_to_undo, "nothing to undo: the session is at its first state"};
 }
 
 Result<std::monostate> redo(Session& session) {
-    if (session.redoSteps.empty())
-        return Error{ErrorCode::nothing_to_undo, "nothing to redo: nothing has been undone since the last change"};
-    session.undoSteps.push_back(session.current);
-    session.current = withOrbit(std::move(session.redoSteps.back()), session.current.look.orbit);
-    session.redoSteps.pop_back();
-    ++session.revision;
-    return std::monostate{};
+    if (moveToLastStep(session, session.redoSteps, session.undoSteps)) return std::monostate{};
+    return Error{ErrorCode::nothing_to_undo, "nothing to redo: nothing has been undone since the last change"};
 }
 
 }  // namespace oval4d::session

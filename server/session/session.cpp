@@ -21,11 +21,17 @@ namespace {
 
 using Done = Result<std::monostate>;
 
+// The images of an extended field: for each image of the shorter field, by its identity, that of the longer one.
+using ExtendedImages = std::map<const void*, slicing::Object>;
+
 // Shows the field `after`, a longer version of `before`, if the state shows `before`; returns whether it does. Keeps
-// all settings, except that spacing and offset keep their ratios to the reach of the slices.
-bool extendField(State& state, const slicing::Object& before, const slicing::Object& after) {
+// all settings, except that spacing and offset keep their ratios to the reach of the slices. States that show the same
+// image also do so afterward: `images` has those that have been made.
+bool extendField(State& state, const slicing::Object& before, const slicing::Object& after, ExtendedImages& images) {
     if (state.source != before) return false;
-    slicing::Object object = slicing::imageOf(after, state.referenceFrame);
+    const auto [image, isNew] = images.try_emplace(slicing::identityOf(state.object));
+    if (isNew) image->second = slicing::imageOf(after, state.referenceFrame);
+    slicing::Object object = image->second;
     const double ratio = slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object);
     state.slices.spacing *= ratio;
     state.slices.offset *= ratio;
@@ -145,9 +151,10 @@ class Applier {
         const slicing::Object before = loaded->second;
         const auto extended = loader_.fieldWithTimeSteps(before, added->object);
         if (!extended) return extended.error();
-        for (State& state : session_.undoSteps) extendField(state, before, *extended);
-        for (State& state : session_.redoSteps) extendField(state, before, *extended);
-        if (extendField(session_.current, before, *extended)) ++session_.revision;
+        ExtendedImages images;
+        for (State& state : session_.undoSteps) extendField(state, before, *extended, images);
+        for (State& state : session_.redoSteps) extendField(state, before, *extended, images);
+        if (extendField(session_.current, before, *extended, images)) ++session_.revision;
         loaded->second = *extended;
         return std::monostate{};
     }
@@ -224,6 +231,7 @@ std::size_t ownObjectMemory(const Session& session) {
 
 void advance(Session& session, double seconds) {
     State& state = session.current;
+    const auto before = std::pair(state.orientation, state.ongoingTurnToward);
     if (state.ongoingTurnToward) {
         auto& [goal, left] = *state.ongoingTurnToward;
         if (seconds < left) {
@@ -236,10 +244,8 @@ void advance(Session& session, double seconds) {
         }
     } else if (state.turning && state.lastTurn) {
         state.orientation = geometry::Rotation(state.lastTurn->scaled(kTurnsPerSecond * seconds)) * state.orientation;
-    } else {
-        return;
     }
-    ++session.revision;
+    if (before != std::pair(state.orientation, state.ongoingTurnToward)) ++session.revision;
 }
 
 }  // namespace oval4d::session

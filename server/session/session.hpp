@@ -93,8 +93,10 @@ struct Session {
     std::deque<State> undoSteps;   ///< undo steps, the oldest first
     std::vector<State> redoSteps;  ///< redo steps, the next one last
     LoadedObjects loaded;
-    std::string pendingKey;      ///< the first key of a sequence that has begun, such as the "g" of "gg"; else empty
-    std::uint64_t revision = 0;  ///< counts the changes of `current`
+    std::string pendingKey;  ///< the first key of a sequence that has begun, such as the "g" of "gg"; else empty
+    /// Counts the changes of `current`: increases by one with every command and every step of the motion after which
+    /// `current` is not equal to what it was before, and never otherwise.
+    std::uint64_t revision = 0;
     bool operator==(const Session&) const = default;
 };
 
@@ -112,14 +114,14 @@ std::size_t historyMemory(const Session& session);
 class ObjectLoader;
 
 /// Applies a command to the session. After an error, the session is unchanged. Every change adds an undo step, except a
-/// move of the camera and the end of continuous turning. A command that changes nothing does not increase the revision.
-/// `loader` builds polytopes and reads files.
+/// move of the camera and the end of continuous turning; see history.hpp. `loader` builds polytopes and reads files.
 Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);
 
 /// The speed of continuous turning: how often the last rotation is repeated per second.
 inline constexpr double kTurnsPerSecond = 6;
 /// Continues the motion of the object by `seconds`: continuous turning, or a turn toward an element, which ends at its
-/// goal. Does nothing if the object does not move. Adds no undo step, because one undo step covers the whole motion.
+/// goal. Adds no undo step, because one undo step covers the whole motion. Changes nothing if the object does not move,
+/// or turns so slowly that its orientation stays the same: a continuous rotation by the angle 0 has no effect.
 void advance(Session& session, double seconds);
 
 /// Parses a ':' line, with or without the ':', such as "polytope 24-cell", "set slices=31", "rotate xw,yz pi/8 pi/5" or

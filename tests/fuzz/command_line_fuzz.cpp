@@ -44,6 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         fuzz::execute(session, session::CommandLine{std::string(line)});
     }
+    fuzz::requireHistory(session);
     fuzz::requireRoundTrip(session.current, session.loaded);
     return 0;
 }

@@ -37,6 +37,7 @@ void requireUsable(const session::Session& session) {
     wide.maxSlices = 100'001;
     wide.maxUndo = wide.maxLoaded = 1'000'000;
     fuzz::requireSound(session, wide);
+    fuzz::requireHistory(session);
     fuzz::requireSlices(session.current);
     fuzz::requireJson(wire::stateMessage(session.current, {}, session.revision));
     for (const auto& [name, object] : session.loaded)

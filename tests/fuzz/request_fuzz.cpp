@@ -47,6 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             if (session.current.turning) session::advance(session, 0.01);
         }
     }
+    fuzz::requireHistory(session);
     fuzz::requireSound(session, fuzz::kLimits);
     fuzz::requireRoundTrip(session.current, session.loaded);
     return 0;

@@ -25,12 +25,21 @@
 
 namespace oval4d::fuzz {
 
-/// If `holds` is false, prints `what` and `detail` and aborts the process, which libFuzzer reports as a crash.
-inline void require(bool holds, std::string_view what, std::string_view detail = {}) {
-    if (holds) return;
-    std::fprintf(stderr, "broken: %.*s %.*s\n", static_cast<int>(what.size()), what.data(),
-                 static_cast<int>(detail.size()), detail.data());
+/// Reports the fault that the input has found, and does not return. In a fuzzer, prints `message` and aborts the
+/// process, which libFuzzer reports as a crash; in corpus_tests, makes the test of this input fail and ends it with an
+/// exception.
+#ifdef OVAL4D_CORPUS_TESTS
+[[noreturn]] void reportFault(const std::string& message);
+#else
+[[noreturn]] inline void reportFault(const std::string& message) {
+    std::fprintf(stderr, "broken: %s\n", message.c_str());
     std::abort();
+}
+#endif
+
+/// If `holds` is false, reports a fault with the message `what`, followed by `detail`.
+inline void require(bool holds, std::string_view what, std::string_view detail = {}) {
+    if (!holds) reportFault(std::string(what) + " " + std::string(detail));
 }
 
 inline std::string_view textOf(const std::uint8_t* data, std::size_t size) {
@@ -180,6 +189,23 @@ inline void execute(session::Session& session, const session::Command& command) 
         require(session.revision == before.revision || session.current != before.current,
                 "what changes nothing is not counted");
     }
+}
+
+/// Requires that undo leads through the whole history of a session, and redo back: each step counts as one change.
+inline void requireHistory(session::Session session) {
+    const session::State last = session.current;
+    const auto move = [&](Result<std::monostate> (*toNext)(session::Session&)) {
+        const session::State before = session.current;
+        const std::uint64_t revision = session.revision;
+        const bool moved = static_cast<bool>(toNext(session));
+        require(moved == (session.current != before), "a step of the history changes something");
+        require(session.revision == revision + (moved ? 1 : 0), "a step of the history counts once");
+        return moved;
+    };
+    std::size_t undone = 0;
+    while (move(session::undo)) ++undone;
+    for (; undone > 0; --undone) require(move(session::redo), "what was undone can be redone");
+    require(session.current == last, "redo leads back to the state before undo");
 }
 
 /// Requires that encoding a state as a message and setting another session to the message gives an equal state.

@@ -554,8 +554,10 @@ void LiveSession::advanceMotion() {
     }
     const auto passed = lastMotion_ ? std::min<Clock::duration>(now - *lastMotion_, kMaxMotionStep) : kMotionInterval;
     lastMotion_ = now;
-    markChanged(now);
+    const std::uint64_t before = revision();
     session::advance(session_, Seconds(passed).count());
+    if (revision() == before) return;  // it turns by the angle 0: there is nothing to send until the next command
+    markChanged(now);
     scheduleSave();
 }
 

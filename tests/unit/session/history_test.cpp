@@ -130,6 +130,118 @@ TEST(History, ACommandThatChangesNothingLeavesTheRevision) {
     EXPECT_EQ(session.revision, 1U);
 }
 
+TEST(History, ATurnThatIsStoppedAtOnceIsNoStep) {
+    Session session;
+    press(session, "r");
+    const State before = session.current;
+    press(session, "  ");
+    EXPECT_EQ(session.current, before);
+    const auto revision = session.revision;
+    press(session, "u");
+    EXPECT_EQ(session.current.orientation, geometry::Rotation{}) << "undo takes back the rotation";
+    EXPECT_EQ(session.revision, revision + 1);
+    expectRefused(session, Undo{}, ErrorCode::nothing_to_undo, "nothing to undo");
+    must(session, Redo{});
+    EXPECT_EQ(session.current, before);
+    expectRefused(session, Redo{}, ErrorCode::nothing_to_undo, "nothing to redo");
+    const std::size_t steps = session.undoSteps.size();
+    for (int i = 0; i < 10; ++i) press(session, "  ");
+    EXPECT_LE(session.undoSteps.size(), steps + 1) << "such steps do not fill the history";
+}
+
+TEST(History, AGestureThatEndsWhereItBeganIsNoStep) {
+    Session session;
+    press(session, "r");
+    const auto drag = [&](double angle, bool continues) {
+        Set set;
+        set.orientation = geometry::Rotation(geometry::Turn{geometry::Plane::xw, angle, {}}).matrix();
+        set.continues = continues;
+        must(session, set);
+    };
+    drag(0.5, false);
+    const State before = session.current;
+    drag(1, false);
+    drag(0.5, true);
+    ASSERT_EQ(session.current, before);
+    Session undone = session;
+    press(undone, "u");
+    EXPECT_EQ(undone.current, session.undoSteps[1]) << "undo passes over the gesture";
+    EXPECT_EQ(undone.revision, session.revision + 1);
+    must(undone, Redo{});
+    EXPECT_EQ(undone.current, before);
+    drag(2, true);
+    press(session, "u");
+    EXPECT_EQ(session.current, before) << "a gesture that goes on is a step";
+}
+
+TEST(History, AGestureMayMakeAnImageAnew) {
+    Session session;
+    line(session, "set pace=2");
+    const State before = session.current;
+    line(session, "set pace=3");
+    Set back;
+    back.pace = 2;
+    back.continues = true;
+    must(session, back);
+    EXPECT_NE(session.current.object, before.object);
+    press(session, "u");
+    EXPECT_EQ(session.current, Session{}.current);
+}
+
+TEST(History, AMotionMayEndAtARedoStep) {
+    Session session;
+    press(session, "r .u");
+    const State next = session.redoSteps.back();
+    advance(session, 1 / kTurnsPerSecond);
+    EXPECT_EQ(session.current, next);
+    expectRefused(session, Redo{}, ErrorCode::nothing_to_undo, "nothing to redo");
+    press(session, "u");
+    must(session, Redo{});
+    EXPECT_EQ(session.current, next);
+}
+
+TEST(History, TurningByTheAngleZeroChangesNothing) {
+    Session session;
+    line(session, "rotate xw,yz 0 0");
+    press(session, " ");
+    const Session before = session;
+    for (int i = 0; i < 10; ++i) advance(session, 0.1);
+    EXPECT_EQ(session, before);
+}
+
+// A record of an earlier version of the program may have such steps; so does one whose head differs by a camera move.
+TEST(History, StoredStepsMayEqualTheCurrentState) {
+    Session session;
+    press(session, "r");
+    session.undoSteps.push_back(session.undoSteps.back());
+    for (int i = 0; i < 2; ++i) session.undoSteps.push_back(session.current);
+    session.redoSteps.push_back(session.current);
+    line(session, "set zoom=2");
+    expectRefused(session, Redo{}, ErrorCode::nothing_to_undo, "nothing to redo");
+    const State before = session.current;
+    const auto revision = session.revision;
+    press(session, "u");
+    EXPECT_EQ(session.revision, revision + 1);
+    EXPECT_EQ(session.current.orientation, geometry::Rotation{});
+    expectRefused(session, Undo{}, ErrorCode::nothing_to_undo, "nothing to undo");
+    must(session, Redo{});
+    EXPECT_EQ(session.current, before);
+}
+
+TEST(History, AGestureKeepsTheHistoryWithinTheLimits) {
+    Session session;
+    const Limits limits{.maxUndoBytes = 1000};
+    must(session, CommandLine{"boost x 0.1"}, limits);
+    press(session, "r");
+    must(session, Key{"r"}, limits);
+    EXPECT_EQ(session.undoSteps.size(), 3U);
+    Set next;
+    next.boost = glm::dvec3(0, 0.1, 0);
+    next.continues = true;
+    must(session, next, limits);
+    EXPECT_TRUE(session.undoSteps.empty()) << "only the undo steps have the former image";
+}
+
 TEST(History, ResetKeepsPolytopeAndSettings) {
     Session session;
     line(session, "polytope 600-cell");

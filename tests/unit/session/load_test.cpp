@@ -200,11 +200,16 @@ TEST(Load, TheHistoryGrowsWithTheField) {
     same.object = before.current.object;
     EXPECT_EQ(same, before.current);
     EXPECT_LT(ownObjectMemory(session), 2 * ownObjectMemory(before));
+    line(session, "set pace=2");
+    line(session, "focus 1");
+    execute(load);
+    EXPECT_EQ(session.current.object, session.undoSteps.back().object) << "states with one image keep one image";
+    EXPECT_NE(session.current.object, session.loaded.at("run"));
     line(session, "polytope 24-cell");
     const State shown = session.current;
     execute(load);
     EXPECT_EQ(session.current, shown);
-    EXPECT_EQ(slicing::fieldIn(session.loaded.at("run"))->array->shape()[3], 6U);
+    EXPECT_EQ(slicing::fieldIn(session.loaded.at("run"))->array->shape()[3], 7U);
 }
 
 TEST(Load, ASecondFunctionColorsTheSurfaces) {
