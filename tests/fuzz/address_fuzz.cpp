@@ -94,8 +94,7 @@ void describe(session::QueryParameters query) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+OVAL4D_FUZZER(address) {
     std::string_view rest = fuzz::textOf(data, size);
     const auto target = net::parseRequestTarget(fuzz::takeUntil(rest, '\n'));
     net::AccessFields who;

@@ -29,8 +29,7 @@ void evaluateIt(std::string_view text) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+OVAL4D_FUZZER(command_line) {
     std::string_view rest = fuzz::textOf(data, size);
     session::Session session;
     for (int lines = 0; !rest.empty() && lines < 16; ++lines) {

@@ -17,7 +17,7 @@
 
 namespace fs = std::filesystem;
 
-#define FUZZER(subject) extern "C" int fuzz_##subject(const std::uint8_t* data, std::size_t size);
+#define FUZZER(subject) int fuzz_##subject(const std::uint8_t* data, std::size_t size);
 #include "fuzzers.inc"
 #undef FUZZER
 

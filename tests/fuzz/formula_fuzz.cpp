@@ -70,8 +70,7 @@ void requireWithinBounds(const fields::Formula& formula, const fields::Kernels& 
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+OVAL4D_FUZZER(formula) {
     std::string_view rest = fuzz::textOf(data, size);
     const std::string_view text = fuzz::takeUntil(rest, '\n');
     fields::FormulaMistake mistake;

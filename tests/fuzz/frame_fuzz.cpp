@@ -62,8 +62,7 @@ int lengthFrom(std::uint8_t byte) { return byte == 'L' ? 640 : 1 + byte % 64; }
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+OVAL4D_FUZZER(frame) {
     if (size < 2) return 0;
     image::Image image{lengthFrom(data[0]), lengthFrom(data[1]), {}};
     const std::string_view text = fuzz::textOf(data + 2, size - 2);

@@ -10,8 +10,7 @@ using namespace oval4d::geometry;
 using namespace oval4d::polytopes;
 using namespace oval4d::slicing;
 
-// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+OVAL4D_FUZZER(import) {
     const std::string_view text = fuzz::textOf(data, size);
     const auto result = importPolytope(detectFileFormat(text), text, "p", {.maxVertices = 200, .maxHullCells = 2'000});
     if (const auto* error = std::get_if<polytopes::ImportError>(&result)) {

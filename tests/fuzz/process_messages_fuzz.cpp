@@ -51,8 +51,7 @@ void receive(std::string_view bytes) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+OVAL4D_FUZZER(process_messages) {
     if (size == 0) return 0;
     const std::string_view bytes = fuzz::textOf(data + 1, size - 1);
     try {

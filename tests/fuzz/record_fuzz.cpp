@@ -52,8 +52,7 @@ void requireUsable(const session::Session& session) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+OVAL4D_FUZZER(record) {
     std::string_view rest = fuzz::textOf(data, size);
     const std::string_view whole = takePart(rest);
     const std::string_view head = takePart(rest);

@@ -26,8 +26,7 @@ void requireEcho(std::string_view text, std::optional<double> id, const Error* e
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+OVAL4D_FUZZER(request) {
     std::string_view rest = fuzz::textOf(data, size);
     session::Session session;
     for (int messages = 0; !rest.empty() && messages < 12; ++messages) {

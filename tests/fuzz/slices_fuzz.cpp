@@ -178,8 +178,7 @@ json fromJson(const std::string& text) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+OVAL4D_FUZZER(slices) {
     std::string_view rest = fuzz::textOf(data, size);
     scene::Viewport viewport;
     if (std::sscanf(std::string(fuzz::takeUntil(rest, '\n')).c_str(), "%4d %4d", &viewport.width, &viewport.height) !=

@@ -30,8 +30,7 @@ void requireSound(const net::Upload& upload, std::string_view method, std::strin
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+OVAL4D_FUZZER(upload) {
     std::string_view rest = fuzz::textOf(data, size);
     const std::string_view method = fuzz::takeUntil(rest, '\n');
     const auto target = net::parseRequestTarget(rest);

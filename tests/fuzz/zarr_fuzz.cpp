@@ -29,8 +29,7 @@ void requireSound(const fields::ReadField& field) {
 
 }  // namespace
 
-// NOLINTNEXTLINE(readability-identifier-naming): the name that libFuzzer calls
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+OVAL4D_FUZZER(zarr) {
     std::string_view rest = fuzz::textOf(data, size);
     std::map<std::string, std::string_view> files;
     while (!rest.empty()) {
