@@ -34,7 +34,7 @@ bool WorkerPool::post(Job job, LanePtr lane, Seconds cost) {
     {
         const std::lock_guard lock(mutex_);
         if (stopping_) return true;
-        if (!queue_.push(std::move(job), lane ? lane : common_, cost, Clock::now())) return false;
+        if (!queue_.push(std::move(job), lane ? lane : common_, cost, options_.now())) return false;
     }
     wake_.notify_one();
     return true;
@@ -68,7 +68,7 @@ std::size_t WorkerPool::waiting() const {
 
 bool WorkerPool::hasStartableJob() {
     const std::lock_guard lock(mutex_);
-    return queue_.hasStartableJob(Clock::now());
+    return queue_.hasStartableJob(options_.now());
 }
 
 WorkerPool::Seconds WorkerPool::busyTime() const {
@@ -81,21 +81,21 @@ void WorkerPool::run(std::size_t worker) {
     std::unique_lock lock(mutex_);
     bool used = true;
     while (!stopping_) {
-        auto next = queue_.pop(Clock::now());
+        auto next = queue_.pop(options_.now());
         if (!next) {
             wait(lock, used, worker);
             continue;
         }
         used = true;
         lock.unlock();
-        const auto start = Clock::now();
+        const auto start = options_.now();
         {
             std::optional<ForkJoin::BusyProcessor> work;
             if (options_.forkJoin != nullptr) work.emplace(*options_.forkJoin);
             runJob(next->job, worker);
         }
         next->job = nullptr;  // destroys what the job owns while the mutex is not locked
-        const Seconds took = Clock::now() - start;
+        const Seconds took = options_.now() - start;
         lock.lock();
         busyTime_ += took;
         queue_.finished(*next, took);

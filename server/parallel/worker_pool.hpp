@@ -42,6 +42,9 @@ class WorkerPool {
         /// Called by a worker that has been idle for kIdleDelay since its last job, to free cached memory.
         std::function<void(std::size_t worker)> whenIdle = [](std::size_t) {};
         ForkJoin* forkJoin = nullptr;  ///< counts a processor as busy during each job; may be null
+        /// Returns the current time, by which jobs are scheduled and measured. Tests pass one that returns a virtual
+        /// time.
+        std::function<FairQueue::Clock::time_point()> now = FairQueue::Clock::now;
     };
     static constexpr std::chrono::seconds kIdleDelay{3};
 
@@ -73,8 +76,6 @@ class WorkerPool {
     Seconds busyTime() const;
 
   private:
-    using Clock = FairQueue::Clock;
-
     void run(std::size_t worker);
     void wait(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker);
 

@@ -23,7 +23,7 @@ std::optional<Record> MemoryStore::claim(const std::string& id) {
     const auto found = entries_.find(id);
     if (found == entries_.end()) return std::nullopt;
     Entry& entry = found->second;
-    entry.touched = Clock::now();
+    entry.touched = now_();
     return Record{entry.whole, entry.head, {entry.objects.begin(), entry.objects.end()}, ++entry.fence, {}};
 }
 
@@ -51,7 +51,7 @@ std::vector<SaveResult> MemoryStore::save(std::span<const RecordUpdate> updates)
         if (known) bytes_ -= entry.bytes();
         if (!known) entry.tokenHash = hashToken(update.credentials.token);
         entry.fence = update.fence;
-        entry.touched = Clock::now();
+        entry.touched = now_();
         entry.changed = update.changed;
         if (!update.whole.empty()) entry.whole = update.whole;
         if (!update.whole.empty() || !update.head.empty()) entry.head = update.head;
@@ -92,12 +92,12 @@ void MemoryStore::remove(std::span<const std::string> ids) {
 
 void MemoryStore::touch(std::span<const std::string> ids) {
     for (const std::string& id : ids) {
-        if (const auto found = entries_.find(id); found != entries_.end()) found->second.touched = Clock::now();
+        if (const auto found = entries_.find(id); found != entries_.end()) found->second.touched = now_();
     }
 }
 
 std::size_t MemoryStore::expire(Milliseconds age) {
-    const auto limit = Clock::now() - age;
+    const auto limit = now_() - age;
     const std::size_t before = entries_.size();
     for (auto entry = entries_.begin(); entry != entries_.end();)
         entry = entry->second.touched < limit ? erase(entry) : std::next(entry);

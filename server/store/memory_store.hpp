@@ -13,7 +13,8 @@ class MemoryStore final : public Store {
     using Clock = std::chrono::steady_clock;
 
     /// `quota`: the maximum total size of all records, in bytes.
-    explicit MemoryStore(std::size_t quota = kDefaultQuota) : quota_(quota) {}
+    explicit MemoryStore(std::size_t quota = kDefaultQuota, Now<Clock> now = Clock::now)
+        : quota_(quota), now_(std::move(now)) {}
 
     WritePolicy writePolicy() const override { return WritePolicy::at_close; }
     std::string name() const override { return "memory"; }
@@ -43,6 +44,7 @@ class MemoryStore final : public Store {
     Entries::iterator erase(Entries::iterator entry);
 
     const std::size_t quota_;
+    const Now<Clock> now_;
     std::size_t bytes_ = 0;  // total size of all records
     Entries entries_;
 };

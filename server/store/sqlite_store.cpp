@@ -23,10 +23,6 @@ constexpr std::size_t kMaxListedIds = 20;         // maximum number of ids in a 
 // at a checkpoint, and one transaction.
 std::int64_t pagesOf(std::size_t quota) { return static_cast<std::int64_t>(quota / kPageSize * 3 / 4); }
 
-std::int64_t now() {
-    return std::chrono::duration_cast<Milliseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
 /// Returns an upper bound of the number of pages that updates need: short rows share pages that are at least half full,
 /// and long values have pages of their own.
 std::int64_t pagesFor(std::span<const RecordUpdate> updates) {
@@ -95,9 +91,15 @@ void renameIfExists(const std::string& from, const std::string& to) {
 
 }  // namespace
 
-SqliteStore::SqliteStore(std::string path, std::size_t quota) : path_(std::move(path)), maxPages_(pagesOf(quota)) {
+SqliteStore::SqliteStore(std::string path, std::size_t quota, Now<Clock> now)
+    : path_(std::move(path)), maxPages_(pagesOf(quota)), now_(std::move(now)) {
     open();
     spdlog::info("store opened store={} sessions={}", name(), size_);
+}
+
+/// Returns the time for records, in milliseconds since 1970.
+std::int64_t SqliteStore::now() const {
+    return std::chrono::duration_cast<Milliseconds>(now_().time_since_epoch()).count();
 }
 
 void SqliteStore::open() {

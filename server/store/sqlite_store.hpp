@@ -19,11 +19,13 @@ namespace oval4d::store {
 /// damaged record on intact pages is left unchanged. Damage of either kind is logged.
 class SqliteStore final : public Store {
   public:
+    using Clock = std::chrono::system_clock;  ///< the wall clock, because records outlive the process
+
     /// Opens or creates the file. `quota`: the maximum size, in bytes, of the file and its write-ahead log together;
     /// only a single update of more than an eighth of the quota may exceed it temporarily. Throws StoreError if another
     /// server uses the file, or if the file is not a store of oval4d, not owned by the server's user, or not a regular
     /// file.
-    explicit SqliteStore(std::string path, std::size_t quota = kDefaultQuota);
+    explicit SqliteStore(std::string path, std::size_t quota = kDefaultQuota, Now<Clock> now = Clock::now);
 
     WritePolicy writePolicy() const override { return WritePolicy::soon; }
     std::string name() const override { return "sqlite:" + path_; }
@@ -41,6 +43,7 @@ class SqliteStore final : public Store {
   private:
     template <typename Work>
     auto afterPendingRepair(Work work);
+    std::int64_t now() const;
     void open();
     void check();
     void setUp();
@@ -54,6 +57,7 @@ class SqliteStore final : public Store {
 
     const std::string path_;
     const std::int64_t maxPages_;
+    const Now<Clock> now_;
     std::unique_ptr<Database> database_;  // null after a failed repair: the next operation opens the file again
     std::string damage_;                  // damage that the next operation must repair; empty if there is none
     std::size_t size_ = 0;

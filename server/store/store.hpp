@@ -15,9 +15,11 @@
 
 namespace oval4d::store {
 
-/// A wall-clock time, because a store may outlive the process.
-using Time = std::chrono::system_clock::time_point;
 using Milliseconds = std::chrono::milliseconds;
+
+/// A function that returns the current time of a clock. Tests pass functions that return a virtual time.
+template <typename Clock>
+using Now = std::function<typename Clock::time_point()>;
 
 /// The credentials that open a session: its public id and its secret token.
 struct SessionCredentials {

@@ -52,12 +52,13 @@ std::size_t bytesOf(const Session& session) {
 
 }  // namespace
 
-WriteBehindStore::WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener)
+WriteBehindStore::WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener, Now<Clock> now)
     : store_(std::move(store)),
       writeTiming_(store_->writePolicy()),
       name_(store_->name()),
       settings_(settings),
       listener_(std::move(listener)),
+      now_(std::move(now)),
       random_(std::random_device{}()),
       thread_([this] { run(); }) {}
 
@@ -67,7 +68,7 @@ void WriteBehindStore::stop(Milliseconds limit) {
     {
         const std::lock_guard lock(mutex_);
         stopping_ = true;
-        stopAt_ = Clock::now() + limit;
+        stopAt_ = now_() + limit;
     }
     wake_.notify_one();
     if (thread_.joinable()) thread_.join();
@@ -133,7 +134,7 @@ void WriteBehindStore::close(const std::string& id, Session value) {
         CachedSession& cached = found->second;
         cached.whole = std::make_shared<const Session>(std::move(value));
         cached.closed = true;
-        cached.closedAt = Clock::now();
+        cached.closedAt = now_();
         cached.bytes = bytes;
         enqueue(id, cached);
         if (!lastError_.empty()) evicted = evictClosed();
@@ -231,9 +232,7 @@ void WriteBehindStore::enqueue(const std::string& id, CachedSession& cached) {
     queue_.push_back(id);
 }
 
-bool WriteBehindStore::isReadyToWrite() const {
-    return (!queue_.empty() || !removals_.empty()) && Clock::now() >= retryAt_;
-}
+bool WriteBehindStore::isReadyToWrite() const { return (!queue_.empty() || !removals_.empty()) && now_() >= retryAt_; }
 
 void WriteBehindStore::recount() {
     created_ =
@@ -253,17 +252,17 @@ void WriteBehindStore::run() {
             tasks_.pop_front();
             lock.unlock();
             task();
-        } else if (stopping_ && (queue_.empty() || Clock::now() >= stopAt_)) {
+        } else if (stopping_ && (queue_.empty() || now_() >= stopAt_)) {
             if (!queue_.empty()) spdlog::error("sessions not written count={} store={}", queue_.size(), name_);
             return;
         } else if (isReadyToWrite()) {
             lock.unlock();
             write();
-        } else if (Clock::now() >= pollAt_) {
+        } else if (now_() >= pollAt_) {
             lock.unlock();
             poll();
         } else {
-            wake_.wait_until(lock, nextWake());
+            wake_.wait_for(lock, nextWake() - now_());
             continue;
         }
         lock.lock();
@@ -302,7 +301,7 @@ void WriteBehindStore::storeFailed(const std::exception& fault) {
         std::min<Milliseconds>(kMinRetryPause * (1 << std::min(failures_++, 10)), kMaxRetryPause);
     const Milliseconds pause = longest / 2 + Milliseconds(random_() % static_cast<unsigned>(longest.count() / 2));
     const std::lock_guard lock(mutex_);
-    retryAt_ = pollAt_ = Clock::now() + pause;
+    retryAt_ = pollAt_ = now_() + pause;
     readAt_ = readable ? Clock::time_point() : retryAt_;
     recount();
     if (lastError_.empty())
@@ -515,10 +514,10 @@ void WriteBehindStore::dropTaken(const std::string& id) {
 void WriteBehindStore::poll() {
     {
         const std::lock_guard lock(mutex_);
-        pollAt_ = Clock::now() + kPollInterval;
+        pollAt_ = now_() + kPollInterval;
     }
     try {
-        if (Clock::now() >= refreshAt_) refreshExpiry();
+        if (now_() >= refreshAt_) refreshExpiry();
         for (const std::string& id : timed("pulse", [&] { return store_->pollClaims(); })) dropTaken(id);
     } catch (const std::exception& fault) {
         storeFailed(fault);
@@ -537,13 +536,13 @@ void WriteBehindStore::poll() {
 /// Restarts the expiry period of open sessions, and deletes sessions whose expiry period has ended.
 void WriteBehindStore::refreshExpiry() {
     const Milliseconds interval = std::min<Milliseconds>(settings_.expiry / 4, kMaxRefreshInterval);
-    refreshAt_ = Clock::now() + interval;
+    refreshAt_ = now_() + interval;
     std::vector<std::string> open;
     {
         const std::lock_guard lock(mutex_);
         pollAt_ = std::min(pollAt_, refreshAt_);
         std::erase_if(cached_, [&](const auto& entry) {
-            const bool old = entry.second.closed && Clock::now() - entry.second.closedAt > settings_.expiry;
+            const bool old = entry.second.closed && now_() - entry.second.closedAt > settings_.expiry;
             if (old) keys_.erase(entry.first);
             return old;
         });
@@ -581,7 +580,7 @@ WriteBehindStore::FetchResult WriteBehindStore::claimOrFind(const SessionCredent
             return Fetched{*cached.whole, {}};
         }
         if (removals_.contains(credentials.id)) return kNotFound;
-        if (Clock::now() < readAt_) return kNoAnswer;
+        if (now_() < readAt_) return kNoAnswer;
     }
     const auto hash = timed("token", [&] { return store_->tokenHash(credentials.id); });
     if (!hash) return kNotFound;

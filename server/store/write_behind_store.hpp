@@ -66,7 +66,9 @@ class WriteBehindStore {
     /// The part of a session to save: the result of encodeHead() or of encodeWhole() (codec.hpp).
     enum class SaveScope : std::uint8_t { head, whole };
 
-    WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener);
+    using Clock = std::chrono::steady_clock;
+
+    WriteBehindStore(std::unique_ptr<Store> store, Settings settings, Listener listener, Now<Clock> now = Clock::now);
     WriteBehindStore(const WriteBehindStore&) = delete;
     WriteBehindStore& operator=(const WriteBehindStore&) = delete;
     ~WriteBehindStore();
@@ -115,7 +117,6 @@ class WriteBehindStore {
     void stop(Milliseconds limit);
 
   private:
-    using Clock = std::chrono::steady_clock;
     using Value = std::shared_ptr<const session::Session>;
     // A session in memory.
     struct CachedSession {
@@ -176,6 +177,7 @@ class WriteBehindStore {
     const std::string name_;
     const Settings settings_;
     const Listener listener_;
+    const Now<Clock> now_;
 
     mutable std::mutex mutex_;
     std::condition_variable wake_;

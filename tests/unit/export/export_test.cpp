@@ -19,10 +19,10 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     const Rotation none;
     const ExportRequest skeleton{.format = formatNamed("stl"), .extent = Extent::oval, .body = Body::skeleton};
     const Hyperplanes oval{-10, 21, 0.5};
-    ExportLimits limits;
+    ExportLimits limits = kUnhurried;
     limits.triangles = 1000;
     EXPECT_NE(fileOf(p, none, oval, skeleton, limits).find("1000 are allowed"), std::string::npos);
-    limits = {};
+    limits = kUnhurried;
     limits.bytes = 1000;
     EXPECT_NE(fileOf(p, none, oval, {.format = formatNamed("off")}, limits).find("1000 bytes"), std::string::npos);
     limits = {};
@@ -59,13 +59,15 @@ TEST(File, ofAFieldIsBounded) {
     stop.request_stop();
     for (const char* format : {"csv", "stl", "vtp"}) {
         SCOPED_TRACE(format);
-        EXPECT_EQ(refusal(format, {}), "none");
-        EXPECT_NE(refusal(format, {.triangles = 1000}).find("1000"), std::string::npos);
+        EXPECT_EQ(refusal(format, kUnhurried), "none");
+        EXPECT_NE(refusal(format, {.triangles = 1000, .time = kUnhurried.time}).find("1000"), std::string::npos);
         EXPECT_NE(refusal(format, {.time = std::chrono::duration<double>(1e-6)}).find("takes longer"),
                   std::string::npos);
-        EXPECT_NE(refusal(format, {}, stop.get_token()).find("stopping"), std::string::npos);
-        EXPECT_NE(refusal(format, {.reserve = [](std::size_t bytes) { return bytes < 50'000; }}).find("no room"),
-                  std::string::npos);
+        EXPECT_NE(refusal(format, kUnhurried, stop.get_token()).find("stopping"), std::string::npos);
+        EXPECT_NE(
+            refusal(format, {.time = kUnhurried.time, .reserve = [](std::size_t bytes) { return bytes < 50'000; }})
+                .find("no room"),
+            std::string::npos);
     }
 }
 

@@ -78,8 +78,11 @@ inline void expectPrintable(const Mesh& mesh) {
     ASSERT_NEAR(volume, volumeOf(mesh), 1e-9 * std::abs(volume));
 }
 
+/// The default limits, but for the time: a slow machine may take as long as it needs.
+inline const ExportLimits kUnhurried{.time = std::chrono::hours(24)};
+
 inline const Budget& unhurried() {
-    static const Budget kBudget({100'000'000, std::numeric_limits<std::size_t>::max(), std::chrono::hours(1)}, {});
+    static const Budget kBudget({100'000'000, std::numeric_limits<std::size_t>::max(), kUnhurried.time}, {});
     return kBudget;
 }
 
@@ -110,11 +113,9 @@ inline scene::Scene composed(const polytopes::Polytope& polytope, const geometry
 }
 
 /// Slices a polytope and exports the slices.
-inline std::variant<std::string, ExportError> exported(const polytopes::Polytope& polytope,
-                                                       const geometry::Rotation& orientation,
-                                                       const geometry::Hyperplanes& planes,
-                                                       const ExportRequest& request, const ExportLimits& limits = {},
-                                                       std::stop_token stop = {}) {
+inline std::variant<std::string, ExportError> exported(
+    const polytopes::Polytope& polytope, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
+    const ExportRequest& request, const ExportLimits& limits = kUnhurried, std::stop_token stop = {}) {
     slicing::SliceSet slices;
     slicing::PolytopeSlicer().slice(polytope, orientation, planes, slices);
     return exports::exportScene(composed(polytope, orientation, slices), objectOf(polytope), orientation, request,
@@ -124,7 +125,7 @@ inline std::variant<std::string, ExportError> exported(const polytopes::Polytope
 /// Returns the bytes of the file, or "refused: " and the reason.
 inline std::string fileOf(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
                           const geometry::Hyperplanes& planes, const ExportRequest& request,
-                          const ExportLimits& limits = {}) {
+                          const ExportLimits& limits = kUnhurried) {
     auto made = exported(polytope, orientation, planes, request, limits);
     if (auto* refusal = std::get_if<ExportError>(&made)) return "refused: " + refusal->message;
     return std::get<std::string>(std::move(made));

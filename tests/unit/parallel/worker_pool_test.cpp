@@ -13,6 +13,7 @@
 
 #include "parallel/canceled.hpp"
 #include "parallel/worker_pool.hpp"
+#include "unit/parallel/virtual_clock.hpp"
 
 namespace oval4d::parallel {
 namespace {
@@ -29,8 +30,13 @@ class WorkerPools : public testing::Test {
         EXPECT_TRUE(pool.post(std::move(job), in, cost));
     }
 
-    static WorkerPool::Job busy(std::chrono::milliseconds time) {
-        return [time](std::size_t) { std::this_thread::sleep_for(time); };
+    /// Returns options of a pool in which only the jobs of busy() take time.
+    WorkerPool::Options options(std::size_t threads) const {
+        return {.threads = threads, .now = clock_.now<FairQueue::Clock>()};
+    }
+
+    WorkerPool::Job busy(std::chrono::milliseconds time) {
+        return [this, time](std::size_t) { clock_.advance(time); };
     }
 
     /// Returns a job that records its name.
@@ -56,6 +62,7 @@ class WorkerPools : public testing::Test {
     }
 
   private:
+    support::VirtualClock clock_;
     std::mutex mutex_;
     std::vector<std::string> said_;
 };
@@ -79,7 +86,7 @@ class Gate {
 };
 
 TEST_F(WorkerPools, JobsAreCarriedOutInTurn) {
-    WorkerPool pool({.threads = 1});
+    WorkerPool pool(options(1));
     const Lane greedy = lane(), modest = lane(), other = lane();
     Gate gate;
     post(pool, gate.job(), other);
@@ -113,7 +120,7 @@ TEST_F(WorkerPools, EachWorkerHasANumberAndBeginsWithTheFirstJob) {
 }
 
 TEST_F(WorkerPools, CanceledJobsDoNoHarm) {
-    WorkerPool pool({.threads = 1});
+    WorkerPool pool(options(1));
     const Lane each = lane();
     post(pool, [](std::size_t) { throw Canceled(); }, each);
     post(pool, saying("next"), each);
@@ -122,7 +129,7 @@ TEST_F(WorkerPools, CanceledJobsDoNoHarm) {
 }
 
 TEST_F(WorkerPools, LongJobsLeaveAWorkerToShortOnes) {
-    WorkerPool pool({.threads = 2});
+    WorkerPool pool(options(2));
     const Lane one = lane(), two = lane(), quick = lane();
     post(pool, saying("quick"), quick);
     drain(pool, {quick});
@@ -141,7 +148,7 @@ TEST_F(WorkerPools, LongJobsLeaveAWorkerToShortOnes) {
 }
 
 TEST_F(WorkerPools, LongJobsUseAllWorkersWhenNobodyElseIsThere) {
-    WorkerPool pool({.threads = 2});
+    WorkerPool pool(options(2));
     Gate first, second;
     post(pool, first.job(), lane(), 200ms);
     post(pool, second.job(), lane(), 200ms);
@@ -153,11 +160,11 @@ TEST_F(WorkerPools, LongJobsUseAllWorkersWhenNobodyElseIsThere) {
 
 /// After a lane's jobs took longer than announced, the pool uses its own estimate.
 TEST_F(WorkerPools, LearnsHowLongJobsTake) {
-    WorkerPool pool({.threads = 2});
+    WorkerPool pool(options(2));
     const Lane slow = lane(), other = lane(), quick = lane();
     for (int i = 1; i <= 10; ++i) {
         post(pool, busy(100ms), slow, 20ms);
-        while (pool.busyTime() < i * 100ms) std::this_thread::yield();
+        while (pool.busyTime() < (i - 0.5) * 100ms) std::this_thread::yield();
     }
     post(pool, saying("quick"), quick);
     drain(pool, {quick});
@@ -193,7 +200,7 @@ TEST_F(WorkerPools, RefusesMoreThanMayWait) {
 }
 
 TEST_F(WorkerPools, StopDropsWhatWaits) {
-    WorkerPool pool({.threads = 1});
+    WorkerPool pool(options(1));
     Gate gate;
     post(pool, gate.job(), nullptr);
     gate.awaitBegun();

@@ -1,6 +1,7 @@
 // The tests that all stores must pass, and those of single stores.
 
 #include <gtest/gtest.h>
+#include <hiredis/hiredis.h>
 #include <netinet/in.h>
 #include <spawn.h>
 #include <sys/socket.h>
@@ -16,13 +17,14 @@
 #include <iterator>
 #include <memory>
 #include <random>
-#include <thread>
 
+#include "hang_limit.hpp"
 #include "store/memory_store.hpp"
 #include "store/open_store.hpp"
 #include "store/redis_store.hpp"
 #include "store/secret.hpp"
 #include "store/sqlite_store.hpp"
+#include "unit/parallel/virtual_clock.hpp"
 
 namespace oval4d::store {
 namespace {
@@ -42,25 +44,42 @@ class Folder {
     std::filesystem::path path;
 };
 
-/// A port that is probably free.
-int freePort() {
-    const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    auto* const generic = reinterpret_cast<sockaddr*>(&address);
-    (void)bind(socket, generic, size);
-    (void)getsockname(socket, generic, &size);
-    (void)close(socket);
-    return ntohs(address.sin_port);
-}
+/// A port on which only programs of this test listen. While a socket is bound to a port but does not listen, the system
+/// gives the port to no program that asks for a free one, but programs that set SO_REUSEADDR, such as Redis, can listen
+/// on it.
+class Port {
+  public:
+    Port() : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+        const int on = 1;
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        auto* const generic = reinterpret_cast<sockaddr*>(&address);
+        if (setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) != 0 || bind(socket_, generic, size) != 0 ||
+            getsockname(socket_, generic, &size) != 0)
+            throw std::runtime_error("no port is free");
+        number = ntohs(address.sin_port);
+    }
+    Port(const Port&) = delete;
+    Port& operator=(const Port&) = delete;
+    ~Port() { close(socket_); }
+    int number = 0;
+
+  private:
+    int socket_;
+};
 
 /// A redis-server process for one test.
 class Redis {
   public:
-    explicit Redis(int port) : port_(port) {
-        std::string text = std::to_string(port_), folder = folder_.path;
+    Redis() { start(); }
+    Redis(const Redis&) = delete;
+    Redis& operator=(const Redis&) = delete;
+    ~Redis() { stop(); }
+
+    void start() {
+        std::string text = std::to_string(port_.number), folder = folder_.path;
         std::vector<std::string> words{
             "redis-server", "--port", text,        "--bind",        "127.0.0.1",   "--save", "",
             "--dir",        folder,   "--logfile", folder + "/log", "--maxmemory", "100mb"};
@@ -69,47 +88,56 @@ class Redis {
         arguments.push_back(nullptr);
         if (posix_spawnp(&process_, "redis-server", nullptr, nullptr, arguments.data(), environ) != 0) process_ = 0;
     }
-    Redis(const Redis&) = delete;
-    Redis& operator=(const Redis&) = delete;
-    ~Redis() {
+    void stop() {
         if (process_ == 0) return;
         kill(process_, SIGKILL);
-        waitpid(process_, nullptr, 0);
+        waitpid(std::exchange(process_, 0), nullptr, 0);
     }
-    StoreOptions options() const {
+
+    /// Returns a store that is connected to this Redis, or null if that is not possible.
+    std::unique_ptr<Store> connect(Milliseconds expiry = 1h) const {
         StoreOptions options;
-        options.url = "redis://127.0.0.1:" + std::to_string(port_);
-        options.expiry = 300ms;
-        return options;
+        options.url = "redis://127.0.0.1:" + std::to_string(port_.number);
+        options.expiry = expiry;
+        options.timeout = support::hangLimit();
+        auto store = std::make_unique<RedisStore>(options);
+        const auto answers = [&] {
+            try {
+                store->pollClaims();
+                return true;
+            } catch (const StoreError&) {
+                return false;
+            }
+        };
+        return process_ != 0 && support::eventually(answers) ? std::move(store) : nullptr;
+    }
+
+    /// Returns the time after which Redis deletes a key; a negative number if it never does or has no such key.
+    Milliseconds expiryOf(const std::string& key) const {
+        const std::unique_ptr<redisContext, decltype(&redisFree)> context(redisConnect("127.0.0.1", port_.number),
+                                                                          redisFree);
+        const std::unique_ptr<redisReply, decltype(&freeReplyObject)> reply(
+            static_cast<redisReply*>(redisCommand(context.get(), "PTTL %s", key.c_str())), freeReplyObject);
+        return Milliseconds(reply ? reply->integer : -1);
     }
 
   private:
-    Folder folder_;
-    int port_;
+    const Folder folder_;
+    const Port port_;
     pid_t process_ = 0;
 };
-
-std::unique_ptr<Store> connectWhenReady(const StoreOptions& options) {
-    for (int i = 0; i < 500; ++i) {
-        auto store = std::make_unique<RedisStore>(options);
-        try {
-            store->pollClaims();
-            return store;
-        } catch (const StoreError&) {
-            std::this_thread::sleep_for(20ms);
-        }
-    }
-    return nullptr;
-}
 
 class AnyStore : public testing::TestWithParam<std::string> {
   protected:
     void SetUp() override {
-        if (GetParam() == "memory") store = std::make_unique<MemoryStore>();
-        if (GetParam() == "sqlite") store = std::make_unique<SqliteStore>(folder.path / "sessions.sqlite");
+        if (GetParam() == "memory")
+            store = std::make_unique<MemoryStore>(kDefaultQuota, clock.now<MemoryStore::Clock>());
+        if (GetParam() == "sqlite")
+            store = std::make_unique<SqliteStore>(folder.path / "sessions.sqlite", kDefaultQuota,
+                                                  clock.now<SqliteStore::Clock>());
         if (GetParam() == "redis") {
-            redis = std::make_unique<Redis>(freePort());
-            store = connectWhenReady(redis->options());
+            redis = std::make_unique<Redis>();
+            store = redis->connect();
         }
         ASSERT_TRUE(store) << "is redis-server installed?";
     }
@@ -122,12 +150,19 @@ class AnyStore : public testing::TestWithParam<std::string> {
     }
     SaveResult save(const RecordUpdate& update) { return store->save({&update, 1}).at(0); }
 
+    support::VirtualClock clock;
     Folder folder;
     std::unique_ptr<Redis> redis;
     std::unique_ptr<Store> store;
 };
 
 INSTANTIATE_TEST_SUITE_P(Stores, AnyStore, testing::Values("memory", "sqlite", "redis"),
+                         [](const auto& kind) { return kind.param; });
+
+/// A store that must be asked to remove expired sessions.
+class ExpiringStore : public AnyStore {};
+
+INSTANTIATE_TEST_SUITE_P(Stores, ExpiringStore, testing::Values("memory", "sqlite"),
                          [](const auto& kind) { return kind.param; });
 
 // Records may contain any bytes.
@@ -190,19 +225,24 @@ TEST_P(AnyStore, StoresThePolytopesOfASession) {
     EXPECT_EQ(store->claim("one")->objects, update.objects);
 }
 
-TEST_P(AnyStore, ExpiresUntouchedSessions) {
+TEST_P(ExpiringStore, ExpiresUntouchedSessions) {
     save(whole(1, "old"));
     save(whole(1, "open", "two"));
-    for (int i = 0; i < 6; ++i) {
-        std::this_thread::sleep_for(100ms);
-        const std::vector<std::string> open{"two"};
-        store->touch(open);
-        store->expire(300ms);
-    }
+    save(whole(1, "claimed", "three"));
+    clock.advance(1h - 1ms);
+    const std::vector<std::string> open{"two"};
+    store->touch(open);
+    store->claim("three");
+    EXPECT_EQ(store->expire(1h), 0U);
+    clock.advance(2ms);
+    EXPECT_EQ(store->expire(1h), 1U);
     EXPECT_FALSE(store->tokenHash("one"));
     EXPECT_TRUE(store->tokenHash("two"));
+    EXPECT_TRUE(store->tokenHash("three"));
     store->pollClaims();
-    EXPECT_EQ(store->size(), 1U);
+    EXPECT_EQ(store->size(), 2U);
+    clock.advance(1h);
+    EXPECT_EQ(store->expire(1h), 2U);
 }
 
 TEST_P(AnyStore, RemovesSessionsWithTheirPolytopes) {
@@ -220,11 +260,11 @@ TEST_P(AnyStore, RemovesSessionsWithTheirPolytopes) {
 }
 
 /// Checks which sessions a store with a quota of 1 MiB evicts first.
-void expectEvictionOrder(Store& store, std::size_t bytes) {
+void expectEvictionOrder(Store& store, support::VirtualClock& clock, std::size_t bytes) {
     const auto saved = [&](const std::string& id, bool changed, std::size_t size) {
         const RecordUpdate update{{id, "secret"}, 1, "", std::string(size, 'x'), {}, {}, true, changed};
         store.save({&update, 1});
-        std::this_thread::sleep_for(2ms);
+        clock.advance(1ms);
     };
     saved("changed, old", true, 100'000);
     saved("held", false, 100'000);
@@ -250,14 +290,16 @@ void expectEvictionOrder(Store& store, std::size_t bytes) {
 }
 
 TEST(MemoryStore, EvictsInOrder) {
-    MemoryStore store(1U << 20U);
-    expectEvictionOrder(store, 500'000);
+    support::VirtualClock clock;
+    MemoryStore store(1U << 20U, clock.now<MemoryStore::Clock>());
+    expectEvictionOrder(store, clock, 500'000);
 }
 
 TEST(SqliteStore, EvictsInOrder) {
     const Folder folder;
-    SqliteStore store(folder.path / "sessions", 1U << 20U);
-    expectEvictionOrder(store, 250'000);
+    support::VirtualClock clock;
+    SqliteStore store(folder.path / "sessions", 1U << 20U, clock.now<SqliteStore::Clock>());
+    expectEvictionOrder(store, clock, 250'000);
 }
 
 std::uintmax_t bytesIn(const std::filesystem::path& folder) {
@@ -270,7 +312,8 @@ TEST(SqliteStore, StaysWithinItsQuotaAndReleasesFreePages) {
     const Folder folder;
     constexpr std::size_t kQuota = 2U << 20U;
     {
-        SqliteStore store(folder.path / "sessions", kQuota);
+        support::VirtualClock clock;
+        SqliteStore store(folder.path / "sessions", kQuota, clock.now<SqliteStore::Clock>());
         std::mt19937 random(1);
         std::uintmax_t most = 0;
         for (int i = 0; i < 3000; ++i) {
@@ -292,7 +335,7 @@ TEST(SqliteStore, StaysWithinItsQuotaAndReleasesFreePages) {
         }
         EXPECT_LT(most, kQuota);
         EXPECT_GT(most, kQuota / 2);
-        std::this_thread::sleep_for(2ms);
+        clock.advance(1ms);
         store.expire(0ms);
         for (int i = 0; i < 10; ++i) store.pollClaims();
         EXPECT_EQ(store.size(), 0U);
@@ -436,9 +479,31 @@ TEST(SqliteStore, ErrorsTellWhyAFileCannotBeUsed) {
     EXPECT_NE(errorOf("/proc/nowhere/x").find("unable to open"), std::string::npos) << errorOf("/proc/nowhere/x");
 }
 
+TEST(RedisStore, ExpiresUntouchedSessions) {
+    const Redis redis;
+    const auto brief = redis.connect(1h), lasting = redis.connect(3h);
+    ASSERT_TRUE(brief && lasting);
+    const auto expectExpiry = [&](Milliseconds longest) {
+        for (const char* key : {"oval4d:{id}", "oval4d:{id}:polytopes"}) {
+            EXPECT_GT(redis.expiryOf(key), longest - 1h) << key;
+            EXPECT_LE(redis.expiryOf(key), longest) << key;
+        }
+    };
+    const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {{"p", "bytes"}}, {}, false};
+    EXPECT_EQ(brief->save({&update, 1}).at(0), SaveResult::saved);
+    expectExpiry(1h);
+    const std::vector<std::string> ids{"id"};
+    lasting->touch(ids);
+    expectExpiry(3h);
+    brief->claim("id");
+    expectExpiry(1h);
+    EXPECT_TRUE(lasting->claim("id"));
+    expectExpiry(3h);
+}
+
 TEST(RedisStore, PollReturnsSessionsClaimedByOthers) {
-    const Redis redis(freePort());
-    const auto one = connectWhenReady(redis.options()), two = connectWhenReady(redis.options());
+    const Redis redis;
+    const auto one = redis.connect(), two = redis.connect();
     ASSERT_TRUE(one && two);
     const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {}, {}, false};
     EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::saved);
@@ -454,8 +519,8 @@ TEST(RedisStore, PollReturnsSessionsClaimedByOthers) {
 }
 
 TEST(RedisStore, RemovesOnlyItsOwnSessions) {
-    const Redis redis(freePort());
-    const auto one = connectWhenReady(redis.options()), two = connectWhenReady(redis.options());
+    const Redis redis;
+    const auto one = redis.connect(), two = redis.connect();
     ASSERT_TRUE(one && two);
     const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {{"p", "q"}}, {}, false, true};
     one->save({&update, 1});
@@ -467,18 +532,17 @@ TEST(RedisStore, RemovesOnlyItsOwnSessions) {
 }
 
 TEST(RedisStore, RecoversWhenRedisHasLostAllData) {
-    const int port = freePort();
-    auto redis = std::make_unique<Redis>(port);
-    const auto one = connectWhenReady(redis->options()), two = connectWhenReady(redis->options());
+    Redis redis;
+    const auto one = redis.connect(), two = redis.connect();
     ASSERT_TRUE(one && two);
     const RecordUpdate first{{"id", "secret"}, 1, "", "whole", {}, {}, false};
     EXPECT_EQ(one->save({&first, 1}).at(0), SaveResult::saved);
-    redis.reset();
+    redis.stop();
     EXPECT_THROW(one->save({&first, 1}), StoreError);
     EXPECT_THROW(one->pollClaims(), StoreError);
     EXPECT_THROW(two->pollClaims(), StoreError);
-    redis = std::make_unique<Redis>(port);
-    ASSERT_TRUE(connectWhenReady(redis->options()));
+    redis.start();
+    ASSERT_TRUE(redis.connect());
     const RecordUpdate head{{"id", "secret"}, 1, "head", "", {}, {}, false};
     EXPECT_EQ(one->save({&head, 1}).at(0), SaveResult::missing);
     EXPECT_EQ(one->save({&first, 1}).at(0), SaveResult::saved);

@@ -1,8 +1,10 @@
 #include <future>
-#include <thread>
+#include <type_traits>
 
+#include "hang_limit.hpp"
 #include "store/memory_store.hpp"
 #include "store/write_behind_store.hpp"
+#include "unit/parallel/virtual_clock.hpp"
 #include "unit/store/support.hpp"
 
 namespace oval4d::store {
@@ -13,10 +15,11 @@ using session::Session;
 
 /// Shared by a test and its FaultyStore.
 struct StoreControl {
+    support::VirtualClock clock;
     std::atomic<bool> fails = false;
-    std::atomic<int> saves = 0;
+    std::atomic<int> attempts = 0, saves = 0, refreshes = 0;  // numbers of operations, saved sessions, expire()
     std::mutex mutex;
-    MemoryStore kept;  // guarded by mutex
+    MemoryStore kept{kDefaultQuota, clock.now<MemoryStore::Clock>()};  // guarded by mutex
 };
 
 /// A shared store that a test can make fail.
@@ -25,39 +28,57 @@ class FaultyStore final : public Store {
     explicit FaultyStore(std::shared_ptr<StoreControl> control) : control_(std::move(control)) {}
     WritePolicy writePolicy() const override { return WritePolicy::at_once; }
     std::string name() const override { return "faulty"; }
-    std::optional<std::string> tokenHash(const std::string& id) override { return checked().tokenHash(id); }
-    std::optional<Record> claim(const std::string& id) override { return checked().claim(id); }
+    std::optional<std::string> tokenHash(const std::string& id) override {
+        return attempt([&](MemoryStore& kept) { return kept.tokenHash(id); });
+    }
+    std::optional<Record> claim(const std::string& id) override {
+        return attempt([&](MemoryStore& kept) { return kept.claim(id); });
+    }
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override {
-        MemoryStore& kept = checked();
-        const std::lock_guard lock(control_->mutex);
-        control_->saves += static_cast<int>(updates.size());
-        return kept.save(updates);
+        return attempt([&](MemoryStore& kept) {
+            control_->saves += static_cast<int>(updates.size());
+            return kept.save(updates);
+        });
     }
     std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) override {
-        MemoryStore& kept = checked();
-        const std::lock_guard lock(control_->mutex);
-        return kept.evict(updates, isPinned);
+        return attempt([&](MemoryStore& kept) { return kept.evict(updates, isPinned); });
     }
     void remove(std::span<const std::string> ids) override {
-        MemoryStore& kept = checked();
-        const std::lock_guard lock(control_->mutex);
-        kept.remove(ids);
+        attempt([&](MemoryStore& kept) { kept.remove(ids); });
     }
-    void touch(std::span<const std::string> ids) override { checked().touch(ids); }
-    std::size_t expire(Milliseconds age) override { return checked().expire(age); }
-    std::vector<std::string> pollClaims() override { return checked().pollClaims(); }
-    std::size_t size() const override { return control_->kept.size(); }
+    void touch(std::span<const std::string> ids) override {
+        attempt([&](MemoryStore& kept) { kept.touch(ids); });
+    }
+    std::size_t expire(Milliseconds age) override {
+        return attempt([&](MemoryStore& kept) {
+            ++control_->refreshes;
+            return kept.expire(age);
+        });
+    }
+    std::vector<std::string> pollClaims() override {
+        return attempt([](MemoryStore& kept) { return kept.pollClaims(); });
+    }
+    std::size_t size() const override {
+        const std::lock_guard lock(control_->mutex);
+        return control_->kept.size();
+    }
 
   private:
-    MemoryStore& checked() {
-        if (control_->fails) throw StoreError("failure requested by the test");
-        return control_->kept;
+    template <typename Operation>
+    std::invoke_result_t<Operation, MemoryStore&> attempt(Operation operation) {
+        const std::lock_guard lock(control_->mutex);
+        ++control_->attempts;
+        if (control_->fails) throw StoreError("failure requested by the test: " + std::to_string(control_->attempts));
+        return operation(control_->kept);
     }
     const std::shared_ptr<StoreControl> control_;
 };
 
+/// Tests in virtual time: the cache's thread regards only the time of the test's clock.
 class WriteBehindStoreTest : public testing::Test {
   protected:
+    explicit WriteBehindStoreTest(std::size_t quota = kDefaultQuota) : settings{1h, 100, quota} {}
+
     WriteBehindStore::FetchResult fetch(const SessionCredentials& credentials) {
         std::promise<WriteBehindStore::FetchResult> promise;
         writeBehind.fetch(credentials,
@@ -70,10 +91,19 @@ class WriteBehindStoreTest : public testing::Test {
         writeBehind.save(id, session, scope, [&](bool ours) { promise.set_value(ours); });
         return promise.get_future().get();
     }
-    static void eventually(const std::function<bool()>& happened) {
-        for (int i = 0; i < 3000 && !happened(); ++i) std::this_thread::sleep_for(10ms);
-        EXPECT_TRUE(happened());
+    /// Waits while the time stands still.
+    void atOnce(const std::function<bool()>& happened) {
+        EXPECT_TRUE(support::eventually(happened, [&] { wake(); }));
     }
+    /// Waits while the time passes.
+    void eventually(const std::function<bool()>& happened) {
+        EXPECT_TRUE(support::eventually(happened, [&] {
+            control->clock.advance(10ms);
+            wake();
+        }));
+    }
+    /// Makes the cache's thread look at the clock: to save an unknown session does nothing else.
+    void wake() { writeBehind.save("nobody", {}, WriteBehindStore::SaveScope::head); }
     Session at(std::uint64_t revision) const {
         Session session;
         session.revision = revision;
@@ -91,10 +121,12 @@ class WriteBehindStoreTest : public testing::Test {
 
     std::shared_ptr<StoreControl> control = std::make_shared<StoreControl>();
     std::atomic<int> taken = 0, wanted = 0, back = 0;
+    const WriteBehindStore::Settings settings;
     WriteBehindStore writeBehind{std::make_unique<FaultyStore>(control),
-                                 {10s, 100},
+                                 settings,
                                  {[this](const std::string&) { ++taken; }, [this](const std::string&) { ++wanted; },
-                                  [this] { ++back; }, [](const char*, double, bool) {}}};
+                                  [this] { ++back; }, [](const char*, double, bool) {}},
+                                 control->clock.now<WriteBehindStore::Clock>()};
 };
 
 TEST_F(WriteBehindStoreTest, SavedSessionsAreInTheStore) {
@@ -213,34 +245,70 @@ TEST_F(WriteBehindStoreTest, WritesPolytopesAgainAfterAFailure) {
     EXPECT_EQ(record->objects.size(), 1U);
 }
 
+class SmallWriteBehindStoreTest : public WriteBehindStoreTest {
+  protected:
+    SmallWriteBehindStoreTest() : WriteBehindStoreTest(100'000) {}
+};
+
 /// While the store is unavailable, closed sessions in memory are limited by the quota: those that were never changed
 /// are evicted first, then the oldest.
-TEST(WriteBehindStore, EvictsClosedSessionsBeyondTheQuota) {
-    const auto control = std::make_shared<StoreControl>();
+TEST_F(SmallWriteBehindStoreTest, EvictsClosedSessionsBeyondTheQuota) {
     control->fails = true;
-    WriteBehindStore writeBehind(
-        std::make_unique<FaultyStore>(control), {10s, 100, 100'000},
-        {[](const std::string&) {}, [](const std::string&) {}, [] {}, [](const char*, double, bool) {}});
-    for (int i = 0; i < 3000 && writeBehind.lastError().empty(); ++i) std::this_thread::sleep_for(10ms);
-    Session changed;
-    changed.revision = 1;
+    eventually([&] { return !writeBehind.lastError().empty(); });
     const SessionCredentials open = writeBehind.create();
-    writeBehind.save(open.id, changed, WriteBehindStore::SaveScope::whole);
+    writeBehind.save(open.id, at(1), WriteBehindStore::SaveScope::whole);
     std::vector<SessionCredentials> credentialsList;
     for (int i = 0; i < 2000; ++i) {
         credentialsList.push_back(writeBehind.create());
-        writeBehind.close(credentialsList.back().id, i == 1999 ? changed : Session{});
+        writeBehind.close(credentialsList.back().id, at(i == 1999 ? 1 : 0));
+        control->clock.advance(1us);
     }
     writeBehind.close(writeBehind.create().id, Session{});
     EXPECT_LT(writeBehind.unsaved(), 300U);
     EXPECT_GT(writeBehind.unsaved(), 10U);
     EXPECT_EQ(writeBehind.count(), writeBehind.unsaved());
     control->fails = false;
-    for (int i = 0; i < 3000 && writeBehind.unsaved() > 0; ++i) std::this_thread::sleep_for(10ms);
+    eventually([&] { return writeBehind.unsaved() == 0; });
     const std::lock_guard lock(control->mutex);
     EXPECT_TRUE(control->kept.tokenHash(open.id)) << "it is open";
     EXPECT_TRUE(control->kept.tokenHash(credentialsList[1999].id));
     EXPECT_FALSE(control->kept.tokenHash(credentialsList[0].id));
+}
+
+TEST_F(WriteBehindStoreTest, RetriesAfterLongerAndLongerPauses) {
+    control->fails = true;
+    const SessionCredentials credentials = writeBehind.create();
+    writeBehind.save(credentials.id, at(1), WriteBehindStore::SaveScope::whole);
+    atOnce([&] { return !writeBehind.lastError().empty(); });
+    for (const Milliseconds longest : {100ms, 200ms, 400ms, 800ms, 1600ms, 3200ms, 5000ms, 5000ms}) {
+        const int attempts = control->attempts;
+        const std::string error = writeBehind.lastError();
+        control->clock.advance(longest / 2 - 1ms);
+        EXPECT_EQ(fetch({"nobody", ""}).error().code, ErrorCode::internal);
+        EXPECT_EQ(control->attempts, attempts) << "the pause has at least half of its greatest length";
+        control->clock.advance(longest / 2 + 1ms);
+        atOnce([&] { return writeBehind.lastError() != error; });
+        EXPECT_EQ(control->attempts, attempts + 1);
+    }
+}
+
+TEST_F(WriteBehindStoreTest, ClosedSessionsExpireAndOpenOnesDoNot) {
+    const SessionCredentials open = writeBehind.create(), closed = writeBehind.create();
+    EXPECT_TRUE(save(open.id, at(1)));
+    writeBehind.close(closed.id, at(1));
+    eventually([&] { return writeBehind.unsaved() == 0; });
+    const auto isStored = [&](const SessionCredentials& credentials) {
+        const std::lock_guard lock(control->mutex);
+        return control->kept.tokenHash(credentials.id).has_value();
+    };
+    EXPECT_TRUE(isStored(closed));
+    for (int minute = 0; minute < 62; ++minute) {
+        const int refreshes = control->refreshes;
+        control->clock.advance(1min);
+        atOnce([&] { return control->refreshes > refreshes; });
+    }
+    EXPECT_TRUE(isStored(open));
+    EXPECT_FALSE(isStored(closed));
 }
 
 TEST_F(WriteBehindStoreTest, WritesAPolytopeOnce) {
@@ -265,7 +333,7 @@ TEST_F(WriteBehindStoreTest, StopWritesPendingChanges) {
         credentialsList.push_back(writeBehind.create());
         writeBehind.close(credentialsList.back().id, at(i));
     }
-    writeBehind.stop(20s);
+    writeBehind.stop(support::hangLimit());
     for (std::uint64_t i = 1; i <= 600; ++i) EXPECT_EQ(kept(credentialsList[i - 1].id), i);
 }
 

@@ -1,5 +1,8 @@
-#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -70,45 +73,94 @@ TEST(Parse, GetAndShown) {
     EXPECT_EQ(std::get<ShownRevision>(parsed(R"({"type":"shown","revision":7})").body).revision, 7U);
 }
 
-std::optional<bool> part(const session::Set& set, std::string_view name) {
-    const auto row = std::ranges::find(scene::kParts, name, &scene::PartRow::name);
-    return set.parts.at(static_cast<std::size_t>(row - scene::kParts.begin()));
+/// A member of a set message: its place as a JSON pointer (RFC 6901), a value, and whether a Set holds this value.
+struct SetMember {
+    std::string place, value;
+    std::function<bool(const session::Set&)> isIn;
+};
+
+std::vector<SetMember> setMembers() {
+    using session::Set;
+    std::vector<SetMember> members{
+        {"/continues", "true", [](const Set& set) { return set.continues; }},
+        {"/polytope", R"({"name":"24-cell","cells":24})", [](const Set& set) { return set.object == "24-cell"; }},
+        {"/field", R"({"formula":"x*y","box":[[-1,1],[-1,1],[-1,1],[0,2]],
+                       "values":{"formula":"w","range":[0,2],"colors":[0,0,0,0,0,0,0,0,0]}})",
+         [](const Set& set) {
+             return set.formula && set.formula->name == "24-cell" && set.formula->data == "x*y" &&
+                    set.formula->box->max == glm::dvec4(1, 1, 1, 2) && set.formula->values == "w";
+         }},
+        {"/pace", "2", [](const Set& set) { return set.pace == 2; }},
+        {"/follow", "[0.1,0.2,0.3]", [](const Set& set) { return set.follow == glm::dvec3(0.1, 0.2, 0.3); }},
+        {"/boost", "[0,0.5,0]", [](const Set& set) { return set.boost == glm::dvec3(0, 0.5, 0); }},
+        {"/orientation", "[[1,0,0,0],[0,0,-1,0],[0,1,0,0],[0,0,0,1]]",  // rows, not columns
+         [](const Set& set) {
+             return set.orientation && *set.orientation * glm::dvec4(0, 0, 1, 0) == glm::dvec4(0, -1, 0, 0);
+         }},
+        {"/alpha", "0.1", [](const Set& set) { return set.alpha == 0.1; }},
+        {"/beta", "-0.2", [](const Set& set) { return set.beta == -0.2; }},
+        {"/step", "0.01", [](const Set& set) { return set.step == 0.01; }},
+        {"/slices/count", "21.0", [](const Set& set) { return set.count == 21; }},  // an integer, however it is written
+        {"/slices/spacing", "0.5", [](const Set& set) { return set.spacing == 0.5; }},
+        {"/slices/focus", "-3", [](const Set& set) { return set.focus == -3; }},
+        {"/slices/offset", "0.25", [](const Set& set) { return set.offset == 0.25; }},
+        {"/slices/w", "-1.25", [](const Set& set) { return set.focusW == -1.25; }},
+        {"/point", "[1,2,3,4]", [](const Set& set) { return set.focusPoint == glm::dvec4(1, 2, 3, 4); }},
+        {"/view", R"("single")", [](const Set& set) { return set.view == scene::View::single; }},
+        {"/turning", "true", [](const Set& set) { return set.turning == true; }},
+        {"/camera/azimuth", "1", [](const Set& set) { return set.azimuth == 1; }},
+        {"/camera/elevation", "2", [](const Set& set) { return set.elevation == 2; }},
+        {"/camera/zoom", "3", [](const Set& set) { return set.zoom == 3; }},
+        {"/color", R"("w")", [](const Set& set) { return set.coloring == scene::Coloring::w; }},
+        {"/caps", R"("open")", [](const Set& set) { return set.caps == scene::CapStyle::open; }},
+        {"/projection", R"("orthogonal")",
+         [](const Set& set) { return set.projection == scene::ProjectionKind::orthogonal; }},
+        {"/eye", "5", [](const Set& set) { return set.eye == 5; }},
+        {"/levels", "[1,2]", [](const Set& set) { return set.levels == std::vector<double>{1, 2}; }},
+        {"/inside", R"("above")", [](const Set& set) { return set.inside == fields::Inside::above; }},
+        {"/fog", R"([{"value":0,"opacity":0.5},{"value":1,"opacity":1,"color":255}])",
+         [](const Set& set) { return set.fog == std::vector<slicing::FogPoint>{{0, 0.5}, {1, 1, 255}}; }},
+        {"/hidden", "[3,1]", [](const Set& set) { return set.hidden == std::vector<std::uint32_t>{3, 1}; }},
+        {"/faded", "[]", [](const Set& set) { return set.faded == std::vector<std::uint32_t>{}; }},
+        {"/highlight", R"({"element":"edge","number":7})",
+         [](const Set& set) {
+             return set.highlight && *set.highlight == slicing::Element{slicing::ElementKind::edge, 7};
+         }},
+        {"/last", R"({"planes":["xw"],"angles":[0.3]})",
+         [](const Set& set) { return set.lastTurn == geometry::Turn{geometry::Plane::xw, 0.3, {}}; }},
+    };
+    for (std::size_t i = 0; i < scene::kParts.size(); ++i) {
+        const bool shown = i % 2 == 0;
+        members.push_back({"/shown/" + std::string(scene::kParts[i].name), shown ? "true" : "false",
+                           [i, shown](const Set& set) { return set.parts[i] == shown; }});
+    }
+    return members;
 }
 
 TEST(Parse, SetsEverySetting) {
-    const auto set = parsedCommand<session::Set>(
-        R"({"type":"set","polytope":{"name":"24-cell","cells":24},"orientation":[[1,0,0,0],[0,0,-1,0],[0,1,0,0],[0,0,0,1]],
-            "pace":2,"follow":[0.1,0.2,0.3],"boost":[0,0.5,0],
-            "alpha":0.1,"beta":-0.2,"step":0.01,"slices":{"count":21.0,"spacing":0.5,"focus":-3},"view":"single","turning":true,
-            "shown":{"faces":false,"balls":true},"camera":{"azimuth":1,"elevation":2,"zoom":3},
-            "color":"w","hidden":[3,1],"faded":[],"fog":[{"value":0,"opacity":0.5},{"value":1,"opacity":1,"color":255}],
-            "last":{"planes":["xw"],"angles":[0.3]}})");
-    EXPECT_EQ(set.object, "24-cell");
-    ASSERT_TRUE(set.orientation);
-    EXPECT_EQ(*set.orientation * glm::dvec4(0, 0, 1, 0), glm::dvec4(0, -1, 0, 0)) << "rows, not columns";
-    EXPECT_EQ(set.pace, 2);
-    EXPECT_EQ(set.follow, glm::dvec3(0.1, 0.2, 0.3));
-    EXPECT_EQ(set.boost, glm::dvec3(0, 0.5, 0));
-    EXPECT_EQ(set.alpha, 0.1);
-    EXPECT_EQ(set.beta, -0.2);
-    EXPECT_EQ(set.step, 0.01);
-    EXPECT_EQ(set.count, 21) << "a whole number is an integer, however it is written";
-    EXPECT_EQ(set.spacing, 0.5);
-    EXPECT_EQ(set.focus, -3);
-    EXPECT_EQ(set.view, scene::View::single);
-    EXPECT_EQ(set.turning, true);
-    EXPECT_EQ(part(set, "faces"), false);
-    EXPECT_EQ(part(set, "balls"), true);
-    EXPECT_FALSE(part(set, "bars"));
-    EXPECT_FALSE(part(set, "coordinates"));
-    EXPECT_EQ(set.azimuth, 1);
-    EXPECT_EQ(set.elevation, 2);
-    EXPECT_EQ(set.zoom, 3);
-    EXPECT_EQ(set.coloring, scene::Coloring::w);
-    EXPECT_EQ(set.hidden, (std::vector<std::uint32_t>{3, 1}));
-    EXPECT_EQ(set.faded, std::vector<std::uint32_t>{});
-    EXPECT_EQ(set.fog, (std::vector<slicing::FogPoint>{{0, 0.5}, {1, 1, 255}}));
-    EXPECT_EQ(set.lastTurn, (geometry::Turn{geometry::Plane::xw, 0.3, {}}));
+    nlohmann::json message{{"type", "set"}};
+    std::set<std::string> tested;
+    for (const SetMember& member : setMembers()) {
+        message[nlohmann::json::json_pointer(member.place)] = nlohmann::json::parse(member.value);
+        tested.insert(member.place);
+        EXPECT_FALSE(member.isIn({})) << member.place;
+    }
+    const auto set = parsedCommand<session::Set>(message.dump());
+    for (const SetMember& member : setMembers()) EXPECT_TRUE(member.isIn(set)) << member.place;
+
+    // Each setting of the schema is among them.
+    std::set<std::string> settings;
+    const nlohmann::json properties = schemaText("set.schema.json").at("properties");
+    for (const auto& [name, property] : properties.items()) {
+        if (name == "type" || name == "id" || property.value("description", "").starts_with("Ignored")) continue;
+        if (name != "slices" && name != "camera" && name != "shown") {
+            settings.insert("/" + name);
+            continue;
+        }
+        for (const auto& [member, schema] : property.at("properties").items())
+            settings.insert("/" + name + "/" + member);
+    }
+    EXPECT_EQ(tested, settings);
     EXPECT_EQ(parsedCommand<session::Set>(R"({"type":"set","polytope":"5-cell"})").object, "5-cell");
 }
 

@@ -59,7 +59,7 @@ FieldPtr arrayOf(const FieldPtr& field, std::size_t side) {
 
 CriticalSections criticalOf(const Object& object, const FieldSettings& settings = {},
                             const geometry::Rotation& orientation = {}) {
-    auto found = findCriticalSections(object, orientation, settings, {.time = std::chrono::seconds(600)});
+    auto found = findCriticalSections(object, orientation, settings, {.time = std::chrono::hours(24)});
     EXPECT_TRUE(found);
     return found ? std::move(*found) : CriticalSections{};
 }
