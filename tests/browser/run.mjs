@@ -18,7 +18,7 @@ import { runJobs, runningTests } from "./support/pool.mjs";
 
 const kLatencies = "performance.mjs";
 const kFirefox = "firefox.mjs";
-const kLongest = ["picture.mjs", "keys.mjs", "axe.mjs", "fields.mjs", "accessibility.mjs", "field_panel.mjs"]; // these begin
+const kLongest = ["fields.mjs", "picture.mjs", "axe.mjs", "field_panel.mjs", "slider.mjs", "accessibility.mjs"]; // these begin
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values: options, positionals } = parseArgs({
