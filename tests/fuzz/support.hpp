@@ -50,7 +50,7 @@ namespace oval4d::fuzz {
 
 /// If `holds` is false, reports a fault with the message `what`, followed by `detail`.
 inline void require(bool holds, std::string_view what, std::string_view detail = {}) {
-    if (!holds) reportFault(std::string(what) + " " + std::string(detail));
+    if (!holds) reportFault(std::string(what) + (detail.empty() ? "" : " ") + std::string(detail));
 }
 
 inline std::string_view textOf(const std::uint8_t* data, std::size_t size) {
