@@ -13,11 +13,11 @@ using fuzz::require;
 namespace {
 
 constexpr std::size_t kPoints = 13;  // not a multiple of kLanes
-using Column = std::array<float, kPoints>;
+using PointValues = std::array<float, kPoints>;
 
 struct Points {
-    std::array<Column, 4> coordinates, gradients;
-    Column values;
+    std::array<PointValues, 4> coordinates, gradients;
+    PointValues values;
 
     fields::PointBatch batch() const { return {coordinates[0], coordinates[1], coordinates[2], coordinates[3]}; }
 };
@@ -55,7 +55,7 @@ void requireWithinBounds(const fields::Formula& formula, const fields::Kernels& 
     const fields::Bounds bounds = function.boundsIn(box);
     auto& [x, y, z, w] = points.gradients;
     function.evaluateWithGradient(points.batch(), points.values, {x, y, z, w});
-    const Column values = points.values;
+    const PointValues values = points.values;
     function.evaluate(points.batch(), points.values);
     for (std::size_t i = 0; i < kPoints; ++i) {
         const float value = points.values[i];
@@ -63,7 +63,7 @@ void requireWithinBounds(const fields::Formula& formula, const fields::Kernels& 
                 "a value does not depend on whether the gradient is computed:", formula.text());
         require(std::isnan(value) ? !bounds.total : bounds.min <= value && value <= bounds.max,
                 "a value is within the bounds:", formula.text());
-        for (const Column& gradient : points.gradients)
+        for (const PointValues& gradient : points.gradients)
             require(std::isfinite(gradient[i]), "a gradient is finite:", formula.text());
     }
 }
@@ -83,7 +83,7 @@ OVAL4D_FUZZER(formula) {
     const fields::Box box = boxFrom(rest, points);
     requireWithinBounds(*formula, fields::portableKernels(), box, points);
     requireWithinBounds(*formula, fields::fastestKernels(), box, points);
-    const Column values = points.values;
+    const PointValues values = points.values;
 
     const auto again = fields::parseFormula(formula->text());
     require(static_cast<bool>(again), "a formula's text is a formula:", formula->text());
