@@ -66,6 +66,13 @@ def server_with_store(store_path, quota="1G", **variables):
     return Server("--workers", 1, "--store", f"sqlite:{store_path}", "--store-quota", quota, **variables)
 
 
+def wait_until_saved(server, open_sessions=0):
+    """Waits until no more than so many sessions are open and everything is written to the store. An open session that
+    has changed counts as unsaved only when it is passed to the store, a quarter of a second later."""
+    server.wait_for(lambda: server.metric("oval4d_open_sessions") <= open_sessions)
+    server.wait_for(lambda: server.metric("oval4d_unsaved_sessions") == 0)
+
+
 def credentials_of(client):
     return {"session": client.welcome["session"], "token": client.welcome["token"]}
 
@@ -159,7 +166,7 @@ async def test_store_files_are_accessible_only_to_their_owner(store_path, mask):
     try:
         credentials, _ = await press_key(server)
         server.wait_for(lambda: files_containing(store_path, credentials["session"]))
-        server.wait_for(lambda: server.metric("oval4d_unsaved_sessions") == 0)
+        wait_until_saved(server)
         assert file_modes(store_path) == {0o600} and len(store_files(store_path)) > 1
         assert stat.S_IMODE(store_path.parent.stat().st_mode) == 0o700
         assert not files_containing(store_path, credentials["token"]) and files_containing(store_path, credentials["session"])
@@ -306,11 +313,11 @@ async def test_redis_keeps_plain_tokens_for_servers_of_version_0_1_0(tmp_path):
         with redis.start_server() as server:
             credentials, _ = await press_key(server)
             other, _ = await press_key(server)
-            server.wait_for(lambda: server.metric("oval4d_unsaved_sessions") == 0)
+            wait_until_saved(server)
             assert {"hash", "token"} <= set(redis.session_fields(credentials)), "a new session"
             redis.rewrite_as_version_0_1_0(other)
             assert await press_key(server, **other) == (other, 2)
-            server.wait_for(lambda: server.metric("oval4d_unsaved_sessions") == 0)
+            wait_until_saved(server)
             assert {"hash", "token"} <= set(redis.session_fields(other)), "a session of the older server"
         assert int(redis.command("GET", "oval4d:tokens_hashed_since")) > 0
         redis.command("SET", "oval4d:tokens_hashed_since", "1")  # in January 1970
@@ -453,7 +460,7 @@ async def test_the_store_quota_evicts_sessions(store_path):
                 credentials.append(credentials_of(client))
                 await client.leave()
                 assert store_size(store_path) <= MIB
-            server.wait_for(lambda: server.metric("oval4d_unsaved_sessions") == 0)
+            wait_until_saved(server, 1)
             assert server.get("/readyz").body == b"ready\n" and "sessions evicted" in server.log()
             assert store_size(store_path) <= MIB
             assert await session_revision(server, untouched) is None
@@ -485,7 +492,7 @@ async def test_open_sessions_are_never_evicted(store_path, place):
         for client in clients[1:]:
             await client.leave()
         server.wait_for(lambda: server.get("/readyz").body == b"ready\n")
-        server.wait_for(lambda: server.metric("oval4d_unsaved_sessions") == 0)
+        wait_until_saved(server, 1)
         kept = [await session_revision(server, credentials_of(client)) for client in clients]
         assert kept[0] == kept[-1] == 2 and kept.count(None) > 3
         await clients[0].leave()
@@ -500,7 +507,7 @@ async def test_sessions_survive_a_full_disk(tmp_path):
     server = server_with_store(store_path)
     try:
         kept, _ = await press_key(server)
-        server.wait_for(lambda: server.metric("oval4d_unsaved_sessions") == 0)
+        wait_until_saved(server)
         limit_file_size(server, 4096)
         async with Client(server) as client:
             assert (await client.request("key", key="k"))["revision"] == 1
@@ -511,7 +518,7 @@ async def test_sessions_survive_a_full_disk(tmp_path):
             limit_file_size(server, -1)
             server.wait_for(lambda: server.get("/readyz").body == b"ready\n")
             credentials = credentials_of(client)
-        server.wait_for(lambda: server.metric("oval4d_unsaved_sessions") == 0)
+        wait_until_saved(server)
         server.stop()
     finally:
         server.kill()

@@ -24,4 +24,4 @@ def test_running_work_does_not_delay_a_stop(work):
             starts.append(time.monotonic() - start)
     figures = f"{work}: seconds of stops beyond the time limit {stops}, of starts {starts}"
     print(figures)
-    assert statistics.median(stops) <= 2 * statistics.median(starts), figures
+    assert statistics.median(stops) <= 4 * statistics.median(starts), figures
