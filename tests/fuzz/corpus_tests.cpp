@@ -15,6 +15,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support.hpp"
+
 namespace fs = std::filesystem;
 
 #define FUZZER(subject) int fuzz_##subject(const std::uint8_t* data, std::size_t size);
@@ -93,7 +95,6 @@ TEST(Corpora, EachFuzzerHasOne) {
 
 namespace oval4d::fuzz {
 
-// Declared in support.hpp.
 [[noreturn]] void reportFault(const std::string& message) {
     ADD_FAILURE() << message;
     throw InputFailed{};

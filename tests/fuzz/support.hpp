@@ -23,15 +23,16 @@
 #include "wire/messages.hpp"
 #include "wire/parse.hpp"
 
-/// Begins the definition of a fuzzer: a function of `data` and `size`, the input's bytes, that returns 0. libFuzzer calls
-/// it by its own name for it; corpus_tests.cpp by the name of the fuzzer's subject.
+/// Begins the definition of a fuzzer: a function of `data` and `size`, the input's bytes, that returns 0. libFuzzer
+/// calls it by its own name for it; corpus_tests.cpp by the name of the fuzzer's subject.
 #ifdef OVAL4D_CORPUS_TESTS
-#define OVAL4D_FUZZER(subject)                                         \
+#define OVAL4D_FUZZER(subject)                                      \
     int fuzz_##subject(const std::uint8_t* data, std::size_t size); \
     int fuzz_##subject(const std::uint8_t* data, std::size_t size)
 #else
-#define OVAL4D_FUZZER(subject) \
-    extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)  // NOLINT(readability-identifier-naming)
+#define OVAL4D_FUZZER(subject)                                      \
+    extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, \
+                                          std::size_t size)  // NOLINT(readability-identifier-naming)
 #endif
 
 namespace oval4d::fuzz {

@@ -6,7 +6,7 @@ import time
 
 from harness import Server
 from test_files import LONG_FILE, requested_files
-from test_large_fields import empty_folder, open_server, sparse_npy  # noqa: F401
+from test_large_fields import open_server, sparse_npy
 from wire import Client
 
 SIZE = {"width": 320, "height": 180}
@@ -39,8 +39,10 @@ async def test_pictures_are_hardly_slower_beside_files():
     assert ratio < 4
 
 
-async def test_a_large_array_opens_almost_as_fast_as_a_small_one(folder):  # noqa: F811
+async def test_a_large_array_opens_almost_as_fast_as_a_small_one(tmp_path):
     """The first picture of an array, a draft, does not require that the server reads all of it."""
+    folder = tmp_path / "data"
+    folder.mkdir()
     sizes = {"small": 64, "large": 512}  # of 100 moments: 0.1 GB and 54 GB
     for name, size in sizes.items():
         sparse_npy(folder / f"{name}.npy", (100, size, size, size), [])

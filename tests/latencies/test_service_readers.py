@@ -4,8 +4,7 @@ import contextlib
 import random
 import time
 
-from test_readers import (damaged_copy, from_cbor, message_folder, png_state, read_damaged,  # noqa: F401
-                          write_messages)
+from test_readers import damaged_copy, from_cbor, png_state, read_damaged, write_messages
 
 
 def processor_time(read, data):
@@ -19,12 +18,12 @@ def processor_time(read, data):
     return min(times)
 
 
-async def test_the_python_client_reads_damaged_messages_fast(server, message_folder):  # noqa: F811
-    await write_messages(server, message_folder)
+async def test_the_python_client_reads_damaged_messages_fast(server, tmp_path):
+    await write_messages(server, tmp_path)
     rng = random.Random(11)
     undamaged = damaged = 0
     for read, kind in ((from_cbor, "cbor"), (png_state, "png")):
-        for file in sorted(message_folder.glob(f"*.{kind}")):
+        for file in sorted(tmp_path.glob(f"*.{kind}")):
             whole = file.read_bytes()
             undamaged = max(undamaged, processor_time(read, whole))
             damaged = max(damaged, *(processor_time(read, damaged_copy(whole, rng)) for _ in range(200)))
@@ -32,9 +31,9 @@ async def test_the_python_client_reads_damaged_messages_fast(server, message_fol
     assert damaged < 20 * undamaged
 
 
-async def test_the_typescript_client_reads_damaged_messages_fast(server, message_folder):  # noqa: F811
-    await write_messages(server, message_folder)
-    counts = read_damaged(message_folder)
+async def test_the_typescript_client_reads_damaged_messages_fast(server, tmp_path):
+    await write_messages(server, tmp_path)
+    counts = read_damaged(tmp_path)
     damaged, undamaged = (max(count[name] for count in counts.values()) for name in ("slowest", "slowestUndamaged"))
     print(f"the slowest damaged message takes {damaged / undamaged:.2f} times as long as the slowest undamaged one")
     assert damaged < 20 * undamaged

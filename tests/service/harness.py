@@ -23,7 +23,6 @@ def is_sanitizer_build():
 
 # The seconds after which whatever a test waits for counts as hung: the only bound on the duration of anything.
 DEADLINE = int(Path(__file__).parents[1].joinpath("hang_limit_seconds").read_text(encoding="ascii"))
-SLOW = 1
 
 # The server's own limits on the duration of anything. A test whose subject is one of them sets it, and no other test
 # depends on them, however slow the machine is.

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from harness import DEADLINE, LONG_TIME, Server, cpu_seconds, wait_until
 from surfaces import field_client
-from wire import Client, Refused
+from wire import Client
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "protocol/python"))
 import oval4d_client  # noqa: E402

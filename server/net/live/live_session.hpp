@@ -216,10 +216,10 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     std::map<const Peer*, Subscriber> clients_;
     Clock::time_point changed_;                    // the time at which the session reached its revision
     std::optional<Clock::time_point> lastChange_;  // empty before the first change since the session was opened
-    bool changesQuickly_ = false;                  // whether the last change soon followed another one, and no rest has followed
-    SnapshotPtr snapshot_;      // the newest snapshot, kept while a client waits for a picture; else null
-    EncodedPictures pictures_;  // pictures of snapshot_
-    SharedBytes stateText_;     // the `state` message of stateRevision_, for clients without a stream
+    bool changesQuickly_ = false;  // whether the last change soon followed another one, and no rest has followed
+    SnapshotPtr snapshot_;         // the newest snapshot, kept while a client waits for a picture; else null
+    EncodedPictures pictures_;     // pictures of snapshot_
+    SharedBytes stateText_;        // the `state` message of stateRevision_, for clients without a stream
     std::optional<std::uint64_t> stateRevision_;
     std::uint64_t jobs_ = 0;                 // the number of jobs posted so far; also the number of the newest job
     std::uint64_t drawing_ = 0;              // the number of the job that is queued or being drawn; 0 if there is none
