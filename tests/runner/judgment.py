@@ -26,6 +26,7 @@ class Part:
     checks: Callable
     presets: tuple = ()
     at_once: int = 1  # how many of its checks run at the same time
+    beside_previous: bool = False  # whether it runs at the same time as the part before it
 
 
 @dataclass
@@ -86,14 +87,26 @@ def run_again(check, failed, folder, say):
         say(f"again: {outcome.first.name}: {'passed this time' if outcome.unstable else 'FAILED again'}")
 
 
+def side_by_side(parts):
+    """Returns the parts as lists of those that run at the same time."""
+    groups = []
+    for part in parts:
+        if part.beside_previous and groups:
+            groups[-1].append(part)
+        else:
+            groups.append([part])
+    return groups
+
+
 def judge(parts, results_folder, say):
     """Runs the parts, and what failed once more at the end. Returns the results of each part, and the seconds that the
     second runs took."""
     all_results, again = [], []
-    for part in parts:
-        found, failed_checks = run_part(part, results_folder / part.name, say)
-        all_results.append(found)
-        again += [(check, failed, results_folder / part.name) for check, failed in failed_checks]
+    for group in side_by_side(parts):
+        with concurrent.futures.ThreadPoolExecutor(len(group)) as pool:
+            for found, failed_checks in pool.map(lambda part: run_part(part, results_folder / part.name, say), group):
+                all_results.append(found)
+                again += [(check, failed, results_folder / found.part.name) for check, failed in failed_checks]
     start = time.monotonic()
     for check, failed, folder in again:
         run_again(check, failed, folder, say)

@@ -142,10 +142,10 @@ GATE = [
     Part("lint", 60, lint, ("release",)),
     Part("unit", 60, unit, ("release",), at_once=2),
     Part("corpus", 20, corpus, ("release",)),
-    Part("service", 100, service, ("release",)),
-    Part("attack", 100, attack, ("release",)),
-    Part("failover", 30, failover, ("release",)),
-    Part("browser", 180, browser, ("release",)),
+    Part("service", 180, service, ("release",)),
+    Part("attack", 180, attack, ("release",), beside_previous=True),  # mostly waits for limits of the server
+    Part("failover", 60, failover, ("release",), beside_previous=True),
+    Part("browser", 220, browser, ("release",)),
 ]
 # What measures, searches, or needs other builds.
 DEEP = [

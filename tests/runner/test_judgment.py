@@ -1,5 +1,6 @@
 """How a run judges its tests: with checks that fail once, always, or never."""
 
+import os
 import subprocess
 import sys
 
@@ -105,6 +106,20 @@ def test_the_end_shows_failures_and_table_within_its_lines(tmp_path):
     assert any("more: see report.txt" in line for line in lines)
     report = (tmp_path / "report.txt").read_text()
     assert all(f"never works: {case}\n" in report for case in range(60))
+
+
+def test_parts_can_run_side_by_side(tmp_path):
+    """Each of the two parts waits for what the other one does."""
+    os.mkfifo(tmp_path / "there")
+    os.mkfifo(tmp_path / "back")
+
+    def in_folder(script):
+        return Check("waiting", ["env", "-C", tmp_path, "bash", "-c", script])
+
+    first = Part("first", 1000, lambda _: [in_folder("echo > there; read < back")])
+    second = Part("second", 1000, lambda _: [in_folder("read < there; echo > back")], beside_previous=True)
+    results, _ = judge([first, second], tmp_path / "results", lambda _: None)
+    assert [(found.part.name, found.passed) for found in results] == [("first", 1), ("second", 1)]
 
 
 def test_a_part_over_its_budget_is_named_and_does_not_fail(tmp_path):

@@ -310,6 +310,7 @@ export class App {
         this.tools.update(state);
         this.colors.update(state);
         this.fieldPanel.update(state);
+        this.connection.stateShown(state.revision);
     }
 
     private picturePresented(revision: number, by: Mode): void {

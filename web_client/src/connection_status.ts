@@ -52,6 +52,11 @@ export class ConnectionStatus {
         answer.then(settled, settled);
     }
 
+    /** Records which state of the session the page shows in its texts and controls. */
+    stateShown(revision: number): void {
+        this.root.dataset["revision"] = String(revision);
+    }
+
     /** Records that a picture has been presented; `latency` is the key-to-picture latency in milliseconds, if known. */
     picturePresented(latency: number | undefined): void {
         this.presentedAt = new Date();

@@ -11,7 +11,8 @@ import { afterTest, atEnd } from "./suite.mjs";
 
 const kArguments = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
-const kBrowsers = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+// The first one has no windows, which would be drawn as well, and so needs less processor time.
+const kBrowsers = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 const executablePath = process.env.OVAL4D_CHROMIUM ?? kBrowsers.find((path) => existsSync(path));
 
 /** Starts a browser; it is closed after all tests. */
@@ -113,7 +114,15 @@ export async function stateAfter(page, script) {
     return script.state();
 }
 
-/** Waits until the page has presented this revision or a newer one. */
+/** Waits until the page's texts and controls show this revision or a newer one, or the page has no connection. */
+async function shown(page, revision) {
+    await page.waitForFunction((least) => {
+        const { kind, revision } = document.getElementById("connection").dataset;
+        return kind !== "open" || Number(revision) >= least;
+    }, revision);
+}
+
+/** Waits until the page has presented the picture of this revision or a newer one. */
 export async function presented(page, revision) {
     await page.waitForFunction(
         (least) => {
@@ -169,7 +178,16 @@ export async function shownValues(page) {
 export async function openWithScript(options) {
     const opened = await openPage(options);
     await ready(opened.page);
-    const script = await scriptFor(opened.page, options?.url);
+    const joined = await scriptFor(opened.page, options?.url);
+    const script = {
+        ...joined,
+        /** Waits for a state for which `holds` is true, and until the page shows it, too, unless it is cut off. */
+        async until(holds, what) {
+            const state = await joined.until(holds, what);
+            await shown(opened.page, state.revision);
+            return state;
+        },
+    };
     return {
         ...opened,
         script,
