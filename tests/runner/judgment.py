@@ -30,7 +30,7 @@ class Part:
 
 
 @dataclass
-class Outcome:
+class Failure:
     """A test case that failed in the first run."""
 
     first: Result
@@ -50,18 +50,18 @@ class PartResults:
     seconds: float = 0
     passed: int = 0
     skipped: int = 0
-    failures: list[Outcome] = field(default_factory=list)
+    failures: list[Failure] = field(default_factory=list)
 
 
 def run_part(part, folder, say):
-    """Runs all checks of a part once. Returns its results, and the checks with failures: (check, outcomes)."""
+    """Runs all checks of a part once. Returns its results, and the checks with failures: (check, failures)."""
     folder.mkdir(parents=True, exist_ok=True)
     found, again, start = PartResults(part), [], time.monotonic()
 
     def run(check):
         began = time.monotonic()
         results, log = check.run(folder)
-        failed = [Outcome(result, [log]) for result in results if result.outcome == "failed"]
+        failed = [Failure(result, [log]) for result in results if result.outcome == "failed"]
         say(f"{part.name}: {check.name}: {f'{len(failed)} FAILED' if failed else 'passed'}, {time.monotonic() - began:.0f} s")
         return check, results, failed
 
@@ -78,13 +78,13 @@ def run_part(part, folder, say):
 
 def run_again(check, failed, folder, say):
     """Runs the failed tests of a check once more, with nothing beside them, and enters what became of them."""
-    results, log = check.run(folder, [outcome.first for outcome in failed])
+    results, log = check.run(folder, [failure.first for failure in failed])
     by_name = {result.name: result for result in results}
     whole = None if any(result.outcome == "failed" for result in results) else Result(check.name, "passed")
-    for outcome in failed:
-        outcome.second = by_name.get(outcome.first.name, whole if outcome.first.case is None else None)
-        outcome.logs.append(log)
-        say(f"again: {outcome.first.name}: {'passed this time' if outcome.unstable else 'FAILED again'}")
+    for failure in failed:
+        failure.second = by_name.get(failure.first.name, whole if failure.first.case is None else None)
+        failure.logs.append(log)
+        say(f"again: {failure.first.name}: {'passed this time' if failure.unstable else 'FAILED again'}")
 
 
 def side_by_side(parts):
@@ -114,15 +114,15 @@ def judge(parts, results_folder, say):
 
 
 def verdict(all_results):
-    """Returns the numbers of passed and failed tests, the unstable outcomes and the failed ones. Up to MOST_UNSTABLE
+    """Returns the numbers of passed and failed tests, the unstable failures and the failed ones. Up to MOST_UNSTABLE
     unstable tests count as passed; more of them count as failed."""
-    outcomes = [outcome for found in all_results for outcome in found.failures]
-    unstable = [outcome for outcome in outcomes if outcome.unstable]
-    failed = [outcome for outcome in outcomes if not outcome.unstable]
+    failures = [failure for found in all_results for failure in found.failures]
+    unstable = [failure for failure in failures if failure.unstable]
+    failed = [failure for failure in failures if not failure.unstable]
     passed = sum(found.passed for found in all_results)
     if len(unstable) <= MOST_UNSTABLE:
         return passed + len(unstable), len(failed), unstable, failed
-    return passed, len(outcomes), unstable, failed
+    return passed, len(failures), unstable, failed
 
 
 def table(all_results, other_seconds):
@@ -131,20 +131,22 @@ def table(all_results, other_seconds):
     lines = [f"{'part':<12}{'passed':>8}{'unstable':>9}{'failed':>8}{'skipped':>9}{'time':>8}"]
     lines += [f"{name:<12}{'':>34}{seconds:>6.0f} s" for name, seconds in other_seconds.items()]
     for found in all_results:
-        unstable = sum(outcome.unstable for outcome in found.failures)
+        unstable = sum(failure.unstable for failure in found.failures)
         late = found.seconds > found.part.budget
         lines.append(f"{found.part.name:<12}{found.passed:>8}{unstable:>9}{len(found.failures) - unstable:>8}{found.skipped:>9}"
                      f"{found.seconds:>6.0f} s" + (f"  over its budget of {found.part.budget:.0f} s" if late else ""))
     return lines
 
 
-def explain(outcome, root, lines_of_message):
+def explain(failure, root, lines_of_message):
     """Returns the lines about a failure: its name, the message of its last run that failed, and the files of its logs."""
-    last = outcome.second if outcome.second and not outcome.unstable else outcome.first
+    last = failure.second if failure.second and not failure.unstable else failure.first
     message = [line for line in last.message.splitlines() if line.strip()]
-    logs = " and ".join(str(log.relative_to(root) if log.is_relative_to(root) else log) for log in outcome.logs)
-    return ([f"  {outcome.first.name}"[:LENGTH_OF_A_LINE]] +
-            [f"      {line}"[:LENGTH_OF_A_LINE] for line in message[-lines_of_message:]] + [f"      {logs}"])
+    # The message of a test case begins with what is wrong; that of a whole check is the end of its log.
+    message = message[:lines_of_message] if last.case else message[-lines_of_message:]
+    logs = " and ".join(str(log.relative_to(root) if log.is_relative_to(root) else log) for log in failure.logs)
+    return ([f"  {failure.first.name}"[:LENGTH_OF_A_LINE]] +
+            [f"      {line}"[:LENGTH_OF_A_LINE] for line in message] + [f"      {logs}"])
 
 
 def summary(all_results, other_seconds, root, report):
@@ -153,17 +155,17 @@ def summary(all_results, other_seconds, root, report):
     passed, count, unstable, failed = verdict(all_results)
     lines = [*table(all_results, other_seconds), ""]
     groups = [("FAILED", failed), ("unstable: failed, and passed when run again alone", unstable)]
-    whole = [line for title, outcomes in groups if outcomes
-             for line in [title, *(text for outcome in outcomes for text in explain(outcome, root, 10_000))]]
+    whole = [line for title, failures in groups if failures
+             for line in [title, *(text for failure in failures for text in explain(failure, root, 10_000))]]
     report.write_text("\n".join([*lines, *whole, ""]), encoding="utf-8")
     room = LINES_AT_THE_END - len(lines) - len(groups) - 3
-    for title, outcomes in groups:
-        if outcomes:
+    for title, failures in groups:
+        if failures:
             lines.append(f"{title}:")
-        for k, outcome in enumerate(outcomes):
-            text = explain(outcome, root, LINES_OF_A_MESSAGE)
+        for k, failure in enumerate(failures):
+            text = explain(failure, root, LINES_OF_A_MESSAGE)
             if len(text) > room:
-                lines.append(f"  … and {len(outcomes) - k} more: see {report.relative_to(root)}")
+                lines.append(f"  … and {len(failures) - k} more: see {report.relative_to(root)}")
                 room = 0
                 break
             lines += text
