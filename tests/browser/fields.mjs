@@ -2,11 +2,12 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { named, openWithScript, presented, spoken } from "./support/browser.mjs";
+import { common, named, openWithScript, presented, spoken } from "./support/browser.mjs";
 import { assertSimilar, assertStreamsAgree, drawBy, picture } from "./support/drawing.mjs";
 import { focusSurface, openPanel, write } from "./support/field.mjs";
 import { below, compare, distance, pixelAt } from "./support/pixels.mjs";
 import { project, rgb } from "./support/scene.mjs";
+import { joinSession } from "./support/script.mjs";
 
 const kTiger = "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 - 0.09";
 
@@ -146,7 +147,7 @@ test("fields: surfaces and fog are drawn again after the WebGL context was lost"
 });
 
 test("fields: both encodings have the same surfaces", async () => {
-    const { script, close } = await openWithScript();
+    const script = await joinSession((await common()).url);
     for (const color of ["cell", "growth", "w", "value"]) {
         await script.request({ type: "load", name: "formula", format: "formula", data: "x^2 + y^2 - z^2 < w" });
         const caps = color === "cell" ? "value" : "plain";
@@ -154,7 +155,7 @@ test("fields: both encodings have the same surfaces", async () => {
         const surfaces = {};
         for (const encoding of ["json", "cbor"]) {
             await script.client.hello({ encoding });
-            const { slices } = await script.request({ type: "get", what: "slices" });
+            const { slices } = await script.request({ type: "get", what: "slices", width: 480, height: 270 });
             surfaces[encoding] = slices.map(({ surface = {} }) =>
                 Object.entries(surface).map(([name, value]) => [name, value.length ? [...value] : value]).sort(),
             );
@@ -165,7 +166,7 @@ test("fields: both encodings have the same surfaces", async () => {
         assert.equal(surfaces.json.some((surface) => surface.some(([name]) => name === "color")), color === "w");
         assert.deepEqual(surfaces.cbor, surfaces.json);
     }
-    await close();
+    script.leave();
 });
 
 test("fields: the colorings are those of a field, and growth is amber and blue", async () => {

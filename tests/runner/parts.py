@@ -62,7 +62,7 @@ def corpus(_):
 
 
 def service(_):
-    return [pytest("service", TESTS / "service", "--numprocesses=2")]
+    return [pytest("service", TESTS / "service", "--numprocesses=3")]
 
 
 def attack(_):
