@@ -7,7 +7,7 @@ import { kHangLimit, within } from "./hang_limit.mjs";
 import { passTime, stopTime } from "./page_time.mjs";
 import { joinSession } from "./script.mjs";
 import { startServer } from "./server.mjs";
-import { afterTest, atEnd } from "./suite.mjs";
+import { afterTest, atEnd, setBroken } from "./suite.mjs";
 
 const kArguments = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
@@ -18,6 +18,10 @@ const executablePath = process.env.OVAL4D_CHROMIUM ?? kBrowsers.find((path) => e
 /** Starts a browser; it is closed after all tests. */
 export async function startBrowser(args = []) {
     const browser = await chromium.launch({ executablePath, args: [...kArguments, ...args], timeout: kHangLimit });
+    let isClosed = false;
+    const close = browser.close.bind(browser);
+    browser.close = () => ((isClosed = true), close());
+    browser.on("disconnected", () => isClosed || setBroken("a browser has crashed"));
     atEnd(() => browser.close());
     return browser;
 }
@@ -46,6 +50,7 @@ let shared;
 export function common() {
     shared ??= (async () => {
         const server = await startServer();
+        void server.ended.then(() => setBroken("the server has ended"));
         const browser = await startBrowser([kFaster]);
         const context = await browser.newContext(kContextOptions);
         await context.newPage(); // so that closing a test's page does not leave the context without pages

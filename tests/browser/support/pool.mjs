@@ -55,6 +55,11 @@ function runJob(worker, job, finished) {
             } else if (message.done) {
                 clearTimeout(hanging);
                 resolve({ isCrashed: false });
+            } else if (message.broken) {
+                clearTimeout(hanging);
+                console.log(`another process continues: ${message.broken}`);
+                resolve({ isCrashed: true, rest: { ...job, skip: done } });
+                void worker.end();
             }
         };
         const crashed = (reason) => {

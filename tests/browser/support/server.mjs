@@ -35,6 +35,7 @@ export async function startServer({ options = [] } = {}) {
     const url = await within(listening, "the server to listen");
     return {
         url,
+        ended,
         /** Stops the server as an operator does. */
         async stop() {
             child.kill("SIGTERM");

@@ -17,6 +17,13 @@ export function takeTests() {
     return taken;
 }
 
+/** Why no further test can pass in this process, such as that its browser has crashed; undefined if they can. */
+export let broken;
+
+export function setBroken(reason) {
+    broken ??= reason;
+}
+
 /** Registers a function that is called after all tests of this process. */
 export function atEnd(close) {
     closings.process.push(close);

@@ -1,6 +1,6 @@
 // A process that runs tests one after the other. run.mjs sends which: files, and the names of tests to run or to skip. It
-// receives {started} and {finished} for each test and {done} at the end.
-import { closeAll, takeTests } from "./suite.mjs";
+// receives {started} and {finished} for each test and {done} at the end, or {broken} if no further test can pass.
+import { broken, closeAll, takeTests } from "./suite.mjs";
 
 let strayErrors = []; // of promises that nothing awaits
 
@@ -34,6 +34,7 @@ async function run({ files, only, skip = [] }) {
         if (failure !== undefined || only?.includes(name)) await report({ finished: name, seconds: 0, failure });
     }
     for (const [name, test] of takeTests()) {
+        if (broken !== undefined) return report({ broken }); // another process runs the rest
         if ((only?.includes(name) ?? true) && !skip.includes(name)) await runTest(name, test);
     }
     await report({ done: true });
