@@ -74,6 +74,15 @@ def suspended(server):
         os.kill(server.process.pid, signal.SIGCONT)
 
 
+def waits_for_the_server(pid):
+    """Returns whether a child process of a suspended server sleeps, with its socket open. A process that the server has
+    told to end does not: it runs until it has ended."""
+    try:
+        return process_state(pid) == "S" and os.readlink(f"/proc/{pid}/fd/3").startswith("socket:")
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+
+
 @contextlib.asynccontextmanager
 async def server_with_child_processes(*options, **variables):
     """Yields a suspended server that has drawn a picture and read a file, and its child processes with their
@@ -87,13 +96,13 @@ async def server_with_child_processes(*options, **variables):
                 await load_points(client)
                 with suspended(server):
                     found = child_processes(server)
-                    ready = set(found.values()) == {"draw", "read"}
+                    ready = set(found.values()) == {"draw", "read"} and all(map(waits_for_the_server, found))
                     if ready and is_sandboxed:
                         ready = all(status_value(pid, "Seccomp") == 2 for pid in found)
                     if ready:
                         yield server, found
                         break
-                assert time.monotonic() < end, f"the server has other child processes, or some are not sandboxed: {found}"
+                assert time.monotonic() < end, f"the server has other child processes, or some are not ready: {found}"
 
 
 @needs_sandbox

@@ -20,11 +20,14 @@ async def turn(client, times):
 
 
 async def turn_until_a_draft(client):
-    """Turns until a draft has arrived; returns the last revision."""
-    revision = await turn(client, 10)
-    while not any("draft" in m for m in client.states()):
+    """Turns until a draft has arrived; returns the last revision. Waits for a picture after each burst of turns, so that
+    the turns stay below the maximum rate of messages however fast the server answers them."""
+    while True:
+        pictures = len(client.pictures())
         revision = await turn(client, 10)
-    return revision
+        await client.wait_until(lambda: len(client.pictures()) > pictures)
+        if any("draft" in m for m in client.states()):
+            return revision
 
 
 def triangles(message):
