@@ -15,11 +15,16 @@
 #include "fields/readers/field_reader.hpp"
 #include "geometry/point_cloud.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
-#include "polytopes/import/file_tokenizer.hpp"
 #include "polytopes/import/import.hpp"
 #include "text/message_text.hpp"
+#include "text_files/columns.hpp"
+#include "text_files/file_error.hpp"
+#include "text_files/plain_text.hpp"
+#include "text_files/tokenizer.hpp"
 
 namespace oval4d::session {
+
+using text_files::FileError;
 
 namespace {
 
@@ -36,13 +41,14 @@ std::size_t characters(std::string_view text) {
 
 bool isCloudKeyword(std::string_view word) { return text::normalizedName(word) == "cloud"; }
 
+Error errorOf(const FileError& error) {
+    return {error.tooLarge ? ErrorCode::too_large : ErrorCode::bad_polytope, text_files::message(error)};
+}
+
 Result<LoadedObject> readPolytope(polytopes::FileFormat format, std::string_view text, const std::string& name,
                                   const Limits& limits) {
     auto imported = polytopes::importPolytope(format, text, name, {limits.maxVertices, limits.maxHullCells});
-    if (auto* error = std::get_if<polytopes::ImportError>(&imported)) {
-        const std::string where = error->line > 0 ? "line " + std::to_string(error->line) + ": " : "";
-        return Error{error->tooLarge ? ErrorCode::too_large : ErrorCode::bad_polytope, where + error->reason};
-    }
+    if (const auto* error = std::get_if<FileError>(&imported)) return errorOf(*error);
     auto& [polytope, warnings] = std::get<polytopes::Imported>(imported);
     return LoadedObject{std::make_shared<const polytopes::Polytope>(std::move(polytope)), std::move(warnings)};
 }
@@ -52,35 +58,29 @@ Result<LoadedObject> readPolytope(const LoadObject& load, const Limits& limits) 
     return readPolytope(format, load.data, load.name, limits);
 }
 
-// Reads a point cloud: an optional keyword CLOUD, then one point x y z w [radius] per line.
+// Reads a point cloud: an optional keyword CLOUD, then a table of points, which may have radii.
 Result<LoadedObject> readCloud(const LoadObject& load, const Limits& limits) {
-    polytopes::FileTokenizer file(load.data, true);
     std::vector<glm::dvec4> points;
     std::vector<double> radii;
+    const auto add = [&](const text_files::PointRow& row) {
+        if (points.size() == limits.maxVertices)
+            throw FileError{row.line,
+                            "there are more than " + std::to_string(limits.maxVertices) + " points, the most allowed",
+                            true};
+        points.push_back(row.point);
+        radii.push_back(row.radius);
+    };
     try {
-        auto word = file.next();
-        if (isCloudKeyword(word)) word = file.next();
-        for (; !word.empty(); word = file.next()) {
-            glm::dvec4 point;
-            for (int i = 0; i < 4; ++i, word = file.nextOnLine()) {
-                if (word.empty())
-                    polytopes::throwImportError(file.line(),
-                                                "a point has " + std::to_string(i) + " coordinates; four are needed");
-                point[i] = polytopes::parseCoordinate(word, file.line());
-            }
-            radii.push_back(word.empty() ? 0 : polytopes::parseCoordinate(word, file.line()));
-            if (radii.back() < 0) polytopes::throwImportError(file.line(), "a radius is negative");
-            if (!word.empty() && !(word = file.nextOnLine()).empty())
-                polytopes::throwImportError(file.line(), polytopes::inQuotes(word) + " follows a point's radius");
-            points.push_back(point);
-            if (points.size() > limits.maxVertices)
-                return Error{ErrorCode::too_large,
-                             "there are more than " + std::to_string(limits.maxVertices) + " points, the most allowed"};
-        }
+        const std::string text = text_files::plainText(load.data);
+        std::string_view table = text;
+        text_files::Tokenizer file(text);
+        if (const std::string_view word = file.next(); isCloudKeyword(word))
+            table.remove_prefix(static_cast<std::size_t>(word.data() + word.size() - text.data()));
+        auto warnings = text_files::readPoints(table, text_files::Radii::optional, add, file.line());
         auto cloud = geometry::makePointCloud(load.name, std::move(points), std::move(radii));
-        return LoadedObject{std::make_shared<const geometry::PointCloud>(std::move(cloud)), {}};
-    } catch (const polytopes::ImportError& error) {
-        return Error{ErrorCode::bad_polytope, "line " + std::to_string(error.line) + ": " + error.reason};
+        return LoadedObject{std::make_shared<const geometry::PointCloud>(std::move(cloud)), std::move(warnings)};
+    } catch (const FileError& error) {
+        return errorOf(error);
     } catch (const std::invalid_argument& invalid) {
         return Error{ErrorCode::bad_polytope, invalid.what()};
     }
@@ -279,8 +279,13 @@ Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slic
 }
 
 std::string_view detectFormat(std::string_view text) {
-    if (polytopes::detectFileFormat(text) == polytopes::FileFormat::off4) return "off";
-    return isCloudKeyword(polytopes::FileTokenizer(text).next()) ? "cloud" : "points";
+    try {
+        const std::string plain = text_files::plainText(text);
+        if (polytopes::detectFileFormat(plain) == polytopes::FileFormat::off4) return "off";
+        return isCloudKeyword(text_files::Tokenizer(plain).next()) ? "cloud" : "points";
+    } catch (const FileError&) {
+        return "points";  // its reader says what the file is
+    }
 }
 
 std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {

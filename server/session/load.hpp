@@ -69,7 +69,7 @@ Result<LoadedObject> readSeries(std::span<const fields::FileContents> files, con
 Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slicing::Object& added,
                                         const Limits& limits);
 
-/// Returns the format of a file, as shown by its first word: "off" if this ends with OFF, as in 4OFF; "cloud" if it is
+/// Returns the format of a file, as shown by its first word: "off" if this contains OFF, as in 4OFF; "cloud" if it is
 /// CLOUD; otherwise "points".
 std::string_view detectFormat(std::string_view text);
 

@@ -437,6 +437,7 @@ test("field panel: fog can be shown, edited by dragging and typing, and taken ba
     const colored = await script.until(({ fog }) => fog[0].color === 0x00ff80, "a color");
 
     // The colors of points without one are those of the picture.
+    await presented(page, colored.revision);
     const { scene } = await script.request({ type: "get", what: "slices" });
     const last = await page.inputValue("[data-fog='color 3']");
     const near = (a, b) => [16, 8, 0].every((shift) => Math.abs(((a >> shift) & 255) - ((b >> shift) & 255)) <= 6);

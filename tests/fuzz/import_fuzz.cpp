@@ -13,7 +13,7 @@ using namespace oval4d::slicing;
 OVAL4D_FUZZER(import) {
     const std::string_view text = fuzz::textOf(data, size);
     const auto result = importPolytope(detectFileFormat(text), text, "p", {.maxVertices = 200, .maxHullCells = 2'000});
-    if (const auto* error = std::get_if<polytopes::ImportError>(&result)) {
+    if (const auto* error = std::get_if<FileError>(&result)) {
         require(!error->reason.empty(), "what is refused says why");
         return 0;
     }

@@ -55,7 +55,7 @@ async def test_a_cloud_is_shown_as_balls():
 
 
 @pytest.mark.parametrize("data, message", [
-    ("", "no point"), ("0 0 0 0", "no point away"), ("1 2 3", "line 1: a point has 3 coordinates"),
+    ("", "the file is empty"), ("0 0 0 0", "no point away"), ("1 2 3", "line 1: a point has 3 coordinates"),
     ("1 0 0 0\n1 2 x 4", "line 2"), ("1 2 3 4 -1", "radius is negative"), ("1 2 3 4 5 6", "follows a point's radius"),
     ("1 2 3 1e300", "line 1"),
 ])

@@ -87,7 +87,7 @@ async def test_the_convex_hull_is_independent_of_position_and_scale(server):
 
 @pytest.mark.parametrize("format_, data, expected_text", [
     ("off", "4OFF\n3 1 3\n", "line 2: the file has three counts, as in Geomview's 4OFF"),
-    ("off", tesseract_file().replace("-1 -1 -1 1\n", "-1 -1 -1 nan\n", 1), "line 4: 'nan' is not a coordinate"),
+    ("off", tesseract_file().replace("-1 -1 -1 1\n", "-1 -1 -1 nan\n", 1), "line 4: 'nan' is not a finite number"),
     ("off", tesseract_file().replace("-1 -1 -1 1\n", "-1 -1 -1 1.2\n", 1), "is not flat"),
     ("off", tesseract_file().rsplit("\n", 2)[0] + "\n", "the file ends before cell 7 of 8"),
     ("off", "\n".join(line for line in tesseract_file().splitlines() if line) + "\n4 0 1 2 3", "follows the last cell"),

@@ -9,8 +9,11 @@
 #include "polytopes/construction/design.hpp"
 #include "polytopes/import/hull.hpp"
 #include "polytopes/import/import.hpp"
+#include "text_files/file_error.hpp"
 
 namespace oval4d::polytopes {
+
+using text_files::FileError;
 
 namespace {
 
@@ -26,7 +29,7 @@ Hull hullOf(std::span<const glm::dvec4> points) {
     for (const glm::dvec4& point : points) largest = std::max(largest, glm::length(point));
     try {
         return convexHull(points, glm::dvec4(kRounding * largest), kMaxHullCells);
-    } catch (const ImportError& error) {
+    } catch (const FileError& error) {
         if (error.tooLarge) throw TooLarge(error.reason);
         throw std::invalid_argument(error.reason);
     }

@@ -17,10 +17,13 @@ extern "C" {
 #include "geometry/point_index.hpp"
 #include "polytopes/import/convex_distance.hpp"
 #include "polytopes/import/coplanar_merge.hpp"
-#include "polytopes/import/file_tokenizer.hpp"
 #include "polytopes/import/hull_frame.hpp"
+#include "text_files/file_error.hpp"
 
 namespace oval4d::polytopes {
+
+using text_files::FileError;
+using text_files::throwFileError;
 
 namespace {
 
@@ -99,15 +102,14 @@ class QhullRun {
 };
 
 [[noreturn]] void refuseRun(int status) {
-    if (status == qh_ERRsingular) throwImportError(0, "all points lie in one hyperplane");
+    if (status == qh_ERRsingular) throwFileError(0, "all points lie in one hyperplane");
     if (status == qh_ERRprec || status == qh_ERRwide || status == qh_ERRtopology)
-        throwImportError(0, "the convex hull cannot be determined at the precision of the points; give more decimals");
-    throwImportError(0,
-                     "the convex hull of the points cannot be computed (Qhull status " + std::to_string(status) + ')');
+        throwFileError(0, "the convex hull cannot be determined at the precision of the points; give more decimals");
+    throwFileError(0, "the convex hull of the points cannot be computed (Qhull status " + std::to_string(status) + ')');
 }
 
 [[noreturn]] void refuseSize(std::size_t maxCells) {
-    throw ImportError{0, "the hull has more than " + std::to_string(maxCells) + " cells, the maximum allowed", true};
+    throw FileError{0, "the hull has more than " + std::to_string(maxCells) + " cells, the maximum allowed", true};
 }
 
 // Returns the simplices of the hull, and sets the perturbation of `frame`. The number of simplices can grow with the
@@ -124,11 +126,10 @@ std::vector<SimplexFacet> simplicialHull(const Points& points, HullFrame& frame,
         if (run.status() != 0) continue;
         perturbation = run.perturbation();
         if (run.size() > kMaxSimplicesPerCell * maxCells) {
-            throw ImportError{
-                0,
-                "the hull has more than " + std::to_string(kMaxSimplicesPerCell * maxCells) +
-                    " simplices, the maximum allowed before those in one hyperplane are merged into cells",
-                true};
+            throw FileError{0,
+                            "the hull has more than " + std::to_string(kMaxSimplicesPerCell * maxCells) +
+                                " simplices, the maximum allowed before those in one hyperplane are merged into cells",
+                            true};
         }
         if (!all && run.size() <= maxCells) continue;
         frame.setPerturbation(perturbation);
@@ -201,7 +202,7 @@ std::vector<bool> verticesOf(std::span<const SimplexFacet> simplices, const Poin
 
 Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, std::size_t maxCells) {
     if (points.size() <= kDimensions) {
-        throwImportError(
+        throwFileError(
             0, "a convex hull in four dimensions needs at least 5 points, not " + std::to_string(points.size()));
     }
     HullFrame frame(points, rounding);
@@ -218,8 +219,8 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
         if (index.add(frame(points[i]), places).second) numbers.push_back(i);
     }
     if (places.size() <= kDimensions) {
-        throwImportError(0, "a convex hull in four dimensions needs at least 5 different points, not " +
-                                std::to_string(places.size()));
+        throwFileError(0, "a convex hull in four dimensions needs at least 5 different points, not " +
+                              std::to_string(places.size()));
     }
 
     std::vector<SimplexFacet> simplices = simplicialHull(places, frame, maxCells);

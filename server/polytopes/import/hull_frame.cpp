@@ -9,9 +9,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "polytopes/import/file_tokenizer.hpp"
+#include "text_files/file_error.hpp"
 
 namespace oval4d::polytopes {
+
+using text_files::throwFileError;
 
 namespace {
 
@@ -47,8 +49,8 @@ HullFrame::HullFrame(std::span<const glm::dvec4> points, const glm::dvec4& round
             static constexpr std::array kFlats{"are the same point", "lie on one line", "lie in one plane",
                                                "lie in one hyperplane"};
             const bool exact = rounding == glm::dvec4(0);
-            throwImportError(0, std::string("all points ") + kFlats.at(static_cast<std::size_t>(k)) +
-                                    (exact ? "" : ", to the precision of their coordinates"));
+            throwFileError(0, std::string("all points ") + kFlats.at(static_cast<std::size_t>(k)) +
+                                  (exact ? "" : ", to the precision of their coordinates"));
         }
         axes_[k] = axis;
         extents_[k] = extent;

@@ -17,7 +17,7 @@ namespace oval4d::polytopes {
 class HullFrame {
   public:
     /// Fits the frame to the points, of which there must be at least one. `rounding` is the maximum rounding error of a
-    /// coordinate along each axis. Throws an ImportError if the points do not span four dimensions, or if the rounding
+    /// coordinate along each axis. Throws a FileError if the points do not span four dimensions, or if the rounding
     /// may be the only reason why they do.
     HullFrame(std::span<const glm::dvec4> points, const glm::dvec4& rounding);
 

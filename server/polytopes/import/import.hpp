@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "polytopes/polytope.hpp"
+#include "text_files/file_error.hpp"
 
 namespace oval4d::polytopes {
 
@@ -24,12 +25,7 @@ struct ImportLimits {
     std::size_t maxHullCells = 100'000;  ///< the maximum number of cells of the convex hull of a list of points
 };
 
-/// The reason why a file was refused.
-struct ImportError {
-    std::size_t line = 0;  ///< counted from 1; 0 if no single line is the cause
-    std::string reason;
-    bool tooLarge = false;  ///< the file exceeds a limit
-};
+using text_files::FileError;
 
 /// A polytope read from a file.
 struct Imported {
@@ -37,28 +33,31 @@ struct Imported {
     std::vector<std::string> warnings;  ///< repairs, points left out, and uncertainties due to rounding
 };
 
-/// Reads a polytope from the text of a file and gives it this name. Returns an ImportError if the file is refused.
+/// Reads a polytope from the bytes of a text file (see text_files::plainText()) and gives it this name. Returns a
+/// FileError if the file is refused.
 ///
-/// A 4OFF file consists of "4OFF"; the numbers of vertices, 2-faces, edges and cells; a line x y z w for each vertex; a
-/// line for each 2-face, with the number of its vertices followed by their indices; and a line for each cell, with the
-/// number of its 2-faces followed by their indices. Indices start at 0. Comments (#) and anything that follows a record
-/// on the same line, such as colors, are ignored. Each 2-face must be flat and each cell must lie in a hyperplane, to
-/// within 0.5 % of half the diagonal of the bounding box of the vertices; this allows for coordinates with three
-/// decimals. The polytope must also meet the conditions of makePolytope(). The following faults are repaired, with a
-/// warning: a wrong number of edges, vertices on no 2-face, duplicate vertices, 2-faces in no cell, 2-faces that are
-/// given once for each of their cells, 2-faces that pass through a vertex twice, and cells that consist of several
-/// pieces.
+/// A 4OFF file consists of "4OFF", whose letters may be small, and which may be C4OFF, N4OFF or ST4OFF; the numbers of
+/// vertices, 2-faces, edges and cells; a line x y z w for each vertex; a line for each 2-face, with the number of its
+/// vertices followed by their indices; and a line for each cell, with the number of its 2-faces followed by their
+/// indices. Indices start at 0. Comments (#) and anything that follows a record on the same line, such as colors, are
+/// ignored. Records may also share lines, if nothing else does. Each 2-face must be flat and each cell must lie in a
+/// hyperplane, to within 0.5 % of half the diagonal of the bounding box of the vertices; this allows for coordinates
+/// with three decimals. The polytope must also meet the conditions of makePolytope(). The following faults are
+/// repaired, with a warning: a wrong number of edges, vertices on no 2-face, duplicate vertices, 2-faces in no cell,
+/// 2-faces that are given once for each of their cells, 2-faces that pass through a vertex twice, and cells that
+/// consist of several pieces.
 ///
-/// A list of points has four coordinates on each line, separated by blanks, commas or semicolons; a first line that
-/// does not begin with a number is ignored as a header. The polytope is the convex hull of the points. Parts of the
-/// hull that lie in one hyperplane, to the precision of the coordinates in the file, become one cell.
+/// A list of points is a table of the columns x, y, z and w (see text_files::readPoints()). The polytope is the convex
+/// hull of the points. Parts of the hull that lie in one hyperplane, to the precision of the coordinates in the file,
+/// become one cell.
 ///
 /// The vertices keep the coordinates of the file. Memory use is bounded by the length of the text and by the limits: a
 /// short text cannot cause large allocations by stating large numbers of elements.
-std::variant<Imported, ImportError> importPolytope(FileFormat format, std::string_view text, std::string name,
-                                                   const ImportLimits& limits);
+std::variant<Imported, FileError> importPolytope(FileFormat format, std::string_view text, std::string name,
+                                                 const ImportLimits& limits);
 
-/// Guesses the format of a file: 4OFF if its first word ends with "OFF", else a list of points.
+/// Guesses the format of a file: 4OFF if its first word contains "OFF", else a list of points. `text`: the text of the
+/// file (see text_files::plainText()).
 FileFormat detectFileFormat(std::string_view text);
 
 }  // namespace oval4d::polytopes

@@ -6,9 +6,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "polytopes/import/file_tokenizer.hpp"
+#include "text_files/file_error.hpp"
 
 namespace oval4d::polytopes {
+
+using text_files::throwFileError;
 
 namespace {
 
@@ -50,14 +52,14 @@ double halfDiagonal(std::span<const glm::dvec4> points) {
 void checkFlat(const PolygonSoup& soup) {
     const double size = halfDiagonal(soup.vertices);
     if (soup.vertices.empty() || deviation(soup.vertices, 3) <= kThin * size)
-        throwImportError(0, "all vertices lie in one hyperplane");
+        throwFileError(0, "all vertices lie in one hyperplane");
     std::vector<glm::dvec4> points;
     for (std::size_t f = 0; f < soup.faces.size(); ++f) {
         points.clear();
         for (const std::uint32_t v : soup.faces[f]) points.push_back(soup.vertices[v]);
         const auto& position = soup.faceSourcePositions[f];
         if (deviation(points, 2) > kFlat * size)
-            throwImportError(position.line, nameOf("2-face", position) + "is not flat");
+            throwFileError(position.line, nameOf("2-face", position) + "is not flat");
     }
     for (std::size_t c = 0; c < soup.cells.size(); ++c) {
         points.clear();
@@ -66,7 +68,7 @@ void checkFlat(const PolygonSoup& soup) {
         }
         const auto& position = soup.cellSourcePositions[c];
         if (deviation(points, 3) > kFlat * size)
-            throwImportError(position.line, nameOf("cell", position) + "does not lie in a hyperplane");
+            throwFileError(position.line, nameOf("cell", position) + "does not lie in a hyperplane");
     }
 }
 
@@ -75,9 +77,9 @@ Polytope build(PolygonSoup soup, std::string name) {
         return makePolytope(std::move(name), std::move(soup.vertices), std::move(soup.faces), std::move(soup.cells));
     } catch (const InvalidPolytope& fault) {
         const bool face = fault.part == InvalidPolytope::Part::face;
-        if (fault.part == InvalidPolytope::Part::whole) throwImportError(0, fault.detail);
+        if (fault.part == InvalidPolytope::Part::whole) throwFileError(0, fault.detail);
         const auto& position = (face ? soup.faceSourcePositions : soup.cellSourcePositions)[fault.index];
-        throwImportError(position.line, nameOf(face ? "2-face" : "cell", position) + fault.detail);
+        throwFileError(position.line, nameOf(face ? "2-face" : "cell", position) + fault.detail);
     }
 }
 

@@ -30,12 +30,12 @@ struct PolygonSoup {
 /// are relative to this size.
 double halfDiagonal(std::span<const glm::dvec4> points);
 
-/// Throws an ImportError, with the element's line number, if a 2-face is not flat or a cell does not lie in a
-/// hyperplane. Allows deviations of up to 0.5 % of halfDiagonal(). Also throws an ImportError if all vertices lie in
+/// Throws a FileError, with the element's line number, if a 2-face is not flat or a cell does not lie in a
+/// hyperplane. Allows deviations of up to 0.5 % of halfDiagonal(). Also throws a FileError if all vertices lie in
 /// one hyperplane, to within 10⁻⁶ of halfDiagonal().
 void checkFlat(const PolygonSoup& soup);
 
-/// Builds the polytope by makePolytope(). If makePolytope() throws InvalidPolytope, throws an ImportError with the line
+/// Builds the polytope by makePolytope(). If makePolytope() throws InvalidPolytope, throws a FileError with the line
 /// number of the invalid element instead.
 Polytope build(PolygonSoup soup, std::string name);
 

@@ -10,6 +10,9 @@ namespace oval4d::polytopes {
 
 namespace {
 
+// Nine significant digits tell any two single-precision numbers apart (IEEE 754, 5.12.2).
+constexpr int kSingleDigits = 9;
+constexpr double kSingleRounding = 0x1p-24;  // the maximum rounding error of single precision, relative to the number
 constexpr double kMaxExactUnits = 400;  // coordinates are exact if their size is at most this many last-digit units
 
 // The precision of a single number.
@@ -40,6 +43,14 @@ Digits digitsOf(std::string_view word) {
     return result;
 }
 
+// Returns whether the number is a single-precision number that was written with these digits.
+bool isSingle(const Digits& digits, double value) {
+    const double nearest = static_cast<float>(value);
+    if (digits.significant <= kSingleDigits) return nearest == value;
+    const double error = 0.5 * std::pow(10.0, digits.last) + std::numeric_limits<double>::epsilon() * std::abs(value);
+    return std::abs(nearest - value) <= error;
+}
+
 }  // namespace
 
 void WrittenPrecision::add(std::string_view word, int axis, double value) {
@@ -47,12 +58,14 @@ void WrittenPrecision::add(std::string_view word, int axis, double value) {
     largest_[axis] = std::max(largest_[axis], std::abs(value));
     whole_ = whole_ && digits.whole;
     if (digits.significant == 0) return;  // a zero does not show how it was rounded
+    single_ = single_ && isSingle(digits, value);
     digits_ = std::max(digits_, digits.significant);
     lastPlace_ = std::min(lastPlace_, digits.last);
 }
 
 glm::dvec4 WrittenPrecision::maxRoundingError(double size) const {
     if (digits_ == 0) return glm::dvec4(0);
+    if (single_ && digits_ > kSingleDigits) return largest_ * kSingleRounding;
     glm::dvec4 unit(0);
     double least = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 4; ++axis) {

@@ -98,7 +98,7 @@ TEST(Off, isReadAgainAsTheSamePolytope) {
         const Rotation turned = randomRotation(random);
         const std::string text = fileOf(p, turned, {0, 1, 1}, {.format = formatNamed("off")});
         const auto read = importPolytope(FileFormat::off4, text, "again", {});
-        ASSERT_TRUE(std::holds_alternative<Imported>(read)) << std::get<ImportError>(read).reason;
+        ASSERT_TRUE(std::holds_alternative<Imported>(read)) << std::get<FileError>(read).reason;
         EXPECT_TRUE(std::get<Imported>(read).warnings.empty());
         const Polytope& again = std::get<Imported>(read).polytope;
         EXPECT_EQ(again.faces, p.faces);

@@ -18,7 +18,7 @@ namespace oval4d::support {
 
 using namespace polytopes;
 
-using Result = std::variant<Imported, ImportError>;
+using Result = std::variant<Imported, FileError>;
 
 inline Result importPoints(std::string_view text, std::size_t maxHullCells = 100'000) {
     return importPolytope(FileFormat::points, text, "p", {.maxHullCells = maxHullCells});
@@ -26,14 +26,14 @@ inline Result importPoints(std::string_view text, std::size_t maxHullCells = 100
 
 /// Returns the imported polytope. Throws std::runtime_error if the file was refused.
 inline Imported sound(Result result) {
-    if (const auto* error = std::get_if<ImportError>(&result)) {
+    if (const auto* error = std::get_if<FileError>(&result)) {
         throw std::runtime_error("line " + std::to_string(error->line) + ": " + error->reason);
     }
     return std::move(std::get<Imported>(result));
 }
 
 inline std::string reasonOf(const Result& result) {
-    const auto* error = std::get_if<ImportError>(&result);
+    const auto* error = std::get_if<FileError>(&result);
     return error ? error->reason : "not refused";
 }
 

@@ -84,7 +84,7 @@ TEST_P(UnsoundFiles, AreRefusedWithTheLine) {
     ASSERT_NE(text.find(c.find), std::string::npos);
     text.replace(text.find(c.find), c.find.size(), c.replace);
     const auto result = importOff4(text, 100);
-    const auto* error = std::get_if<ImportError>(&result);
+    const auto* error = std::get_if<FileError>(&result);
     ASSERT_TRUE(error);
     EXPECT_NE(error->reason.find(c.says), std::string::npos) << error->reason;
     EXPECT_EQ(error->line, c.line) << error->reason;
@@ -99,11 +99,11 @@ INSTANTIATE_TEST_SUITE_P(
                     UnsoundFile{"5 10 7 5", "5 4000000000 7 5", "the file is too short for its numbers", 3},
                     UnsoundFile{"5 10 7 5", "500 10 7 5", "500 vertices are too many", 3},
                     UnsoundFile{"5 10 7 5", "5 10 7 4", "follows the last cell", 24},
-                    UnsoundFile{"1e0", "one", "'one' is not a coordinate", 5},
-                    UnsoundFile{"1e0", "nan", "'nan' is not a coordinate", 5},
-                    UnsoundFile{"1e0", "inf", "'inf' is not a coordinate", 5},
-                    UnsoundFile{"1e0", "1e999", "'1e999' is not a coordinate", 5},
-                    UnsoundFile{"1e0", "1e15", "'1e15' is not a coordinate", 5},
+                    UnsoundFile{"1e0", "one", "'one' is not a number", 5},
+                    UnsoundFile{"1e0", "nan", "'nan' is not a finite number", 5},
+                    UnsoundFile{"1e0", "inf", "'inf' is not a finite number", 5},
+                    UnsoundFile{"1e0", "1e999", "'1e999' is beyond ±1e14", 5},
+                    UnsoundFile{"1e0", "1e15", "'1e15' is beyond ±1e14", 5},
                     UnsoundFile{"3 0 1 2 ", "3 0 1 5 ", "2-face 0 refers to vertex 5, but the last is vertex 4", 10},
                     UnsoundFile{"3 0 1 2 ", "3 0 1 1 ", "cell 0 has fewer than 4 2-faces", 20},
                     UnsoundFile{"3 0 1 2 ", "2 0 1 2 ", "has 2 vertices; 3 to 10 are allowed", 10},
@@ -123,7 +123,7 @@ TEST(Import, CellsMustLieInAHyperplaneAndFacesInAPlane) {
     const std::size_t at = text.find('\n', text.find("16 24")) + 1;
     text.replace(at, text.find('\n', at) - at, "-1 -1 -1 -1.2");
     const auto result = importOff4(text, 100);
-    const auto* error = std::get_if<ImportError>(&result);
+    const auto* error = std::get_if<FileError>(&result);
     ASSERT_TRUE(error);
     EXPECT_NE(error->reason.find("is not flat"), std::string::npos) << error->reason;
 
@@ -132,7 +132,7 @@ TEST(Import, CellsMustLieInAHyperplaneAndFacesInAPlane) {
     bent.replace(bent.find("5 10 7 5"), 8, "5 10 7 4");
     bent.replace(bent.find("4 0 1 3 6 255 0 0\n4 0 2 4 7"), 27, "6 1 3 6 2 4 7");
     const auto other = importOff4(bent, 100);
-    error = std::get_if<ImportError>(&other);
+    error = std::get_if<FileError>(&other);
     ASSERT_TRUE(error);
     EXPECT_NE(error->reason.find("cell 0 does not lie in a hyperplane"), std::string::npos) << error->reason;
 }
@@ -190,19 +190,19 @@ TEST(Points, OnTheMomentCurveGiveTheCyclicPolytope) {
     EXPECT_EQ(p.edges.size(), 40U * 39 / 2);
     const Result result = importPoints(curve(200), 10'000);
     EXPECT_NE(reasonOf(result).find("more than 10000 cells"), std::string::npos) << reasonOf(result);
-    EXPECT_TRUE(std::get<ImportError>(result).tooLarge);
+    EXPECT_TRUE(std::get<FileError>(result).tooLarge);
 }
 
 TEST(Points, ThatDoNotSpanFourDimensionsAreRefused) {
     const auto refusal = [](std::string_view text) { return reasonOf(importPoints(text)); };
-    EXPECT_NE(refusal("").find("at least 5 points, not 0"), std::string::npos);
+    EXPECT_NE(refusal("").find("the file is empty"), std::string::npos);
     EXPECT_NE(refusal("1 2 3 4\n").find("at least 5 points, not 1"), std::string::npos);
     EXPECT_NE(refusal("1 2 3 4\n1 2 3\n").find("a point has 3 coordinates"), std::string::npos);
     EXPECT_NE(refusal("1 2 3 4\n1 2 3 4 5\n").find("'5' follows a point's four coordinates"), std::string::npos);
-    EXPECT_NE(refusal("1 2 3 4\n1 2 x 4\n").find("'x' is not a coordinate"), std::string::npos);
+    EXPECT_NE(refusal("1 2 3 4\n1 2 x 4\n").find("'x' is not a number"), std::string::npos);
     EXPECT_NE(refusal("0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\n1 1 1 1\n2 1 1 1\n").find("lie in one hyperplane"),
               std::string::npos);
-    EXPECT_EQ(std::get<ImportError>(importPoints("1 2 3 4\n\n1 2 3\n")).line, 3U);
+    EXPECT_EQ(std::get<FileError>(importPoints("1 2 3 4\n\n1 2 3\n")).line, 3U);
 }
 
 // Repairs.
@@ -385,7 +385,7 @@ TEST(Import, SurvivesGarbage) {
             }
         }
         const auto result = importPolytope(detectFileFormat(text), text, "p", {1000, 1000});
-        if (const auto* error = std::get_if<ImportError>(&result)) {
+        if (const auto* error = std::get_if<FileError>(&result)) {
             EXPECT_FALSE(error->reason.empty());
         }
     }
@@ -393,7 +393,7 @@ TEST(Import, SurvivesGarbage) {
          {"", "4OFF", "4OFF\n", "#", "4OFF 0 0 0 0", "4OFF 0 0 0 1", "4OFF\n1 0 0 0\n0 0 0 0\n",
           "4OFF 4294967295 4294967295 4294967295 4294967295", "\xEF\xBB\xBF", "4OFF 5", "4OFF 5 5 5 5 5"}) {
         const auto result = importOff4(text, ~std::size_t{0});
-        EXPECT_TRUE(std::holds_alternative<ImportError>(result)) << text;
+        EXPECT_TRUE(std::holds_alternative<FileError>(result)) << text;
     }
 }
 

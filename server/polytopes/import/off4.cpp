@@ -1,0 +1,203 @@
+#include "polytopes/import/off4.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "text/ascii.hpp"
+#include "text/message_text.hpp"
+#include "text/words.hpp"
+#include "text_files/file_error.hpp"
+#include "text_files/tokenizer.hpp"
+
+namespace oval4d::polytopes {
+
+using text::inQuotes;
+using text_files::FileError;
+using text_files::parseCoordinate;
+using text_files::parseCount;
+using text_files::throwFileError;
+using text_files::Tokenizer;
+
+namespace {
+
+// The lengths of the shortest records: "0 0 0 0\n", "3 0 1 2\n", "4 0 1 2 3\n".
+constexpr std::size_t kVertexBytes = 8, kFaceBytes = 8, kCellBytes = 10;
+
+// The numbers that follow the coordinates of a vertex, if the keyword has these letters: a color (red, green, blue,
+// opacity), a normal vector, texture coordinates (Geomview, OFF file format).
+constexpr int kColorNumbers = 4, kNormalNumbers = 4, kTextureNumbers = 2;
+
+constexpr std::string_view kKeyword = "off";
+
+// The numbers in the header, and the first word after them.
+struct Header {
+    std::uint32_t vertices = 0, faces = 0, edges = 0, cells = 0;
+    int vertexNumbers = 4;  // the numbers of each vertex, coordinates included
+};
+
+// Reads the keyword: [ST][C][N][4][n]OFF. The number of vertices may follow it in the same word.
+int readKeyword(Tokenizer& file) {
+    const std::string_view word = file.next();
+    const std::string keyword = text::normalizedName(word);
+    const std::size_t at = keyword.find(kKeyword);
+    std::string_view letters = std::string_view(keyword).substr(0, std::min(at, keyword.size()));
+    int numbers = 4;
+    const auto take = [&](std::string_view letter, int more) {
+        if (!letters.starts_with(letter)) return;
+        letters.remove_prefix(letter.size());
+        numbers += more;
+    };
+    take("st", kTextureNumbers);
+    take("c", kColorNumbers);
+    take("n", letters == "n" ? 0 : kNormalNumbers);
+    const bool four = letters.starts_with('4');
+    take("4", 0);
+    const std::string_view rest =
+        at == std::string::npos ? std::string_view{} : std::string_view(keyword).substr(at + kKeyword.size());
+    if (at != std::string::npos && letters.empty() && keyword.find('n') < at && !four)
+        throwFileError(file.line(), inQuotes(word) +
+                                        " lists 2-faces but no cells; a file must begin with 4OFF and list cells, or "
+                                        "be a list of points x y z w, whose convex hull is shown");
+    if (!four || !letters.empty() || !(rest.empty() || text::isDigit(rest.front())))
+        throwFileError(file.line(), "the file must begin with 4OFF, not " + inQuotes(word));
+    file.putBack(rest.size());
+    return numbers;
+}
+
+Header readHeader(Tokenizer& file) {
+    Header header;
+    header.vertexNumbers = readKeyword(file);
+    const auto count = [&](std::string_view word, const char* what) { return parseCount(word, file.line(), what); };
+    std::string_view word = file.next();
+    if (text::normalizedName(word) == "binary")
+        throwFileError(file.line(), "the file is in the binary form of OFF; only its text form can be read");
+    header.vertices = count(word, "a number of vertices");
+    header.faces = count(file.next(), "a number of 2-faces");
+    header.edges = count(file.next(), "a number of edges");
+    word = file.nextOnLine();
+    if (word.empty()) {
+        // Three counts on a line: either the fourth follows on a line of its own, or there are no cells.
+        const std::size_t line = file.line();
+        word = file.next();
+        const bool alone = !word.empty() && file.nextOnLine().empty();
+        if (!alone)
+            throwFileError(line,
+                           "the file has three counts, as in Geomview's 4OFF format without cells; four are needed: "
+                           "vertices, 2-faces, edges and cells. Its points can be loaded as a list of points");
+    }
+    header.cells = count(word, "a number of cells");
+    return header;
+}
+
+// The name of a type of elements, in the singular and the plural.
+struct Noun {
+    std::string one, many;
+};
+
+// Whether the records of a kind begin on lines of their own.
+enum class Layout { lines, continuous };
+
+void readVertices(Tokenizer& file, const Header& header, Layout layout, std::vector<glm::dvec4>& vertices) {
+    vertices.resize(header.vertices);
+    for (glm::dvec4& v : vertices) {
+        if (layout == Layout::lines) file.skipLine();
+        for (int i = 0; i < 4; ++i) {
+            const auto word = file.next();
+            v[i] = parseCoordinate(word, file.line());
+        }
+        for (int i = 4; layout == Layout::continuous && i < header.vertexNumbers; ++i) {
+            const auto word = file.next();
+            parseCoordinate(word, file.line());
+        }
+    }
+}
+
+// Reads `records` records into `lists`, and their positions in the file into `positions`. A record is a number n ≥
+// `least`, followed by n indices that are less than `below`.
+void readLists(Tokenizer& file, Layout layout, std::uint32_t records, std::size_t below, std::size_t least,
+               const std::string& what, const Noun& member, geometry::JaggedArray& lists,
+               std::vector<PolygonSoup::SourcePosition>& positions) {
+    lists.begin.reserve(std::size_t{records} + 1);
+    std::vector<std::uint32_t> list;
+    for (std::uint32_t i = 0; i < records; ++i) {
+        if (layout == Layout::lines) file.skipLine();
+        const std::string owner = what + " " + std::to_string(i);
+        const auto first = file.next();
+        if (first.empty())
+            throwFileError(file.line(), "the file ends before " + owner + " of " + std::to_string(records));
+        const std::size_t line = file.line();
+        const std::uint32_t size = parseCount(first, line, "the size of " + owner);
+        // A loop may pass through a vertex more than once; repair() splits it there. The limit bounds memory.
+        if (size < least || size > 2 * below) {
+            throwFileError(line, owner + " has " + std::to_string(size) + " " + member.many + "; " +
+                                     std::to_string(least) + " to " + std::to_string(2 * below) + " are allowed");
+        }
+        list.clear();
+        for (std::uint32_t j = 0; j < size; ++j) {
+            const auto word = file.next();
+            const std::uint32_t index = parseCount(word, file.line(), "the number of a " + member.one);
+            if (index >= below) {
+                throwFileError(file.line(), owner + " refers to " + member.one + ' ' + std::to_string(index) +
+                                                ", but the last is " + member.one + ' ' + std::to_string(below - 1));
+            }
+            list.push_back(index);
+        }
+        lists.add(list);
+        positions.push_back({line, i});
+    }
+}
+
+// The layouts of vertices, 2-faces and cells.
+using Layouts = std::array<Layout, 3>;
+
+// Reads the records after the header. `file` is a copy, which begins after the header.
+PolygonSoup readRecords(Tokenizer file, const Header& header, const Layouts& layouts) {
+    PolygonSoup soup;
+    readVertices(file, header, layouts[0], soup.vertices);
+    readLists(file, layouts[1], header.faces, header.vertices, 3, "2-face", {"vertex", "vertices"}, soup.faces,
+              soup.faceSourcePositions);
+    readLists(file, layouts[2], header.cells, header.faces, 4, "cell", {"2-face", "2-faces"}, soup.cells,
+              soup.cellSourcePositions);
+    if (layouts[2] == Layout::lines) file.skipLine();
+    if (const auto rest = file.next(); !rest.empty())
+        throwFileError(file.line(), inQuotes(rest) + " follows the last cell");
+    return soup;
+}
+
+}  // namespace
+
+Off4 readOff4(std::string_view text, std::size_t maxVertices) {
+    Tokenizer file(text);
+    const Header header = readHeader(file);
+    if (header.vertices > maxVertices)
+        throw FileError{file.line(),
+                        std::to_string(header.vertices) + " vertices are too many; at most " +
+                            std::to_string(maxVertices) + " are allowed",
+                        true};
+    if (header.vertices * kVertexBytes + header.faces * kFaceBytes + header.cells * kCellBytes > text.size() + 1)
+        throwFileError(file.line(), "the file is too short for its numbers of vertices, 2-faces and cells");
+    try {
+        return {readRecords(file, header, {Layout::lines, Layout::lines, Layout::lines}), header.edges};
+    } catch (const FileError&) {
+        for (const Layout vertices : {Layout::continuous, Layout::lines}) {
+            for (const Layout faces : {Layout::lines, Layout::continuous}) {
+                for (const Layout cells : {Layout::lines, Layout::continuous}) {
+                    try {
+                        return {readRecords(file, header, {vertices, faces, cells}), header.edges};
+                    } catch (const FileError&) {
+                        continue;
+                    }
+                }
+            }
+        }
+        throw;
+    }
+}
+
+bool isOff(std::string_view text) {
+    return text::normalizedName(Tokenizer(text).next()).find(kKeyword) != std::string::npos;
+}
+
+}  // namespace oval4d::polytopes

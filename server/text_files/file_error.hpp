@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+namespace oval4d::text_files {
+
+/// The reason why a file was refused. Functions that read files throw it.
+struct FileError {
+    std::size_t line = 0;  ///< counted from 1; 0 if no single line is the cause
+    std::string reason;
+    bool tooLarge = false;   ///< the file exceeds a limit
+    std::size_t column = 0;  ///< the column of a table, counted from 1; 0 if no single column is the cause
+};
+
+/// Throws a FileError with this line, reason and column.
+[[noreturn]] inline void throwFileError(std::size_t line, std::string reason, std::size_t column = 0) {
+    throw FileError{line, std::move(reason), false, column};
+}
+
+/// Returns the reason after the position, such as "line 2, column 3: …".
+inline std::string message(const FileError& error) {
+    if (error.line == 0) return error.reason;
+    std::string text = "line " + std::to_string(error.line);
+    if (error.column > 0) text += ", column " + std::to_string(error.column);
+    return text + ": " + error.reason;
+}
+
+}  // namespace oval4d::text_files

@@ -1,0 +1,81 @@
+#include "text_files/number.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include "text/ascii.hpp"
+#include "text/words.hpp"
+
+namespace oval4d::text_files {
+
+namespace {
+
+constexpr std::string_view kMinusSign = "\xE2\x88\x92";  // U+2212
+
+// Returns the word without its sign. Sets `negative`.
+std::string_view withoutSign(std::string_view word, bool& negative) {
+    negative = word.starts_with('-') || word.starts_with(kMinusSign);
+    if (word.starts_with(kMinusSign)) return word.substr(kMinusSign.size());
+    return word.starts_with('-') || word.starts_with('+') ? word.substr(1) : word;
+}
+
+bool isNotFinite(std::string_view unsignedWord) {
+    const std::string name = text::normalizedName(unsignedWord);
+    return name == "nan" || name == "inf" || name == "infinity" || name == "1.#inf" || name == "1.#qnan";
+}
+
+bool isExponentLetter(char c) { return c == 'e' || c == 'E' || c == 'd' || c == 'D'; }
+
+}  // namespace
+
+Coordinate NumberReader::read(std::string_view word, DecimalMark mark) {
+    const auto failed = [](std::string fault) { return Coordinate{0, {}, std::move(fault)}; };
+    bool negative = false;
+    const std::string_view digits = withoutSign(word, negative);
+    if (bool second = false; withoutSign(digits, second) != digits) return failed("is not a number");
+    if (isNotFinite(digits)) return failed("is not a finite number");
+    const bool hasComma = digits.find(',') != std::string_view::npos;
+    if (hasComma && digits.find('.') != std::string_view::npos)
+        return failed("has a comma and a point; write numbers without separators of thousands");
+    text_.assign(negative ? "-" : "");
+    bool exponent = false;
+    for (std::size_t i = 0; i < digits.size(); ++i) {
+        if (digits[i] == ',' && mark == DecimalMark::comma) {
+            text_ += '.';
+        } else if (!exponent && i > 0 && isExponentLetter(digits[i])) {
+            exponent = true;
+            text_ += 'e';
+            bool negativeExponent = false;
+            const std::string_view rest = withoutSign(digits.substr(i + 1), negativeExponent);
+            if (negativeExponent) text_ += '-';
+            i = digits.size() - rest.size() - 1;
+        } else {
+            text_ += digits[i];
+        }
+    }
+    Coordinate result;
+    const char* const end = text_.data() + text_.size();
+    const auto [stop, error] = std::from_chars(text_.data(), end, result.value);
+    const bool tooSmall = error == std::errc::result_out_of_range && text_.find("e-") != std::string::npos;
+    if (stop != end || error == std::errc::invalid_argument) {
+        if (hasComma && mark == DecimalMark::point) return failed("has a decimal comma; write a decimal point");
+        return failed("is not a number");
+    }
+    if (tooSmall) result.value = 0;
+    if ((error != std::errc{} && !tooSmall) || std::abs(result.value) > kMaxCoordinate)
+        return failed("is beyond ±1e14, the range of coordinates");
+    result.text = text_;
+    return result;
+}
+
+bool beginsLikeANumber(std::string_view word) {
+    bool negative = false;
+    std::string_view rest = withoutSign(word, negative);
+    if (isNotFinite(rest)) return true;
+    if (rest.starts_with('.') || rest.starts_with(',')) rest.remove_prefix(1);
+    return !rest.empty() && text::isDigit(rest.front());
+}
+
+}  // namespace oval4d::text_files

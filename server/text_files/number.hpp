@@ -1,0 +1,40 @@
+#pragma once
+// Numbers as programs and people write them in text files.
+
+#include <string>
+#include <string_view>
+
+namespace oval4d::text_files {
+
+/// The largest absolute value of a coordinate that is accepted.
+inline constexpr double kMaxCoordinate = 1e14;
+
+/// How the numbers of a file are written.
+enum class DecimalMark : char { point = '.', comma = ',' };
+
+/// A coordinate that was read from a text.
+struct Coordinate {
+    double value = 0;
+    /// The number in the form that std::from_chars() reads: a decimal point, the exponent e, no plus sign, and a hyphen
+    /// as minus sign. Empty if the word is not a coordinate.
+    std::string_view text;
+    std::string fault;  ///< why the word is not a coordinate, such as "is not a number"; empty if it is one
+};
+
+/// Reads numbers. An object holds the text of the number that it read last.
+class NumberReader {
+  public:
+    /// Reads a word as a coordinate: a number within ±kMaxCoordinate. Accepts a true minus sign (U+2212), the exponents
+    /// D of Fortran, and numbers that are too small for a double, which become 0. A decimal comma is accepted if `mark`
+    /// says so; a decimal point always is, but not beside a comma. The result's `text` remains valid until the next
+    /// call.
+    Coordinate read(std::string_view word, DecimalMark mark = DecimalMark::point);
+
+  private:
+    std::string text_;
+};
+
+/// Returns whether a word begins as a number does, or is "nan" or "inf", so that it is not the name of a column.
+bool beginsLikeANumber(std::string_view word);
+
+}  // namespace oval4d::text_files

@@ -1,0 +1,104 @@
+#include "text_files/plain_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include <boost/locale/encoding_utf.hpp>
+
+#include "text_files/file_error.hpp"
+
+namespace oval4d::text_files {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+/// A kind of file that is not text, known by its first bytes.
+struct Kind {
+    std::string_view signature, description;
+};
+constexpr auto kKinds = std::to_array<Kind>({
+    {"\x1F\x8B"sv, "is compressed with gzip; unpack it first"},
+    {"BZh"sv, "is compressed with bzip2; unpack it first"},
+    {"\xFD"
+     "7zXZ"sv,
+     "is compressed with xz; unpack it first"},
+    {"\x28\xB5\x2F\xFD"sv, "is compressed with zstd; unpack it first"},
+    {"PK\x03\x04"sv, "is a zip archive, such as a spreadsheet or a 3MF file; save it as text first"},
+    {"7z\xBC\xAF\x27\x1C"sv, "is a 7z archive; unpack it first"},
+    {"\x89PNG\r\n\x1A\n"sv, "is a PNG picture"},
+    {"\xFF\xD8\xFF"sv, "is a JPEG picture"},
+    {"GIF8"sv, "is a GIF picture"},
+    {"RIFF"sv, "is a RIFF file, such as a WebP picture or a sound"},
+    {"%PDF-"sv, "is a PDF file"},
+    {"\xD0\xCF\x11\xE0"sv, "is an old Office file; save it as text first"},
+    {"\x7F"
+     "ELF"sv,
+     "is a program"},
+    {"glTF"sv, "is a GLB file of a three-dimensional model"},
+    {"\xFF\xFE\0\0"sv, "is text in UTF-32; save it in UTF-8"},
+    {"\0\0\xFE\xFF"sv, "is text in UTF-32; save it in UTF-8"},
+});
+
+constexpr std::string_view kMarkUtf8 = "\xEF\xBB\xBF", kMarkLittle = "\xFF\xFE", kMarkBig = "\xFE\xFF";
+
+// Returns the UTF-8 text of 16-bit units. `low`: the position of the low byte in each unit, 0 or 1.
+std::string fromUtf16(std::string_view bytes, std::size_t low) {
+    std::u16string units(bytes.size() / 2, u'\0');
+    for (std::size_t i = 0; i < units.size(); ++i) {
+        const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(bytes[2 * i + at]); };
+        units[i] = static_cast<char16_t>(byte(low) | byte(1 - low) << 8U);
+    }
+    return boost::locale::conv::utf_to_utf<char>(units);
+}
+
+// Replaces the line ends CR LF and CR by LF, and each kind of no-break space by a space.
+void normalizeSpace(std::string& text) {
+    constexpr auto kSpaces = std::to_array({"\xC2\xA0"sv, "\xE2\x80\xAF"sv, "\xE2\x80\x87"sv, "\xEF\xBB\xBF"sv});
+    const bool hasSpaces =
+        std::ranges::any_of(kSpaces, [&](std::string_view space) { return text.find(space) != std::string::npos; });
+    if (!hasSpaces && text.find('\r') == std::string::npos) return;
+    std::string result;
+    result.reserve(text.size());
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::string_view rest = std::string_view(text).substr(i);
+        const auto space = std::ranges::find_if(kSpaces, [&](std::string_view each) { return rest.starts_with(each); });
+        if (space != kSpaces.end()) {
+            result += ' ';
+            i += space->size() - 1;
+        } else if (text[i] == '\r') {
+            if (!rest.starts_with("\r\n")) result += '\n';
+        } else {
+            result += text[i];
+        }
+    }
+    text = std::move(result);
+}
+
+}  // namespace
+
+std::string plainText(std::string_view bytes) {
+    for (const Kind& kind : kKinds) {
+        if (bytes.starts_with(kind.signature)) throwFileError(0, "the file " + std::string(kind.description));
+    }
+    std::string text;
+    if (bytes.starts_with(kMarkLittle)) {
+        text = fromUtf16(bytes.substr(kMarkLittle.size()), 0);
+    } else if (bytes.starts_with(kMarkBig)) {
+        text = fromUtf16(bytes.substr(kMarkBig.size()), 1);
+    } else if (bytes.size() >= 2 && (bytes[0] == 0) != (bytes[1] == 0)) {
+        text = fromUtf16(bytes, bytes[0] == 0 ? 1 : 0);
+    } else {
+        if (bytes.starts_with(kMarkUtf8)) bytes.remove_prefix(kMarkUtf8.size());
+        text = bytes;
+    }
+    normalizeSpace(text);
+    if (text.find_first_not_of(" \t\r\n\v\f") == std::string::npos) throwFileError(0, "the file is empty");
+    if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
+        throwFileError(0, "the file is not text: byte " + std::to_string(zero + 1) + " is zero");
+    return text;
+}
+
+}  // namespace oval4d::text_files

@@ -1,0 +1,59 @@
+#include "text_files/tokenizer.hpp"
+
+#include <charconv>
+#include <system_error>
+
+#include "text/message_text.hpp"
+#include "text_files/file_error.hpp"
+
+namespace oval4d::text_files {
+
+std::string_view Tokenizer::next() {
+    for (; at_ < text_.size(); ++at_) {
+        if (text_[at_] == '#') {
+            skipLine();
+            if (at_ == text_.size()) break;
+        }
+        if (text_[at_] == '\n') {
+            ++line_;
+        } else if (!isBlank(text_[at_])) {
+            return word();
+        }
+    }
+    return {};
+}
+
+std::string_view Tokenizer::nextOnLine() {
+    while (at_ < text_.size() && isBlank(text_[at_])) ++at_;
+    if (at_ == text_.size() || text_[at_] == '\n' || text_[at_] == '#') return {};
+    return word();
+}
+
+void Tokenizer::skipLine() {
+    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+}
+
+std::string_view Tokenizer::word() {
+    const std::size_t start = at_;
+    while (at_ < text_.size() && text_[at_] != '\n' && !isBlank(text_[at_]) && text_[at_] != '#') ++at_;
+    return text_.substr(start, at_ - start);
+}
+
+std::uint32_t parseCount(std::string_view word, std::size_t line, const std::string& what) {
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (word.empty()) throwFileError(line, "the file ends where " + what + " is expected");
+    if (error != std::errc{} || end != word.data() + word.size())
+        throwFileError(line, text::inQuotes(word) + " is not " + what);
+    return value;
+}
+
+double parseCoordinate(std::string_view word, std::size_t line) {
+    if (word.empty()) throwFileError(line, "the file ends where a coordinate is expected");
+    NumberReader reader;
+    const Coordinate read = reader.read(word);
+    if (!read.fault.empty()) throwFileError(line, text::inQuotes(word) + ' ' + read.fault);
+    return read.value;
+}
+
+}  // namespace oval4d::text_files

@@ -1,0 +1,52 @@
+#pragma once
+// Splits text files of records into words, and reads whole numbers and coordinates.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "text_files/number.hpp"
+
+namespace oval4d::text_files {
+
+/// Returns whether a character separates words within a line.
+constexpr bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+
+/// Splits plainText() into words separated by white space. Skips comments, which extend from # to the end of the line.
+/// The text must outlive the tokenizer and the words.
+class Tokenizer {
+  public:
+    explicit Tokenizer(std::string_view text) : text_(text) {}
+
+    /// Returns the line of the word read last, counted from 1.
+    std::size_t line() const { return line_; }
+
+    /// Returns the next word, on this or a later line; empty at the end of the text.
+    std::string_view next();
+
+    /// Returns the next word on the current line; empty at the end of the line.
+    std::string_view nextOnLine();
+
+    /// Skips the rest of the current line. nextOnLine() then returns an empty word; next() reads the next line.
+    void skipLine();
+
+    /// Makes the end of a word that was read last the next word: the last `count` characters of it.
+    void putBack(std::size_t count) { at_ -= count; }
+
+  private:
+    std::string_view word();
+
+    std::string_view text_;
+    std::size_t at_ = 0, line_ = 1;
+};
+
+/// Parses an integer from 0 to 2³² − 1. Throws a FileError if the word is not such an integer, or is empty (at the end
+/// of the file). `what` describes the expected word in the error message, such as "a number of vertices".
+std::uint32_t parseCount(std::string_view word, std::size_t line, const std::string& what);
+
+/// Parses and returns a coordinate. Throws a FileError with this line if the word is not one (see NumberReader), or is
+/// empty (at the end of the file).
+double parseCoordinate(std::string_view word, std::size_t line);
+
+}  // namespace oval4d::text_files

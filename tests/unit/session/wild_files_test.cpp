@@ -1,0 +1,73 @@
+// Files as people and programs have written them, in tests/wild: what is read from each, or why it is refused.
+
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "session/load.hpp"
+
+namespace oval4d::session {
+namespace {
+
+struct WildFile {
+    const char* name;
+    /// The numbers of vertices, edges, 2-faces and cells, then any warnings; or the message of the error.
+    const char* right;
+};
+
+constexpr const char* k5Cell = "5/10/10/5";
+constexpr const char* k16Cell = "8/24/32/16";
+
+const auto kFiles = std::to_array<WildFile>({
+    {"all-on-one-line.off", k5Cell},
+    {"two-vertices-per-line.off", k5Cell},
+    {"24-cell-float32-as-18e.txt", "24/96/96/24"},
+    {"cloud-empty-field.txt", "line 2, column 2: the column is empty"},
+    {"cloud-header.txt", "2/0/0/0"},
+    {"cloud-index-without-header.txt", "2/0/0/0; the fifth column was read as radius"},
+    {"columns-named-w-x-y-z.txt", k16Cell},
+    {"first-line-minus-sign.txt", k16Cell},
+    {"first-line-nan.txt", "line 1, column 1: 'nan' is not a finite number"},
+    {"first-line-fortran-D.txt", k16Cell},
+    {"exponent-lower-case.txt", k16Cell},
+    {"exponent-upper-case.txt", k16Cell},
+    {"decimal-comma-all-columns.txt", k5Cell},
+    {"decimal-comma-one-column.txt", "1/0/0/0"},
+    {"R&D.off", k5Cell},
+    {"C4OFF.off", k5Cell},
+    {"glued.txt", k5Cell},
+    {"lower-case.off", k5Cell},
+    {"nOFF.off",
+     "line 1: 'nOFF' lists 2-faces but no cells; a file must begin with 4OFF and list cells, or be a list of points x "
+     "y "
+     "z w, whose convex hull is shown"},
+    {"wrong-line-number.off", "line 2: 'foo' is not a number of vertices"},
+    {"utf16le.off", k5Cell},
+});
+
+class WildFiles : public testing::TestWithParam<WildFile> {};
+
+TEST_P(WildFiles, AreReadRightOrRefusedWithTheReason) {
+    std::ifstream file(std::string(OVAL4D_SOURCE_DIR) + "/tests/wild/" + GetParam().name, std::ios::binary);
+    ASSERT_TRUE(file);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    const auto read = readObject({"mine", std::string(detectFormat(bytes)), bytes}, Limits{});
+    std::ostringstream found;
+    if (read) {
+        const auto counts = slicing::elementCounts(read->object);
+        found << counts[0] << '/' << counts[1] << '/' << counts[2] << '/' << counts[3];
+        for (const std::string& warning : read->warnings) found << "; " << warning;
+    } else {
+        found << read.error().message;
+    }
+    EXPECT_EQ(found.str(), GetParam().right);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WildFiles, testing::ValuesIn(kFiles));
+
+}  // namespace
+}  // namespace oval4d::session
