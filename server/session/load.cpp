@@ -17,9 +17,9 @@
 #include "polytopes/catalogue/catalogue.hpp"
 #include "polytopes/import/import.hpp"
 #include "text/message_text.hpp"
-#include "text_files/columns.hpp"
 #include "text_files/file_error.hpp"
 #include "text_files/plain_text.hpp"
+#include "text_files/point_table.hpp"
 #include "text_files/tokenizer.hpp"
 
 namespace oval4d::session {
@@ -63,10 +63,6 @@ Result<LoadedObject> readCloud(const LoadObject& load, const Limits& limits) {
     std::vector<glm::dvec4> points;
     std::vector<double> radii;
     const auto add = [&](const text_files::PointRow& row) {
-        if (points.size() == limits.maxVertices)
-            throw FileError{row.line,
-                            "there are more than " + std::to_string(limits.maxVertices) + " points, the most allowed",
-                            true};
         points.push_back(row.point);
         radii.push_back(row.radius);
     };
@@ -76,7 +72,8 @@ Result<LoadedObject> readCloud(const LoadObject& load, const Limits& limits) {
         text_files::Tokenizer file(text);
         if (const std::string_view word = file.next(); isCloudKeyword(word))
             table.remove_prefix(static_cast<std::size_t>(word.data() + word.size() - text.data()));
-        auto warnings = text_files::readPoints(table, text_files::Radii::optional, add, file.line());
+        auto warnings = text_files::readPoints(
+            table, {.maxPoints = limits.maxVertices, .radii = true, .firstLine = file.line()}, add);
         auto cloud = geometry::makePointCloud(load.name, std::move(points), std::move(radii));
         return LoadedObject{std::make_shared<const geometry::PointCloud>(std::move(cloud)), std::move(warnings)};
     } catch (const FileError& error) {

@@ -30,8 +30,8 @@ bool isExponentLetter(char c) { return c == 'e' || c == 'E' || c == 'd' || c == 
 
 }  // namespace
 
-Coordinate NumberReader::read(std::string_view word, DecimalMark mark) {
-    const auto failed = [](std::string fault) { return Coordinate{0, {}, std::move(fault)}; };
+ParsedNumber NumberReader::read(std::string_view word, DecimalMark mark) {
+    const auto failed = [](std::string fault) { return ParsedNumber{0, {}, std::move(fault)}; };
     bool negative = false;
     const std::string_view digits = withoutSign(word, negative);
     if (bool second = false; withoutSign(digits, second) != digits) return failed("is not a number");
@@ -55,7 +55,7 @@ Coordinate NumberReader::read(std::string_view word, DecimalMark mark) {
             text_ += digits[i];
         }
     }
-    Coordinate result;
+    ParsedNumber result;
     const char* const end = text_.data() + text_.size();
     const auto [stop, error] = std::from_chars(text_.data(), end, result.value);
     const bool tooSmall = error == std::errc::result_out_of_range && text_.find("e-") != std::string::npos;

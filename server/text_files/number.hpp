@@ -13,7 +13,7 @@ inline constexpr double kMaxCoordinate = 1e14;
 enum class DecimalMark : char { point = '.', comma = ',' };
 
 /// A coordinate that was read from a text.
-struct Coordinate {
+struct ParsedNumber {
     double value = 0;
     /// The number in the form that std::from_chars() reads: a decimal point, the exponent e, no plus sign, and a hyphen
     /// as minus sign. Empty if the word is not a coordinate.
@@ -28,7 +28,7 @@ class NumberReader {
     /// D of Fortran, and numbers that are too small for a double, which become 0. A decimal comma is accepted if `mark`
     /// says so; a decimal point always is, but not beside a comma. The result's `text` remains valid until the next
     /// call.
-    Coordinate read(std::string_view word, DecimalMark mark = DecimalMark::point);
+    ParsedNumber read(std::string_view word, DecimalMark mark = DecimalMark::point);
 
   private:
     std::string text_;

@@ -54,12 +54,12 @@ std::string fromUtf16(std::string_view bytes, std::size_t low) {
     return boost::locale::conv::utf_to_utf<char>(units);
 }
 
-// Replaces the line ends CR LF and CR by LF, and each kind of no-break space by a space.
+// Replaces the line ends CR LF and CR by LF; vertical tabs, form feeds and each kind of no-break space by a space.
 void normalizeSpace(std::string& text) {
     constexpr auto kSpaces = std::to_array({"\xC2\xA0"sv, "\xE2\x80\xAF"sv, "\xE2\x80\x87"sv, "\xEF\xBB\xBF"sv});
     const bool hasSpaces =
         std::ranges::any_of(kSpaces, [&](std::string_view space) { return text.find(space) != std::string::npos; });
-    if (!hasSpaces && text.find('\r') == std::string::npos) return;
+    if (!hasSpaces && text.find_first_of("\r\v\f") == std::string::npos) return;
     std::string result;
     result.reserve(text.size());
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -70,6 +70,8 @@ void normalizeSpace(std::string& text) {
             i += space->size() - 1;
         } else if (text[i] == '\r') {
             if (!rest.starts_with("\r\n")) result += '\n';
+        } else if (text[i] == '\v' || text[i] == '\f') {
+            result += ' ';
         } else {
             result += text[i];
         }
@@ -95,7 +97,7 @@ std::string plainText(std::string_view bytes) {
         text = bytes;
     }
     normalizeSpace(text);
-    if (text.find_first_not_of(" \t\r\n\v\f") == std::string::npos) throwFileError(0, "the file is empty");
+    if (text.find_first_not_of(" \t\n") == std::string::npos) throwFileError(0, "the file is empty");
     if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
         throwFileError(0, "the file is not text: byte " + std::to_string(zero + 1) + " is zero");
     return text;

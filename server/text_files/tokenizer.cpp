@@ -8,6 +8,13 @@
 
 namespace oval4d::text_files {
 
+namespace {
+
+// Returns whether a character separates words within a line of plainText().
+bool isBlank(char c) { return c == ' ' || c == '\t'; }
+
+}  // namespace
+
 std::string_view Tokenizer::next() {
     for (; at_ < text_.size(); ++at_) {
         if (text_[at_] == '#') {
@@ -51,7 +58,7 @@ std::uint32_t parseCount(std::string_view word, std::size_t line, const std::str
 double parseCoordinate(std::string_view word, std::size_t line) {
     if (word.empty()) throwFileError(line, "the file ends where a coordinate is expected");
     NumberReader reader;
-    const Coordinate read = reader.read(word);
+    const ParsedNumber read = reader.read(word);
     if (!read.fault.empty()) throwFileError(line, text::inQuotes(word) + ' ' + read.fault);
     return read.value;
 }

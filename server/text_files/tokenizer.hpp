@@ -10,9 +10,6 @@
 
 namespace oval4d::text_files {
 
-/// Returns whether a character separates words within a line.
-constexpr bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
-
 /// Splits plainText() into words separated by white space. Skips comments, which extend from # to the end of the line.
 /// The text must outlive the tokenizer and the words.
 class Tokenizer {

@@ -9,8 +9,8 @@
 #include "polytopes/import/polygon_soup.hpp"
 #include "polytopes/import/repair.hpp"
 #include "polytopes/import/written_precision.hpp"
-#include "text_files/columns.hpp"
 #include "text_files/plain_text.hpp"
+#include "text_files/point_table.hpp"
 
 namespace oval4d::polytopes {
 
@@ -91,15 +91,11 @@ Imported importPoints(std::string_view text, std::string name, const ImportLimit
     WrittenPrecision precision;
     Imported result;
     const auto add = [&](const text_files::PointRow& row) {
-        if (points.size() == limits.maxVertices)
-            throw FileError{row.line,
-                            "there are more than " + std::to_string(limits.maxVertices) + " points, the most allowed",
-                            true};
         for (int axis = 0; axis < 4; ++axis)
             precision.add(row.numbers[static_cast<std::size_t>(axis)], axis, row.point[axis]);
         points.push_back(row.point);
     };
-    result.warnings = text_files::readPoints(text, text_files::Radii::none, add);
+    result.warnings = text_files::readPoints(text, {.maxPoints = limits.maxVertices}, add);
     Hull hull = hullOf(points, precision, limits.maxHullCells, result.warnings);
     if (const std::size_t inside = points.size() - hull.vertices.size(); inside > 0) {
         const bool one = inside == 1;

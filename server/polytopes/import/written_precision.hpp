@@ -18,7 +18,7 @@ namespace oval4d::polytopes {
 /// single-precision number needs, all are taken as rounded to single precision (IEEE 754 binary32).
 class WrittenPrecision {
   public:
-    /// Adds a coordinate along axis 0 … 3, as text (see text_files::Coordinate::text) and as a number.
+    /// Adds a coordinate along axis 0 … 3, as text (see text_files::ParsedNumber::text) and as a number.
     void add(std::string_view word, int axis, double value);
 
     /// Returns the maximum rounding error of a coordinate along each axis: half the unit of the last digit, or of the

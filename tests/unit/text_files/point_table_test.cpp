@@ -1,5 +1,6 @@
-#include "text_files/columns.hpp"
+#include "text_files/point_table.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -12,14 +13,15 @@ namespace oval4d::text_files {
 namespace {
 
 // Returns the rows and the warnings of a table, or the reason why it is refused.
-std::string read(const std::string& bytes, Radii radii = Radii::optional) {
+std::string read(const std::string& bytes, bool radii = true) {
     std::string result;
     const auto add = [&](const PointRow& row) {
         for (int i = 0; i < 4; ++i) result += std::to_string(row.point[i]).substr(0, row.point[i] < 0 ? 4 : 3) + ' ';
         result += "r " + std::to_string(row.radius).substr(0, 3) + '\n';
     };
     try {
-        for (const std::string& warning : readPoints(plainText(bytes), radii, add)) result += warning + '\n';
+        for (const std::string& warning : readPoints(plainText(bytes), {.maxPoints = 3, .radii = radii}, add))
+            result += warning + '\n';
     } catch (const FileError& error) {
         return message(error);
     }
@@ -32,7 +34,7 @@ TEST(Columns, AreSeparatedByBlanksCommasSemicolonsOrTabs) {
     for (const char* row :
          {"0.5 1 -2 3", "  .5\t1 -2  3 ", "0.5,1,-2,3", "0.5, 1, -2, 3,", "0.5;1;-2;3", "0.5 ; 1 ; -2 ; 3;",
           "0.5\t1\t-2\t3", "\"0.5\",\"1\",\"-2\",\"3\"", "0.5 1 -2 3 # a comment", "0.5 1 -2 3\r\n", "0.5 1 -2 3\r",
-          "+5e-1 1E0 -2.0D+00 3d0", "0.5\u00A01\u202F\u22122 3", "\uFEFF0.5 1 -2 3", "0.5 1 -2 3;"})
+          "+5e-1 1E0 -2.0D+00 3d0", "0.5\v1\f-2 3", "0.5\u00A01\u202F\u22122 3", "\uFEFF0.5 1 -2 3", "0.5 1 -2 3;"})
         EXPECT_EQ(read(row), kRow) << row;
 }
 
@@ -50,8 +52,7 @@ TEST(Columns, FollowTheHeader) {
         EXPECT_EQ(read(std::string(header) + "\n3,0.5,1,-2\n"), kRow) << header;
     EXPECT_EQ(read(",id,x,y,z,w,r\n0,9,0.5,1,-2,3,0.1\n"),
               "0.5 1.0 -2.0 3.0 r 0.1\nthese columns were left out: column 1, 'id'\n");
-    EXPECT_EQ(read("x y z w r\n0.5 1 -2 3 0.1\n", Radii::none),
-              std::string(kRow) + "these columns were left out: 'r'\n");
+    EXPECT_EQ(read("x y z w r\n0.5 1 -2 3 0.1\n", false), std::string(kRow) + "these columns were left out: 'r'\n");
     EXPECT_EQ(read("Results of the run\n0.5 1 -2 3\n"),
               std::string(kRow) + "line 1, 'Results of the run', has no numbers and was left out\n");
     EXPECT_EQ(read("x y z\n1 2 3\n"), "line 1: the header names no column w; it must name x, y, z and w");
@@ -69,8 +70,40 @@ TEST(Columns, AreRefusedWithLineAndColumn) {
     EXPECT_EQ(read("0 0 0 \u00FCber\n"), "line 1, column 4: '\u00FCber' is not a number");
     EXPECT_EQ(read("0 0 0 +-1\n"), "line 1, column 4: '+-1' is not a number");
     EXPECT_EQ(read("1 2 3 4 -5\n"), "line 1, column 5: a radius is negative");
-    EXPECT_EQ(read("1 2 3 4 5\n", Radii::none),
+    EXPECT_EQ(read("1 2 3 4 5\n", false),
               "line 1: '5' follows a point's four coordinates; a header x y z w says which columns to read");
+}
+
+// Each separator but blanks keeps the place of an empty column.
+TEST(Columns, AreNotShiftedByEmptyOnes) {
+    for (const char separator : {',', ';', '\t'}) {
+        const auto table = [&](std::string text) {
+            std::ranges::replace(text, ',', separator);
+            return read(text);
+        };
+        EXPECT_EQ(table("1,2,3,4,5\n,.2,.3,.4,.5\n"), "line 2, column 1: the column is empty") << separator;
+        EXPECT_EQ(table("1,2,3,4,5\n1,2,3,4,\n"), "line 2, column 5: the column is empty") << separator;
+        EXPECT_EQ(table("1,2,3,4,5\n1,2,3,4\n"), "line 2: the row has 4 columns, but the first row has 5") << separator;
+        EXPECT_EQ(table("1,2,3,4\n1,2,3,4,5\n"), "line 2: the row has 5 columns, but the first row has 4") << separator;
+        EXPECT_EQ(table("1,2,3,4\n1,2,3,\n"), "line 2, column 4: the column is empty") << separator;
+        EXPECT_EQ(table(" .5 , 1,-2,3,,\n"), kRow) << separator;
+        EXPECT_EQ(table(",x,y,z,w\n0,.5,1,-2,3\n"), std::string(kRow) + "these columns were left out: column 1\n")
+            << separator;
+        EXPECT_EQ(table("id,x,y,z,w,name\n,.5,1,-2,3,\n"),
+                  std::string(kRow) + "these columns were left out: 'id', 'name'\n")
+            << separator;
+    }
+    EXPECT_EQ(read("1,2,3,4\n,,,\n"), "line 2, column 1: the column is empty");
+    EXPECT_EQ(read("0.5 1 -2 3 0.1\n0.5 1 -2 3\n"),
+              "0.5 1.0 -2.0 3.0 r 0.1\n0.5 1.0 -2.0 3.0 r 0.0\nthe fifth column was read as radius\n");
+}
+
+TEST(Columns, AreReadWholeIfTheyOnlyBeginWithQuotes) {
+    EXPECT_EQ(read("1,2,3,\"4\"5\n"), "line 1, column 4: '\"4\"5' is not a number");
+}
+
+TEST(Tables, AreRefusedIfTheyHaveTooManyRows) {
+    EXPECT_EQ(read("1 2 3 4\n1 2 3 4\n1 2 3 4\n\n1 2 3 4\n"), "line 5: there are more than 3 points, the most allowed");
 }
 
 TEST(Columns, TakenForARadiusAreTold) {

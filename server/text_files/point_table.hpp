@@ -1,0 +1,46 @@
+#pragma once
+// Tables of points: text files with a row of numbers for each point.
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+namespace oval4d::text_files {
+
+/// A row of a table of points.
+struct PointRow {
+    std::size_t line = 0;  ///< counted from 1
+    glm::dvec4 point{0};
+    double radius = 0;                        ///< 0 if the row has none
+    std::array<std::string_view, 4> numbers;  ///< the coordinates as they are written; see ParsedNumber::text
+};
+
+/// What a table of points may contain.
+struct PointTableOptions {
+    std::size_t maxPoints = 0;
+    bool radii = false;         ///< the points may have radii
+    std::size_t firstLine = 1;  ///< the number of the first line, for messages
+};
+
+/// Reads a table of points in plainText(), calls `add` for each row, and returns warnings: what is left out or taken
+/// for a radius. Throws a FileError with line and column if a row is refused, or if there are too many.
+///
+/// - The columns are separated by semicolons, else tabs, else commas, else blanks. Where semicolons, tabs or blanks
+///   separate them, numbers may have decimal commas. Words in double quotes are read without the quotes. A separator at
+///   the end of a row is ignored. Comments begin with # and extend to the end of the line.
+/// - The columns are x, y, z, w and, if points may have radii, an optional radius. Other orders and further columns
+/// need
+///   a header: a first row in which no word is a number, or a comment right above the first row. It names the columns
+///   x, y, z, w (or t, or time, if none is called w), and r or radius; others are left out. A first row without numbers
+///   that names none of the coordinates is a title, and left out.
+/// - Each row must have as many columns as the header, or, without a header, as the first row; where blanks separate
+///   the columns, some rows may have a radius and others none. No column of a row may be empty.
+std::vector<std::string> readPoints(std::string_view text, const PointTableOptions& options,
+                                    const std::function<void(const PointRow&)>& add);
+
+}  // namespace oval4d::text_files

@@ -1,0 +1,52 @@
+#pragma once
+// The lines of a table in a text file, and their columns.
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "text_files/number.hpp"
+
+namespace oval4d::text_files {
+
+/// A line of a text file, divided at its first #.
+struct TableLine {
+    std::size_t number = 0;    ///< counted from 1
+    std::string_view content;  ///< what precedes the #, with the blanks around it
+    std::string_view comment;  ///< what follows the #, without the blanks around it
+};
+
+/// The lines of a text file, one after the other.
+class TableLines {
+  public:
+    /// The text must outlive the lines. Its first line has the number `firstNumber`.
+    TableLines(std::string_view text, std::size_t firstNumber) : rest_(text), number_(firstNumber) {}
+
+    /// Returns the next line, or nothing at the end of the text.
+    std::optional<TableLine> next();
+
+  private:
+    std::string_view rest_;
+    std::size_t number_;
+};
+
+/// How the columns of a table are separated, and its numbers written.
+struct TableFormat {
+    char separator = ' ';  ///< ';', '\t', ',', or ' ' for any number of blanks
+    DecimalMark mark = DecimalMark::point;
+};
+
+/// Returns the format that fits all lines of a table.
+TableFormat formatOf(TableLines lines);
+
+/// The columns of a line.
+struct TableRow {
+    std::vector<std::string_view> columns;  ///< without the blanks and quotes around them; some may be empty
+    bool endsWithSeparator = false;         ///< other than blanks; separators at the end begin no further columns
+};
+
+/// Sets `row` to the columns of a line.
+void split(std::string_view line, char separator, TableRow& row);
+
+}  // namespace oval4d::text_files
