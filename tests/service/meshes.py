@@ -1,7 +1,6 @@
 """Reads exported files with other programs: admesh, assimp, and independent readers of 3MF and VTK's XML files."""
 
 import base64
-import collections
 import io
 import json
 import re
@@ -10,6 +9,8 @@ import subprocess
 import zipfile
 from pathlib import Path
 from xml.etree import ElementTree
+
+import numpy
 
 HERE = Path(__file__).resolve().parent
 CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
@@ -41,9 +42,11 @@ def assert_closed_mesh(path, parts=None):
 
 
 def stl_triangles(data):
+    """Returns the corners of each triangle of a binary STL file, as an array of shape (triangles, 3, 3)."""
     count = struct.unpack_from("<I", data, 80)[0]
     assert len(data) == 84 + 50 * count
-    return [struct.unpack_from("<12xfffffffff", data, 84 + 50 * i) for i in range(count)]
+    records = numpy.frombuffer(data, [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")], count, 84)
+    return records["corners"].astype(float)
 
 
 def convert_with_assimp(path, to):
@@ -71,20 +74,22 @@ def read_three_mf(data):
 
 def assert_manifold(triangles):
     """Asserts that every edge is in two triangles, once in each direction."""
-    edges = collections.Counter()
-    for a, b, c in triangles:
-        edges.update([(a, b), (b, c), (c, a)])
-    assert set(edges.values()) == {1}
-    assert all((b, a) in edges for a, b in edges)
+    starts = numpy.asarray(triangles, dtype=numpy.int64)
+    ends = numpy.roll(starts, -1, axis=1)
+    points = starts.max() + 1
+    edges, reversed_edges = (numpy.sort((a * points + b).ravel()) for a, b in ((starts, ends), (ends, starts)))
+    assert (edges[1:] != edges[:-1]).all()
+    assert (edges == reversed_edges).all()
 
 
 def volume(points, triangles):
-    sum_ = 0
-    for a, b, c in triangles:
-        p, q, r = points[a], points[b], points[c]
-        sum_ += (p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2])
-                 + p[2] * (q[0] * r[1] - q[1] * r[0]))
-    return sum_ / 6
+    """Returns the volume that closed surfaces enclose: the sum of tetrahedra with a corner at the origin."""
+    return volume_of(numpy.asarray(points, dtype=float)[numpy.asarray(triangles)])
+
+
+def volume_of(corners):
+    """Returns the volume that triangles enclose whose corners are an array of shape (triangles, 3, 3)."""
+    return float(numpy.linalg.det(corners).sum() / 6)
 
 
 def validate_glb(path):

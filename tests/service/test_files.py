@@ -14,6 +14,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import meshes
+import numpy
 import png
 import pytest
 from harness import DEADLINE, Server, run_oval4d
@@ -133,10 +134,8 @@ def test_assimp_reads_the_same_bodies_from_every_format(server, tmp_path):
     for format_, unit in (("stl", 1), ("obj", 1), ("ply", 1), ("glb", 1000), ("x3d", 1000)):
         for body in ("solid", "skeleton"):
             path = fetch_file_to(server, tmp_path / f"slice.{format_}", f"polytope=24-cell&{ROTATION}&body={body}")
-            triangles = meshes.stl_triangles(meshes.convert_with_assimp(path, tmp_path / "again.stl").read_bytes())
-            points = [triangle[i:i + 3] for triangle in triangles for i in (0, 3, 6)]
-            loops = [(i, i + 1, i + 2) for i in range(0, len(points), 3)]
-            volumes[body].append(meshes.volume(points, loops) * unit**3)
+            corners = meshes.stl_triangles(meshes.convert_with_assimp(path, tmp_path / "again.stl").read_bytes())
+            volumes[body].append(meshes.volume_of(corners) * unit**3)
     for found in volumes.values():
         assert found == pytest.approx([found[0]] * len(found), rel=1e-3) and found[0] > 0
 
@@ -357,12 +356,11 @@ def test_the_projection_is_a_closed_body_of_balls_and_bars(server, tmp_path, pol
 def test_the_projection_has_the_size_of_the_object(server, tmp_path):
     """The vertices of a tesseract at w = ±1 lie on concentric cubes with the half edges d / (d ∓ 1), d: the eye's w."""
     path = fetch_file_to(server, tmp_path / "cubes.stl", "polytope=tesseract&of=projection&eye=3&size=100")
-    corners = [corner for triangle in meshes.stl_triangles(path.read_bytes()) for corner in triangle]
+    corners = meshes.stl_triangles(path.read_bytes()).reshape(-1, 3)
     radius = 50 / 2  # millimeters per unit: the circumradius of a tesseract with edge length 2 is 2
     outer = radius * 6 / (6 - 1)
-    for axis in range(3):
-        ball = (max(corners[axis::3]) - min(corners[axis::3])) / 2 - outer
-        assert 0 < ball < 0.15 * outer
+    balls = numpy.ptp(corners, axis=0) / 2 - outer
+    assert (balls > 0).all() and (balls < 0.15 * outer).all()
 
 
 @pytest.mark.parametrize("format_", [row["name"] for row in TABLE if row["group"] == "data"])
