@@ -135,8 +135,8 @@ export interface ColoringValues {
 export interface FileOptions {
     /** A name that export_formats.json lists. */
     format: string;
-    /** The matrix, and drawings of the projection, are exported as svg and pdf only. */
-    of?: "focus" | "oval" | "projection" | "matrix";
+    /** The coordinates, the matrix, and drawings of the projection are exported as svg and pdf only. */
+    of?: "focus" | "oval" | "coordinates" | "projection" | "matrix";
     /** Filled, or balls and bars merged into one body; "frame" is the former name of "skeleton". */
     body?: "solid" | "skeleton" | "frame";
     /** The diameter of the polytope's circumscribed sphere, in millimeters. */

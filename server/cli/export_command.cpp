@@ -40,7 +40,7 @@ void addExportOptions(CLI::App& app, ExportOutputOptions& options) {
                    text::commaSeparated(exports::formatNames()) + "; default: from the output's extension");
     app.allow_extras();
     app.footer(std::string("The content of the file:\n"
-                           "  --of focus|oval  --body solid|skeleton  --size MILLIMETERS  --label "
+                           "  --of focus|oval|coordinates|projection|matrix  --body solid|skeleton  --size MILLIMETERS  --label "
                            "none|engraved|separate\n") +
                kStateHelp);
 }

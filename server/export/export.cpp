@@ -47,15 +47,16 @@ class Exporter {
     std::string run() {
         const Format& format = *request_.format;
         if (format.writeDrawing != nullptr) return format.writeDrawing(drawing());
+        if (request_.extent == Extent::coordinates || request_.extent == Extent::matrix) {
+            throw ExportRefused{
+                {ExportError::Cause::no_body,
+                 std::string("the ") + (request_.extent == Extent::matrix ? "matrix is" : "coordinates are") +
+                     " exported as a drawing, which " + format.name + " files do not contain; choose svg or pdf"}};
+        }
         if (format.writeScene != nullptr && request_.extent == Extent::projection) {
             throw ExportRefused{{ExportError::Cause::no_body,
                                  "a projection is exported as balls and bars or as a drawing, which " + format.name +
                                      " files do not contain; choose another format, such as stl or svg"}};
-        }
-        if (request_.extent == Extent::matrix) {
-            throw ExportRefused{{ExportError::Cause::no_body, "the matrix is exported as a drawing, which " +
-                                                                  format.name +
-                                                                  " files do not contain; choose svg or pdf"}};
         }
         refuseOtherObjects();
         if (format.writeScene != nullptr)
@@ -68,6 +69,13 @@ class Exporter {
     Drawing drawing() const {
         if (request_.extent == Extent::projection) return drawProjection(scene_);
         if (request_.extent == Extent::matrix) return drawMatrix(scene_);
+        if (request_.extent != Extent::coordinates) {
+            throw ExportRefused{
+                {ExportError::Cause::no_body,
+                 request_.format->name +
+                     " files contain drawings: the coordinates, the projection or the matrix; slices are "
+                     "exported as bodies, such as stl, or as a picture"}};
+        }
         return drawCoordinates(scene_, object_, orientation_);
     }
 

@@ -105,6 +105,7 @@ Result<std::string> exportState(const session::State& state, const exports::Expo
 Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format) {
     exports::ExportRequest request;
     request.format = &format;
+    request.extent = exports::usualExtent(format);
     session::QueryParameters rest;
     for (auto& [name, value] : query) {
         Result<std::monostate> done = std::monostate{};

@@ -78,7 +78,8 @@ struct ValueReader {
     std::string_view name, text;
 
     Result<std::monostate> operator()(std::optional<double> Set::* member) const {
-        const bool isAngle = member == &Set::alpha || member == &Set::beta || member == &Set::step;
+        constexpr auto kAngles = std::to_array({&Set::alpha, &Set::beta, &Set::step, &Set::azimuth, &Set::elevation});
+        const bool isAngle = std::ranges::find(kAngles, member) != kAngles.end();
         const auto value = isAngle ? evaluateAngle(text) : evaluate(text);
         if (!value) return bad(value.error().code, std::string(name) + ": " + value.error().message);
         set.*member = *value;
@@ -292,8 +293,8 @@ Result<Command> rotateLine(std::string_view /*rest*/, const Words& words, const 
     if (words.empty())
         return bad(ErrorCode::bad_expression, "rotate needs planes and angles, such as rotate xw,yz pi/8 pi/5");
     // If no angles are given, use those of the rotation keys.
-    const std::string alpha = text::shortestDecimal(state.alpha);
-    const std::string beta = text::shortestDecimal(state.beta);
+    const std::string alpha = text::shortestDecimal(state.alpha) + "rad";
+    const std::string beta = text::shortestDecimal(state.beta) + "rad";
     Words angles(words.begin() + 1, words.end());
     if (angles.empty()) {
         angles.emplace_back(alpha);
@@ -301,9 +302,6 @@ Result<Command> rotateLine(std::string_view /*rest*/, const Words& words, const 
     }
     const auto turn = makeTurn(words[0], angles, "xw pi/8 or xw,yz pi/8 pi/5");
     if (!turn) return turn.error();
-    for (const std::string_view angle : angles) {
-        if (const auto value = evaluateAngle(angle); !value) return value.error();
-    }
     return Command{Rotate{*turn}};
 }
 

@@ -41,9 +41,10 @@ using text::isLetter;
 // catches.
 //   sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power   power = angle [^ signed]
 //   angle = atom [unit]
+// A unit is an error where `units` is false, but for the argument of a function.
 class Parser {
   public:
-    explicit Parser(std::string_view text) : text_(text) {}
+    Parser(std::string_view text, bool units) : text_(text), units_(units) {}
 
     struct SyntaxError {
         std::size_t position;
@@ -91,9 +92,14 @@ class Parser {
     }
     double angle() {
         const double value = atom();
-        if (take("°") || takeWord("deg")) return value * std::numbers::pi / 180;
-        takeWord("rad");
-        return value;
+        const std::size_t end = at_;
+        const bool isInDegrees = take("°") || takeWord("deg");
+        if (!isInDegrees && !takeWord("rad")) return value;
+        if (!units_) {
+            at_ = end;
+            fail("a number without a unit is expected, because it is not an angle");
+        }
+        return isInDegrees ? value * std::numbers::pi / 180 : value;
     }
     double atom() {
         if (take("(")) {
@@ -125,7 +131,9 @@ class Parser {
         for (const Function& function : kFunctions) {
             if (function.name != name) continue;
             if (!take("(")) fail("'(' is expected after " + std::string(name));
+            const bool outside = std::exchange(units_, true);
             const double value = function.call(sum());
+            units_ = outside;
             if (!take(")")) fail("a ')' is missing");
             return value;
         }
@@ -167,19 +175,18 @@ class Parser {
     std::string_view text_;
     std::size_t at_ = 0;
     int depth_ = 0;
+    bool units_;
 };
 
 Error bad(std::string message) { return {ErrorCode::bad_expression, std::move(message)}; }
 
-}  // namespace
-
-Result<double> evaluate(std::string_view text) {
+Result<double> evaluated(std::string_view text, bool units) {
     if (text.find_first_not_of(" \t") == std::string_view::npos)
         return bad("a number is expected, such as 0.2 or pi/8");
     if (text.size() > kMaxLength)
         return bad("an expression may have at most " + std::to_string(kMaxLength) + " characters");
     try {
-        const double value = Parser(text).parse();
+        const double value = Parser(text, units).parse();
         if (!std::isfinite(value)) return bad(text::inQuotes(text) + " is not a finite number");
         return value;
     } catch (const Parser::SyntaxError& error) {
@@ -187,8 +194,12 @@ Result<double> evaluate(std::string_view text) {
     }
 }
 
+}  // namespace
+
+Result<double> evaluate(std::string_view text) { return evaluated(text, false); }
+
 Result<double> evaluateAngle(std::string_view text) {
-    auto value = evaluate(text);
+    auto value = evaluated(text, true);
     const bool isBareNumber = text.find_first_not_of(" \t+-.0123456789") == std::string_view::npos;
     if (value && isBareNumber && std::abs(*value) > 2 * std::numbers::pi) {
         const std::size_t first = text.find_first_not_of(" \t");
@@ -223,11 +234,11 @@ Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::
                    ", not " + std::to_string(angles.size()) + "; write " + std::string(examples));
     }
     geometry::Turn turn{*first, 0, {}};
-    const Result<double> alpha = evaluate(angles[0]);
+    const Result<double> alpha = evaluateAngle(angles[0]);
     if (!alpha) return alpha.error();
     turn.alpha = *alpha;
     if (doubled) {
-        const Result<double> beta = evaluate(angles[1]);
+        const Result<double> beta = evaluateAngle(angles[1]);
         if (!beta) return beta.error();
         turn.beta = *beta;
     }

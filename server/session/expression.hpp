@@ -9,23 +9,25 @@
 
 namespace oval4d::session {
 
-/// Evaluates an expression. It may contain + − * / ^, parentheses, decimal numbers with or without exponent, `pi`,
-/// `phi`, the functions sqrt, sin, cos, tan, asin, acos, atan and deg (degrees to radians), and the units ° and deg
-/// (degrees) and rad after a number, name or parenthesis. Error: `bad_expression`, with the position of a syntax error;
-/// also if the value is not finite.
+/// Evaluates an expression that is not an angle. It may contain + − * / ^, parentheses, decimal numbers with or without
+/// exponent, `pi`, `phi`, and the functions sqrt, sin, cos, tan, asin, acos, atan and deg (degrees to radians), whose
+/// arguments may be angles with units. Error: `bad_expression`, with the position of a syntax error or of a unit; also if
+/// the value is not finite.
 Result<double> evaluate(std::string_view text);
 
-/// Evaluates an expression that is an angle in radians. Errors: those of evaluate(); `out_of_range` if `text` is a
-/// number without a unit and larger than a full turn, since degrees are probably meant.
+/// Evaluates an expression that is an angle, and returns it in radians. The units ° and deg (degrees) and rad may follow
+/// a number, name or parenthesis. Errors: those of evaluate(); `out_of_range` if `text` is a number without a unit and
+/// larger than a full turn, since degrees are probably meant.
 Result<double> evaluateAngle(std::string_view text);
 
 /// Returns a rotation. `planes` names one plane, such as "xw", or two perpendicular planes, such as "xw,yz". `angles`
-/// must have one expression for each plane: the angle in radians. `examples`, for error messages, are rotations as the
-/// user writes them. Error: `bad_expression`.
+/// must have one expression for each plane; see evaluateAngle(). `examples`, for error messages, are rotations as the
+/// user writes them. Errors: `bad_expression`; those of evaluateAngle().
 Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles,
                                 std::string_view examples);
 
-/// Parses a rotation given in a query or a command-line option, such as "xw,yz:pi/8,0.2". Error: `bad_expression`.
+/// Parses a rotation given in a query or a command-line option, such as "xw,yz:pi/8,0.2". Errors: those of
+/// makeTurn().
 Result<geometry::Turn> parseTurn(std::string_view text);
 
 }  // namespace oval4d::session

@@ -98,7 +98,7 @@ constexpr auto kActions = std::to_array<Action>({
     {"polytope_next", [](ActionContext& c) { return showNeighbor(c, 1); }},
     {"polytope_previous", [](ActionContext& c) { return showNeighbor(c, -1); }},
     {"view", always<[](ActionContext& c) {
-         c.state.look.view = c.state.look.view == scene::View::oval ? scene::View::single : scene::View::oval;
+         c.state.look.view = c.state.look.view == scene::View::single ? scene::View::oval : scene::View::single;
      }>},
     {"matrix", always<[](ActionContext& c) {
          c.state.look.view = c.state.look.view == scene::View::matrix ? scene::View::oval : scene::View::matrix;

@@ -199,6 +199,7 @@ exports::ExportRequest exportRequestOf(const json& message) {
         throw InvalidRequest{"get: /format must be " + text::commaSeparated(exports::formatNames()) + ", not " +
                              text::inQuotes(format)};
     }
+    request.extent = exports::usualExtent(*request.format);
     choose(message, "of", exports::kExtents, request.extent);
     choose(message, "body", exports::kBodies, request.body);
     choose(message, "label", exports::kLabels, request.label);

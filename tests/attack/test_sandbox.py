@@ -50,7 +50,11 @@ def reading_processes(server):
 
 
 def kill_reading_processes(server):
-    for pid in reading_processes(server):
+    kill(reading_processes(server))
+
+
+def kill(pids):
+    for pid in pids:
         with contextlib.suppress(ProcessLookupError):
             os.kill(pid, signal.SIGKILL)
 
@@ -277,7 +281,8 @@ async def test_a_load_survives_one_killed_reading_process_and_fails_after_two():
                 loading = asyncio.ensure_future(load_points(client, moment_curve_points(300)))
                 while not loading.done() and not any(map(is_computing, reading_processes(server))):
                     await asyncio.sleep(0.01)
-                kill_reading_processes(server)
+                # Only one, because the server may pass the file on to another one at once.
+                kill(list(filter(is_computing, reading_processes(server)))[:1])
                 await loading
                 assert await cell_count(client) == 300 * 297 // 2
             # This takes longer than it takes to kill two processes, even if the test itself is slow.

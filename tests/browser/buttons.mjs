@@ -17,7 +17,9 @@ const kShown = {
 
 /** The state after `act`, starting from the same state for each comparison. */
 async function outcome(script, { action }, act) {
-    await script.request({ type: "set", polytope: "16-cell", view: "oval", projection: "off", turning: false });
+    // What changes the projection can be pressed only while there is one.
+    const projection = ["cells", "back", "sections"].includes(action) ? "perspective" : "off";
+    await script.request({ type: "set", polytope: "16-cell", view: "oval", projection, turning: false });
     await script.request({ type: "reset" });
     await script.request({ type: "set", alpha: 0.3, beta: 0.2, shown: kShown });
     await script.request({ type: "set", slices: { count: 21, spacing: 0.14, focus: 2 } });
@@ -62,6 +64,28 @@ test("buttons: the turn button starts and stops turning, and shows whether the p
     await button.click();
     await script.until((one) => !one.turning, "the turning to stop");
     await page.waitForSelector('[data-action="turn"][aria-pressed="false"]');
+    await close();
+});
+
+test("buttons: Project names the projection, and what changes it is disabled while there is none", async () => {
+    const { page, press, close } = await openWithScript();
+    const project = page.locator("[data-action=projection]");
+    for (const [pressed, label] of [["false", "Project"], ["true", "Perspective"], ["true", "Orthogonal"]]) {
+        await page.waitForSelector(`[data-action=projection][aria-pressed=${pressed}]:has-text("${label}")`);
+        for (const action of ["cells", "back", "sections"]) {
+            assert.equal(await page.locator(`[data-action=${action}]`).isDisabled(), label === "Project", action);
+        }
+        await project.click();
+    }
+    await page.waitForSelector("[data-action=projection][aria-pressed=false]");
+    const { view } = await press("m");
+    assert.equal(view, "matrix");
+    await page.waitForSelector("[data-action=matrix][aria-pressed=true]");
+    await page.click("[data-action=view]");
+    await page.waitForSelector("[data-action=view][aria-pressed=true]");
+    await page.click("[data-action=view]");
+    await page.waitForSelector("[data-action=view][aria-pressed=false]");
+    await page.waitForSelector("[data-action=matrix][aria-pressed=false]");
     await close();
 });
 

@@ -109,7 +109,7 @@ test("export: figures show what is chosen", async () => {
     await script.request({ type: "set", polytope: "8-cell" });
     await named(page, "8-cell");
     for (const [figure, file, title] of [
-        ["focus", "8-cell-coordinates.svg", "Parallel coordinates"],
+        ["coordinates", "8-cell-coordinates.svg", "Parallel coordinates"],
         ["projection", "8-cell-projection.svg", "Perspective projection"],
         ["matrix", "8-cell-matrix.svg", "Planar sections"],
     ]) {

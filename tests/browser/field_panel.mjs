@@ -304,7 +304,7 @@ test("field panel: an address opens a field, and the panel copies such an addres
     await page.click("#field-link");
     await page.waitForFunction(() => /copied/.test(document.getElementById("notice").textContent));
     const link = await page.evaluate(() => navigator.clipboard.readText());
-    assert.ok(link.includes("formula=x^2+y^2%20+%201/10%20%3C=%20w*z;%20a=0.5&box=-2,2,-2,2,-2,2,-2,3&"), link);
+    assert.ok(link.includes("formula=x^2%2By^2%20%2B%201/10%20%3C=%20w*z;%20a=0.5&box=-2,2,-2,2,-2,2,-2,3&"), link);
     const second = await openPage({ url: `${link}&slices=11` });
     await ready(second.page);
     await named(second.page, "formula");
@@ -339,7 +339,7 @@ test("field panel: the panel continues with a formula of the command line", asyn
 
 test("field panel: the mistakes of an address are reported", async () => {
     const { url } = await common();
-    const { page, close } = await openPage({ url: `${url}?formula=x^2+$&box=1,2&slices=11` });
+    const { page, close } = await openPage({ url: `${url}?formula=x^2%2B$&box=1,2&slices=11` });
     await page.waitForFunction(() => /box=1,2/.test(document.getElementById("notice").textContent));
     const notice = await page.locator("#notice").textContent();
     assert.match(notice, /“formula=x\^2\+\$”.*position 5/);

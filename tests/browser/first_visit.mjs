@@ -76,7 +76,7 @@ test("first visit: the page works if the browser forbids storage", async () => {
     await close();
 });
 
-test("first visit: Escape closes the welcome; other keys act on the drawing and leave it", async () => {
+test("first visit: Escape closes the welcome, which another key alone leaves", async () => {
     const { page, press, close } = await openWithScript({ firstVisit: true });
     await named(page, "24-cell");
     const { slices } = await press("l");
@@ -85,6 +85,43 @@ test("first visit: Escape closes the welcome; other keys act on the drawing and 
     await page.keyboard.press("Escape");
     assert.equal(await isShown(page, "#welcome"), false);
     await close();
+});
+
+test("first visit: the welcome covers nothing, and leaves when its advice was followed or by a gesture", async () => {
+    const visits = [
+        async ({ press }) => {
+            await press("y");
+            await press("l");
+        },
+        async ({ press }) => {
+            await press("h");
+            await press("4");
+        },
+        async ({ page }) => {
+            const { x, y, width, height } = await page.locator("#drawing").boundingBox();
+            await page.mouse.move(x + width / 2, y + height / 2);
+            await page.mouse.down();
+            await page.mouse.move(x + width / 2 + 30, y + height / 2);
+            await page.mouse.up();
+        },
+        async ({ page }) => {
+            await page.mouse.move(400, 400);
+            await page.mouse.wheel(0, 100);
+        },
+    ];
+    for (const [i, visit] of visits.entries()) {
+        const viewport = [{ width: 1280, height: 800 }, { width: 320, height: 256 }][i % 2];
+        const opened = await openWithScript({ firstVisit: true, ...(i < 2 && { viewport }) });
+        const { page, close } = opened;
+        await named(page, "24-cell");
+        const [welcome, drawing] = await Promise.all(
+            ["#welcome", "#drawing"].map((selector) => page.locator(selector).boundingBox()),
+        );
+        assert.ok(welcome.y + welcome.height <= drawing.y && drawing.height > 40, JSON.stringify({ welcome, drawing }));
+        await visit(opened);
+        await page.waitForSelector("#welcome", { state: "hidden" });
+        await close();
+    }
 });
 
 test("tour: five steps point at what they explain, forward and back", async () => {

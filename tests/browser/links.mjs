@@ -31,6 +31,21 @@ test("links: a query opens its view", async () => {
     await close();
 });
 
+test("links: a query is read as standard clients encode it, without what other sites append", async () => {
+    const { url } = await common();
+    const sum = new URLSearchParams({ rotate: "xw:0.1 + 0.2", polytope: "truncated 5-cell" });
+    const { page, errors, close } = await openPage({ url: `${url}?utm_source=mail&${sum}&fbclid=1&alpha=0.1+pi/8` });
+    await named(page, "truncated 5-cell");
+    const script = await scriptFor(page);
+    const { last, alpha } = await script.until((one) => one.alpha > 0.4, "the view");
+    assert.deepEqual([last.planes, alpha], [["xw"], 0.1 + Math.PI / 8]);
+    assert.ok(Math.abs(last.angles[0] - 0.3) < 1e-12);
+    assert.equal(await page.locator("#notice").textContent(), "");
+    assert.deepEqual(errors, []);
+    script.leave();
+    await close();
+});
+
 test("links: a query opens the matrix at a point", async () => {
     const { url } = await common();
     const query = "?view=matrix&polytope=24-cell&point=0.2,-0.1,sqrt(2)/4,0.5";

@@ -55,13 +55,14 @@ async def file_over_websocket(client, **members):
 
 @pytest.mark.parametrize("format_", FORMATS)
 async def test_websocket_http_and_command_export_the_same_file(server, tmp_path, format_):
+    of = "projection" if format_ in ("svg", "pdf") else "oval"
     async with Client(server, stream="none") as client:
         await client.request("set", polytope="24-cell")
         await client.request("rotate", planes=["xw", "yz"], angles=[0.39, 1.42])
-        by_websocket = await file_over_websocket(client, format=format_, of="oval", size=40)
-    by_http = fetch_file(server, format_, f"polytope=24-cell&{ROTATION}&of=oval&size=40")
+        by_websocket = await file_over_websocket(client, format=format_, of=of, size=40)
+    by_http = fetch_file(server, format_, f"polytope=24-cell&{ROTATION}&of={of}&size=40")
     path = tmp_path / f"slices.{format_}"
-    done = run_oval4d("export", "-o", path, "--polytope", "24-cell", "--rotate", "xw,yz:0.39,1.42", "--of", "oval", "--size=40")
+    done = run_oval4d("export", "-o", path, "--polytope", "24-cell", "--rotate", "xw,yz:0.39,1.42", "--of", of, "--size=40")
     assert done.returncode == 0, done.stderr
     if format_ == "3mf":  # a 3MF file contains its time of creation
         assert meshes.read_three_mf(by_websocket) == meshes.read_three_mf(by_http) == meshes.read_three_mf(path.read_bytes())
@@ -373,6 +374,19 @@ def test_formats_for_data_refuse_the_projection(server, format_):
 def test_only_figures_have_the_matrix(server, format_):
     error = export_refusal(server, format_, "polytope=tesseract&of=matrix")
     assert error["code"] == "no_body" and "choose svg or pdf" in error["message"]
+
+
+@pytest.mark.parametrize("format_, of", [("svg", "oval"), ("svg", "focus"), ("pdf", "oval"), ("stl", "coordinates"), ("csv", "coordinates")])
+def test_what_a_format_cannot_contain_is_refused(server, format_, of):
+    error = export_refusal(server, format_, f"polytope=24-cell&of={of}")
+    assert error["code"] == "no_body"
+    other = "choose svg or pdf" if of == "coordinates" else "the coordinates, the projection or the matrix"
+    assert other in error["message"]
+
+
+def test_drawings_show_the_coordinates_unless_another_is_asked_for(server):
+    query = "polytope=24-cell"
+    assert fetch_file(server, "svg", query) == fetch_file(server, "svg", query + "&of=coordinates")
 
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -150,10 +150,11 @@ async def test_metrics_count_messages_and_pictures(server):
         sockets = server.metric("oval4d_websockets")
         assert sockets >= 1 and server.metric("oval4d_sessions") >= 1
         await client.socket.send('{"type":"key","key":"q"}')
+        await client.wait_for_slices(0)  # otherwise, one picture may show both states
         done = await client.request("key", key="y")
         await client.wait_for_slices(done["revision"])
     assert server.metric('oval4d_errors_total{code="unknown_key"}') == before + 1
-    assert server.metric('oval4d_pictures_total{stream="geometry"}') >= 2
+    server.wait_for(lambda: server.metric('oval4d_pictures_total{stream="geometry"}') >= 2)
     server.wait_for(lambda: server.metric('oval4d_picture_step_seconds_count{step="slice"}') >= 2)
     server.wait_for(lambda: server.metric("oval4d_bytes_sent_total") > 1000)
     text = server.get("/metrics").body.decode()

@@ -28,7 +28,7 @@ async def test_messages_commands_queries_and_undo_agree(server):
         for _ in range(2):
             await client.request("undo")
         assert await point() == pytest.approx([0.1, 0.2, -0.3, 0.25])
-        for key, view in ("m", "oval"), ("m", "matrix"), ("o", "oval"), ("o", "single"), ("m", "matrix"):
+        for key, view in ("m", "oval"), ("m", "matrix"), ("o", "single"), ("o", "oval"), ("m", "matrix"):
             await client.request("key", key=key)
             assert (await client.request("get", what="state"))["view"] == view
         await client.request("set", **{name: value for name, value in state.items() if name not in ("type", "id")})

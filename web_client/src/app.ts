@@ -146,6 +146,7 @@ export class App {
     private readonly tools = new Tools({ press: (...binding) => this.press(...binding) });
     private readonly tour = new Tour(() => this.drawing.focus());
     private readonly welcome = new Welcome(
+        this.drawing,
         () => this.tour.start(),
         () => this.drawing.focus(),
     );
@@ -266,9 +267,12 @@ export class App {
             }
         }
         for (const line of lines) {
-            await this.client.request({ type: "command", line }).catch((error: RequestError) => {
-                faults.push(`The address contains “${line}”: ${error.message}`);
-            });
+            try {
+                const { revision } = await this.client.request({ type: "command", line });
+                this.welcome.viewShown(revision);
+            } catch (error) {
+                faults.push(`The address contains “${line}”: ${(error as Error).message}`);
+            }
         }
         this.notice.showAll(faults);
     }
@@ -307,6 +311,7 @@ export class App {
         this.polytopeButton.querySelector("b")!.textContent = name;
         document.title = `${name} \u2013 oval4d`;
         this.stateFields.update(state);
+        this.welcome.update(state);
         this.tools.update(state);
         this.colors.update(state);
         this.fieldPanel.update(state);

@@ -183,10 +183,7 @@ export class ExportDialog {
             const of = this.chosenValue("of");
             parts.push(of === "focus" ? `w ${focusW(state).replace("\u2212", "-")}` : of);
         }
-        if (choices.includes("figure")) {
-            const figure = this.chosenValue("figure");
-            parts.push(figure === "focus" ? "coordinates" : figure);
-        }
+        if (choices.includes("figure")) parts.push(this.chosenValue("figure"));
         if (choices.includes("body") && this.chosenValue("body") === "skeleton") parts.push("skeleton");
         return fileName(parts, name);
     }

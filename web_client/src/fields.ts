@@ -90,7 +90,7 @@ export function queryOf({ formula, box, values }: FormulaField, look: FieldLook)
     };
     // Of the characters that an address may contain, those that formulas use stay readable.
     const encoded = (text: string): string =>
-        encodeURIComponent(text).replace(/%(2B|5E|3D|2C|3B|2F|3A)/g, (code) => decodeURIComponent(code));
+        encodeURIComponent(text).replace(/%(5E|3D|2C|3B|2F|3A)/g, (code) => decodeURIComponent(code));
     return Object.entries(parameters)
         .map(([name, value]) => `${name}=${encoded(value)}`)
         .join("&");

@@ -1,5 +1,7 @@
 // The first visit of a browser: a view that fills the oval, and a line that explains it and offers the tour.
 
+import type { State } from "@oval4d/protocol";
+
 import { byId } from "./element";
 
 const kVisitedKey = "oval4d.visited"; // in localStorage
@@ -16,13 +18,21 @@ export function isFirstVisit(): boolean {
     }
 }
 
+/** The line, which closes when its advice has been followed: the object was turned, and the focus moved. */
 export class Welcome {
     private readonly root = byId("welcome");
+    private since = 0; // the revision of the first view
+    private first: State | undefined;
+    private hasTurned = false;
+    private hasMoved = false;
 
     constructor(
+        drawing: HTMLElement,
         startTour: () => void,
         private readonly closed: () => void,
     ) {
+        // Whoever drags, taps or zooms needs the room of the line for the picture.
+        for (const gesture of ["pointerup", "wheel"]) drawing.addEventListener(gesture, () => this.hide());
         this.root.addEventListener("mousedown", (event) => event.preventDefault()); // the drawing keeps the focus
         byId("welcome-tour").addEventListener("click", () => {
             this.hide();
@@ -39,6 +49,25 @@ export class Welcome {
         } catch {
             // The storage is full: the next visit counts as the first again.
         }
+    }
+
+    /** Tells that the state with this revision, and no earlier one, shows the first view. */
+    viewShown(revision: number): void {
+        this.since = revision;
+        this.first = undefined;
+    }
+
+    update(state: State): void {
+        if (this.root.hidden || state.revision < this.since) return;
+        const first = (this.first ??= state);
+        const differ = (a: unknown, b: unknown): boolean => JSON.stringify(a) !== JSON.stringify(b);
+        this.hasTurned ||= differ(state.orientation, first.orientation);
+        this.hasMoved ||= differ([state.slices.focus, state.slices.offset, state.point], [
+            first.slices.focus,
+            first.slices.offset,
+            first.point,
+        ]);
+        if (this.hasTurned && this.hasMoved) this.hide();
     }
 
     hide(): void {

@@ -3,6 +3,7 @@
 
 import type { Credentials } from "@oval4d/protocol";
 
+import address from "../../protocol/address.json";
 import { boxOf, type FormulaField, kUsualBox, parseNumbers } from "./fields";
 import { readStored, writeStored } from "./tab_storage";
 
@@ -68,16 +69,33 @@ function decodePercents(text: string): string {
     }
 }
 
-/** The names and values of a query. A "+" is part of an expression, not an encoded blank. */
+/** Whether a parameter was appended to the address by another site. */
+function isIgnored(name: string): boolean {
+    return address.ignored.some((rule) => (rule.endsWith("*") ? name.startsWith(rule.slice(0, -1)) : name === rule));
+}
+
+/**
+ * The names and values of a query, without those that protocol/address.json ignores. As in a form, "+" is a blank; but in
+ * arithmetic that a person has typed, such as 0.1+pi/8, it is a plus sign: between two operands. The server reads the
+ * queries of the API in the same way.
+ */
 function settingsOf(query: string): [name: string, value: string][] {
     const parts = query
         .replace(/^\?/, "")
         .split("&")
         .filter((part) => part !== "");
-    return parts.map((part) => {
-        const [name = "", value = ""] = part.split(/=(.*)/s).map(decodePercents);
-        return [name, value];
-    });
+    return parts
+        .map((part): [string, string] => {
+            const [name = "", value = ""] = part.split(/=(.*)/s);
+            const isArithmetic = !address.texts.includes(decodePercents(name));
+            const pieces = value.split("+").map(decodePercents);
+            const text = pieces.reduce((before, after) => {
+                const adds = isArithmetic && /[\p{L}\p{N}.)°]$/u.test(before) && /^[\p{L}\p{N}.(]/u.test(after);
+                return before + (adds ? "+" : " ") + after;
+            });
+            return [decodePercents(name), text];
+        })
+        .filter(([name]) => !isIgnored(name));
 }
 
 /** The field of a query such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2". */
@@ -97,7 +115,7 @@ export function commandLines(query: string): string[] {
         .filter(([name]) => ![...kIgnoredParameters, ...kFieldParameters].includes(name))
         .sort((a, b) => isLast(a) - isLast(b))
         .map(([name, value]) => {
-            if (name === "polytope") return `polytope ${value.replaceAll("+", " ")}`;
+            if (name === "polytope") return `polytope ${value}`;
             if (name === "toward") return `toward ${value.replace(":", " ")}`;
             if (name !== "rotate") return `set ${name}=${value}`;
             const [planes = "", angles = ""] = value.split(":");

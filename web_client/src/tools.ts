@@ -1,6 +1,6 @@
 // The tools panel: a button for every action of the key table, and further sections of the page.
 
-import type { KeyBinding, Keymap, Parts, Plane, State } from "@oval4d/protocol";
+import type { KeyBinding, Keymap, Parts, Plane, Projection, State } from "@oval4d/protocol";
 
 import parts from "../../protocol/schema/parts.schema.json";
 import { byId, element, planeName } from "./element";
@@ -40,10 +40,19 @@ const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
     view: (state) => state.view === "single",
     matrix: (state) => state.view === "matrix",
+    projection: (state) => state.projection !== "off",
     ...Object.fromEntries(
         Object.keys(parts.properties).map((part) => [part, (state: State) => state.shown[part as keyof Parts]]),
     ),
 };
+/** The label of the button that switches between projections names the one that is shown. */
+const kProjectionLabels: Record<Projection, string> = {
+    off: "Project",
+    perspective: "Perspective",
+    orthogonal: "Orthogonal",
+};
+/** The actions that change only the projection. */
+const kActionsOnProjection = ["cells", "back", "sections"];
 /** Labels of buttons that differ from the key table, whose label is not clear enough there. */
 const kLabels: Record<string, string> = {
     view: "One slice",
@@ -70,7 +79,7 @@ const kPadColumns: Plane[] = ["xy", "xz", "xw"]; // the perpendicular planes zw,
 
 export class Tools {
     private readonly root = byId("tools");
-    private readonly toggleButtons = new Map<string, HTMLElement>();
+    private readonly toggleButtons = new Map<string, HTMLButtonElement>();
 
     constructor(private readonly events: ToolEvents) {
         // The drawing keeps the focus when a button is clicked, so that the space bar does not press the button again.
@@ -109,6 +118,8 @@ export class Tools {
     update(state: State): void {
         for (const [action, button] of this.toggleButtons) {
             button.setAttribute("aria-pressed", String(kToggles[action]!(state)));
+            if (kActionsOnProjection.includes(action)) button.disabled = state.projection === "off";
+            if (action === "projection") button.firstChild!.textContent = kProjectionLabels[state.projection];
         }
     }
 

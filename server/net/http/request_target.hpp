@@ -17,8 +17,9 @@ struct RequestTarget {
 };
 
 /// Parses "/path?name=value&…" (origin form) or "http://host:port/path?…" (absolute form; RFC 9112, section 3.2).
-/// Decodes percent escapes, but does not decode "+" as a space, because queries contain arithmetic. Returns nothing if
-/// an escape is malformed, the authority is invalid, or the path does not begin with a slash.
+/// Decodes percent escapes and, in the values of the query, "+" as a blank unless it stands between two operands of
+/// arithmetic; leaves out the parameters that protocol/address.json ignores. Returns nothing if an escape is malformed,
+/// the authority is invalid, or the path does not begin with a slash.
 std::optional<RequestTarget> parseRequestTarget(std::string_view text);
 
 }  // namespace oval4d::net

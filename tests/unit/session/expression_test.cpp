@@ -19,7 +19,7 @@ struct Arithmetic {
 class Expressions : public testing::TestWithParam<Arithmetic> {};
 
 TEST_P(Expressions, HaveTheirValue) {
-    const auto result = evaluate(GetParam().text);
+    const auto result = evaluateAngle(GetParam().text + "+0");  // a sum: numbers above 2π are accepted
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_DOUBLE_EQ(*result, GetParam().value);
 }
@@ -49,6 +49,18 @@ TEST(Expressions, AskAboutAnglesThatAreProbablyDegrees) {
     for (const char* text : {"30°", "30deg", "30rad", "6.28", "4*pi", "2e1"}) EXPECT_TRUE(evaluateAngle(text)) << text;
     EXPECT_DOUBLE_EQ(*evaluateAngle("30rad"), 30);
     EXPECT_EQ(evaluateAngle("x").error().code, ErrorCode::bad_expression);
+}
+
+TEST(Expressions, HaveUnitsOnlyWhereAnAngleIsExpected) {
+    for (const char* text : {"0.1°", "0.1 deg", "2rad", "1+3°", "(1°)*2"}) {
+        const auto value = evaluate(text);
+        ASSERT_FALSE(value) << text;
+        EXPECT_NE(value.error().message.find("a number without a unit is expected"), std::string::npos)
+            << value.error().message;
+    }
+    EXPECT_NE(evaluate("0.1°").error().message.find("position 4"), std::string::npos);
+    EXPECT_DOUBLE_EQ(*evaluate("2*sin(30°)"), 1);
+    EXPECT_FALSE(evaluate("2*sin(30°)°"));
 }
 
 struct Mistake {
@@ -96,6 +108,7 @@ TEST(Turn, IsReadFromPlanesAndAngles) {
     const auto doubled = parseTurn("xw,yz:pi/8,pi/sqrt(3)-pi/8");
     ASSERT_TRUE(doubled);
     EXPECT_EQ(*doubled, (geometry::Turn{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}));
+    EXPECT_EQ(*parseTurn("xw:180°"), (geometry::Turn{geometry::Plane::xw, pi, {}}));
 }
 
 TEST(Turn, MistakesAreExplained) {
@@ -110,6 +123,8 @@ TEST(Turn, MistakesAreExplained) {
          "xw and xy share an axis; a double rotation needs planes without a common axis: combine xw with yz");
     says("xw:1,2", "one plane needs one angle, not 2; write xw:pi/8 or xw,yz:pi/8,pi/5");
     says("xw,yz:1", "two planes need two angles");
+    says("xw:30", "30 radians are more than a full turn; did you mean 30°?");
+    says("xw,yz:1,-400", "did you mean -400°?");
     says("xw:pi/", "a number, a name or '(' is expected");
     says(":", "no plane is called ''");
     says("", "not a rotation");

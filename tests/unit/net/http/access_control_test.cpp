@@ -81,6 +81,23 @@ TEST(RequestTarget, DecodesPathAndQuery) {
     EXPECT_EQ(target->query, expected);
 }
 
+TEST(RequestTarget, ReadsPlusAsBlankUnlessItAdds) {
+    const auto value = [](const std::string& query) { return parseRequestTarget("/?" + query)->query.at(0).second; };
+    EXPECT_EQ(value("polytope=two+warm+spots"), "two warm spots");
+    EXPECT_EQ(value("polytope=x3o3o+*b3o"), "x3o3o *b3o");
+    EXPECT_EQ(value("formula=x%5E2+%2B+y%5E2+%3C+1"), "x^2 + y^2 < 1");  // as standard clients encode it
+    EXPECT_EQ(value("formula=x^2+y^2+(z-1)<w"), "x^2+y^2+(z-1)<w");      // as people type it
+    EXPECT_EQ(value("formula=sqrt(x)+%CF%80+.5"), "sqrt(x)+\u03C0+.5");
+    EXPECT_EQ(value("formula=x+-+y+"), "x - y ");
+    EXPECT_EQ(value("rotate=xw,yz:0.1,+pi/8"), "xw,yz:0.1, pi/8");
+}
+
+TEST(RequestTarget, LeavesOutWhatOtherSitesAppend) {
+    const auto target = parseRequestTarget("/?fbclid=1&polytope=5-cell&utm_source=a&utm_medium=b&gclid=c&fb=2");
+    const session::QueryParameters expected{{"polytope", "5-cell"}, {"fb", "2"}};
+    EXPECT_EQ(target->query, expected);
+}
+
 TEST(RequestTarget, AcceptsAbsoluteForm) {
     struct {
         const char *text, *authority, *path;
