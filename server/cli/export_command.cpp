@@ -39,10 +39,12 @@ void addExportOptions(CLI::App& app, ExportOutputOptions& options) {
     app.add_option("--format", options.format,
                    text::commaSeparated(exports::formatNames()) + "; default: from the output's extension");
     app.allow_extras();
-    app.footer(std::string("The content of the file:\n"
-                           "  --of focus|oval|coordinates|projection|matrix  --body solid|skeleton  --size MILLIMETERS  --label "
-                           "none|engraved|separate\n") +
-               kStateHelp);
+    app.footer(
+        std::string(
+            "The content of the file:\n"
+            "  --of focus|oval|coordinates|projection|matrix  --body solid|skeleton  --size MILLIMETERS  --label "
+            "none|engraved|separate\n") +
+        kStateHelp);
 }
 
 void exportFile(const CLI::App& app, const ExportOutputOptions& options) {

@@ -11,13 +11,13 @@ namespace oval4d::session {
 
 /// Evaluates an expression that is not an angle. It may contain + − * / ^, parentheses, decimal numbers with or without
 /// exponent, `pi`, `phi`, and the functions sqrt, sin, cos, tan, asin, acos, atan and deg (degrees to radians), whose
-/// arguments may be angles with units. Error: `bad_expression`, with the position of a syntax error or of a unit; also if
-/// the value is not finite.
+/// arguments may be angles with units. Error: `bad_expression`, with the position of a syntax error or of a unit; also
+/// if the value is not finite.
 Result<double> evaluate(std::string_view text);
 
-/// Evaluates an expression that is an angle, and returns it in radians. The units ° and deg (degrees) and rad may follow
-/// a number, name or parenthesis. Errors: those of evaluate(); `out_of_range` if `text` is a number without a unit and
-/// larger than a full turn, since degrees are probably meant.
+/// Evaluates an expression that is an angle, and returns it in radians. The units ° and deg (degrees) and rad may
+/// follow a number, name or parenthesis. Errors: those of evaluate(); `out_of_range` if `text` is a number without a
+/// unit and larger than a full turn, since degrees are probably meant.
 Result<double> evaluateAngle(std::string_view text);
 
 /// Returns a rotation. `planes` names one plane, such as "xw", or two perpendicular planes, such as "xw,yz". `angles`
