@@ -135,8 +135,8 @@ export interface ColoringValues {
 export interface FileOptions {
     /** A name that export_formats.json lists. */
     format: string;
-    /** The coordinates, the matrix, and drawings of the projection are exported as svg and pdf only. */
-    of?: "focus" | "oval" | "coordinates" | "projection" | "matrix";
+    /** What the file contains: one of those that export_formats.json lists for the format, the first by default. */
+    of?: "focus" | "oval" | "critical" | "object" | "coordinates" | "projection" | "matrix";
     /** Filled, or balls and bars merged into one body; "frame" is the former name of "skeleton". */
     body?: "solid" | "skeleton" | "frame";
     /** The diameter of the polytope's circumscribed sphere, in millimeters. */

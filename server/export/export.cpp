@@ -11,11 +11,13 @@
 #include "export/drawing/coordinates_drawing.hpp"
 #include "export/drawing/matrix_drawing.hpp"
 #include "export/drawing/projection_drawing.hpp"
+#include "export/formats/formats.hpp"
 #include "export/formats/text.hpp"
 #include "export/label/label.hpp"
 #include "export/mesh/field_body.hpp"
 #include "export/mesh/skeleton.hpp"
 #include "export/mesh/solid.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::exports {
 
@@ -46,18 +48,8 @@ class Exporter {
 
     std::string run() {
         const Format& format = *request_.format;
+        refuseOtherExtents();
         if (format.writeDrawing != nullptr) return format.writeDrawing(drawing());
-        if (request_.extent == Extent::coordinates || request_.extent == Extent::matrix) {
-            throw ExportRefused{
-                {ExportError::Cause::no_body,
-                 std::string("the ") + (request_.extent == Extent::matrix ? "matrix is" : "coordinates are") +
-                     " exported as a drawing, which " + format.name + " files do not contain; choose svg or pdf"}};
-        }
-        if (format.writeScene != nullptr && request_.extent == Extent::projection) {
-            throw ExportRefused{{ExportError::Cause::no_body,
-                                 "a projection is exported as balls and bars or as a drawing, which " + format.name +
-                                     " files do not contain; choose another format, such as stl or svg"}};
-        }
         refuseOtherObjects();
         if (format.writeScene != nullptr)
             return format.writeScene({scene_, object_, orientation_, request_.extent, budget_});
@@ -69,13 +61,6 @@ class Exporter {
     Drawing drawing() const {
         if (request_.extent == Extent::projection) return drawProjection(scene_);
         if (request_.extent == Extent::matrix) return drawMatrix(scene_);
-        if (request_.extent != Extent::coordinates) {
-            throw ExportRefused{
-                {ExportError::Cause::no_body,
-                 request_.format->name +
-                     " files contain drawings: the coordinates, the projection or the matrix; slices are "
-                     "exported as bodies, such as stl, or as a picture"}};
-        }
         return drawCoordinates(scene_, object_, orientation_);
     }
 
@@ -171,6 +156,22 @@ class Exporter {
     std::string wOf(int i) const {
         return request_.extent == Extent::projection ? "projection"
                                                      : labelOfW(slices_.planes.w(i), slices_.planes.spacing);
+    }
+
+    void refuseOtherExtents() const {
+        const auto contains = [&](const Format& format) {
+            return std::ranges::find(format.extents, request_.extent) != format.extents.end();
+        };
+        if (contains(*request_.format)) return;
+        std::vector<std::string_view> own, formatsWithIt;
+        for (const Extent extent : request_.format->extents) own.push_back(text::nameOf(kExtents, extent));
+        for (const Format& format : formats()) {
+            if (contains(format)) formatsWithIt.emplace_back(format.name);
+        }
+        throw ExportRefused{{ExportError::Cause::no_body, request_.format->name + " files contain " +
+                                                              text::alternatives(own) + ", not " +
+                                                              std::string(text::nameOf(kExtents, request_.extent)) +
+                                                              "; " + text::alternatives(formatsWithIt) + " files do"}};
     }
 
     void refuseOtherObjects() const {

@@ -27,15 +27,13 @@ inline constexpr double kMinSize = 1, kMaxSize = 10'000;  ///< bounds of ExportR
 /// The options of an export. `body`, `size` and `label` apply only to formats with bodies.
 struct ExportRequest {
     const Format* format = formatNamed("stl");  ///< a row of formats(); not null
-    Extent extent = Extent::focus;              ///< by default usualExtent() of the format
+    Extent extent = Extent::focus;
     Body body = Body::solid;
     double size = 60;  ///< the diameter of the object's circumscribed sphere in millimeters
     Label label = Label::none;
 };
 
-/// Returns what a file in this format contains if nothing else is asked for.
-inline Extent usualExtent(const Format& format) {
-    return format.writeDrawing != nullptr ? Extent::coordinates : Extent::focus;
-}
+/// Returns the default options for a format, which is a row of formats().
+inline ExportRequest requestFor(const Format& format) { return {.format = &format, .extent = format.extents.front()}; }
 
 }  // namespace oval4d::exports

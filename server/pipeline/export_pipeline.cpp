@@ -103,9 +103,7 @@ Result<std::string> exportState(const session::State& state, const exports::Expo
 }
 
 Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format) {
-    exports::ExportRequest request;
-    request.format = &format;
-    request.extent = exports::usualExtent(format);
+    exports::ExportRequest request = exports::requestFor(format);
     session::QueryParameters rest;
     for (auto& [name, value] : query) {
         Result<std::monostate> done = std::monostate{};

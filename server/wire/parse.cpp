@@ -192,14 +192,13 @@ session::LoadObject loadOf(const json& message) {
 
 exports::ExportRequest exportRequestOf(const json& message) {
     if (!message.contains("format")) throw InvalidRequest{"get: a file must have a /format, such as \"stl\""};
-    exports::ExportRequest request;
     const std::string& format = message.at("format").get_ref<const std::string&>();
-    request.format = exports::formatNamed(format);
-    if (request.format == nullptr) {
+    const exports::Format* const known = exports::formatNamed(format);
+    if (known == nullptr) {
         throw InvalidRequest{"get: /format must be " + text::commaSeparated(exports::formatNames()) + ", not " +
                              text::inQuotes(format)};
     }
-    request.extent = exports::usualExtent(*request.format);
+    exports::ExportRequest request = exports::requestFor(*known);
     choose(message, "of", exports::kExtents, request.extent);
     choose(message, "body", exports::kBodies, request.body);
     choose(message, "label", exports::kLabels, request.label);

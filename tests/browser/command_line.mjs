@@ -316,9 +316,9 @@ test("command line: :export saves a file in each format, as the export dialog do
         const { page, script, errors, close } = await openWithScript();
         await script.request({ type: "set", polytope: "8-cell" });
         await named(page, "8-cell");
-        for (const { name, bodies, of, group } of some) {
+        for (const { name, of } of some) {
             const download = await save(page, `export ${name}`);
-            const part = bodies || of ? "-w-0" : group === "figure" ? "-coordinates" : "";
+            const part = of[0] === "focus" ? "-w-0" : of.length > 1 ? `-${of[0]}` : "";
             assert.equal(download.suggestedFilename(), `8-cell${part}.${name}`);
             assert.ok((await bytesOf(download)).length > 50, name);
         }

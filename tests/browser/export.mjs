@@ -108,12 +108,12 @@ test("export: figures show what is chosen", async () => {
     const { page, script, close } = await openWithScript();
     await script.request({ type: "set", polytope: "8-cell" });
     await named(page, "8-cell");
-    for (const [figure, file, title] of [
+    for (const [of, file, title] of [
         ["coordinates", "8-cell-coordinates.svg", "Parallel coordinates"],
         ["projection", "8-cell-projection.svg", "Perspective projection"],
         ["matrix", "8-cell-matrix.svg", "Planar sections"],
     ]) {
-        const { name, bytes } = await exported(page, { format: "svg", figure });
+        const { name, bytes } = await exported(page, { format: "svg", of });
         assert.equal(name, file);
         assert.match(text(bytes, 400), new RegExp(`<title>${title}`));
     }
@@ -155,7 +155,7 @@ test("export: only the options of the format are shown", async () => {
         csv: ["of"],
         vtp: ["of"],
         png: ["pixels"],
-        svg: ["figure"],
+        svg: ["of"],
         glb: ["of", "body", "size", "label"],
     })) {
         await choose(page, "format", format);

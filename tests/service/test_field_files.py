@@ -231,11 +231,12 @@ def test_vti_samples_the_slice(server):
 
 @pytest.mark.parametrize("format_, query, reason", [
     ("off", {}, "a field has none"),
-    ("vti", {"of": "oval"}, "one slice"),
+    ("vti", {"of": "oval"}, "contain focus, not oval"),
     ("vti", {"focus": 40}, "is empty"),
     ("stl", {"levels": "-5"}, "change the levels"),
     ("stl", {"label": "engraved"}, "separate label"),
-    ("csv", {"of": "matrix"}, "drawing"),
+    ("csv", {"of": "matrix"}, "svg or pdf"),
+    ("csv", {"of": "critical"}, "get critical"),
 ])
 def test_what_a_field_has_not_is_refused(server, format_, query, reason):
     error = json.loads(fetch(server, format_, BALL, BALL_BOX, status=400, **query))

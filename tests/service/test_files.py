@@ -42,10 +42,9 @@ def export_refusal(server, format_, query, status=400):
     return json.loads(fetch_file(server, format_, query, status))
 
 
-def csv_tables(data):
-    """Returns the two tables of a CSV file: slices and critical levels of w."""
-    slices, levels = data.decode().split("\n\n")
-    return list(csv.DictReader(io.StringIO(slices))), list(csv.DictReader(io.StringIO(levels)))
+def csv_rows(server, query):
+    """Returns the rows of a CSV file, as mappings from the names of the columns."""
+    return list(csv.DictReader(io.StringIO(fetch_file(server, "csv", query).decode())))
 
 
 async def file_over_websocket(client, **members):
@@ -55,7 +54,8 @@ async def file_over_websocket(client, **members):
 
 @pytest.mark.parametrize("format_", FORMATS)
 async def test_websocket_http_and_command_export_the_same_file(server, tmp_path, format_):
-    of = "projection" if format_ in ("svg", "pdf") else "oval"
+    (contents,) = (row["of"] for row in TABLE if row["name"] == format_)
+    of = "oval" if "oval" in contents else contents[0]
     async with Client(server, stream="none") as client:
         await client.request("set", polytope="24-cell")
         await client.request("rotate", planes=["xw", "yz"], angles=[0.39, 1.42])
@@ -79,7 +79,7 @@ def test_admesh_finds_nothing_to_repair_after_any_rotation(server, tmp_path, pol
     for turn in turns:
         query = f"polytope={polytope}{turn}&focus={rng.randint(-4, 4)}"
         report = meshes.assert_closed_mesh(fetch_file_to(server, tmp_path / "solid.stl", query), parts=1)
-        (row,), levels = csv_tables(fetch_file(server, "csv", query))
+        (row,), levels = csv_rows(server, query), csv_rows(server, query + "&of=critical")
         # The circumscribed sphere has a diameter of 60 mm; the 4OFF file gives its radius in the polytope's units.
         points = off_points(fetch_file(server, "off", query))
         scale = 30 / max(sum(c * c for c in p) ** 0.5 for p in points)
@@ -98,7 +98,7 @@ def off_points(data):
 @pytest.mark.parametrize("body", ["solid", "skeleton"])
 def test_bodies_of_the_oval_stand_separately_on_the_build_plate(server, tmp_path, polytope, body):
     query = f"polytope={polytope}&{ROTATION}&of=oval&slices=7&size=50"
-    slices, _ = csv_tables(fetch_file(server, "csv", query))
+    slices = csv_rows(server, query)
     full = [row for row in slices if float(row["volume"]) > 1e-6]
     path = fetch_file_to(server, tmp_path / "oval.stl", query + f"&body={body}")
     # Balls and bars are also exported for flat slices, which have no solid.
@@ -177,7 +177,8 @@ def test_labels_are_engraved_or_separate_bodies(server, tmp_path):
 
 
 def test_csv_measurements_match_the_16_cell(server):
-    slices, levels = csv_tables(fetch_file(server, "csv", "polytope=16-cell&of=oval&slices=5&spacing=0.5"))
+    slices = csv_rows(server, "polytope=16-cell&of=oval&slices=5&spacing=0.5")
+    levels = csv_rows(server, "polytope=16-cell&of=critical")
     assert [row["n"] for row in slices] == ["-2", "-1", "0", "1", "2"]
     for row in slices:
         # At ±w the 16-cell's slice is the octahedron of radius √2 − |w|.
@@ -187,7 +188,7 @@ def test_csv_measurements_match_the_16_cell(server):
         assert [row[name] for name in ("vertices", "edges", "faces")] == ["6", "12", "8"]
         assert all(abs(float(row["centroid_" + axis])) < 1e-9 for axis in "xyz")
     assert [int(row["vertices"]) for row in levels] == [1, 6, 1]
-    assert [float(row["critical_w"]) for row in levels] == pytest.approx([-(2**0.5), 0, 2**0.5])
+    assert [float(row["w"]) for row in levels] == pytest.approx([-(2**0.5), 0, 2**0.5])
 
 
 async def test_an_exported_4off_file_loads_as_the_same_polytope(server):
@@ -279,7 +280,7 @@ async def test_export_limits_are_enforced():
         assert error["code"] == "too_large" and "5000 are allowed" in error["message"]
         fetch_file(server, "stl", "polytope=120-cell")
     with Server("--max-file-bytes", "2k") as server:
-        assert "2048 bytes" in export_refusal(server, "off", query, 413)["message"]
+        assert "2048 bytes" in export_refusal(server, "off", "polytope=120-cell", 413)["message"]
         async with Client(server) as client:
             with pytest.raises(Refused) as refused:
                 await client.request("get", what="file", format="off")
@@ -364,24 +365,16 @@ def test_the_projection_has_the_size_of_the_object(server, tmp_path):
     assert (balls > 0).all() and (balls < 0.15 * outer).all()
 
 
-@pytest.mark.parametrize("format_", [row["name"] for row in TABLE if row["group"] == "data"])
-def test_formats_for_data_refuse_the_projection(server, format_):
-    error = export_refusal(server, format_, "polytope=tesseract&of=projection")
-    assert "choose another format" in error["message"]
-
-
-@pytest.mark.parametrize("format_", [row["name"] for row in TABLE if row["group"] != "figure"])
-def test_only_figures_have_the_matrix(server, format_):
-    error = export_refusal(server, format_, "polytope=tesseract&of=matrix")
-    assert error["code"] == "no_body" and "choose svg or pdf" in error["message"]
-
-
-@pytest.mark.parametrize("format_, of", [("svg", "oval"), ("svg", "focus"), ("pdf", "oval"), ("stl", "coordinates"), ("csv", "coordinates")])
-def test_what_a_format_cannot_contain_is_refused(server, format_, of):
-    error = export_refusal(server, format_, f"polytope=24-cell&of={of}")
-    assert error["code"] == "no_body"
-    other = "choose svg or pdf" if of == "coordinates" else "the coordinates, the projection or the matrix"
-    assert other in error["message"]
+@pytest.mark.parametrize("row", TABLE, ids=lambda row: row["name"])
+def test_what_a_format_cannot_contain_is_refused(server, row):
+    """The message says what files of this format contain, and which formats contain what was asked for."""
+    all_contents = {of for other in TABLE for of in other["of"]}
+    for of in sorted(all_contents - set(row["of"])):
+        error = export_refusal(server, row["name"], f"polytope=24-cell&of={of}")
+        assert error["code"] == "no_body"
+        contents, others = error["message"].split("; ")
+        assert f", not {of}" in contents and all(own in contents for own in row["of"])
+        assert all(other["name"] in others for other in TABLE if of in other["of"])
 
 
 def test_drawings_show_the_coordinates_unless_another_is_asked_for(server):

@@ -135,7 +135,16 @@ export class ExportDialog {
             const used = (format.choices as string[]).includes(set.dataset["choice"]!);
             set.hidden = set.disabled = !used;
         }
+        this.showContents(format);
         this.submit.textContent = `Download ${format.label}`;
+    }
+
+    /** Offers what files of the format can contain, and chooses the default if they cannot contain what is chosen. */
+    private showContents({ of }: Format): void {
+        if (of.length > 0 && !of.includes(this.chosenValue("of"))) this.field("of").value = of[0]!;
+        for (const radio of this.form.querySelectorAll<HTMLInputElement>("[name=of]")) {
+            radio.disabled = radio.parentElement!.hidden = !of.includes(radio.value);
+        }
     }
 
     private async downloadFile(): Promise<void> {
@@ -163,12 +172,8 @@ export class ExportDialog {
             const [width, height] = [Number(fields["width"]), Number(fields["height"])];
             return this.client.request({ type: "get", what: "frame", width, height });
         }
-        const { size, figure, ...rest } = fields;
-        const options = {
-            ...rest,
-            ...(size !== undefined && { size: Number(size) }),
-            ...(figure !== undefined && { of: figure }),
-        };
+        const { size, ...rest } = fields;
+        const options = { ...rest, ...(size !== undefined && { size: Number(size) }) };
         return this.client.request({ type: "get", what: "file", ...(options as unknown as FileOptions) });
     }
 
@@ -183,7 +188,6 @@ export class ExportDialog {
             const of = this.chosenValue("of");
             parts.push(of === "focus" ? `w ${focusW(state).replace("\u2212", "-")}` : of);
         }
-        if (choices.includes("figure")) parts.push(this.chosenValue("figure"));
         if (choices.includes("body") && this.chosenValue("body") === "skeleton") parts.push("skeleton");
         return fileName(parts, name);
     }

@@ -2,7 +2,7 @@
 
 import table from "../../protocol/export_formats.json";
 
-export type Choice = "of" | "figure" | "body" | "size" | "label" | "pixels";
+export type Choice = "of" | "body" | "size" | "label" | "pixels";
 
 export interface Format {
     /** The name in the protocol, and the file name extension. */
@@ -14,6 +14,8 @@ export interface Format {
     type: string;
     /** The options that the format offers. */
     choices: Choice[];
+    /** What the file can contain; the first is the default. */
+    of: string[];
     /** The only objects that the format describes, if it does not describe all. */
     objects?: "fields" | "polytopes";
 }
@@ -24,6 +26,7 @@ const kPng: Format = {
     about: "The picture; scripts can restore its state from the file",
     type: "image/png",
     choices: ["pixels"],
+    of: [],
 };
 
 export const kFormats: { title: string; formats: Format[] }[] = table.groups.map(({ name: group, title }) => ({
@@ -38,24 +41,24 @@ interface Row {
     media_type: string;
     group: string;
     bodies?: string;
-    of?: boolean;
+    of: string[];
     objects?: string;
 }
 
 function format(row: Row): Format {
-    const { name, label, about, objects } = row;
+    const { name, label, about, of, objects } = row;
     return {
         name,
         label,
         about,
         type: row.media_type,
         choices: choicesOf(row),
+        of,
         ...(objects && { objects: objects as "fields" | "polytopes" }),
     };
 }
 
 function choicesOf(row: Row): Choice[] {
     if (row.bodies) return ["of", "body", "size", "label"];
-    if (row.of) return ["of"];
-    return row.group === "figure" ? ["figure"] : [];
+    return row.of.length > 1 ? ["of"] : [];
 }

@@ -86,22 +86,32 @@ std::string fieldCsv(const SceneInput& source, const fields::Field& field) {
     return out;
 }
 
-}  // namespace
-
-std::string measurementsCsv(const SceneInput& source) {
-    if (const fields::Field* field = slicing::fieldIn(source.object)) return fieldCsv(source, *field);
-    const slicing::SliceSet& slices = *source.scene.slices;
-    std::string out = "n,w,vertices,edges,faces,volume,area,centroid_x,centroid_y,centroid_z\n";
-    for (int i = 0; i < slices.planes.count; ++i) appendSlice(out, slices, i);
-
-    out += "\ncritical_w,vertices\n";
+// The w at which there are vertices, and the number of vertices at each.
+std::string criticalCsv(const SceneInput& source) {
+    std::string out = "w,vertices\n";
     std::vector<double> levels;
-    for (const glm::dvec4& v : slices.rotatedVertices) levels.push_back(v.w);
+    for (const glm::dvec4& v : source.scene.slices->rotatedVertices) levels.push_back(v.w);
     const double same = slicing::kOnPlane * source.scene.circumradius;
     for (const auto& [w, vertices] : slicing::groupHeights(std::move(levels), same)) {
         append(out, w);
         out += ',' + std::to_string(vertices) + '\n';
     }
+    return out;
+}
+
+}  // namespace
+
+std::string measurementsCsv(const SceneInput& source) {
+    const fields::Field* field = slicing::fieldIn(source.object);
+    if (source.extent == Extent::critical) {
+        if (field == nullptr) return criticalCsv(source);
+        throw ExportRefused{{ExportError::Cause::no_body,
+                             "the critical w of a field are searched for; get them with the message get critical"}};
+    }
+    if (field != nullptr) return fieldCsv(source, *field);
+    const slicing::SliceSet& slices = *source.scene.slices;
+    std::string out = "n,w,vertices,edges,faces,volume,area,centroid_x,centroid_y,centroid_z\n";
+    for (int i = 0; i < slices.planes.count; ++i) appendSlice(out, slices, i);
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "export/budget.hpp"
 #include "export/drawing/drawing.hpp"
@@ -56,7 +57,8 @@ struct Format {
     std::string mediaType;  ///< the value of the Content-Type header
     Arrangement arrangement = Arrangement::none;
     Objects objects = Objects::all;
-    bool takesSurfaces = false;  ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
+    std::vector<Extent> extents;  ///< what a file can contain; the first of them is the default
+    bool takesSurfaces = false;   ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
     std::string (*writeBodies)(const BodiesToWrite&) = nullptr;
     std::string (*writeScene)(const SceneInput&) = nullptr;
     std::string (*writeDrawing)(const Drawing&) = nullptr;

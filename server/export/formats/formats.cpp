@@ -53,7 +53,9 @@ std::vector<Format> readTable() {
     std::vector<Format> table;
     const auto rows = nlohmann::json::parse(protocol_data::embeddedFile("export_formats.json")).at("formats");
     for (const auto& row : rows) {
-        Format format{.name = row.at("name"), .mediaType = row.at("media_type")};
+        Format format;
+        format.name = row.at("name");
+        format.mediaType = row.at("media_type");
         const auto writer = std::ranges::find(kWriters, format.name, &Writer::name);
         const std::string bodies = row.value("bodies", "");
         if (writer == kWriters.end() || (writer->ofBodies != nullptr) == bodies.empty())
@@ -61,6 +63,7 @@ std::vector<Format> readTable() {
         if (!bodies.empty())
             format.arrangement = bodies == "plate" ? Format::Arrangement::plate : Format::Arrangement::oval;
         format.objects = text::valueNamed(kObjects, row.value("objects", "all")).value();
+        for (const std::string of : row.at("of")) format.extents.push_back(text::valueNamed(kExtents, of).value());
         format.takesSurfaces = writer->takesSurfaces;
         format.writeBodies = writer->ofBodies;
         format.writeScene = writer->ofScene;

@@ -83,7 +83,6 @@ std::string vti(const SceneInput& source) {
     const auto refuse = [](std::string message) {
         throw ExportRefused{{ExportError::Cause::no_body, std::move(message)}};
     };
-    if (source.extent != Extent::focus) refuse("a vti file contains one slice: choose the focus slice");
     if (slices.vertices.empty()) {
         refuse("the slice at " + labelOfW(slices.planes.w(0), slices.planes.spacing) +
                " is empty: move the focus or turn the field");

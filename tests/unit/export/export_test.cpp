@@ -24,7 +24,7 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     EXPECT_NE(fileOf(p, none, oval, skeleton, limits).find("1000 are allowed"), std::string::npos);
     limits = kUnhurried;
     limits.bytes = 1000;
-    EXPECT_NE(fileOf(p, none, oval, {.format = formatNamed("off")}, limits).find("1000 bytes"), std::string::npos);
+    EXPECT_NE(fileOf(p, none, oval, requestFor(*formatNamed("off")), limits).find("1000 bytes"), std::string::npos);
     limits = {};
     limits.triangles = 100'000'000;
     limits.time = std::chrono::duration<double>(1e-6);
