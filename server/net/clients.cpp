@@ -4,7 +4,10 @@
 #include <charconv>
 #include <stdexcept>
 
-#include "text/words.hpp"
+#include <spdlog/spdlog.h>
+
+#include "net/forwarded.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::net {
 
@@ -136,10 +139,15 @@ address Clients::clientAddress(std::string_view forwardedFor, const address& pro
     while (!forwardedFor.empty() && isTrustedProxy(nearest)) {
         const std::size_t comma = forwardedFor.rfind(',');
         const std::size_t start = comma == std::string_view::npos ? 0 : comma + 1;
-        boost::system::error_code fault;
-        const address before = asio::ip::make_address(std::string(text::trimmed(forwardedFor.substr(start))), fault);
-        if (fault) break;
-        nearest = before;
+        const std::string_view entry = forwardedFor.substr(start);
+        const auto before = forwardedAddress(entry);
+        if (!before) {
+            if (!warnedOfForwarded_.exchange(true))
+                spdlog::warn("X-Forwarded-For has no address, so all clients behind it count as one proxy={} entry={}",
+                             nearest.to_string(), text::inQuotes(entry));
+            break;
+        }
+        nearest = *before;
         forwardedFor = forwardedFor.substr(0, comma == std::string_view::npos ? 0 : comma);
     }
     return nearest;

@@ -1,7 +1,7 @@
 #pragma once
 // The clients of the server, identified by IP address, and the limits on each client.
 
-#include <boost/asio/ip/address.hpp>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <map>
@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <boost/asio/ip/address.hpp>
 
 #include "net/byte_budget.hpp"
 #include "net/token_bucket.hpp"
@@ -117,7 +119,8 @@ class Clients {
 
     /// Returns the address of the client behind a proxy. `forwardedFor`: the value of X-Forwarded-For. Starts with
     /// `proxy` and goes backward through the entries of X-Forwarded-For as long as the current address is a trusted
-    /// proxy and the next entry is a valid address; returns the last address reached.
+    /// proxy and the next entry is an address (see forwardedAddress()); returns the last address reached. Logs a warning
+    /// about the first entry that is not an address.
     boost::asio::ip::address clientAddress(std::string_view forwardedFor, const boost::asio::ip::address& proxy) const;
 
     /// Returns the number of bytes held for all clients together.
@@ -130,6 +133,7 @@ class Clients {
 
     const ClientLimits limits_;
     std::vector<Network> trusted_;
+    mutable std::atomic<bool> warnedOfForwarded_ = false;
     ByteBudget budget_;
     mutable std::mutex mutex_;
     std::map<std::string, ClientPtr, std::less<>> clients_;  // guarded by mutex_

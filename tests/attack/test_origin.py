@@ -178,6 +178,11 @@ def test_cross_site_links_to_the_page_are_served(server):
         assert answer.status == 200 and answer.body.lower().startswith(b"<!doctype html>")
 
 
+@pytest.mark.parametrize("target", [PICTURE, FILE])
+def test_cross_site_links_to_pictures_and_files_are_served(server, target):
+    assert response_status(server, target, CROSS, *LINK) == 200
+
+
 def test_cross_site_health_probes_are_answered(server):
     assert response_status(server, "/healthz", CROSS) == response_status(server, "/readyz", CROSS) == 200
 

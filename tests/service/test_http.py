@@ -162,15 +162,27 @@ async def test_metrics_count_messages_and_pictures(server):
 
 
 @pytest.mark.parametrize("headers, status", [
-    ({}, 200), ({"Host": "localhost:1"}, 200), ({"Host": "[::1]:80"}, 200), ({"Host": "evil.example"}, 403),
+    ({}, 200), ({"Host": "localhost:1"}, 200), ({"Host": "localhost.:1"}, 200), ({"Host": "[::1]:80"}, 200), ({"Host": "evil.example"}, 403),
     ({"Host": "127.0.0.1.evil.example"}, 403), ({"Host": ""}, 403),
     ({"Origin": "http://evil.example"}, 403), ({"Origin": "null"}, 403),
     ({"Host": "localhost:99", "Origin": "http://localhost:99"}, 200),
     ({"Host": "localhost:99", "Origin": "http://localhost:98"}, 403),
+    ({"Host": "localhost.:99", "Origin": "http://localhost:99"}, 200),
 ])
 async def test_only_local_hosts_and_origins_are_accepted(server, headers, status):
     assert server.get("/api/v1/catalogue", **headers).status == status
     assert server.get("/healthz", **headers).status == 200
+
+
+def test_the_pages_files_are_served_whatever_the_origin(server):
+    """Browsers send an Origin for modules, and a proxy may change Host."""
+    for origin in ("http://oval.example", "null"):
+        assert server.get("/app.js", Origin=origin).status == 200
+        assert server.get("/", Origin=origin).status == 200
+    refusal = server.get("/api/v1/catalogue", Host="localhost:99", Origin="http://oval.example")
+    assert refusal.status == 403
+    for part in (b"'http://oval.example'", b"'localhost:99'", b"a proxy must pass the header Host on", b"--allow-origin"):
+        assert part in refusal.body
 
 
 async def test_websockets_from_foreign_origins_are_refused(server):

@@ -26,6 +26,11 @@ std::string_view portOrDefault(const Authority& authority, std::string_view defa
     return authority.port.empty() ? defaultPort : authority.port;
 }
 
+/// Returns the host name without the dot that marks it as fully qualified: "localhost." is "localhost".
+std::string_view withoutFinalDot(std::string_view host) {
+    return host.size() > 1 && host.ends_with('.') ? host.substr(0, host.size() - 1) : host;
+}
+
 bool listed(const std::vector<std::string>& list, std::string_view text) {
     return std::ranges::any_of(
         list, [text](const std::string& entry) { return entry == "*" || equalsIgnoringCase(entry, text); });
@@ -103,7 +108,8 @@ std::string AccessControl::cookieFor(const AccessFields& fields) const {
 
 bool AccessControl::isAllowedHost(std::string_view host) const {
     const auto authority = parseAuthority(host);
-    return authority ? listed(hosts_, host) || listed(hosts_, authority->host) : host.empty() && listed(hosts_, "*");
+    return authority ? listed(hosts_, host) || listed(hosts_, withoutFinalDot(authority->host))
+                     : host.empty() && listed(hosts_, "*");
 }
 
 bool AccessControl::isListedOrigin(std::string_view origin) const {
@@ -119,14 +125,16 @@ bool AccessControl::isAllowedOrigin(std::string_view origin, std::string_view ho
         const std::string_view prefix = scheme;
         if (!equalsIgnoringCase(origin.substr(0, prefix.size()), prefix)) continue;
         const auto from = parseAuthority(origin.substr(prefix.size())), called = parseAuthority(host);
-        return from && called && equalsIgnoringCase(from->host, called->host) &&
+        return from && called && equalsIgnoringCase(withoutFinalDot(from->host), withoutFinalDot(called->host)) &&
                portOrDefault(*from, port) == portOrDefault(*called, port);
     }
     return false;
 }
 
 bool AccessControl::isCrossSite(const AccessFields& fields) const {
-    return equalsIgnoringCase(fields.fetchSite, "cross-site") && !isListedOrigin(fields.origin);
+    const bool isLink = equalsIgnoringCase(fields.fetchMode, "navigate") &&
+                        equalsIgnoringCase(fields.fetchDestination, "document");
+    return equalsIgnoringCase(fields.fetchSite, "cross-site") && !isLink && !isListedOrigin(fields.origin);
 }
 
 bool AccessControl::hasToken(const AccessFields& fields) {

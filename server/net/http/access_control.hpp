@@ -12,8 +12,10 @@ namespace oval4d::net {
 /// that is absent is empty. The views refer to the memory of the request.
 struct AccessFields {
     std::string_view host{}, origin{}, authorization{}, cookie{};
-    std::string_view fetchSite{};  ///< Sec-Fetch-Site: the browser's verdict, such as "same-origin" or "cross-site"
-    std::string_view token{};      ///< the query parameter "token"
+    std::string_view token{};  ///< the query parameter "token"
+    /// What the browser says about the request (W3C Fetch Metadata): Sec-Fetch-Site, such as "same-origin" or
+    /// "cross-site"; Sec-Fetch-Mode, such as "navigate"; Sec-Fetch-Dest, such as "document" or "image".
+    std::string_view fetchSite{}, fetchMode{}, fetchDestination{};
 };
 
 /// The host and port of a URL: "localhost:8080", "[::1]".
@@ -41,8 +43,9 @@ class AccessControl {
     /// Checks the host, then the origin, then the token, and returns the first failure.
     Verdict check(const AccessFields& fields) const;
 
-    /// Returns whether the request comes from a page of another site, according to Sec-Fetch-Site (W3C Fetch Metadata),
-    /// and the origin of that page is not an allowed foreign origin. Such requests must not cause expensive work.
+    /// Returns whether a page of another site requests something for itself, according to the browser, and the origin of
+    /// that page is not an allowed foreign origin. Such requests must not cause expensive work. A link on such a page
+    /// that a person follows is no such request.
     bool isCrossSite(const AccessFields& fields) const;
 
     /// Returns whether this origin is in the list of allowed foreign origins.

@@ -17,6 +17,7 @@
 #include "net/http/upload.hpp"
 #include "net/ws/min_read_rate.hpp"
 #include "net/ws/websocket_connection.hpp"
+#include "text/message_text.hpp"
 #include "wire/messages.hpp"
 
 namespace oval4d::net {
@@ -97,14 +98,19 @@ std::optional<RequestTarget> targetOf(const HttpRequest& request) {
 AccessFields accessFieldsOf(const HttpRequest& request, const RequestTarget& target) {
     const session::QueryParameters& query = target.query;
     const auto token = std::ranges::find(query, "token", &session::QueryParameters::value_type::first);
-    const auto site = request.find("Sec-Fetch-Site");
+    const auto field = [&](std::string_view name) {
+        const auto found = request.find(name);
+        return found == request.end() ? std::string_view() : std::string_view(found->value());
+    };
     // A target in absolute form overrides the Host field (RFC 9112, section 3.2.2).
     return {target.authority.empty() ? headerField(request, http::field::host) : std::string_view(target.authority),
             headerField(request, http::field::origin),
             headerField(request, http::field::authorization),
             headerField(request, http::field::cookie),
-            site == request.end() ? std::string_view() : std::string_view(site->value().data(), site->value().size()),
-            token == query.end() ? std::string_view() : std::string_view(token->second)};
+            token == query.end() ? std::string_view() : std::string_view(token->second),
+            field("Sec-Fetch-Site"),
+            field("Sec-Fetch-Mode"),
+            field("Sec-Fetch-Dest")};
 }
 
 Reply plainReply(unsigned status, std::string text) {
@@ -231,13 +237,20 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
 /// if the reply is to set a cookie.
 std::optional<Reply> HttpConnection::checkAccess(const HttpRequest& request, const RequestTarget& target,
                                                  std::string& cookie) const {
-    const AccessFields fields = accessFieldsOf(request, target);
+    AccessFields fields = accessFieldsOf(request, target);
+    // Everybody may load the page's own files. Behind a proxy that changes Host, their requests have a foreign Origin.
+    if (!isRestricted(target)) fields.origin = {};
     const auto now = Client::Clock::now();
     switch (context_.access.check(fields)) {
         case AccessControl::Verdict::bad_host:
-            return plainReply(403, "this server does not accept this host name (--allow-host)\n");
+            return plainReply(403, "this server does not accept the host name " + text::inQuotes(fields.host) +
+                                       "; allow it with --allow-host\n");
         case AccessControl::Verdict::bad_origin:
-            return plainReply(403, "pages of this origin may not use this server (--allow-origin)\n");
+            return plainReply(403, "pages of " + text::inQuotes(fields.origin) +
+                                       " may not use this server, because the request's Host is " +
+                                       text::inQuotes(fields.host) +
+                                       "; a proxy must pass the header Host on, or allow the origin with "
+                                       "--allow-origin\n");
         case AccessControl::Verdict::bad_token: {
             if (!client_->mayTryToken(now)) return tooMany("too many wrong tokens; try again in a minute\n");
             if (AccessControl::hasToken(fields)) client_->countWrongToken(now);

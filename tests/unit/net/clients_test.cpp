@@ -1,4 +1,5 @@
 #include "net/clients.hpp"
+#include "net/forwarded.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,6 +43,26 @@ TEST(Clients, ForwardedForIsUsedOnlyFromTrustedProxies) {
     EXPECT_EQ(addressOf("2001:db8::5", make_address("2001:db8::1")), "2001:db8::5");
     EXPECT_TRUE(clients.isTrustedProxy(make_address("::ffff:10.0.0.1")));
     EXPECT_FALSE(clients.isTrustedProxy(make_address("11.0.0.1")));
+}
+
+TEST(Clients, ForwardedAddressesMayHavePortsBracketsAndQuotes) {
+    const auto read = [](std::string_view entry) {
+        const auto found = forwardedAddress(entry);
+        return found ? found->to_string() : "none";
+    };
+    for (const char* entry : {"192.0.2.7", "192.0.2.7:51000", " 192.0.2.7:1 ", "\"192.0.2.7:51000\"", "\"192.0.2.7\""})
+        EXPECT_EQ(read(entry), "192.0.2.7") << entry;
+    for (const char* entry : {"2001:db8::7", "[2001:db8::7]", "[2001:db8::7]:4711", "\"[2001:db8::7]:4711\""})
+        EXPECT_EQ(read(entry), "2001:db8::7") << entry;
+    for (const char* entry : {"", "unknown", "_hidden", "_a:80", "192.0.2.7:", "192.0.2.7:http", "192.0.2.7:123456",
+                              "[192.0.2.7]", "[2001:db8::7", "2001:db8::7]", "[2001:db8::7]x", "192.0.2", "\"", ":80"})
+        EXPECT_EQ(read(entry), "none") << entry;
+    const Clients clients({}, {"10.0.0.0/8"}, kTotalBytes);
+    const auto addressOf = [&](const char* forwarded) {
+        return clients.clientAddress(forwarded, make_address("10.1.2.3")).to_string();
+    };
+    EXPECT_EQ(addressOf("forged, 198.51.100.7:51000, 10.9.9.9:3128"), "198.51.100.7");
+    EXPECT_EQ(addressOf("\"[2001:db8::7]:4711\""), "2001:db8::7");
 }
 
 TEST(Network, RejectsMalformedText) {
