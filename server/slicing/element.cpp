@@ -48,18 +48,25 @@ void visitVertices(const geometry::PointCloud& cloud, const Element& element, Vi
     visit(cloud.points[element.index]);
 }
 
-// An orthonormal basis of the directions within an element, to which the Gram–Schmidt process adds vectors.
+// An orthonormal basis of the directions within an element.
 class Span {
   public:
+    /// Makes the basis of an element of this dimension, by the Gram–Schmidt process, from vectors between its points. It
+    /// takes the longest of the remaining vectors each time, so that rounding errors of the points do not count as
+    /// directions. Vectors of at most `tolerance` do not count either.
+    Span(std::vector<glm::dvec4> vectors, std::size_t dimension, double tolerance) {
+        while (size_ < std::min(dimension, basis_.size()) && !vectors.empty()) {
+            const glm::dvec4 longest = *std::ranges::max_element(vectors, {}, [](const auto& v) { return glm::length(v); });
+            if (glm::length(longest) <= tolerance) return;
+            const glm::dvec4 unit = basis_.at(size_++) = glm::normalize(longest);
+            for (glm::dvec4& v : vectors) v -= glm::dot(v, unit) * unit;
+        }
+    }
+
     /// Returns the component of v that is perpendicular to the span.
     glm::dvec4 perpendicular(glm::dvec4 v) const {
         for (std::size_t i = 0; i < size_; ++i) v -= glm::dot(v, basis_.at(i)) * basis_.at(i);
         return v;
-    }
-    /// Adds v to the span, unless its distance from the span is at most `tolerance`.
-    void add(const glm::dvec4& v, double tolerance) {
-        const glm::dvec4 part = perpendicular(v);
-        if (size_ < basis_.size() && glm::length(part) > tolerance) basis_.at(size_++) = glm::normalize(part);
     }
 
   private:
@@ -70,17 +77,12 @@ class Span {
 template <typename Solid>
 glm::dvec4 directionIn(const Solid& object, const Element& element, const glm::dvec4& preferred) {
     const double tolerance = 1e-6 * object.circumradius;
-    std::optional<glm::dvec4> origin;
-    Span span;
-    glm::dvec4 sum(0);
-    double count = 0;
-    visitVertices(object, element, [&](const glm::dvec4& v) {
-        if (!origin) origin = v;
-        span.add(v - *origin, tolerance);
-        sum += v;
-        ++count;
-    });
-    const glm::dvec4 foot = span.perpendicular(sum / count);
+    std::vector<glm::dvec4> points;
+    visitVertices(object, element, [&](const glm::dvec4& v) { points.push_back(v); });
+    const glm::dvec4 center = std::accumulate(points.begin(), points.end(), glm::dvec4(0)) / double(points.size());
+    for (glm::dvec4& point : points) point -= center;
+    const Span span(std::move(points), static_cast<std::size_t>(element.kind), tolerance);
+    const glm::dvec4 foot = span.perpendicular(center);
     if (glm::length(foot) > tolerance) return foot;
     const glm::dvec4 near = span.perpendicular(glm::normalize(preferred));
     if (glm::length(near) > 1e-6) return near;

@@ -47,6 +47,7 @@ const auto kFiles = std::to_array<WildFile>({
      "z w, whose convex hull is shown"},
     {"wrong-line-number.off", "line 2: 'foo' is not a number of vertices"},
     {"utf16le.off", k5Cell},
+    {"toward-cell-duoprism-4-decimals.txt", "9/18/15/6"},
 });
 
 class WildFiles : public testing::TestWithParam<WildFile> {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <set>
 #include <string>
@@ -69,6 +70,29 @@ TEST(Elements, LieInOneHyperplaneOnceTheyPointToW) {
                 if (kind != ElementKind::cell) continue;
                 EXPECT_NEAR(most, rangeOfW(object, orientation).second, 1e-12 * polytope->circumradius)
                     << "a cell of a convex polytope supports it";
+            }
+        }
+    }
+}
+
+// Objects from files have rounded coordinates. The rounding errors of the vertices are not directions of the element.
+TEST(Elements, LieInOneHyperplaneToWithinTheRoundingOfTheirVertices) {
+    std::mt19937 random(48);
+    for (const char* name : {"5-cell", "tesseract", "24-cell", "3,3-duoprism", "3,5-duoprism", "snub 24-cell"}) {
+        for (const double unit : {1e-3, 1e-4, 1e-5}) {
+            const auto exact = shared(name);
+            const geometry::Rotation turned = support::randomRotation(random);
+            std::vector<glm::dvec4> vertices;
+            for (const glm::dvec4& v : exact->vertices) vertices.push_back(glm::round(turned(v) / unit) * unit);
+            const auto rounded = std::make_shared<const Polytope>(
+                polytopes::makePolytope("rounded", std::move(vertices), exact->faces, exact->cells));
+            const Object object = rounded;
+            for (const auto& [kindName, kind] : kElementKinds) {
+                for (std::size_t i = 0; i < elementCount(object, kind); ++i) {
+                    const auto heights = heightsOf(*rounded, {kind, i}, turnedTo(object, {kind, i}, turned));
+                    const auto [least, most] = std::ranges::minmax(heights);
+                    ASSERT_LE(most - least, 10 * unit) << name << ' ' << unit << ' ' << kindName << ' ' << i;
+                }
             }
         }
     }
