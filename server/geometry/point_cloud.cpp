@@ -10,6 +10,18 @@
 
 namespace oval4d::geometry {
 
+namespace {
+
+// Returns the circumradius of points of which the farthest has this distance from the origin. Points that are all there
+// are as large as their largest ball, or 1.
+double circumradiusOf(double distance, const std::vector<double>& radii) {
+    if (distance > 0) return distance;
+    const double largest = radii.empty() ? 0 : std::ranges::max(radii);
+    return largest > 0 ? largest : 1;
+}
+
+}  // namespace
+
 PointCloud makePointCloud(std::string name, std::vector<glm::dvec4> points, std::vector<double> radii) {
     if (points.size() != radii.size()) throw std::invalid_argument("the numbers of points and of radii differ");
     PointCloud cloud;
@@ -18,10 +30,11 @@ PointCloud makePointCloud(std::string name, std::vector<glm::dvec4> points, std:
         if (!std::isfinite(r)) throw std::invalid_argument("a point is not finite");
         cloud.circumradius = std::max(cloud.circumradius, r);
     }
-    if (!(cloud.circumradius > 0)) throw std::invalid_argument("there is no point away from the origin");
+    if (points.empty()) throw std::invalid_argument("there are no points");
     for (const double radius : radii) {
         if (!(radius >= 0 && std::isfinite(radius))) throw std::invalid_argument("a radius is negative or not finite");
     }
+    cloud.circumradius = circumradiusOf(cloud.circumradius, radii);
     cloud.serial = nextSerial();
     cloud.name = std::move(name);
     cloud.points = std::move(points);
@@ -33,7 +46,7 @@ PointCloud imageOf(const PointCloud& cloud, const ReferenceFrame& frame, std::ui
     PointCloud image = cloud;
     image.serial = serial;
     image.rebuildableFromName = false;
-    image.circumradius = mapPoints(frame.matrix(), image.points);
+    image.circumradius = circumradiusOf(mapPoints(frame.matrix(), image.points), image.radii);
     return image;
 }
 

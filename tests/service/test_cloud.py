@@ -54,8 +54,20 @@ async def test_a_cloud_is_shown_as_balls():
             assert (await client.request("get", what="state"))["polytope"]["name"] == "torus"
 
 
+@pytest.mark.parametrize("data", ["0 0 0 0", "0 0 0 0 0.5\n0 0 0 0 0.2"])
+async def test_points_at_the_origin_are_shown(server, data):
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="c", format="cloud", data=data)
+        slices = (await client.request("get", what="slices", **SIZE))["slices"]
+        assert [one["w"] for one in slices if one["vertices"]] == [0]
+        await client.request("rotate", planes=["xw"], angles=[0.3])
+        shown = await client.request_frame(**SIZE)
+        await client.request("set", shown={"balls": False})
+        assert png.pixels(await client.request_frame(**SIZE)) != png.pixels(shown)
+
+
 @pytest.mark.parametrize("data, message", [
-    ("", "the file is empty"), ("0 0 0 0", "no point away"), ("1 2 3", "line 1: a point has 3 coordinates"),
+    ("", "the file is empty"), ("1 2 3", "line 1: a point has 3 coordinates"),
     ("1 0 0 0\n1 2 x 4", "line 2"), ("1 2 3 4 -1", "radius is negative"), ("1 2 3 4 5 6", "follows a point's radius"),
     ("1 2 3 1e300", "line 1"),
 ])

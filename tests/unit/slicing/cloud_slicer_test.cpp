@@ -127,7 +127,8 @@ TEST(CloudSlicer, bytesBringItBack) {
 TEST(PointCloud, refusesWhatIsNone) {
     const double infinite = std::numeric_limits<double>::infinity();
     EXPECT_THROW(makePointCloud("c", {}, {}), std::invalid_argument);
-    EXPECT_THROW(makePointCloud("c", {{0, 0, 0, 0}}, {0}), std::invalid_argument);
+    EXPECT_EQ(makePointCloud("c", {{0, 0, 0, 0}}, {0}).circumradius, 1) << "points at the origin are shown";
+    EXPECT_EQ(makePointCloud("c", {{0, 0, 0, 0}, {0, 0, 0, 0}}, {0, 0.5}).circumradius, 0.5);
     EXPECT_THROW(makePointCloud("c", {{infinite, 0, 0, 0}}, {0}), std::invalid_argument);
     EXPECT_THROW(makePointCloud("c", {{1, 0, 0, 0}}, {-1}), std::invalid_argument);
     EXPECT_THROW(makePointCloud("c", {{1, 0, 0, 0}}, {}), std::invalid_argument);
