@@ -119,8 +119,8 @@ class Clients {
 
     /// Returns the address of the client behind a proxy. `forwardedFor`: the value of X-Forwarded-For. Starts with
     /// `proxy` and goes backward through the entries of X-Forwarded-For as long as the current address is a trusted
-    /// proxy and the next entry is an address (see forwardedAddress()); returns the last address reached. Logs a warning
-    /// about the first entry that is not an address.
+    /// proxy and the next entry is an address (see forwardedAddress()); returns the last address reached. Logs a
+    /// warning about the first entry that is not an address.
     boost::asio::ip::address clientAddress(std::string_view forwardedFor, const boost::asio::ip::address& proxy) const;
 
     /// Returns the number of bytes held for all clients together.

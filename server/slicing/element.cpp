@@ -51,12 +51,13 @@ void visitVertices(const geometry::PointCloud& cloud, const Element& element, Vi
 // An orthonormal basis of the directions within an element.
 class Span {
   public:
-    /// Makes the basis of an element of this dimension, by the Gram–Schmidt process, from vectors between its points. It
-    /// takes the longest of the remaining vectors each time, so that rounding errors of the points do not count as
+    /// Makes the basis of an element of this dimension, by the Gram–Schmidt process, from vectors between its points.
+    /// It takes the longest of the remaining vectors each time, so that rounding errors of the points do not count as
     /// directions. Vectors of at most `tolerance` do not count either.
     Span(std::vector<glm::dvec4> vectors, std::size_t dimension, double tolerance) {
         while (size_ < std::min(dimension, basis_.size()) && !vectors.empty()) {
-            const glm::dvec4 longest = *std::ranges::max_element(vectors, {}, [](const auto& v) { return glm::length(v); });
+            const glm::dvec4 longest =
+                *std::ranges::max_element(vectors, {}, [](const auto& v) { return glm::length(v); });
             if (glm::length(longest) <= tolerance) return;
             const glm::dvec4 unit = basis_.at(size_++) = glm::normalize(longest);
             for (glm::dvec4& v : vectors) v -= glm::dot(v, unit) * unit;

@@ -306,7 +306,6 @@ test("matrix: its button is pressed in the matrix view, that of the focus slice 
     assert.deepEqual(await pressed(), { matrix: true, view: false });
     await page.focus("#drawing");
     await press("o");
-    await press("o");
     assert.deepEqual(await pressed(), { matrix: false, view: true });
     await press("m");
     assert.deepEqual(await pressed(), { matrix: true, view: false });

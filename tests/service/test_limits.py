@@ -94,10 +94,12 @@ async def connect_when_possible(server):
 
 async def test_the_number_of_connections_is_limited():
     with Server("--max-connections", 3) as server:
-        clients = [await connect_when_possible(server) for _ in range(3)]
-        for client in clients:  # a connection that has said hello is not replaced by a new one
-            await client.send('{"type":"hello"}')
-            await client.recv()
+        clients = []
+        for _ in range(3):
+            clients.append(await connect_when_possible(server))
+            # A connection that has said hello is not replaced by a new one.
+            await clients[-1].send('{"type":"hello"}')
+            await clients[-1].recv()
         with pytest.raises(websockets.InvalidHandshake) as full:
             await connect(server)
         assert handshake_status(full.value) == 503

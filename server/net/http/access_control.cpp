@@ -132,8 +132,8 @@ bool AccessControl::isAllowedOrigin(std::string_view origin, std::string_view ho
 }
 
 bool AccessControl::isCrossSite(const AccessFields& fields) const {
-    const bool isLink = equalsIgnoringCase(fields.fetchMode, "navigate") &&
-                        equalsIgnoringCase(fields.fetchDestination, "document");
+    const bool isLink =
+        equalsIgnoringCase(fields.fetchMode, "navigate") && equalsIgnoringCase(fields.fetchDestination, "document");
     return equalsIgnoringCase(fields.fetchSite, "cross-site") && !isLink && !isListedOrigin(fields.origin);
 }
 

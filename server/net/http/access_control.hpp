@@ -43,9 +43,9 @@ class AccessControl {
     /// Checks the host, then the origin, then the token, and returns the first failure.
     Verdict check(const AccessFields& fields) const;
 
-    /// Returns whether a page of another site requests something for itself, according to the browser, and the origin of
-    /// that page is not an allowed foreign origin. Such requests must not cause expensive work. A link on such a page
-    /// that a person follows is no such request.
+    /// Returns whether a page of another site requests something for itself, according to the browser, and the origin
+    /// of that page is not an allowed foreign origin. Such requests must not cause expensive work. A link on such a
+    /// page that a person follows is no such request.
     bool isCrossSite(const AccessFields& fields) const;
 
     /// Returns whether this origin is in the list of allowed foreign origins.
