@@ -63,6 +63,23 @@ class Closed(Exception):
         self.reason = reason
 
 
+def _json(message):
+    """Returns a message as JSON."""
+    def plain(value):
+        if hasattr(value, "tolist"):  # numpy's numbers and arrays
+            return value.tolist()
+        raise TypeError(f"a message cannot contain {value!r}")
+
+    try:
+        text = json.dumps(message, allow_nan=False, ensure_ascii=False, default=plain)
+        text.encode("utf-8")
+    except UnicodeEncodeError as error:
+        raise ValueError(f"a message cannot contain the lone surrogate {error.object[error.start]!r}") from None
+    except ValueError:
+        raise ValueError(f"a message cannot contain numbers that are not finite: {message!r:.200}") from None
+    return text
+
+
 def connect(url="http://127.0.0.1:8080/", session=None, **options):
     """Connects to the server at `url` (http, https, ws or wss), and returns a Client. Opens a new session, or the
     session with the name `session`. The options are those of Client."""
@@ -266,6 +283,10 @@ class Client:
         """Returns a picture as the bytes of a PNG file."""
         return self.get("frame", width, height)
 
+    def _repr_png_(self):
+        """Shows the picture in a notebook."""
+        return self.frame(960, 540)
+
     def at(self, x, y, width=None, height=None):
         """Returns what the picture shows at a point, in pixels from the upper left corner."""
         size = {} if width is None else {"width": width, "height": height}
@@ -331,9 +352,11 @@ class Client:
         return answer
 
     def send(self, message):
-        """Sends a message without an id, and does not wait: a dict as JSON; text and bytes unchanged."""
+        """Sends a message without an id, and does not wait: a dict as JSON, in which numpy's numbers and arrays may stand
+        for numbers and lists; text and bytes unchanged. Raises ValueError if JSON cannot contain the dict: numbers that
+        are not finite, and text that is not Unicode."""
         if isinstance(message, dict):
-            message = json.dumps(message)
+            message = _json(message)
         self._wait_for(lambda: not self._reconnecting, None, "the server")
         try:
             self._run(self._socket.send(message))

@@ -1,11 +1,15 @@
 #include "wire/json_parser.hpp"
 
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "text/ascii.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::wire {
@@ -98,6 +102,8 @@ class Builder {
     std::string token_;
 };
 
+constexpr auto kNotFinite = std::to_array<std::string_view>({"NaN", "Infinity", "-Infinity"});
+
 // Returns the token at which the parser stopped if it is NaN, ±Infinity or a number too large for a double; else an
 // empty string.
 std::string_view badNumberAt(std::string_view text, const Builder& builder) {
@@ -105,51 +111,70 @@ std::string_view badNumberAt(std::string_view text, const Builder& builder) {
     if (builder.overflow()) return text.substr(builder.position() - builder.token().size(), builder.token().size());
     const std::size_t start = builder.position() - (builder.token().starts_with('-') ? 2 : 1);
     if (start >= text.size()) return {};
-    for (const std::string_view name : std::to_array<std::string_view>({"NaN", "Infinity", "-Infinity"})) {
+    for (const std::string_view name : kNotFinite) {
         if (text.substr(start).starts_with(name)) return text.substr(start, name.size());
     }
     return {};
 }
 
-constexpr int kMaxRepairs = 4;  // the maximum number of numbers that are replaced by null
+// Returns whether a word is NaN, ±Infinity or a number too large for a double.
+bool isBadNumber(std::string_view word) {
+    if (std::ranges::find(kNotFinite, word) != kNotFinite.end()) return true;
+    double value = 0;
+    const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const bool tooSmall = word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
+    return fault == std::errc::result_out_of_range && end == word.data() + word.size() && !tooSmall;
+}
+
+// Returns the text with null in place of each number that is NaN, ±Infinity or too large, outside of strings.
+std::string withNulls(std::string_view text) {
+    std::string out;
+    bool inString = false;
+    for (std::size_t i = 0; i < text.size();) {
+        const auto inWord = [](char c) {
+            return text::isLetter(c) || text::isDigit(c) || c == '+' || c == '-' || c == '.';
+        };
+        const auto end = std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(i), text.end(), inWord);
+        const std::string_view word(text.begin() + static_cast<std::ptrdiff_t>(i), end);
+        if (!inString && !word.empty()) {
+            out += isBadNumber(word) ? std::string_view("null") : word;
+            i += word.size();
+            continue;
+        }
+        if (text[i] == '"') inString = !inString;
+        if (inString && text[i] == '\\') out += text[i++];
+        if (i < text.size()) out += text[i++];
+    }
+    return out;
+}
 
 }  // namespace
 
 ParsedJson parseJson(std::string_view text, int maxDepth) {
     ParsedJson result;
-    std::string repaired;
-    std::string_view rest = text;
-    for (int repairs = 0; repairs <= kMaxRepairs; ++repairs) {
-        Builder builder(result.value, maxDepth);
-        if (json::sax_parse(rest.begin(), rest.end(), &builder)) {
-            result.repaired = repairs > 0;
-            return result;
-        }
-        if (!builder.refusal().empty()) {
-            result.fault = builder.refusal();
-            return result;
-        }
-        const std::string_view number = badNumberAt(rest, builder);
-        if (number.empty()) {
-            if (repairs == 0) {
-                result.fault =
-                    "the text is not JSON: unexpected " +
-                    (builder.position() > rest.size() ? std::string("end") : text::inQuotes(builder.token())) +
-                    " at byte " + std::to_string(builder.position()) +
-                    "; a message is one JSON object such as {\"type\":\"undo\"}";
-            }
-            result.notJson = true;
-            return result;
-        }
-        if (repairs == 0) {
-            result.fault = std::string(number) + (builder.overflow() ? " is too large for a number" : " is not JSON") +
-                           " (byte " + std::to_string(static_cast<std::size_t>(number.data() - rest.data()) + 1) +
-                           "); numbers must be finite";
-        }
-        const auto start = static_cast<std::size_t>(number.data() - rest.data());
-        repaired = std::string(rest.substr(0, start)) + "null" + std::string(rest.substr(start + number.size()));
-        rest = repaired;
+    Builder builder(result.value, maxDepth);
+    if (json::sax_parse(text.begin(), text.end(), &builder)) return result;
+    if (!builder.refusal().empty()) {
+        result.fault = builder.refusal();
+        return result;
     }
+    const std::string_view number = badNumberAt(text, builder);
+    if (number.empty()) {
+        result.fault = "the text is not JSON: unexpected " +
+                       (builder.position() > text.size() ? std::string("end") : text::inQuotes(builder.token())) +
+                       " at byte " + std::to_string(builder.position()) +
+                       "; a message is one JSON object such as {\"type\":\"undo\"}";
+        result.notJson = true;
+        return result;
+    }
+    result.fault = std::string(number) + (builder.overflow() ? " is too large for a number" : " is not JSON") +
+                   " (byte " + std::to_string(static_cast<std::size_t>(number.data() - text.data()) + 1) +
+                   "); numbers must be finite";
+    // The rest is read all the same, so that the answer has the message's id.
+    const std::string repaired = withNulls(text);
+    Builder again(result.value, maxDepth);
+    result.repaired = json::sax_parse(repaired.begin(), repaired.end(), &again);
+    result.notJson = !result.repaired && again.refusal().empty();
     return result;
 }
 

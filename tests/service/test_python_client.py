@@ -9,6 +9,7 @@ import sys
 import threading
 from pathlib import Path
 
+import numpy
 import pytest
 from harness import DEADLINE, Server, free_port
 
@@ -57,12 +58,23 @@ def test_errors_are_raised_and_change_nothing(server):
         with pytest.raises(Refused, match="did you mean '24-cell'") as refused:
             oval.set(polytope="25-cell")
         assert refused.value.code == "unknown_polytope"
-        with pytest.raises(Refused, match="not JSON") as refused:
-            oval.rotate("xw", float("nan"))
+        for unsendable in (float("nan"), numpy.array([0, float("inf")]), "\ud800"):
+            with pytest.raises(ValueError, match="a message cannot contain"):
+                oval.set(point=[0, 0, 0, unsendable])
         assert oval.state()["revision"] == 0
         oval.send({"type": "undo"})
         oval.state()
         assert [error["code"] for error in oval.errors] == ["nothing_to_undo"]
+
+
+def test_numbers_and_arrays_of_numpy_are_sent(server):
+    with connect(server.url, timeout=DEADLINE) as oval:
+        oval.hello()
+        oval.rotate("xw", numpy.float32(0.25))
+        oval.set(orientation=numpy.eye(4), slices={"count": numpy.int64(5)})
+        state = oval.state()
+        assert state["last"]["angles"] == [0.25] and state["slices"]["count"] == 5
+        assert state["orientation"] == numpy.eye(4).tolist()
 
 
 @pytest.mark.parametrize("stream", ["none", "geometry", "frames"])
@@ -379,3 +391,16 @@ def test_the_flow_is_written_and_opened_again(server, tmp_path):
     done = run_example(server, "ethier_steinman.py", tmp_path)
     state = png_state((tmp_path / "ethier_steinman.png").read_bytes())
     assert state["polytope"]["name"] == "Ethier–Steinman" and not done.stdout
+
+
+def test_the_package_has_the_version_of_the_server():
+    root = Path(__file__).resolve().parents[2]
+    (version,) = re.findall(r"project\(oval4d VERSION (\S+)", (root / "CMakeLists.txt").read_text(encoding="utf-8"))
+    package = (root / "protocol/python/pyproject.toml").read_text(encoding="utf-8")
+    assert f'version = "{version}"' in package
+
+
+def test_a_notebook_shows_the_picture(server):
+    with connect(server.url, timeout=DEADLINE) as oval:
+        oval.hello()
+        assert png_state(oval._repr_png_())["polytope"]["name"] == "5-cell"
