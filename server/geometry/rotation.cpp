@@ -14,23 +14,29 @@ constexpr std::array<std::string_view, 6> kNames{"xy", "xz", "xw", "yz", "yw", "
 glm::dquat asQuaternion(const glm::dvec4& v) { return {v.w, v.x, v.y, v.z}; }
 glm::dvec4 asVector(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
 
-// Returns exp(u · angle). The imaginary unit u depends on the pair of perpendicular planes to which `plane` belongs: it
-// is i for yz and xw, j for xz and yw, and k for xy and zw.
-glm::dquat exponential(Plane plane, double angle) {
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    switch (plane) {
-        case Plane::xw:
-        case Plane::yz:
-            return {c, s, 0, 0};
-        case Plane::xz:
-        case Plane::yw:
-            return {c, 0, s, 0};
-        case Plane::xy:
-        case Plane::zw:
-            break;
-    }
-    return {c, 0, 0, s};
+// A pair of perpendicular planes: the one without the w axis and the one with it. The pairs belong to the imaginary
+// units i, j and k in this order (see Rotation(Turn)). R_xz turns x toward z, but the cycle of the units is i → j → k →
+// i, in which z turns toward x; hence the sign.
+struct PlanePair {
+    Plane spatial, withW;
+    double sign;
+};
+constexpr std::array<PlanePair, 3> kPairs{
+    {{Plane::yz, Plane::xw, 1}, {Plane::xz, Plane::yw, -1}, {Plane::xy, Plane::zw, 1}}};
+
+// Returns exp(v), where the vector v is the quaternion v.x i + v.y j + v.z k.
+glm::dquat exponential(const glm::dvec3& v) {
+    const double angle = glm::length(v);
+    if (angle == 0) return {1, 0, 0, 0};
+    return {std::cos(angle), v * (std::sin(angle) / angle)};
+}
+
+// Returns the shortest v with exp(v) = q, for a unit quaternion q; (π, 0, 0) for −1.
+glm::dvec3 logarithm(const glm::dquat& q) {
+    const glm::dvec3 imaginary(q.x, q.y, q.z);
+    const double sine = glm::length(imaginary);
+    if (sine == 0) return {q.w < 0 ? std::numbers::pi : 0, 0, 0};
+    return imaginary * (std::atan2(sine, q.w) / sine);
 }
 
 // Returns the unit quaternion q to the power `fraction`: exp(u θ) becomes exp(u θ · fraction), for θ from 0 to π.
@@ -41,8 +47,6 @@ glm::dquat powerOf(const glm::dquat& q, double fraction) {
     const double angle = std::atan2(sine, q.w) * fraction;
     return {std::cos(angle), imaginary * (std::sin(angle) / sine)};
 }
-
-bool containsW(Plane plane) { return plane == Plane::xw || plane == Plane::yw || plane == Plane::zw; }
 
 }  // namespace
 
@@ -55,29 +59,69 @@ std::optional<Plane> planeNamed(std::string_view text) {
     return std::nullopt;
 }
 
+Turn::Turn(Plane plane, double alpha, std::optional<double> beta) {
+    (*this)[plane] = alpha;
+    (*this)[perpendicular(plane)] = beta;
+}
+
+std::vector<Plane> Turn::planes() const {
+    std::vector<Plane> named;
+    for (const Plane plane : kPlanes) {
+        if ((*this)[plane]) named.push_back(plane);
+    }
+    return named;
+}
+
 Turn Turn::inverse() const { return scaled(-1); }
 
 Turn Turn::scaled(double factor) const {
-    Turn result{plane, alpha * factor, std::nullopt};
-    if (beta) result.beta = *beta * factor;
+    Turn result = *this;
+    for (auto& angle : result.angles_) {
+        if (angle) *angle *= factor;
+    }
     return result;
+}
+
+Turn operator+(const Turn& a, const Turn& b) {
+    Turn sum = a;
+    for (const Plane plane : b.planes()) sum[plane] = a[plane].value_or(0) + *b[plane];
+    return sum;
 }
 
 Rotation::Rotation(const glm::dquat& left, const glm::dquat& right)
     : left_(glm::normalize(left)), right_(glm::normalize(right)) {}
 
-// Multiplication by exp(uθ) from the left rotates the plane of the other two imaginary units by θ, and the plane (w, u)
-// by θ from w toward u; multiplication from the right rotates the first plane by −θ and the second by θ. So with the
-// angle A in the plane without w (counted i→j, j→k, k→i) and the angle B from u toward w, the left angle is (A − B) / 2
-// and the right angle −(A + B) / 2.
+// Multiplication by exp(uθ) from the left, with an imaginary unit u, rotates the plane of the other two imaginary units
+// by θ, and the plane (w, u) by θ from w toward u; multiplication from the right rotates the first plane by −θ and the
+// second by θ. So with the angle A in the plane without w (counted i→j, j→k, k→i) and the angle B from u toward w, the
+// left angle is (A − B) / 2 and the right angle −(A + B) / 2. Multiplications from the left commute with those from the
+// right, so the logarithms of l and of r are the sums over the three units.
 Rotation::Rotation(const Turn& turn) {
-    double a = turn.alpha;
-    double b = turn.beta.value_or(0);
-    if (containsW(turn.plane)) std::swap(a, b);
-    const Plane spatial = containsW(turn.plane) ? perpendicular(turn.plane) : turn.plane;
-    if (spatial == Plane::xz) a = -a;  // R_xz turns x toward z, but the cycle is z → x
-    left_ = exponential(spatial, (a - b) / 2);
-    right_ = exponential(spatial, -(a + b) / 2);
+    glm::dvec3 left(0), right(0);
+    for (int u = 0; u < 3; ++u) {
+        const PlanePair& pair = kPairs.at(static_cast<std::size_t>(u));
+        const double a = pair.sign * turn[pair.spatial].value_or(0), b = turn[pair.withW].value_or(0);
+        left[u] = (a - b) / 2;
+        right[u] = -(a + b) / 2;
+    }
+    left_ = exponential(left);
+    right_ = exponential(right);
+}
+
+Turn Rotation::turn() const {
+    const double sign = left_.w + right_.w < 0 ? -1 : 1;  // the pair (l, r) or (−l, −r) with the smaller angles
+    const glm::dvec3 left = logarithm(sign * left_), right = logarithm(sign * right_);
+    constexpr double kRounding = 1e-12;
+    Turn result;
+    const auto set = [&](Plane plane, double angle) {
+        if (std::abs(angle) > kRounding) result[plane] = angle;
+    };
+    for (int u = 0; u < 3; ++u) {
+        const PlanePair& pair = kPairs.at(static_cast<std::size_t>(u));
+        set(pair.spatial, pair.sign * (left[u] - right[u]));
+        set(pair.withW, -(left[u] + right[u]));
+    }
+    return result;
 }
 
 std::optional<Rotation> Rotation::fromQuaternions(const glm::dquat& left, const glm::dquat& right) {

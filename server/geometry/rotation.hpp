@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
@@ -27,18 +28,33 @@ std::string_view name(Plane plane);
 /// Returns the plane with this name ("xy" … "zw"), or std::nullopt if there is none.
 std::optional<Plane> planeNamed(std::string_view text);
 
-/// A rotation that a key press or a `rotate` message requests: the simple rotation R_plane(alpha) or, if beta is given,
-/// the double rotation R_plane(alpha) · R_perpendicular(beta). Angles are in radians.
-struct Turn {
-    Plane plane = Plane::xy;
-    double alpha = 0;
-    std::optional<double> beta;
+/// A rotation as angles in coordinate planes, in radians, through which it turns at the same time: exp(Σ θ_ab G_ab),
+/// where exp(θ G_ab) is the simple rotation R_ab(θ). Angles in two perpendicular planes give a double rotation, and
+/// angles in planes that share an axis a rotation in oblique planes.
+class Turn {
+  public:
+    /// No rotation: no plane has an angle.
+    Turn() = default;
+    /// The simple rotation in `plane` by alpha or, if beta is given, the double rotation that also turns the
+    /// perpendicular plane by beta.
+    Turn(Plane plane, double alpha, std::optional<double> beta = {});
 
+    /// Returns the angle in a plane; nothing if the turn does not name this plane.
+    const std::optional<double>& operator[](Plane plane) const { return angles_[static_cast<std::size_t>(plane)]; }
+    std::optional<double>& operator[](Plane plane) { return angles_[static_cast<std::size_t>(plane)]; }
+
+    /// Returns the planes that have an angle, in the order of kPlanes.
+    std::vector<Plane> planes() const;
     /// Returns the turn that undoes this one.
     Turn inverse() const;
     /// Returns the turn with all angles multiplied by `factor`.
     Turn scaled(double factor) const;
+    /// Returns the turn with the sums of the angles of both.
+    friend Turn operator+(const Turn& a, const Turn& b);
     bool operator==(const Turn&) const = default;
+
+  private:
+    std::array<std::optional<double>, kPlanes.size()> angles_;
 };
 
 /// A rotation of 4-D space, stored as two unit quaternions l and r: it maps v to l·v·r, where the vector v is the
@@ -50,7 +66,7 @@ class Rotation {
     Rotation() = default;
     /// The rotation v ↦ left·v·right. Normalizes both quaternions, which must not be 0.
     Rotation(const glm::dquat& left, const glm::dquat& right);
-    /// The rotation that `turn` requests.
+    /// The rotation exp(Σ θ_ab G_ab) of a turn.
     explicit Rotation(const Turn& turn);
 
     /// Returns the rotation with the matrix M (v' = M v), or std::nullopt if M is not a rotation matrix. M counts as
@@ -73,6 +89,10 @@ class Rotation {
     Rotation power(double fraction) const;
     /// Returns the larger of the two rotation angles, in radians from 0 to π.
     double angle() const;
+    /// Returns the turn with the smallest angles whose rotation this is. It names the planes whose angles are not 0 but
+    /// for rounding errors, and none for the identity. The rotation v ↦ −v is returned as one of the turns that make
+    /// it.
+    Turn turn() const;
     /// Returns the image of v.
     glm::dvec4 operator()(const glm::dvec4& v) const;
     /// Returns the matrix M with v' = M v.

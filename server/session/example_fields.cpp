@@ -18,7 +18,8 @@ std::vector<ExampleField> readExamples() {
     std::vector<ExampleField> examples;
     const auto table = nlohmann::json::parse(protocol_data::embeddedFile("fields.json"));
     for (const nlohmann::json& row : table.at("fields")) {
-        ExampleField example{row.at("name"), row.at("formula"), {}, {}};
+        ExampleField example{
+            row.at("name"), row.at("formula"), row.value("aliases", std::vector<std::string>()), {}, {}};
         for (glm::length_t axis = 0; axis < 4; ++axis) {
             const nlohmann::json& range = row.at("box").at(static_cast<std::size_t>(axis));
             example.box.min[axis] = range.at(0);
@@ -44,8 +45,10 @@ std::span<const ExampleField> exampleFields() {
 const ExampleField* exampleNamed(std::string_view name) {
     const std::string wanted = text::normalizedName(name);
     const auto examples = exampleFields();
-    const auto found =
-        std::ranges::find(examples, wanted, [](const ExampleField& one) { return text::normalizedName(one.name); });
+    const auto isWanted = [&](std::string_view known) { return text::normalizedName(known) == wanted; };
+    const auto found = std::ranges::find_if(examples, [&](const ExampleField& one) {
+        return isWanted(one.name) || std::ranges::any_of(one.aliases, isWanted);
+    });
     return found == examples.end() ? nullptr : &*found;
 }
 

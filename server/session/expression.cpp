@@ -1,5 +1,6 @@
 #include "session/expression.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -9,6 +10,7 @@
 
 #include "text/ascii.hpp"
 #include "text/message_text.hpp"
+#include "text/words.hpp"
 
 namespace oval4d::session {
 
@@ -212,35 +214,27 @@ Result<double> evaluateAngle(std::string_view text) {
 
 Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles,
                                 std::string_view examples) {
-    const std::size_t comma = planes.find(',');
-    const bool doubled = comma != std::string_view::npos;
-    const auto planeAt = [](std::string_view name) -> Result<geometry::Plane> {
-        if (const auto plane = geometry::planeNamed(name)) return *plane;
-        return bad("no plane is called " + text::inQuotes(name) + "; the planes are xy, xz, xw, yz, yw, zw");
-    };
-    const Result<geometry::Plane> first = planeAt(planes.substr(0, comma));
-    if (!first) return first.error();
-    if (doubled) {
-        const Result<geometry::Plane> second = planeAt(planes.substr(comma + 1));
-        if (!second) return second.error();
-        if (*second != geometry::perpendicular(*first)) {
-            return bad(std::string(name(*first)) + " and " + std::string(name(*second)) +
-                       " share an axis; a double rotation needs planes without a common axis: combine " +
-                       std::string(name(*first)) + " with " + std::string(name(perpendicular(*first))));
-        }
+    std::vector<std::string_view> names = text::splitAtCommas(planes);
+    if (planes.empty() || planes.ends_with(',')) names.emplace_back();  // which is no plane
+    std::vector<geometry::Plane> named;
+    for (const std::string_view name : names) {
+        const auto plane = geometry::planeNamed(name);
+        if (!plane)
+            return bad("no plane is called " + text::inQuotes(name) + "; the planes are xy, xz, xw, yz, yw, zw");
+        if (std::ranges::find(named, *plane) != named.end())
+            return bad("the plane " + std::string(name) + " is named twice");
+        named.push_back(*plane);
     }
-    if (angles.size() != (doubled ? 2U : 1U)) {
-        return bad((doubled ? std::string("two planes need two angles") : std::string("one plane needs one angle")) +
+    if (angles.size() != named.size()) {
+        const std::string count = std::to_string(named.size());
+        return bad((named.size() == 1 ? "one plane needs one angle" : count + " planes need " + count + " angles") +
                    ", not " + std::to_string(angles.size()) + "; write " + std::string(examples));
     }
-    geometry::Turn turn{*first, 0, {}};
-    const Result<double> alpha = evaluateAngle(angles[0]);
-    if (!alpha) return alpha.error();
-    turn.alpha = *alpha;
-    if (doubled) {
-        const Result<double> beta = evaluateAngle(angles[1]);
-        if (!beta) return beta.error();
-        turn.beta = *beta;
+    geometry::Turn turn;
+    for (std::size_t i = 0; i < named.size(); ++i) {
+        const Result<double> angle = evaluateAngle(angles[i]);
+        if (!angle) return angle.error();
+        turn[named[i]] = *angle;
     }
     return turn;
 }

@@ -20,9 +20,9 @@ Result<double> evaluate(std::string_view text);
 /// unit and larger than a full turn, since degrees are probably meant.
 Result<double> evaluateAngle(std::string_view text);
 
-/// Returns a rotation. `planes` names one plane, such as "xw", or two perpendicular planes, such as "xw,yz". `angles`
-/// must have one expression for each plane; see evaluateAngle(). `examples`, for error messages, are rotations as the
-/// user writes them. Errors: `bad_expression`; those of evaluateAngle().
+/// Returns a rotation. `planes` names different planes, such as "xw" or "xw,yz" (see geometry::Turn). `angles` must
+/// have one expression for each plane; see evaluateAngle(). `examples`, for error messages, are rotations as the user
+/// writes them. Errors: `bad_expression`; those of evaluateAngle().
 Result<geometry::Turn> makeTurn(std::string_view planes, const std::vector<std::string_view>& angles,
                                 std::string_view examples);
 

@@ -104,8 +104,12 @@ void commit(Session& session, State next, const Limits& limits) {
     replaceCurrent(session, std::move(next), limits);
 }
 
+const State* stateBeforeStep(const Session& session) {
+    return session.undoSteps.empty() || !session.redoSteps.empty() ? nullptr : &session.undoSteps.back();
+}
+
 void amend(Session& session, State next, const Limits& limits) {
-    if (session.undoSteps.empty() || !session.redoSteps.empty()) return commit(session, std::move(next), limits);
+    if (stateBeforeStep(session) == nullptr) return commit(session, std::move(next), limits);
     if (next == session.current) return;
     replaceCurrent(session, std::move(next), limits);
 }

@@ -24,6 +24,9 @@ void commit(Session& session, State next, const Limits& limits);
 /// is no undo step, or if the last command was an undo, adds a new undo step instead.
 void amend(Session& session, State next, const Limits& limits);
 
+/// Returns the state before the undo step to which amend() adds; null if amend() adds a new step.
+const State* stateBeforeStep(const Session& session);
+
 /// Removes the older half of the undo steps, to free memory.
 void forgetOlderHalf(Session& session);
 

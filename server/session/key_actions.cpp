@@ -58,8 +58,8 @@ Done always(ActionContext& c) {
 
 constexpr auto kActions = std::to_array<Action>({
     {"rotate", always<[](ActionContext& c) {
-         geometry::Turn turn{c.plane, c.state.alpha, {}};
-         if (c.isDoubleRotation) turn.beta = c.state.beta;
+         const geometry::Turn turn(c.plane, c.state.alpha,
+                                   c.isDoubleRotation ? std::optional(c.state.beta) : std::nullopt);
          rotate(c.state, c.inverse ? turn.inverse() : turn);
      }>},
     {"repeat",

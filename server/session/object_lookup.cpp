@@ -25,7 +25,10 @@ std::string suggestion(std::string_view name, const LoadedObjects& loaded) {
         least = polytopes::editDistance(name, own);
         near = {own};
     };
-    for (const ExampleField& example : exampleFields()) consider(example.name);
+    for (const ExampleField& example : exampleFields()) {
+        consider(example.name);
+        for (const std::string& alias : example.aliases) consider(alias);
+    }
     for (const auto& [own, ignored] : loaded) consider(own);
     std::string text;
     for (std::size_t i = 0; i < near.size(); ++i) {

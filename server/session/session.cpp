@@ -40,6 +40,21 @@ bool extendField(State& state, const slicing::Object& before, const slicing::Obj
     return true;
 }
 
+// Returns the rotation of an undo step that consists of several, such as those of a gesture, as one turn. The step
+// began at `before`; `next.lastTurn` leads from `current` to `next`. Returns the last turn of `before` if the step has
+// led back.
+std::optional<geometry::Turn> turnOfStep(const State& before, const State& current, const State& next) {
+    constexpr double kSame = 1e-9;
+    const geometry::Rotation whole = next.orientation * before.orientation.inverse();
+    if (whole.angle() < kSame) return before.lastTurn;
+    if (current.lastTurn && next.lastTurn) {
+        // Turns in the same plane add up, even beyond half a turn.
+        const geometry::Turn sum = *current.lastTurn + *next.lastTurn;
+        if (checkTurn(sum) && (geometry::Rotation(sum) * whole.inverse()).angle() < kSame) return sum;
+    }
+    return whole.turn();
+}
+
 // Applies each command to a copy of the state, which becomes the current state only on success.
 class Applier {
   public:
@@ -58,6 +73,9 @@ class Applier {
         if (Done valid = checkTurn(command.turn); !valid) return valid;
         State next = session_.current;
         rotate(next, command.turn);
+        const State* const before = command.continues ? stateBeforeStep(session_) : nullptr;
+        // While the object turns by itself, the orientation does not tell what the rotations of the step are.
+        if (before != nullptr && !next.turning) next.lastTurn = turnOfStep(*before, session_.current, next);
         (command.continues ? amend : commit)(session_, std::move(next), limits_);
         return std::monostate{};
     }

@@ -285,7 +285,8 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
 }
 
 Result<std::monostate> checkTurn(const geometry::Turn& turn) {
-    for (const double angle : {turn.alpha, turn.beta.value_or(0)}) {
+    for (const geometry::Plane plane : turn.planes()) {
+        const double angle = *turn[plane];
         if (!(std::abs(angle) <= kMaxAngle)) {
             return Error{ErrorCode::out_of_range, "an angle must be from " + text::shortestDecimal(-kMaxAngle) +
                                                       " to " + text::shortestDecimal(kMaxAngle) + " radians, not " +

@@ -145,16 +145,33 @@ class ObjectList {
 // Lengths are limited in proportion to the circumradius; this factor allows for rounding errors.
 constexpr double kSlack = 1e-9;
 
+// A turn in one plane, or in two that are perpendicular, has the form [plane, angle, angle or null] that earlier
+// versions read, too. Others are lists of pairs [[plane, angle], …].
 json encoded(const std::optional<geometry::Turn>& turn) {
     if (!turn) return nullptr;
-    const auto& [plane, alpha, beta] = *turn;
-    return {static_cast<unsigned>(plane), alpha, beta ? json(*beta) : json()};
+    const std::vector<geometry::Plane> planes = turn->planes();
+    const geometry::Plane first = planes.at(0);
+    if (planes.size() == 1 || (planes.size() == 2 && planes[1] == geometry::perpendicular(first))) {
+        const auto& second = (*turn)[geometry::perpendicular(first)];
+        return {static_cast<unsigned>(first), *(*turn)[first], second ? json(*second) : json()};
+    }
+    json pairs = json::array();
+    for (const geometry::Plane plane : planes)
+        pairs.push_back(json::array({static_cast<unsigned>(plane), *(*turn)[plane]}));
+    return pairs;
 }
 
 std::optional<geometry::Turn> turnIn(const json& value) {
     if (value.is_null()) return std::nullopt;
-    geometry::Turn turn{enumerator(value.at(0), geometry::Plane::zw), readNumber(value.at(1), session::kMaxAngle), {}};
-    if (!value.at(2).is_null()) turn.beta = readNumber(value.at(2), session::kMaxAngle);
+    const auto planeIn = [](const json& number) { return enumerator(number, geometry::Plane::zw); };
+    geometry::Turn turn;
+    if (value.at(0).is_array()) {
+        for (const json& pair : value) turn[planeIn(pair.at(0))] = readNumber(pair.at(1), session::kMaxAngle);
+    } else {
+        const geometry::Plane plane = planeIn(value.at(0));
+        turn = {plane, readNumber(value.at(1), session::kMaxAngle)};
+        if (!value.at(2).is_null()) turn[geometry::perpendicular(plane)] = readNumber(value.at(2), session::kMaxAngle);
+    }
     return turn;
 }
 

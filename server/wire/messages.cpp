@@ -96,13 +96,11 @@ void writeLast(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
     w.beginObject();
     w.key("planes");
     w.beginArray();
-    w.value(geometry::name(turn->plane));
-    if (turn->beta) w.value(geometry::name(geometry::perpendicular(turn->plane)));
+    for (const geometry::Plane plane : turn->planes()) w.value(geometry::name(plane));
     w.endArray();
     w.key("angles");
     w.beginArray();
-    w.value(turn->alpha);
-    if (turn->beta) w.value(*turn->beta);
+    for (const geometry::Plane plane : turn->planes()) w.value(*(*turn)[plane]);
     w.endArray();
     w.endObject();
 }
@@ -414,12 +412,14 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
             w.member("symmetry_order", entry.symmetryOrder);
             w.endObject();
         }
-        const auto add = [&](std::string_view name, std::string_view family, const Counts& counts) {
+        const auto add = [&](std::string_view name, std::string_view family, const Counts& counts,
+                             const std::vector<std::string>& aliases = {}) {
             w.beginObject();
             w.member("name", name);
             w.member("family", family);
             w.key("aliases");
             w.beginArray();
+            for (const std::string& alias : aliases) w.value(std::string_view(alias));
             w.endArray();
             w.member("diagram", std::string_view());
             w.member("schlaefli", std::string_view());
@@ -430,7 +430,7 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
             const auto hasName = [&](const slicing::Object& object) {
                 return slicing::infoOf(object).name == example.name;
             };
-            if (std::ranges::none_of(loaded, hasName)) add(example.name, "fields", kBox);
+            if (std::ranges::none_of(loaded, hasName)) add(example.name, "fields", kBox, example.aliases);
         }
         for (const slicing::Object& object : loaded) add(slicing::infoOf(object).name, "loaded", countsOf(object));
         for (const std::string& name : data) add(name, "data", kBox);

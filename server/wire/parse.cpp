@@ -34,8 +34,13 @@ geometry::Turn turnOf(const json& object, const std::string& where) {
         throw InvalidRequest{where + "/angles must hold one angle for each plane: " + std::to_string(planes.size()) +
                              ", not " + std::to_string(angles.size())};
     }
-    geometry::Turn turn{*geometry::planeNamed(planes[0].get_ref<const std::string&>()), angles[0].get<double>(), {}};
-    if (angles.size() == 2) turn.beta = angles[1].get<double>();
+    geometry::Turn turn;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        const auto& name = planes[i].get_ref<const std::string&>();
+        std::optional<double>& angle = turn[*geometry::planeNamed(name)];
+        if (angle) throw InvalidRequest{where + "/planes must be different planes; " + name + " stands twice"};
+        angle = angles[i].get<double>();
+    }
     return turn;
 }
 

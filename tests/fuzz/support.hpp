@@ -151,9 +151,11 @@ inline void requireSound(const session::State& state, const session::Limits& lim
     require(both.empty() || both.back() < info.cellTypes.size(), "cell types are the object's");
     require(!state.turning || state.lastTurn, "what turns has a rotation to turn with");
     if (state.lastTurn) {
-        require(within(state.lastTurn->alpha, session::kMaxAngle) &&
-                    within(state.lastTurn->beta.value_or(0), session::kMaxAngle),
-                "the last rotation is within its bounds");
+        require(!state.lastTurn->planes().empty(), "a rotation has a plane");
+        for (const geometry::Plane plane : geometry::kPlanes) {
+            require(within((*state.lastTurn)[plane].value_or(0), session::kMaxAngle),
+                    "the last rotation is within its bounds");
+        }
     }
 }
 

@@ -19,7 +19,7 @@ HUGE = 10_000_000
     ({"type": "key", "key": "q"}, "unknown_key", "q"),
     ({"type": "key", "key": 5}, "bad_message", "key"),
     ({"type": "key", "key": ":"}, "unknown_key", ":"),
-    ({"type": "rotate", "planes": ["xw", "xy"], "angles": [1, 1]}, "bad_message", "perpendicular"),
+    ({"type": "rotate", "planes": ["xw", "xw"], "angles": [1, 1]}, "bad_message", "different planes"),
     ({"type": "rotate", "planes": ["xw"], "angles": ["1"]}, "bad_message", "angles"),
     ({"type": "rotate", "planes": ["xw"], "angles": []}, "bad_message", ""),
     ({"type": "rotate", "planes": ["ww"], "angles": [1]}, "bad_message", "xy"),

@@ -2,6 +2,7 @@
 
 import table from "../../protocol/commands.json";
 import parts from "../../protocol/schema/parts.schema.json";
+import planes from "../../protocol/schema/planes.schema.json";
 import set from "../../protocol/schema/set.schema.json";
 
 /** A command; protocol/commands.json describes the members. */
@@ -29,8 +30,11 @@ const kNotOnTheLine = ["type", "id", "continues", "revision", "orientation", "dr
 /** The settings of the command `set`, with their values; a setting that is a number or a name has none. */
 export const kSettings = new Map<string, string[]>(settingsOf(set.properties as Record<string, Schema>));
 
-/** The planes of single and double rotations, as the command `rotate` names them: "xy", "xw,yz". */
-export const kPlanes = set.properties.last.properties.planes.enum.map((planes) => planes.join(","));
+/**
+ * The planes of single and double rotations, as the command `rotate` names them: "xy", "xw,yz". In the order of the
+ * schema, perpendicular planes are equally far from both ends.
+ */
+export const kPlanes = planes.items.enum.flatMap((plane, i, all) => [plane, `${plane},${all[all.length - 1 - i]}`]);
 
 /** The kinds of elements of a polytope. */
 export const kElementKinds = set.properties.highlight.properties.element.enum;

@@ -3,6 +3,7 @@
 import type { State } from "@oval4d/protocol";
 
 const kMinus = "\u2212";
+const kMaxPlanes = 3; // that are listed of a rotation
 
 /** A number with at most `decimals` decimals, without trailing zeros. */
 export function formatDecimal(value: number, decimals: number): string {
@@ -51,9 +52,16 @@ export function formatW(w: number, spacing: number): string {
     return w < 0 ? kMinus + text : text;
 }
 
-/** A rotation such as "xw 22.5°, yz 81.42°". */
+/**
+ * A rotation such as "xw 22.5°, yz 81.42°". That of a gesture can turn in all six planes: only the planes with the three
+ * largest angles are listed.
+ */
 export function formatRotation(last: NonNullable<State["last"]>): string {
-    return last.planes.map((plane, i) => `${plane} ${formatDegrees(last.angles[i] ?? 0)}`).join(", ");
+    const turns = last.planes.map((plane, i) => ({ plane, angle: last.angles[i] ?? 0 }));
+    const largest = [...turns].sort((a, b) => Math.abs(b.angle) - Math.abs(a.angle)).slice(0, kMaxPlanes);
+    const listed = turns.filter((turn) => largest.includes(turn));
+    const text = listed.map(({ plane, angle }) => `${plane} ${formatDegrees(angle)}`).join(", ");
+    return listed.length < turns.length ? `${text}, …` : text;
 }
 
 /** Capitalizes the first letter. */

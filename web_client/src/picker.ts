@@ -9,6 +9,7 @@ import { formatCount, toSentence } from "./format";
 
 const kDataFamily = "data"; // the family of the arrays in the server's data folder
 const kFieldFamilies = ["fields", kDataFamily];
+const kCounted = ["vertices", "edges", "2-faces", "cells"]; // the headings of the counts
 const kPage = 8; // number of options by which Page Up and Page Down move
 const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1, PageDown: kPage, PageUp: -kPage };
 
@@ -83,6 +84,7 @@ export class Picker {
         const families = found.length > 0 ? found : this.catalogue.findSimilar(text);
         const groups = families.map(({ name, entries }, i) => {
             const title = element("h3", { id: `picker-family-${i}`, role: "presentation" }, name);
+            if (!kFieldFamilies.includes(name)) title.append(countsElement(kCounted));
             const options = entries.map((entry) => this.options.get(entry)!);
             const attributes = { role: "group", "aria-labelledby": title.id };
             return element("div", attributes, title, ...options);
@@ -160,7 +162,7 @@ function optionElement(entry: CatalogueEntry, id: string): HTMLElement {
     const symbol = schlaefli || diagram;
     const also = aliases.filter((alias) => alias !== symbol && alias !== diagram).join(", ");
     const drawn = symbol === diagram || diagram === "" ? [] : [element("code", {}, diagram), also === "" ? "" : ", "];
-    const counts = [vertices, edges, faces, cells].map(formatCount).join(" ");
+    const counts = [vertices, edges, faces, cells];
     const attributes = { role: "option", id, "data-name": name, "data-family": entry.family ?? "", "aria-selected": "false" };
     return element(
         "div",
@@ -170,6 +172,11 @@ function optionElement(entry: CatalogueEntry, id: string): HTMLElement {
         element("small", {}, ...drawn, also),
         kFieldFamilies.includes(entry.family ?? "")
             ? element("small", { class: "counts" }, "field")
-            : element("small", { class: "counts", title: "Vertices, edges, 2-faces, cells" }, counts),
+            : countsElement(counts.map(formatCount)),
     );
+}
+
+/** Four texts in columns: counts, or their headings. */
+function countsElement(texts: string[]): HTMLElement {
+    return element("small", { class: "counts columns" }, ...texts.map((text) => element("span", {}, text)));
 }

@@ -1,5 +1,5 @@
 // Turns the polytope by gestures. The turns of a gesture are added up and sent once per animation frame, when the
-// previous ones have been answered. All turns of one gesture are one undo step.
+// previous ones have been answered. All turns of one gesture are one undo step, and one rotation, which can be repeated.
 
 import type { Plane, Request } from "@oval4d/protocol";
 
@@ -47,18 +47,15 @@ export class RotationControl {
     private async send(): Promise<void> {
         this.scheduled = false;
         const gesture = this.gestures[0]!;
-        const rotations = [...gesture.unsent];
+        const planes = [...gesture.unsent.keys()];
+        const angles = [...gesture.unsent.values()];
         gesture.unsent.clear();
         if (this.gestures.length > 1) this.gestures.shift();
         this.sending = true;
-        await Promise.all(
-            rotations.map(async ([plane, angle], i) => {
-                const continues = gesture.hasStep || i > 0;
-                const rotation: Rotation = { type: "rotate", planes: [plane], angles: [angle] };
-                const done = await this.rotate({ ...rotation, ...(continues && { continues }) });
-                gesture.hasStep ||= done;
-            }),
-        );
+        if (planes.length > 0) {
+            const continues = gesture.hasStep && { continues: true };
+            gesture.hasStep = (await this.rotate({ type: "rotate", planes, angles, ...continues })) || gesture.hasStep;
+        }
         this.sending = false;
         if (this.gestures[0]!.unsent.size > 0) this.schedule();
     }

@@ -37,8 +37,16 @@ glm::dmat4 byDefinition(Plane plane, double angle) {
 
 Turn randomTurn(std::mt19937& random, bool doubled) {
     std::uniform_real_distribution<double> angle(-2 * pi, 2 * pi);
-    Turn turn{kPlanes.at(random() % 6), angle(random), std::nullopt};
-    if (doubled) turn.beta = angle(random);
+    const Plane plane = kPlanes.at(random() % 6);
+    const double alpha = angle(random);
+    return {plane, alpha, doubled ? std::optional(angle(random)) : std::nullopt};
+}
+
+// Returns a turn in all planes whose sum of squared angles is at most `size`².
+Turn randomTurnInAllPlanes(std::mt19937& random, double size) {
+    std::uniform_real_distribution<double> angle(-1, 1);
+    Turn turn;
+    for (const Plane plane : kPlanes) turn[plane] = angle(random) * size / std::sqrt(double(kPlanes.size()));
     return turn;
 }
 
@@ -55,11 +63,46 @@ TEST(Rotation, doubleRotationIsTheCommutingProductOfItsSimpleRotations) {
     std::mt19937 random(1);
     for (int i = 0; i < 200; ++i) {
         const Turn turn = randomTurn(random, true);
-        const Rotation first(Turn{turn.plane, turn.alpha, {}});
-        const Rotation second(Turn{perpendicular(turn.plane), *turn.beta, {}});
+        const Plane plane = turn.planes()[0];
+        const Rotation first(Turn{plane, *turn[plane], {}});
+        const Rotation second(Turn{perpendicular(plane), *turn[perpendicular(plane)], {}});
         EXPECT_LT(difference(Rotation(turn).matrix(), (first * second).matrix()), 1e-14);
         EXPECT_LT(difference(Rotation(turn).matrix(), (second * first).matrix()), 1e-14);
     }
+}
+
+// exp(A) is the limit of (1 + A / n)^n, in which each step turns a little in one plane after the other.
+TEST(Rotation, turnsInAllPlanesAtTheSameTime) {
+    std::mt19937 random(21);
+    for (int i = 0; i < 20; ++i) {
+        const Turn turn = randomTurnInAllPlanes(random, 2);
+        const int steps = 20'000;
+        Rotation product;
+        for (int k = 0; k < steps; ++k) {
+            for (const Plane plane : kPlanes) product = Rotation(Turn(plane, *turn[plane] / steps)) * product;
+        }
+        EXPECT_LT(difference(Rotation(turn).matrix(), product.matrix()), 1e-3);
+        EXPECT_LT(difference((Rotation(turn) * Rotation(turn)).matrix(), Rotation(turn.scaled(2)).matrix()), 1e-13);
+        EXPECT_LT(difference((Rotation(turn) * Rotation(turn.inverse())).matrix(), glm::dmat4(1)), 1e-13);
+    }
+}
+
+TEST(Rotation, isTheRotationOfItsTurn) {
+    std::mt19937 random(22);
+    for (int i = 0; i < 200; ++i) {
+        const Turn small = randomTurnInAllPlanes(random, 3);  // below π, so that no other turn is shorter
+        const Turn again = Rotation(small).turn();
+        for (const Plane plane : kPlanes) EXPECT_NEAR(again[plane].value_or(0), *small[plane], 1e-12);
+        const Rotation any = Rotation(randomTurn(random, true)) * Rotation(randomTurn(random, true));
+        EXPECT_LT(difference(Rotation(any.turn()).matrix(), any.matrix()), 1e-12);
+    }
+    EXPECT_TRUE(Rotation().turn().planes().empty());
+    EXPECT_EQ(Rotation(Turn(Plane::yw, 0.3)).turn().planes(), std::vector{Plane::yw});
+    const Rotation central(glm::dquat(-1, 0, 0, 0), glm::dquat(1, 0, 0, 0));
+    EXPECT_LT(difference(Rotation(central.turn()).matrix(), central.matrix()), 1e-12);
+    const Turn sum = Turn(Plane::xy, 5) + Turn(Plane::xy, 4) + Turn(Plane::xw, 1);
+    EXPECT_EQ(sum[Plane::xy], 9);
+    EXPECT_EQ(sum.planes(), (std::vector{Plane::xy, Plane::xw}));
 }
 
 TEST(Rotation, perpendicularPlanesShareNoAxis) {

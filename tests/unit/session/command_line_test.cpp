@@ -45,7 +45,7 @@ TEST(CommandLine, DoesWhatTheMethodPageShows) {
     line(session, "reset");
     EXPECT_EQ(session.current.orientation, geometry::Rotation{});
     line(session, "key y");
-    EXPECT_EQ(session.current.lastTurn->plane, geometry::Plane::xy);
+    EXPECT_EQ(session.current.lastTurn->planes(), (std::vector{geometry::Plane::xy, geometry::Plane::zw}));
     line(session, "key space");
     EXPECT_TRUE(session.current.turning);
     line(session, "key u");
@@ -233,7 +233,9 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("focus 1e8", ErrorCode::out_of_range, "the focus must be from");
     refused("rotate", ErrorCode::bad_expression, "needs planes and angles");
     refused("rotate xw 1 2", ErrorCode::bad_expression, "one plane needs one angle, not 2; write xw pi/8 or");
-    refused("rotate xw,yw 1 2", ErrorCode::bad_expression, "combine xw with yz");
+    refused("rotate xw,xw 1 2", ErrorCode::bad_expression, "the plane xw is named twice");
+    refused("rotate xw, 1", ErrorCode::bad_expression, "no plane is called ''");
+    refused("rotate xw,yw,zw", ErrorCode::bad_expression, "3 planes need 3 angles, not 2");
     refused("rotate xw 1e7", ErrorCode::out_of_range, "an angle must be from");
     refused("key", ErrorCode::unknown_key, "needs one key");
     refused("key q", ErrorCode::unknown_key, "'q' has no meaning");

@@ -119,10 +119,9 @@ TEST(Turn, MistakesAreExplained) {
     };
     says("xw", "not a rotation");
     says("xq:1", "no plane is called 'xq'");
-    says("xw,xy:1,2",
-         "xw and xy share an axis; a double rotation needs planes without a common axis: combine xw with yz");
+    says("xw,yz,xw:1,2,3", "the plane xw is named twice");
     says("xw:1,2", "one plane needs one angle, not 2; write xw:pi/8 or xw,yz:pi/8,pi/5");
-    says("xw,yz:1", "two planes need two angles");
+    says("xw,yz:1", "2 planes need 2 angles, not 1");
     says("xw:30", "30 radians are more than a full turn; did you mean 30°?");
     says("xw,yz:1,-400", "did you mean -400°?");
     says("xw:pi/", "a number, a name or '(' is expected");

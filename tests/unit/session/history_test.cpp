@@ -275,5 +275,47 @@ TEST(History, TheOlderHalfIsForgotten) {
     EXPECT_TRUE(session.undoSteps.empty());
 }
 
+// A gesture sends many rotations, which are one undo step and one rotation.
+TEST(Gestures, AreOneRotation) {
+    using geometry::Plane;
+    using geometry::Rotation;
+    using geometry::Turn;
+    Session session;
+    must(session, Rotate{Turn(Plane::yz, 0.4, 0.1)});
+    const State before = session.current;
+    const auto turn = [&](const Turn& part, bool continues) { must(session, Rotate{part, continues}); };
+    turn(Turn(Plane::xw, 0.1), false);
+    turn(Turn(Plane::yw, -0.2), true);
+    turn(Turn(Plane::xw, 0.3) + Turn(Plane::yw, 0.05), true);
+    const State after = session.current;
+    const Rotation whole = after.orientation * before.orientation.inverse();
+    EXPECT_LT((Rotation(after.lastTurn.value()) * whole.inverse()).angle(), 1e-9);
+    press(session, ".");
+    EXPECT_LT((session.current.orientation * (whole * after.orientation).inverse()).angle(), 1e-9);
+    press(session, "uu");
+    EXPECT_EQ(session.current, before);
+}
+
+TEST(Gestures, AddUpInTheirPlaneBeyondHalfATurn) {
+    using geometry::Plane;
+    using geometry::Turn;
+    Session session;
+    for (int i = 0; i < 5; ++i) must(session, Rotate{Turn(Plane::zw, 1.5), i > 0});
+    EXPECT_EQ(session.current.lastTurn.value().planes(), std::vector{Plane::zw});
+    EXPECT_NEAR(*session.current.lastTurn.value()[Plane::zw], 7.5, 1e-12);
+}
+
+TEST(Gestures, ThatLeadBackAreNoRotation) {
+    using geometry::Plane;
+    using geometry::Turn;
+    Session session;
+    must(session, Rotate{Turn(Plane::xy, 0.25)});
+    must(session, Rotate{Turn(Plane::xw, 0.5)});
+    must(session, Rotate{Turn(Plane::yw, 0.5), true});
+    must(session, Rotate{Turn(Plane::yw, -0.5), true});
+    must(session, Rotate{Turn(Plane::xw, -0.5), true});
+    EXPECT_EQ(session.current.lastTurn, Turn(Plane::xy, 0.25));
+}
+
 }  // namespace
 }  // namespace oval4d::session

@@ -190,7 +190,7 @@ Command randomCommand(Random& random) {
         case 3: {
             geometry::Turn turn{
                 oneOf(geometry::kPlanes, random), oneOf(std::array{0.0, 0.1, -0.1, 1.0, 2e6}, random), {}};
-            if (happens(0.3, random)) turn.beta = oneOf(std::array{0.0, 0.1}, random);
+            while (happens(0.3, random)) turn[oneOf(geometry::kPlanes, random)] = oneOf(std::array{0.0, 0.1}, random);
             return Rotate{turn, happens(0.5, random)};
         }
         case 4:

@@ -42,8 +42,9 @@ TEST_P(Slices, throughVerticesEdgesFacesAndCellsAreSound) {
         geometry::Rotation orientation;
         for (int k = 0; k < 3; ++k) {
             const double step = pi / (i % 2 == 0 ? 2 : 4);
-            geometry::Turn turn{geometry::kPlanes.at(random() % 6), step * int(random() % 8), std::nullopt};
-            if (random() % 2 == 0) turn.beta = step * int(random() % 8);
+            const geometry::Plane plane = geometry::kPlanes.at(random() % 6);
+            geometry::Turn turn(plane, step * int(random() % 8));
+            if (random() % 2 == 0) turn[perpendicular(plane)] = step * int(random() % 8);
             orientation = geometry::Rotation(turn) * orientation;
         }
         const double spacing = i % 3 == 0 ? 0.25 : i % 3 == 1 ? std::numbers::sqrt2 / 4 : p.circumradius / 8;
