@@ -397,6 +397,39 @@ def svg_of(server, tmp_path, query):
     return root
 
 
+HOSTILE_NAMES = ["R&D.off", "a < b > c", "\"quoted\" 'twice'", "]]>", "<!--", "&amp;", "\ufffe\uffff nothing", "π ≈ 3.14 é",
+                 "\U0001f9ca ice", "100 % $ ` \\ /", "a, b; c", "=1+1"]
+
+
+@pytest.mark.parametrize("name", HOSTILE_NAMES, ids=ascii)
+async def test_files_of_objects_with_any_name_can_be_parsed(server, tmp_path, name):
+    shown = name.replace("\ufffe", "").replace("\uffff", "")  # XML cannot contain these
+    async with Client(server, stream="none") as client:
+        await client.request("load", name=name, format="points", data="1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n-1 -1 -1 -1\n")
+        files = {row["name"]: await file_over_websocket(client, format=row["name"])
+                 for row in TABLE if row.get("objects") != "fields"}
+    for format_ in ("svg", "x3d", "vtp"):
+        ElementTree.fromstring(files[format_])
+    assert ElementTree.fromstring(files["svg"]).find(SVG + "title").text.endswith(shown)
+    ((object_name, _, _),) = meshes.read_three_mf(files["3mf"])
+    assert object_name.startswith(shown)
+    path = tmp_path / "body.glb"
+    path.write_bytes(files["glb"])
+    assert meshes.validate_glb(path)["issues"]["numErrors"] == 0
+    assert list(csv.DictReader(io.StringIO(files["csv"].decode())))
+    assert off_points(files["off"])
+    assert meshes.stl_triangles(files["stl"]).size
+    for format_ in ("ply", "obj"):
+        path = tmp_path / f"body.{format_}"
+        path.write_bytes(files[format_])
+        subprocess.run(["assimp", "info", str(path)], capture_output=True, check=True, timeout=DEADLINE)
+    path = tmp_path / "drawing.pdf"
+    path.write_bytes(files["pdf"])
+    info = subprocess.run(["mutool", "show", str(path), "trailer/Info/Title"], capture_output=True, text=True, check=True,
+                          timeout=DEADLINE)
+    assert info.returncode == 0
+
+
 @pytest.mark.parametrize("polytope, vertices, edges", [("tesseract", 16, 32), ("120-cell", 600, 1200)])
 def test_a_drawing_of_the_projection_has_all_edges(server, tmp_path, polytope, vertices, edges):
     query = f"polytope={polytope}&{ROTATION}&of=projection&focus=99&faces=off"

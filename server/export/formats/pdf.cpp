@@ -124,10 +124,11 @@ class PageWriter {
     std::map<int, HPDF_ExtGState> states_;
 };
 
-// Replaces other characters, which the document information cannot contain in its default encoding.
-std::string asciiOnly(std::string text) {
-    std::ranges::replace_if(text, [](char c) { return c < ' ' || c > '~'; }, '?');
-    return text;
+// Returns a text string of the document information. ASCII is the same in all encodings; other text is UTF-8 with a
+// byte order mark (PDF 2.0, ISO 32000-2, section 7.9.2.2). libharu takes no zero bytes, which UTF-16 would need.
+std::string textString(const std::string& text) {
+    const bool isAscii = std::ranges::all_of(text, [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+    return isAscii ? text : "\xEF\xBB\xBF" + text;
 }
 
 }  // namespace
@@ -138,7 +139,7 @@ std::string pdf(const Drawing& drawing) {
                                                                                           HPDF_Free);
     if (!document) throw std::runtime_error("libharu cannot create a document");
     HPDF_SetCompressionMode(document.get(), HPDF_COMP_ALL);
-    HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, asciiOnly(drawing.title).c_str());
+    HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, textString(drawing.title).c_str());
     HPDF_SetInfoAttr(document.get(), HPDF_INFO_CREATOR, "oval4d");
     const HPDF_Page page = HPDF_AddPage(document.get());
     HPDF_Page_SetWidth(page, static_cast<float>(drawing.width));

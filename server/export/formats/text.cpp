@@ -39,15 +39,28 @@ std::string labelOfW(double w, double spacing) {
     return "w = " + std::string(zero ? "0" : (w < 0 ? "\u2212" : "") + std::string(text.data()));
 }
 
+std::string xmlCharacters(std::string_view text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::string_view rest = text.substr(i);
+        if (rest.starts_with("\xEF\xBF\xBE") || rest.starts_with("\xEF\xBF\xBF")) {
+            i += 2;
+        } else if (static_cast<unsigned char>(text[i]) >= 0x20) {
+            out += text[i];
+        }
+    }
+    return out;
+}
+
 std::string xmlEscaped(std::string_view text) {
     constexpr auto kEntities = std::to_array<std::pair<char, std::string_view>>(
         {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&apos;"}});
     std::string out;
-    for (const char c : text) {
+    for (const char c : xmlCharacters(text)) {
         const auto entity = std::ranges::find(kEntities, c, &std::pair<char, std::string_view>::first);
         if (entity != kEntities.end()) {
             out += entity->second;
-        } else if (static_cast<unsigned char>(c) >= 0x20) {
+        } else {
             out += c;
         }
     }

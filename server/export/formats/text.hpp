@@ -18,8 +18,11 @@ void append(std::string& out, const glm::dvec3& point);
 /// the distance between neighboring hyperplanes.
 std::string labelOfW(double w, double spacing);
 
-/// Returns the text escaped for XML content and attributes: & < > and quotes become entities, and control characters
-/// are removed.
+/// Returns the text without the characters that XML 1.0 cannot contain (section 2.2): control characters, U+FFFE and
+/// U+FFFF. Tabs and line ends are removed, too. The text must be UTF-8.
+std::string xmlCharacters(std::string_view text);
+
+/// Returns xmlCharacters(text) escaped for XML content and attributes: & < > and quotes become entities.
 std::string xmlEscaped(std::string_view text);
 
 }  // namespace oval4d::exports

@@ -64,7 +64,7 @@ void addMesh(PLib3MFModel* model, const NamedMesh& solid) {
     check(lib3mf_meshobject_setgeometry(object.get(), points.data(), static_cast<DWORD>(points.size()),
                                         triangles.data(), static_cast<DWORD>(triangles.size())),
           "cannot set the mesh");
-    check(lib3mf_object_setnameutf8(object.get(), solid.name.c_str()), "cannot name the object");
+    check(lib3mf_object_setnameutf8(object.get(), xmlCharacters(solid.name).c_str()), "cannot name the object");
     owned<PLib3MFModelBuildItem>("cannot add the object to the build", [&](auto** out) {
         return lib3mf_model_addbuilditem(model, object.get(), nullptr, out);
     });
@@ -75,7 +75,8 @@ void addMesh(PLib3MFModel* model, const NamedMesh& solid) {
 std::string threeMf(const BodiesToWrite& bodies) {
     const auto model = owned<PLib3MFModel>("cannot create a model", [](auto** out) { return lib3mf_createmodel(out); });
     check(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER), "cannot set the unit");
-    check(lib3mf_model_addmetadatautf8(model.get(), "Title", bodies.title.c_str()), "cannot set the title");
+    // The library escapes names, but writes metadata as they are.
+    check(lib3mf_model_addmetadatautf8(model.get(), "Title", xmlEscaped(bodies.title).c_str()), "cannot set the title");
     check(lib3mf_model_addmetadatautf8(model.get(), "Application", "oval4d"), "cannot set the application");
     for (const NamedMesh& solid : bodies.solids) addMesh(model.get(), solid);
     const auto writer = owned<PLib3MFModelWriter>(
