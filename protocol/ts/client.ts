@@ -13,9 +13,9 @@ export interface Credentials {
 }
 
 export type Status =
-    | { kind: "connecting" }
+    | { kind: "connecting"; isBlocked?: true } // isBlocked: the server answers, but no WebSocket opens
     | { kind: "open" }
-    | { kind: "waiting"; reason: string; seconds: number } // `seconds` until the next attempt to connect
+    | { kind: "waiting"; reason: string; seconds: number; isBlocked?: true } // `seconds` until the next attempt
     | { kind: "closed"; reason: string };
 
 export interface Options {
@@ -68,6 +68,8 @@ const kSubprotocol = `oval4d.v${kProtocol}`;
 const kReconnectDelay = 0.1; // seconds after an open connection ended; short, since another server may be available
 const kFirstRetryDelay = 0.5; // seconds after the first failed attempt, doubled at each further failure
 const kMaxRetryDelay = 15; // seconds
+const kOpeningTimeout = 5; // seconds within which a WebSocket must open
+const kProbeTimeout = 3; // seconds within which the server must answer when no WebSocket opens
 const kIdleBeforeTest = 20; // seconds without a message after which the connection is tested
 const kTestTimeout = 8; // seconds within which the server must answer a test
 const kFileTestTimeout = 300; // the same while a file is exported: the server answers only when it is complete
@@ -83,6 +85,7 @@ export class Client {
     private pending = new Map<number, PendingRequest>();
     private lastId = 0;
     private failures = 0;
+    private blocked: { isBlocked?: true } = {};
     private timer: ReturnType<typeof setTimeout> | undefined;
     private readonly arena = new Arena();
     private heldFrame: Uint8Array | undefined;
@@ -101,7 +104,7 @@ export class Client {
     connect(): void {
         clearTimeout(this.timer);
         this.drop();
-        this.report({ kind: "connecting" });
+        this.report({ kind: "connecting", ...this.blocked });
         const url = new URL(
             this.credentials ? `ws/${encodeURIComponent(this.credentials.session)}` : "ws",
             this.options.url,
@@ -110,11 +113,15 @@ export class Client {
         url.search = url.hash = "";
         const socket = new (this.options.webSocket ?? WebSocket)(url.href, kSubprotocol);
         socket.binaryType = "arraybuffer";
-        socket.onopen = () => this.hello({}).catch(() => {}); // after a refusal the socket closes; onclose handles it
+        socket.onopen = () => {
+            clearTimeout(this.timer);
+            this.hello({}).catch(() => {}); // after a refusal the socket closes; onclose handles it
+        };
         socket.onmessage = (event) => this.receive(event.data as string | ArrayBuffer);
         socket.onclose = (event) => this.closed(event.code, event.reason);
         socket.onerror = () => {}; // onclose follows
         this.socket = socket;
+        this.timer = setTimeout(() => this.closed(1006, ""), kOpeningTimeout * 1000);
     }
 
     /** Closes the connection and does not reconnect. */
@@ -236,6 +243,7 @@ export class Client {
             return;
         }
         this.failures = 0;
+        this.blocked = {};
         this.welcome = welcome;
         this.credentials = { session: welcome.session, token: welcome.token };
         if (this.status.kind !== "open") this.report({ kind: "open" });
@@ -284,7 +292,22 @@ export class Client {
         const delay = opened ? kReconnectDelay : Math.min(kMaxRetryDelay, kFirstRetryDelay * 2 ** this.failures++);
         const seconds = delay * (0.5 + Math.random()); // jitter, so that clients do not all reconnect at once
         this.timer = setTimeout(() => this.connect(), seconds * 1000);
-        this.report({ kind: "waiting", reason, seconds });
+        this.report({ kind: "waiting", reason, seconds, ...this.blocked });
+        if (!opened && closeReason === "") void this.findWhetherBlocked();
+    }
+
+    /** Reports if the server answers although no WebSocket opens, as behind a proxy that does not pass the headers on. */
+    private async findWhetherBlocked(): Promise<void> {
+        const begin = Date.now();
+        const signal = AbortSignal.timeout(kProbeTimeout * 1000);
+        const answer = await fetch(this.options.url, { method: "HEAD", signal }).catch(() => undefined);
+        const { status } = this;
+        if (status.kind !== "waiting" && status.kind !== "connecting") return;
+        this.blocked = answer?.ok ? { isBlocked: true } : {};
+        if (status.isBlocked === this.blocked.isBlocked) return;
+        if (status.kind === "connecting") return this.report({ kind: "connecting", ...this.blocked });
+        const seconds = Math.max(0, status.seconds - (Date.now() - begin) / 1000);
+        return this.report({ kind: "waiting", reason: status.reason, seconds, ...this.blocked });
     }
 
     private drop(): void {

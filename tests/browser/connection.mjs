@@ -7,6 +7,7 @@ import { passTime } from "./support/page_time.mjs";
 import { startProxy, startReplaceableServer } from "./support/proxy.mjs";
 
 const kLate = 1000; // milliseconds without an answer after which the page says that it waits
+const kOpening = 5000; // milliseconds within which a WebSocket must open
 const kLost = 8000; // the same, after which it gives up the connection
 
 const connection = (page) => page.locator("#connection").textContent();
@@ -84,6 +85,21 @@ test("connection: the page says that the server does not answer, or that the net
     assert.match(await connection(page), /does not answer|No answer/);
     await close();
     await proxy.stop();
+});
+
+test("connection: the page says that a proxy passes no WebSockets on", async () => {
+    const { url } = await common();
+    for (const refuse of ["dropUpgrades", "holdUpgrades"]) {
+        const proxy = await startProxy(url, "/tunnel");
+        proxy[refuse]();
+        const { page, close } = await openPage({ url: proxy.url, isStopped: true, picture: false });
+        await passTime(page, kOpening);
+        const says = () => /no WebSocket opens.* Upgrade/.test(document.getElementById("stale").textContent);
+        await page.waitForFunction(says);
+        assert.equal(await page.locator("#stale").isVisible(), true);
+        await close();
+        await proxy.stop();
+    }
 });
 
 test("connection: behind a path prefix, all requests are under the prefix", async () => {

@@ -6,6 +6,8 @@ import { byId } from "./element";
 import { capitalize, formatTime } from "./format";
 
 const kMaxWait = 1000; // milliseconds without an answer after which the page says that it waits
+const kBlocked =
+    "The server answers, but no WebSocket opens. A proxy must pass on the headers Host, Upgrade and Connection.";
 
 export class ConnectionStatus {
     private readonly root = byId("connection");
@@ -78,8 +80,10 @@ export class ConnectionStatus {
         this.text.textContent = isLate ? "Waiting…" : statusText(this.status, seconds);
         const isStale = kind !== "open" && this.presentedAt !== undefined;
         this.drawing.toggleAttribute("data-stale", isStale);
-        this.stale.hidden = !isStale;
-        if (isStale) this.stale.textContent = `Not connected. This picture is from ${formatTime(this.presentedAt!)}.`;
+        const isBlocked = "isBlocked" in this.status;
+        this.stale.hidden = !isStale && !isBlocked;
+        const age = isStale ? `Not connected. This picture is from ${formatTime(this.presentedAt!)}.` : "";
+        this.stale.textContent = isBlocked ? `${kBlocked} ${age}` : age;
     }
 }
 

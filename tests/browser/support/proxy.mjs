@@ -79,6 +79,15 @@ export async function startProxy(firstTarget, prefix, extraHeaders = {}) {
         restore() {
             broken = false;
         },
+        /** Answers requests for WebSockets as other requests, like a proxy that does not pass the header Upgrade on. */
+        dropUpgrades() {
+            server.removeAllListeners("upgrade");
+        },
+        /** Does not answer requests for WebSockets. */
+        holdUpgrades() {
+            server.removeAllListeners("upgrade");
+            server.on("upgrade", (_, socket) => sockets.add(socket));
+        },
         /** Stops forwarding without closing a connection, as when a cable is pulled; refuses new ones until thaw(). */
         freeze() {
             broken = true;
