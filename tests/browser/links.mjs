@@ -34,7 +34,7 @@ test("links: a query opens its view", async () => {
 test("links: a query is read as standard clients encode it, without what other sites append", async () => {
     const { url } = await common();
     const sum = new URLSearchParams({ rotate: "xw:0.1 + 0.2", polytope: "truncated 5-cell" });
-    const { page, errors, close } = await openPage({ url: `${url}?utm_source=mail&${sum}&fbclid=1&alpha=0.1+pi/8` });
+    const { page, errors, close } = await openPage({ url: `${url}?utm_source=mail&${sum}&amp;fbclid=1&alpha=0.1%252Bpi/8` });
     await named(page, "truncated 5-cell");
     const script = await scriptFor(page);
     const { last, alpha } = await script.until((one) => one.alpha > 0.4, "the view");
@@ -113,6 +113,27 @@ test("links: a link pasted into an open tab joins its session", async () => {
     await named(page, "5-cell");
     assert.equal(await page.evaluate(() => window.stays), true, "the page is not loaded again");
     assert.deepEqual(errors, []);
+    await closeOther();
+    await close();
+});
+
+test("links: a link to a session that was damaged on its way is joined or reported", async () => {
+    const { url } = await common();
+    const { script, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "24-cell" });
+    const { session, token } = script.client.credentials;
+    const { page, close: closeOther } = await openPage({ url: `${url}#session=${session}&amp;token=${token}` });
+    await named(page, "24-cell");
+    for (const fragment of [`session=${session}`, `session=${session}&tok`, `token=${token}`, "session=&token="]) {
+        await page.evaluate(() => (document.getElementById("notice").textContent = ""));
+        await page.goto(`${url}#${fragment}`);
+        await page.waitForFunction(() => /link .* is damaged/.test(document.getElementById("notice").textContent));
+        assert.equal(page.url(), url, "the token does not stay in the URL");
+    }
+    const other = await openPage({ url: `${url}#session=${session}` });
+    await other.page.waitForFunction(() => /link .* is damaged/.test(document.getElementById("notice").textContent));
+    await named(other.page, "5-cell");
+    await other.close();
     await closeOther();
     await close();
 });

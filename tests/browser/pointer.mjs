@@ -381,3 +381,20 @@ test("pointer: a drag, a click beside the slices and a click with a modifier lea
     await script.until(({ slices }) => slices.focus === 2, "a click without a modifier");
     await close();
 });
+
+test("pointer: a word is said when zooming stops", async () => {
+    const { page, script, close } = await openWithScript();
+    await page.focus("#drawing");
+    const said = () => page.locator("#notice").textContent();
+    const press = async (key, pattern) => {
+        for (let i = 0; i < 60 && !pattern.test(await said()); i++) {
+            assert.equal(i < 59, true, `${key}: ${await said()}`);
+            await page.keyboard.press(key);
+        }
+    };
+    await press("+", /most slices would leave the picture/);
+    await press("-", /as far away as it can be/);
+    const { camera } = await script.state();
+    assert.ok(camera.zoom < 0.5, String(camera.zoom));
+    await close();
+});

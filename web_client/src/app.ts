@@ -96,6 +96,7 @@ export class App {
         this.client,
         this.stage,
         () => this.stage.layout ?? this.frameLayout.current,
+        (reason) => this.notice.show(reason),
     );
     private readonly slider: FocusSlider = new FocusSlider(this.client, {
         pressKey: (key, held) => this.sendStroke({ key, shift: false, ctrl: false }, held),
@@ -206,7 +207,8 @@ export class App {
 
     /** Joins the session of a link that was pasted into the address bar, which does not load the page again. */
     private joinSharedSession(): void {
-        const credentials = extractSharedSession();
+        const { credentials, fault } = extractSharedSession();
+        if (fault) this.notice.show(fault);
         if (!credentials) return;
         this.clearInitialView(); // another session's view does not apply to this one
         this.state = this.lostState = undefined;

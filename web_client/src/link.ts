@@ -28,22 +28,31 @@ const kFieldParameters = ["formula", "values", "box"]; // not commands
 const kSessionKey = `oval4d.session ${location.pathname}`;
 
 export function readInitialView(): InitialView {
-    const credentials = extractSharedSession();
-    if (credentials) return { credentials, lines: [], faults: [] };
+    const { credentials, fault } = extractSharedSession();
+    const faults = fault ? [fault] : [];
+    if (credentials) return { credentials, lines: [], faults };
     const stored = readStored<StoredSession>(kSessionKey);
-    if (stored?.query === location.search) return { credentials: stored.credentials, lines: [], faults: [] };
-    return { ...fieldOf(location.search), lines: commandLines(location.search) };
+    if (stored?.query === location.search) return { credentials: stored.credentials, lines: [], faults };
+    const view = fieldOf(location.search);
+    return { ...view, lines: commandLines(location.search), faults: [...faults, ...view.faults] };
 }
 
-/** The session of a shared link in the address bar, if any; removes it from there. */
-export function extractSharedSession(): Credentials | undefined {
-    const fragment = new URLSearchParams(location.hash.slice(1));
+/**
+ * The session of a shared link in the address bar, if any; removes it from there. `fault` says what is wrong with a link
+ * that was cut or changed on its way.
+ */
+export function extractSharedSession(): { credentials?: Credentials; fault?: string } {
+    const fragment = new URLSearchParams(repaired(location.hash.slice(1)));
     const [session, token] = [fragment.get("session"), fragment.get("token")];
-    if (session === null || token === null) return undefined;
+    if (!/session|token/.test(location.hash)) return {};
     // The token gives access to the session, so it must not stay in the address bar.
     history.replaceState(null, "", location.pathname + location.search);
+    if (!session || !token) {
+        const missing = session ? "the token that gives access to it" : "the name of the session";
+        return { fault: `The link to a shared session is damaged: ${missing} is missing. Copy the whole link again.` };
+    }
     rememberSession({ session, token });
-    return { session, token };
+    return { credentials: { session, token } };
 }
 
 /** Remembers the session across a reload. */
@@ -69,6 +78,14 @@ function decodePercents(text: string): string {
     }
 }
 
+/**
+ * A query or fragment as it was before a mailer or a forum wrote its "&" as "&amp;", or encoded its percent signs again
+ * (%252C).
+ */
+function repaired(text: string): string {
+    return text.replaceAll("&amp;", "&").replace(/%25(?=[0-9a-f]{2})/gi, "%");
+}
+
 /** Whether a parameter was appended to the address by another site. */
 function isIgnored(name: string): boolean {
     return address.ignored.some((rule) => (rule.endsWith("*") ? name.startsWith(rule.slice(0, -1)) : name === rule));
@@ -80,7 +97,7 @@ function isIgnored(name: string): boolean {
  * queries of the API in the same way.
  */
 function settingsOf(query: string): [name: string, value: string][] {
-    const parts = query
+    const parts = repaired(query)
         .replace(/^\?/, "")
         .split("&")
         .filter((part) => part !== "");

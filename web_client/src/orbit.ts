@@ -10,6 +10,7 @@ const kInitial: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
 const kLimits = { elevation: 1.5, zoom: [0.25, 10] as const };
 const kLeastVisible = 0.5; // the part of the slices that orbiting and zooming keep in the picture
 const kBisections = 10;
+const kLeastZoom = 1e-3; // the least relative change that counts as zooming
 
 const kAngleStep = Math.PI / 36; // of a key, in radians
 const kZoomStep = 1.1;
@@ -29,11 +30,15 @@ export class OrbitControl {
         reset_view: () => this.reset(),
     };
 
-    /** `layout` returns where the slices are, or undefined until this is known. */
+    /**
+     * `layout` returns where the slices are, or undefined until this is known. `stopped` says why the camera stays where
+     * it is.
+     */
     constructor(
         private readonly client: Client,
         private readonly stage: Stage,
         private readonly layout: () => SliceLayout | undefined,
+        private readonly stopped: (reason: string) => void,
     ) {}
 
     /** Orbits by a drag in pixels: half the height of the picture is a quarter turn. */
@@ -45,7 +50,12 @@ export class OrbitControl {
     zoomBy(factor: number): void {
         const [min, max] = kLimits.zoom;
         const from = this.stage.orbit;
-        this.setOrbit(this.limited(from, { zoom: Math.min(max, Math.max(min, from.zoom * factor)) }));
+        const to = this.limited(from, { zoom: Math.min(max, Math.max(min, from.zoom * factor)) });
+        this.setOrbit(to);
+        if (Math.abs(to.zoom / from.zoom - 1) > kLeastZoom) return;
+        if (factor < 1) this.stopped("The camera is as far away as it can be.");
+        else if (to.zoom >= max) this.stopped("The camera is as close as it can be.");
+        else this.stopped("Closer, most slices would leave the picture. One slice (o) can be seen closer.");
     }
 
     reset(): void {

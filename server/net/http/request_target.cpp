@@ -1,6 +1,7 @@
 #include "net/http/request_target.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <vector>
 
@@ -36,6 +37,22 @@ std::optional<Decoded> percentDecoded(std::string_view text) {
         if (fault != std::errc{} || end != digits.data() + 2) return {};
         out.text += static_cast<char>(byte);
         i += 2;
+    }
+    return out;
+}
+
+/// Returns a query as it was before a mailer or a forum wrote its "&" as "&amp;", or encoded its percent signs again
+/// (%252C).
+std::string repaired(std::string_view query) {
+    std::string out;
+    out.reserve(query.size());
+    const auto isHexDigit = [&](std::size_t at) {
+        return at < query.size() && std::isxdigit(static_cast<unsigned char>(query[at])) != 0;
+    };
+    for (std::size_t i = 0; i < query.size(); ++i) {
+        out += query[i];
+        if (query.substr(i).starts_with("&amp;")) i += 4;
+        if (query.substr(i).starts_with("%25") && isHexDigit(i + 3) && isHexDigit(i + 4)) i += 2;
     }
     return out;
 }
@@ -114,6 +131,8 @@ std::optional<RequestTarget> parseRequestTarget(std::string_view text) {
     auto path = percentDecoded(takeUntil(text, '?'));
     if (!path) return {};
     target.path += path->text;
+    const std::string query = repaired(text);
+    text = query;
     while (!text.empty()) {
         std::string_view pair = takeUntil(text, '&');
         if (pair.empty()) continue;

@@ -18,7 +18,8 @@ struct RequestTarget {
 
 /// Parses "/path?name=value&…" (origin form) or "http://host:port/path?…" (absolute form; RFC 9112, section 3.2).
 /// Decodes percent escapes and, in the values of the query, "+" as a blank unless it stands between two operands of
-/// arithmetic; leaves out the parameters that protocol/address.json ignores. Returns nothing if an escape is malformed,
+/// arithmetic; leaves out the parameters that protocol/address.json ignores. Reads "&amp;" as
+/// "&", and escapes that were escaped again, as mailers and forums do. Returns nothing if an escape is malformed,
 /// the authority is invalid, or the path does not begin with a slash.
 std::optional<RequestTarget> parseRequestTarget(std::string_view text);
 

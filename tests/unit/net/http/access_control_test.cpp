@@ -98,6 +98,15 @@ TEST(RequestTarget, LeavesOutWhatOtherSitesAppend) {
     EXPECT_EQ(target->query, expected);
 }
 
+TEST(RequestTarget, ReadsQueriesThatWereEscapedAgain) {
+    const auto target =
+        parseRequestTarget("/?rotate=xw:0.1%252C0.2&amp;polytope=two%2520spots&amp;a=100%25&b=%25zz%2520");
+    ASSERT_TRUE(target);
+    const session::QueryParameters expected{
+        {"rotate", "xw:0.1,0.2"}, {"polytope", "two spots"}, {"a", "100%"}, {"b", "%zz "}};
+    EXPECT_EQ(target->query, expected);
+}
+
 TEST(RequestTarget, AcceptsAbsoluteForm) {
     struct {
         const char *text, *authority, *path;
