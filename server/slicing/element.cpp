@@ -53,13 +53,13 @@ class Span {
   public:
     /// Makes the basis of an element of this dimension, by the Gram–Schmidt process, from vectors between its points.
     /// It takes the longest of the remaining vectors each time, so that rounding errors of the points do not count as
-    /// directions. Vectors of at most `tolerance` do not count either.
-    Span(std::vector<glm::dvec4> vectors, std::size_t dimension, double tolerance) {
+    /// directions. Vectors of at most `tolerance` do not count either. Overwrites the vectors.
+    Span(std::span<glm::dvec4> vectors, std::size_t dimension, double tolerance) {
         while (size_ < std::min(dimension, basis_.size()) && !vectors.empty()) {
-            const glm::dvec4 longest =
-                *std::ranges::max_element(vectors, {}, [](const auto& v) { return glm::length(v); });
+            const glm::dvec4 longest = *std::ranges::max_element(vectors, {}, [](const auto& v) { return dot(v, v); });
             if (glm::length(longest) <= tolerance) return;
             const glm::dvec4 unit = basis_.at(size_++) = glm::normalize(longest);
+            if (size_ == dimension) return;
             for (glm::dvec4& v : vectors) v -= glm::dot(v, unit) * unit;
         }
     }
@@ -75,14 +75,16 @@ class Span {
     std::size_t size_ = 0;
 };
 
+// `points` is overwritten; it spares an allocation for each of many elements.
 template <typename Solid>
-glm::dvec4 directionIn(const Solid& object, const Element& element, const glm::dvec4& preferred) {
+glm::dvec4 directionIn(const Solid& object, const Element& element, const glm::dvec4& preferred,
+                       std::vector<glm::dvec4>& points) {
     const double tolerance = 1e-6 * object.circumradius;
-    std::vector<glm::dvec4> points;
+    points.clear();
     visitVertices(object, element, [&](const glm::dvec4& v) { points.push_back(v); });
     const glm::dvec4 center = std::accumulate(points.begin(), points.end(), glm::dvec4(0)) / double(points.size());
     for (glm::dvec4& point : points) point -= center;
-    const Span span(std::move(points), static_cast<std::size_t>(element.kind), tolerance);
+    const Span span(points, static_cast<std::size_t>(element.kind), tolerance);
     const glm::dvec4 foot = span.perpendicular(center);
     if (glm::length(foot) > tolerance) return foot;
     const glm::dvec4 near = span.perpendicular(glm::normalize(preferred));
@@ -145,7 +147,8 @@ std::size_t elementCount(const Object& object, ElementKind kind) {
 }
 
 glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred) {
-    return visitElements([&](const auto& shared) { return directionIn(*shared, element, preferred); }, object);
+    std::vector<glm::dvec4> points;
+    return visitElements([&](const auto& shared) { return directionIn(*shared, element, preferred, points); }, object);
 }
 
 std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation) {
@@ -154,15 +157,19 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
     const glm::dvec4 w = ownDirectionOfW(orientation);
     double best = -2;
     Element nearest{kind, 0};
-    for (std::size_t i = 0; i < count; ++i) {
-        const double cosine = glm::dot(w, glm::normalize(directionOf(object, {kind, i}, w)));
-        // Elements at the same angle are equally near: rounding must not choose among them.
-        constexpr double kSame = 1e-9;
-        if (cosine > best + kSame) {
-            best = cosine;
-            nearest.index = i;
+    std::vector<glm::dvec4> points;
+    const auto findNearest = [&](const auto& shared) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const double cosine = glm::dot(w, glm::normalize(directionIn(*shared, {kind, i}, w, points)));
+            // Elements at the same angle are equally near: rounding must not choose among them.
+            constexpr double kSame = 1e-9;
+            if (cosine > best + kSame) {
+                best = cosine;
+                nearest.index = i;
+            }
         }
-    }
+    };
+    visitElements(findNearest, object);
     constexpr double kThere = 1e-12;  // 1 − cos of an angle of 1.4e-6
     if (best > 1 - kThere) nearest.index = (nearest.index + 1) % count;
     return nearest;
