@@ -1,0 +1,103 @@
+// The page, its dialogs and panels at many sizes: nothing sticks out of its box, and nothing is cut off.
+import assert from "node:assert/strict";
+import { test } from "./support/suite.mjs";
+
+import { openWithScript } from "./support/browser.mjs";
+import { openPanel } from "./support/field.mjs";
+
+// Desktops, a phone upright and lying, and desktops at 200 and 400 %, which leave fewer CSS pixels.
+const kSizes = [[1440, 900], [1280, 800], [1024, 600], [800, 600], [390, 844], [667, 375], [720, 450], [360, 225], [512, 300]];
+
+/**
+ * What sticks out of its box within an element: content that is wider than its container, or beyond the container's or
+ * the window's edges, and cannot be scrolled to.
+ */
+function faultsWithin(selector) {
+    const kRounding = 1.5; // pixels
+    const nameOf = (one) => {
+        const text = one.textContent.trim().replace(/\s+/g, " ").slice(0, 30);
+        return `${one.tagName.toLowerCase()}${one.id && `#${one.id}`} “${text}”`;
+    };
+    const scrolls = (one, axis) => ["auto", "scroll"].includes(getComputedStyle(one)[`overflow${axis}`]);
+    const root = document.querySelector(selector);
+    const faults = [];
+    for (const one of [root, ...root.querySelectorAll("*")]) {
+        const { width, height } = one.getBoundingClientRect();
+        if (width === 0 || height === 0 || !one.checkVisibility({ visibilityProperty: true })) continue;
+        if (one.closest(".spoken-only, svg, canvas, [aria-hidden=true]")) continue;
+        const style = getComputedStyle(one);
+        const isCut = style.overflowX === "hidden" && style.textOverflow === "ellipsis";
+        if (style.display !== "inline" && !scrolls(one, "X") && !isCut && one.scrollWidth > one.clientWidth + kRounding) {
+            if (one.clientWidth > 0) faults.push(`${nameOf(one)} is ${one.scrollWidth - one.clientWidth} too wide`);
+        }
+        for (const axis of ["X", "Y"]) {
+            const [from, to] = axis === "X" ? ["left", "right"] : ["top", "bottom"];
+            const box = one.getBoundingClientRect();
+            let outer = one;
+            while (outer !== root && !scrolls(outer, axis)) outer = outer.parentElement;
+            if (outer !== root || scrolls(root, axis)) continue;
+            if (axis === "Y" && root === document.body) continue; // the page scrolls
+            const edges = root.getBoundingClientRect();
+            const least = Math.max(0, edges[from]) - kRounding;
+            const most = Math.min(axis === "X" ? innerWidth : innerHeight, edges[to]) + kRounding;
+            if (box[from] < least || box[to] > most) {
+                faults.push(`${nameOf(one)}: ${from} ${box[from]}, ${to} ${box[to]}, not from ${least} to ${most}`);
+            }
+        }
+    }
+    return faults;
+}
+
+/** Asserts that nothing sticks out within the element at any size; `each` is called at each size before. */
+async function assertFits(page, selector, each = async () => {}) {
+    for (const [width, height] of kSizes) {
+        await page.setViewportSize({ width, height });
+        await each();
+        assert.deepEqual(await page.evaluate(faultsWithin, selector), [], `${selector} at ${width} × ${height}`);
+    }
+}
+
+test("layout: the page and all its tools fit into every window", async () => {
+    const { page, close } = await openWithScript();
+    const assertPageFits = async () =>
+        assert.deepEqual(await page.evaluate(faultsWithin, "body"), [], JSON.stringify(page.viewportSize()));
+    await assertFits(page, "body", async () => {
+        for (const tab of await page.locator(".tabs button:visible").all()) {
+            await tab.click();
+            await assertPageFits();
+        }
+    });
+    await close();
+});
+
+test("layout: the dialogs fit into every window", async () => {
+    const { page, close } = await openWithScript();
+    for (const [key, selector] of [["?", "#help"], ["s", "#picker"], ["x", "#export"]]) {
+        await page.focus("#drawing");
+        await page.keyboard.press(key);
+        await page.waitForSelector(`${selector}[open]`);
+        if (key === "s") await page.waitForSelector("#picker-list [role=option]");
+        await assertFits(page, selector);
+        await page.keyboard.press("Escape");
+    }
+    await close();
+});
+
+test("layout: the choices of every format fit into the export dialog", async () => {
+    const { page, script, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "great grand stellated 120-cell" }); // a long name
+    await page.focus("#drawing");
+    await page.keyboard.press("x");
+    await page.waitForSelector("#export[open]");
+    for (const format of await page.locator("#export-formats label:visible").all()) {
+        await format.click();
+        await assertFits(page, "#export");
+    }
+    await close();
+});
+
+test("layout: the panel of a field fits into every window", async () => {
+    const { page, close } = await openPanel();
+    await assertFits(page, "#field");
+    await close();
+});
