@@ -155,7 +155,7 @@ test("fields: both encodings have the same surfaces", async () => {
         const surfaces = {};
         for (const encoding of ["json", "cbor"]) {
             await script.client.hello({ encoding });
-            const { slices } = await script.request({ type: "get", what: "slices", width: 480, height: 270 });
+            const { slices } = await script.request({ type: "get", what: "slices", width: 160, height: 90 });
             surfaces[encoding] = slices.map(({ surface = {} }) =>
                 Object.entries(surface).map(([name, value]) => [name, value.length ? [...value] : value]).sort(),
             );

@@ -237,7 +237,7 @@ async def test_slices_in_json_and_cbor_are_equal(server, color, monkeypatch):
     monkeypatch.setattr(oval4d_client, "numpy", None)
     async with DecodingClient(server) as client:
         await load_field(client, TIGER, TIGER_BOX)
-        await client.request("set", orientation=random_rotation(1), color=color, levels=[0.1, 0])
+        await client.request("set", orientation=random_rotation(1), color=color, levels=[0.1, 0], slices={"count": 5})
         text = await slices_of(client)
         await client.request("hello", encoding="cbor")
         packed = await slices_of(client)
