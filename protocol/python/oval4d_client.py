@@ -24,7 +24,7 @@ import re
 import struct
 import threading
 import time
-from urllib.parse import quote, urlencode, urlsplit, urlunsplit
+from urllib.parse import parse_qsl, quote, urlencode, urlsplit, urlunsplit
 
 import websockets
 
@@ -82,28 +82,34 @@ def _json(message):
 
 def connect(url="http://127.0.0.1:8080/", session=None, **options):
     """Connects to the server at `url` (http, https, ws or wss), and returns a Client. Opens a new session, or the
-    session with the name `session`. The options are those of Client."""
-    return Client(socket_url(url, session), **options)
+    session with the name `session`, or that of a link that the page's button Share has copied; hello() sends the token of
+    such a link. The options are those of Client. Raises ValueError if the link is damaged."""
+    shared = dict(parse_qsl(urlsplit(url).fragment, keep_blank_values=True))
+    if shared and not (shared.get("session") and shared.get("token")):
+        raise ValueError("the link to a shared session is damaged: it must end in #session=…&token=…")
+    return Client(socket_url(url, session or shared.get("session")), token=shared.get("token"), **options)
 
 
 def socket_url(url, session=None):
     """Returns the WebSocket URL for the URL of the page: http://host/prefix/?query → ws://host/prefix/ws?query."""
     parts = urlsplit(url)
     scheme = {"http": "ws", "https": "wss"}.get(parts.scheme, parts.scheme)
-    path = parts.path.rstrip("/") + "/ws" + (f"/{session}" if session else "")
+    path = parts.path.rstrip("/") + "/ws" + (f"/{quote(session, safe='')}" if session else "")
     return urlunsplit((scheme, parts.netloc, path, parts.query, ""))
 
 
 class Client:
     """A connection to one session. `timeout` (seconds) applies to every call. If `show` is true, pictures of the stream
-    are acknowledged as soon as they arrive. `headers` are added to the HTTP request that opens the connection.
+    are acknowledged as soon as they arrive. `headers` are added to the HTTP request that opens the connection. `token` is
+    that of an existing session.
 
     If the connection breaks, or the server closes it because the server stops, the client reconnects: at once, and then
     with growing pauses, for `timeout` seconds. Calls wait in the meantime. A call that was in progress raises Closed,
     because it is unknown whether the call took effect."""
 
-    def __init__(self, url, timeout=30, show=True, headers=None):
+    def __init__(self, url, timeout=30, show=True, headers=None, token=None):
         self.timeout = timeout
+        self._token = {} if token is None else {"token": token}
         self.show = show
         self._url = url
         self._headers = headers
@@ -136,7 +142,7 @@ class Client:
     def hello(self, stream="none", **members):
         """Sends the first message. `stream` is "geometry", "frames" or "none"; the other members are width, height,
         encoding and token."""
-        return self.request("hello", stream=stream, **members)
+        return self.request("hello", stream=stream, **self._token | members)
 
     def key(self, key, shift=False, ctrl=False):
         return self.request("key", key=key, shift=shift, ctrl=ctrl)

@@ -404,3 +404,15 @@ def test_a_notebook_shows_the_picture(server):
     with connect(server.url, timeout=DEADLINE) as oval:
         oval.hello()
         assert png_state(oval._repr_png_())["polytope"]["name"] == "5-cell"
+
+
+def test_a_script_joins_the_session_of_a_shared_link(server):
+    with connect(server.url, timeout=DEADLINE) as oval:
+        session, token = (oval.hello()[name] for name in ("session", "token"))
+        oval.set(polytope="24-cell")
+        with connect(f"{server.url}#session={session}&token={token}", timeout=DEADLINE) as other:
+            assert other.hello()["session"] == session
+            assert other.state()["polytope"]["name"] == "24-cell"
+    for fragment in (f"session={session}", f"token={token}", "session=&token="):
+        with pytest.raises(ValueError, match="damaged"):
+            connect(f"{server.url}#{fragment}")
