@@ -52,6 +52,24 @@ test("loading: a file that begins with CLOUD is shown as points", async () => {
     await close();
 });
 
+test("loading: text in UTF-16 is read as in UTF-8", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    const little = Buffer.from(simplex, "utf16le");
+    const encoded = {
+        "little.off": Buffer.concat([Buffer.from([0xff, 0xfe]), little]),
+        "big.off": Buffer.concat([Buffer.from([0xfe, 0xff]), Buffer.from(little).swap16()]),
+        "without a mark.off": little,
+    };
+    for (const [name, buffer] of Object.entries(encoded)) {
+        await page.setInputFiles("#file", [{ name, mimeType: "", buffer }]);
+        const { polytope } = await script.until((one) => one.polytope.name === name, name);
+        assert.equal(polytope.cells, 5, name);
+        await page.waitForSelector("#loading", { state: "hidden" });
+    }
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("loading: a key and a button open the file chooser", async () => {
     const { page, script, close } = await openWithScript();
     page.on("filechooser", () => {}); // from here on, the browser reports file choosers to the test

@@ -2,13 +2,14 @@
 
 import type { Credentials, Done, ErrorMessage } from "@oval4d/protocol";
 
-import { FileError } from "./files";
+import { FileError, utf16Of } from "./files";
 
 const kHeader = 512; // bytes: within them, every array has a character that texts do not contain
 
 /** Whether a file is binary. The server tells from its first bytes which format of arrays it has, if any. */
 export async function isBinary(file: File): Promise<boolean> {
     const bytes = new Uint8Array(await file.slice(0, kHeader).arrayBuffer());
+    if (utf16Of(bytes)) return false;
     return bytes.some((byte) => byte < 0x20 && !"\t\n\v\f\r".includes(String.fromCharCode(byte)));
 }
 

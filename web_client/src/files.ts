@@ -21,11 +21,27 @@ const kMaxNameLength = 64; // characters, as in `load`
 export async function readFile(file: File, limit: number): Promise<LoadedObject> {
     if (file.size === 0) throw new FileError("The file is empty.");
     if (file.size > limit) throw new FileError(tooLarge(file.size, limit));
-    const data = await file.text();
+    const data = await textOf(file);
     const message = { name: nameOf(file), format: formatOf(file.name, data), data };
     const bytes = new TextEncoder().encode(JSON.stringify(message)).length + 64; // allows for the other members
     if (bytes > limit) throw new FileError(tooLarge(bytes, limit));
     return message;
+}
+
+/**
+ * The encoding of UTF-16, which is known by its byte order mark, or by one zero among the first two bytes; else undefined.
+ * The server tells it in the same way.
+ */
+export function utf16Of([first, second]: Uint8Array): "utf-16le" | "utf-16be" | undefined {
+    if (first === undefined || second === undefined) return undefined;
+    if ((first === 0xff && second === 0xfe) || (first !== 0 && second === 0)) return "utf-16le";
+    return (first === 0xfe && second === 0xff) || (first === 0 && second !== 0) ? "utf-16be" : undefined;
+}
+
+/** The text of a file in UTF-8, or in UTF-16, which some programs on Windows write. */
+async function textOf(file: File): Promise<string> {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    return new TextDecoder(utf16Of(bytes) ?? "utf-8").decode(bytes);
 }
 
 /** The start of a PNG file, and of a JSON object. */
