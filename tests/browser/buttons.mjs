@@ -99,7 +99,7 @@ test("buttons: a held button repeats until it is released", async () => {
     assert.ok(alpha > (3 * Math.PI) / 180);
     const rest = await stateAfter(page, script);
     await page.locator("#drawing").focus();
-    await page.keyboard.press("J");
+    await page.keyboard.press("Shift+J");
     const after = await script.until((one) => one.beta < rest.beta, "another key's change");
     assert.equal(after.alpha, rest.alpha, "the button sends nothing more");
     await close();

@@ -141,7 +141,7 @@ async function assertNoEffect(page, script, ...keys) {
     for (const key of keys) await page.keyboard.press(key);
     await page.evaluate(() => document.querySelector("dialog[open]")?.close());
     await page.focus("#drawing");
-    await page.keyboard.press("K");
+    await page.keyboard.press("Shift+K");
     const after = await script.until((one) => one.revision > revision, "a change by K");
     assert.equal(after.revision, revision + 1, `${keys} changed the state`);
 }
@@ -281,5 +281,31 @@ test("keys: a held key repeats no faster than pictures arrive, and stops when re
     await page.keyboard.up("y");
     await idle(page);
     assert.equal(await sent(), 3, "nothing is sent any more");
+    await end();
+});
+
+test("keys: single keys can be turned off, which the browser remembers", async () => {
+    const { page, script, close: end } = await openWithScript({ viewport: { width: 1280, height: 800 } });
+    const button = () => page.locator("[data-page-tool=single_keys]");
+    const { revision } = await script.state();
+    await button().click();
+    assert.equal(await button().getAttribute("aria-pressed"), "false");
+    await page.focus("#drawing");
+    for (const key of ["y", "Y", "k", "2", ":", "?", "n"]) await page.keyboard.press(key);
+    await page.keyboard.press("ArrowRight"); // has no character
+    await script.until((one) => one.camera.azimuth !== 0, "an arrow orbits");
+    const { last, alpha, polytope, ...state } = await stateAfter(page, script);
+    assert.deepEqual([last, alpha, polytope.name], [null, Math.PI / 36, "5-cell"]);
+    assert.ok(state.revision > revision);
+    assert.equal(await page.locator("dialog[open]").count(), 0);
+    await script.request({ type: "rotate", planes: ["xw"], angles: [1] });
+    await page.keyboard.press("Control+z");
+    await script.until((one) => one.last === null, "Ctrl-Z");
+    await page.reload();
+    await page.waitForSelector("[data-page-tool=single_keys][aria-pressed=false]");
+    await button().click();
+    await page.focus("#drawing");
+    await page.keyboard.press("y");
+    await script.until(({ last }) => last !== null, "a key that acts again");
     await end();
 });

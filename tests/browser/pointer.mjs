@@ -280,6 +280,27 @@ test("pointer: dragging two fingers rolls the 4-D ball, twisting them turns in z
     await close();
 });
 
+test("pointer: dragging with the right or the middle button rolls the 4-D ball", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    await page.evaluate(() => {
+        window.menus = [];
+        window.addEventListener("contextmenu", (event) => window.menus.push(event.defaultPrevented));
+    });
+    const part = await perPixel(page);
+    for (const button of ["right", "middle"]) {
+        const { orientation } = await script.state();
+        await page.mouse.move(500, 300);
+        await page.mouse.down({ button });
+        await page.mouse.move(560, 300, { steps: 4 });
+        await page.mouse.up({ button });
+        await orientationOf(script, turned(orientation, ["xw"], [-60 * part]), 1e-6, `a drag with the ${button} button`);
+    }
+    assert.ok((await page.evaluate(() => window.menus)).every((isPrevented) => isPrevented), "no menu opens over the drag");
+    assert.deepEqual((await script.state()).highlight, null);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("pointer: a gamepad's sticks and triggers turn the polytope", async () => {
     const { page, script, errors, press, close } = await openWithScript({
         isStopped: true,
@@ -299,7 +320,17 @@ test("pointer: a gamepad's sticks and triggers turn the polytope", async () => {
     };
     const { orientation: start, revision } = await script.state();
     assert.equal(await polls(), 0, "no gamepad is polled before one is connected");
-    await page.evaluate(() => window.dispatchEvent(new Event("gamepadconnected")));
+    const connected = () => page.evaluate(() => window.dispatchEvent(new Event("gamepadconnected")));
+    await page.evaluate(() => Object.assign(window.gamepad, { mapping: "", axes: [-1, 1, -1, 0.3] }));
+    await connected();
+    await passTime(page, 1000);
+    await animationFrames(page, 5);
+    assert.equal((await stateAfter(page, script)).revision, revision, "a device with other axes turns nothing");
+    await page.evaluate(() => Object.assign(window.gamepad, { mapping: "standard" }));
+    await connected();
+    for (let i = 0; i < 3; ++i) await poll(50);
+    assert.equal((await stateAfter(page, script)).revision, revision, "nor does one that has not been at rest yet");
+    await page.evaluate(() => (window.gamepad.axes = [0, 0, 0, 0]));
     await page.evaluate(() => (window.gamepad.axes[1] = 0.1)); // within the dead zone
     for (let i = 0; i < 5; ++i) await poll(20);
     assert.equal((await stateAfter(page, script)).revision, revision);

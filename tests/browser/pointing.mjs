@@ -101,6 +101,29 @@ test("pointing: the light ends when the mouse leaves the element or the drawing,
     await close();
 });
 
+test("pointing: the tap of a finger shows the name that the mouse shows, until the next touch", async () => {
+    for (const mode of ["geometry", "frames"]) {
+        const { page, script, size, picture, moveTo, tap, close } = await openTurned({}, { hasTouch: true });
+        await page.locator(`[data-page-tool=${mode}]`).dispatchEvent("click");
+        await page.waitForSelector(`#drawing[data-drawn-by=${mode}]`);
+        const { at } = faceIn(await picture(), size, 2);
+        await moveTo(...at);
+        const text = await labeled(page, /^Cell/);
+        await moveTo(4, 4);
+        await labeled(page, /^$/);
+        const { revision } = await script.state();
+        await tap(...at);
+        assert.equal(await labeled(page, /^Cell/), text, mode);
+        const { slices } = await script.until((one) => one.revision > revision, "the tapped slice is the focus");
+        assert.equal(slices.focus, 2);
+        await frames(page);
+        assert.equal(await label(page), text, "the name stays while the picture changes");
+        await tap(4, 4);
+        await labeled(page, /^$/);
+        await close();
+    }
+});
+
 test("pointing: the name follows what the picture shows under a mouse at rest", async () => {
     const { page, size, script, picture, moveTo, close } = await openTurned();
     const { at, source } = faceIn(await picture(), size, 0);

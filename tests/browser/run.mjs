@@ -42,11 +42,12 @@ function chosenFiles() {
     return [...kLongest, ...others];
 }
 
-/** Bundles the TypeScript client for the tests. */
+/** Bundles the TypeScript client, and the reader of keys, for the tests. */
 function bundleClient() {
     buildSync({
-        entryPoints: [join(here, "../../protocol/ts/index.ts")],
-        outfile: join(here, "node_modules/.oval4d/client.mjs"),
+        entryPoints: { client: join(here, "../../protocol/ts/index.ts"), keys: join(here, "../../web_client/src/keys.ts") },
+        outdir: join(here, "node_modules/.oval4d"),
+        outExtension: { ".js": ".mjs" },
         bundle: true,
         platform: "node",
         format: "esm",

@@ -38,11 +38,12 @@ import { PointedLabel } from "./pointed_label";
 import { Pointing } from "./pointing";
 import { StateFields } from "./state_fields";
 import { RotationControl } from "./rotation";
-import { readStored, writeStored } from "./tab_storage";
+import { readStored, writeStored } from "./storage";
 import { Tools } from "./tools";
 import { Tour } from "./tour";
 
 const kModeKey = "oval4d.mode"; // storage key of the rendering mode
+const kSingleKeysKey = "oval4d.single_keys"; // lasting storage key of whether keys act without Ctrl
 const kNoGraphics = "The graphics card is unavailable; the server renders the pictures.";
 const kLeastDisc = 12; // pixels: the radius within which a click hits a slice, however small it is
 const kResizeDelay = 120; // milliseconds after the last change of the window's size
@@ -57,6 +58,7 @@ export class App {
     private readonly keyRepeat = new KeyRepeat();
     private readonly latency = new Latency();
     private readonly initialView = readInitialView();
+    private usesSingleKeys = readStored<boolean>(kSingleKeysKey, true) ?? true;
     private readonly stage = new Stage(this.drawing, {
         presented: (revision, by) => this.picturePresented(revision, by),
         resized: () => this.stageResized(),
@@ -164,7 +166,7 @@ export class App {
             orbit: this.orbit,
             rotation: this.rotation,
             focusPoint: this.focusPointDrag,
-            click: (at) => void this.click(at),
+            click: (at, isTap) => void this.click(at, isTap),
         });
         listenForGamepads(this.rotation);
         document.addEventListener("keydown", (event) => this.keydown(event));
@@ -250,6 +252,11 @@ export class App {
             share: () => void this.shareSession(),
             save: () => void this.savePicture(),
             openField: () => this.fieldPanel.open(),
+            usesSingleKeys: this.usesSingleKeys,
+            useSingleKeys: (on) => {
+                this.usesSingleKeys = on;
+                writeStored(kSingleKeysKey, on, true);
+            },
         });
         this.tools.show(keymap, [this.colors.section, ...page]);
     }
@@ -374,6 +381,8 @@ export class App {
         const stroke = strokeFromEvent(event, keys);
         const binding = keys.find((row) => (action ? row.action === action : row.client && row.key === stroke?.key));
         if (!binding && !stroke) return;
+        const isSingle = action === undefined && stroke?.key.length === 1 && !stroke.ctrl;
+        if (isSingle && !this.usesSingleKeys) return;
         event.preventDefault();
         if (binding) this.press(binding, false, event.repeat);
         else if (stroke) this.sendStroke(stroke, event.repeat);
@@ -402,7 +411,7 @@ export class App {
      * elements, only a slice becomes the focus; in a panel of the matrix, the focus point moves there; on the background,
      * the highlight ends.
      */
-    private async click({ x, y }: Point): Promise<void> {
+    private async click({ x, y }: Point, isTap: boolean): Promise<void> {
         const { orbit, size } = this.stage;
         const ratio = size.height / this.drawing.clientHeight;
         const layout = this.stage.layout ?? (await this.frameLayout.request());
@@ -410,6 +419,7 @@ export class App {
         if (!layout) return;
         const pointed = this.pointing.elementAt(x, y, layout);
         if (!pointed && this.focusPointDrag.moveTo({ x, y })) return;
+        if (pointed && isTap) this.pointing.name(pointed, layout, { x, y });
         const slice = pointed
             ? pointed.slice
             : layout.sliceAt(x * ratio, y * ratio, orbit, size, kLeastDisc * ratio);

@@ -3,7 +3,7 @@
 import { byId, element } from "./element";
 import { type Completions, commonPrefix, completionsOf, type Names } from "./completion";
 import { toSentence } from "./format";
-import { readStored, writeStored } from "./tab_storage";
+import { readStored, writeStored } from "./storage";
 
 const kHistoryKey = "oval4d.commands";
 const kMaxHistory = 100; // lines

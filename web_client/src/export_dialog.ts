@@ -7,7 +7,7 @@ import { download, fileName } from "./download";
 import { byId, element } from "./element";
 import { type Format, kFormats } from "./export_formats";
 import { focusW, toSentence } from "./format";
-import { readStored, writeStored } from "./tab_storage";
+import { readStored, writeStored } from "./storage";
 
 const kChoicesKey = "oval4d.export";
 const kAllFormats = kFormats.flatMap(({ formats }) => formats);

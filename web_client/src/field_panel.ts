@@ -13,7 +13,7 @@ import { FormulaText } from "./formula_text";
 import { ConstantSliders } from "./constant_sliders";
 import { NewestOnly } from "./newest_only";
 import { ObserverControls } from "./observer_controls";
-import { readStored, writeStored } from "./tab_storage";
+import { readStored, writeStored } from "./storage";
 
 export interface FieldEvents {
     /**

@@ -1,4 +1,6 @@
-// Turns the polytope by gamepads, which are polled once per animation frame while one is connected.
+// Turns the polytope by gamepads, which are polled once per animation frame while one is connected. Only gamepads whose
+// sticks and triggers have known places are used (the standard mapping of the W3C's Gamepad specification), and only
+// after they have been at rest: another device, such as a joystick's throttle, may have axes that rest at an end.
 
 import { turnsOfGamepad } from "./rolling_ball";
 import type { RotationControl } from "./rotation";
@@ -9,20 +11,25 @@ const kMaxInterval = 100; // milliseconds between two polls, if the page was too
 export function listenForGamepads(rotation: RotationControl): void {
     let polledAt: number | undefined; // milliseconds; undefined while no gamepad is polled
     let turnedAt = -Infinity;
+    const rested = new Set<number>(); // the gamepads that have been at rest
     const poll = (now: number): void => {
-        const gamepads = navigator.getGamepads().filter((gamepad) => gamepad?.connected === true);
+        const gamepads = navigator
+            .getGamepads()
+            .filter((gamepad) => gamepad?.connected === true && gamepad.mapping === "standard");
         const interval = Math.min(kMaxInterval, now - (polledAt ?? now));
         polledAt = gamepads.length > 0 ? now : undefined;
         if (polledAt === undefined) return;
         for (const gamepad of gamepads) {
-            const turns = turnsOfGamepad(gamepad!, interval / 1000);
-            if (Object.values(turns).every((angle) => angle === 0)) continue;
+            const isAtRest = Object.values(turnsOfGamepad(gamepad!, 1)).every((angle) => angle === 0);
+            if (isAtRest) rested.add(gamepad!.index);
+            if (isAtRest || !rested.has(gamepad!.index)) continue;
             if (now - turnedAt > kPause) rotation.begin();
             turnedAt = now;
-            rotation.turn(turns);
+            rotation.turn(turnsOfGamepad(gamepad!, interval / 1000));
         }
         requestAnimationFrame(poll);
     };
+    window.addEventListener("gamepaddisconnected", ({ gamepad }) => rested.delete(gamepad.index));
     window.addEventListener("gamepadconnected", () => {
         if (polledAt === undefined) requestAnimationFrame(poll);
     });

@@ -1,6 +1,7 @@
 // Mouse, pen and touch on the drawing. Dragging orbits the view, the wheel or a pinch zooms, and a click keeps the
-// element under the pointer highlighted (see pointing.ts). With Alt, or with two fingers, dragging rolls the 4-D ball;
-// with Alt and Shift, the ball of every slice. In a panel of the matrix, dragging moves the focus point.
+// element under the pointer highlighted (see pointing.ts). With the right or middle button, with Alt, or with two fingers,
+// dragging rolls the 4-D ball; with Shift, too, the ball of every slice. In a panel of the matrix, dragging moves the
+// focus point.
 
 import type { FocusPointDrag } from "./focus_point_drag";
 import type { Point } from "./hover";
@@ -12,20 +13,21 @@ import { TwoFingers } from "./two_fingers";
 const kWheelZoom = 0.0015; // change of the logarithm of the zoom per pixel
 const kLineHeight = 16; // pixels
 const kWheelPause = 400; // milliseconds without a wheel event after which a gesture has ended
+const kButtons = { left: 0, middle: 1, right: 2 }; // of a mouse
 const kSlop = { mouse: 4, touch: 10 }; // pixels by which the pointer may move in a click
 
 export interface GestureTargets {
     orbit: OrbitControl;
     rotation: RotationControl;
     focusPoint: FocusPointDrag;
-    /** A click at a point of the drawing. */
-    click(at: Point): void;
+    /** A click, or the tap of a finger, at a point of the drawing. */
+    click(at: Point, isTap: boolean): void;
 }
 
 export function listenForGestures(drawing: HTMLElement, { orbit, rotation, focusPoint, click }: GestureTargets): void {
     const fingers = new Map<number, PointerEvent>();
     let isClick = false; // whether the pointer has not moved since it went down
-    let isRolling = false; // whether the drag began with Alt
+    let isRolling = false; // whether the drag began with Alt, or with another button than the left one
     let movesPoint = false; // whether the drag began in a panel of the matrix
     let pair: TwoFingers | undefined;
     let wheelAt = -Infinity; // time of the last wheel event that turned, in milliseconds
@@ -52,15 +54,20 @@ export function listenForGestures(drawing: HTMLElement, { orbit, rotation, focus
         rotation.turn({ ...turnsOfDrag("4-D", dx, dy, drawing.clientHeight), ...turnsOfTwist(twist) });
     };
     drawing.addEventListener("pointerdown", (event) => {
-        if (event.button !== 0) return;
+        if (event.button > kButtons.right) return;
         fingers.set(event.pointerId, event);
         drawing.setPointerCapture(event.pointerId);
         drawing.focus({ preventScroll: true });
         isClick = fingers.size === 1;
-        isRolling = event.altKey && fingers.size === 1;
+        isRolling = (event.altKey || event.button !== kButtons.left) && fingers.size === 1;
         if (isRolling) rotation.begin();
         movesPoint = isClick && !isRolling && focusPoint.begin(placeOf(event));
         fingersChanged();
+    });
+    // Some systems open the menu when the button goes down, others when it is released after a drag.
+    drawing.addEventListener("contextmenu", (event) => event.preventDefault());
+    drawing.addEventListener("mousedown", (event) => {
+        if (event.button === kButtons.middle) event.preventDefault(); // it would scroll
     });
     drawing.addEventListener("pointermove", (event) => {
         const before = fingers.get(event.pointerId);
@@ -81,7 +88,7 @@ export function listenForGestures(drawing: HTMLElement, { orbit, rotation, focus
     drawing.addEventListener("click", (event) => {
         // The second click of a double click does not count as a click.
         if (!isClick || event.detail !== 1 || isModified(event)) return;
-        click(placeOf(event));
+        click(placeOf(event), (event as PointerEvent).pointerType === "touch");
     });
     drawing.addEventListener(
         "wheel",

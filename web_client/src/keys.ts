@@ -34,7 +34,11 @@ export function editingAction(event: KeyboardEvent): "undo" | "redo" | undefined
     return letter === "y" && !event.shiftKey ? "redo" : undefined;
 }
 
-/** The keystroke of an event; undefined for composition, for other modifiers and for keys that are not in the table. */
+/**
+ * The keystroke of an event; undefined for composition, for other modifiers and for keys that are not in the table. A
+ * character of the table counts, whichever key types it: "(" and "-" on the digit keys of a French keyboard. Otherwise a
+ * digit key counts as its digit, and a key that types a letter of another script as the American key in its place.
+ */
 export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding[]): KeyStroke | undefined {
     if (event.isComposing || event.key === "Dead" || event.key === "Process" || event.metaKey) return undefined;
     // Some layouts type brackets with AltGr (which Windows reports with Ctrl+Alt) or with the Mac's Option key.
@@ -43,20 +47,20 @@ export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding
     const ctrl = event.ctrlKey && !composed;
     const { shiftKey: shift, key } = event;
 
-    const digit = composed ? undefined : digitOfKey(event);
-    if (digit !== undefined) {
-        const binding = table.find((row) => row.code !== undefined && row.key === digit);
-        // Otherwise Shift with the digit may type another character of the table, such as a parenthesis.
-        if (binding && !ctrl && (!shift || binding.shift === "inverse")) return { key: digit, shift, ctrl };
-    }
     if (!shift && !ctrl && table.some((row) => isNamed(row) && row.key === key)) return { key, shift, ctrl };
+    const digit = composed ? undefined : digitOfKey(event);
     const typed = typedCharacter(event);
-    const known = table.some((row) => {
+    const isKnown = table.some((row) => {
         if ((row.ctrl ?? false) !== ctrl || isNamed(row)) return false;
         if (row.key.length > 1) return row.key.includes(typed);
         return row.key === typed || (row.shift === "inverse" && row.key === typed.toLowerCase());
     });
-    return known ? { key: typed, shift, ctrl } : undefined;
+    if (isKnown && typed !== digit) return { key: typed, shift, ctrl };
+    const binding = table.find((row) => row.code !== undefined && row.key === digit);
+    if (!binding || ctrl) return undefined;
+    if (binding.shift === "inverse") return { key: binding.key, shift, ctrl };
+    // Some keyboards type digits with Shift.
+    return !shift || typed === digit ? { key: binding.key, shift: false, ctrl } : undefined;
 }
 
 /** The keystrokes that a button for this binding sends. */
@@ -77,14 +81,35 @@ function isNamed({ key }: KeyBinding): boolean {
     return key.length > 2;
 }
 
-/** The character that the event types, or the Latin letter of its physical key; "\0" if there is neither. */
+/**
+ * The character that the event types, or that of its place on an American keyboard; "\0" if there is neither. Shift
+ * decides whether a letter is a capital, whether or not Caps Lock is on.
+ */
 function typedCharacter(event: KeyboardEvent): string {
-    return /^[ -~]$/.test(event.key) ? event.key : latinLetterOfKey(event);
+    const character = /^[ -~]$/.test(event.key) ? event.key : characterOfPlace(event);
+    return event.shiftKey ? character.toUpperCase() : character.toLowerCase();
 }
 
-/** The Latin letter of the physical key, for keyboards of another script; "\0" for keys without a letter. */
-function latinLetterOfKey(event: KeyboardEvent): string {
-    const [, letter] = /^Key([A-Z])$/.exec(event.code) ?? [];
-    if (letter === undefined || event.key.length !== 1) return "\0";
-    return event.shiftKey ? letter : letter.toLowerCase();
+/** Punctuation on an American keyboard, without and with Shift, at places that have letters in other scripts. */
+const kPunctuation: Record<string, string> = {
+    BracketLeft: "[{",
+    BracketRight: "]}",
+    Semicolon: ";:",
+    Quote: "'\"",
+    Comma: ",<",
+    Period: ".>",
+    Slash: "/?",
+    Backslash: "\\|",
+    Minus: "-_",
+    Equal: "=+",
+    Backquote: "`~",
+};
+
+/** The character of the physical key on an American keyboard, for keyboards of another script; "\0" if there is none. */
+function characterOfPlace({ code, key, shiftKey }: KeyboardEvent): string {
+    if ([...key].length !== 1) return "\0"; // the name of a key
+    const [, letter] = /^Key([A-Z])$/.exec(code) ?? [];
+    if (letter !== undefined) return letter;
+    const isOfOtherScript = /[\p{L}\p{M}]/u.test(key) && !/\p{Script=Latin}/u.test(key);
+    return (isOfOtherScript && kPunctuation[code]?.[Number(shiftKey)]) || "\0";
 }

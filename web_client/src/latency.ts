@@ -8,7 +8,7 @@
 
 import { download } from "./download";
 import { byId } from "./element";
-import { readStored, writeStored } from "./tab_storage";
+import { readStored, writeStored } from "./storage";
 import type { Mode } from "./picture/stage";
 
 export const kMeasure = "oval4d key to picture"; // name of the performance measures

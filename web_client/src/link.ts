@@ -5,7 +5,7 @@ import type { Credentials } from "@oval4d/protocol";
 
 import address from "../../protocol/address.json";
 import { boxOf, type FormulaField, kUsualBox, parseNumbers } from "./fields";
-import { readStored, writeStored } from "./tab_storage";
+import { readStored, writeStored } from "./storage";
 
 export interface InitialView {
     /** The session to return to, or to join. */

@@ -12,6 +12,8 @@ export interface PageActions {
     share(): void;
     save(): void;
     openField(): void;
+    usesSingleKeys: boolean;
+    useSingleKeys(on: boolean): void;
 }
 
 export function pageSections(actions: PageActions): Section[] {
@@ -42,6 +44,10 @@ export function pageSections(actions: PageActions): Section[] {
             ],
         },
         {
+            title: "Help and commands",
+            content: [singleKeysButton(actions)],
+        },
+        {
             title: "Export and share",
             content: [
                 button("save", "Save picture", "Save the picture as a PNG file", actions.save),
@@ -56,6 +62,17 @@ export function markMode(mode: Mode): void {
     for (const name of ["geometry", "frames"]) {
         document.querySelector(`[data-page-tool="${name}"]`)?.setAttribute("aria-pressed", String(name === mode));
     }
+}
+
+/** A switch, for those who type keys unintentionally, such as by speech (WCAG 2.1.4). */
+function singleKeysButton({ usesSingleKeys, useSingleKeys }: PageActions): HTMLElement {
+    const made = button("single_keys", "Single keys", "Keys act without Ctrl; otherwise use the buttons", () => {
+        const on = made.getAttribute("aria-pressed") !== "true";
+        made.setAttribute("aria-pressed", String(on));
+        useSingleKeys(on);
+    });
+    made.setAttribute("aria-pressed", String(usesSingleKeys));
+    return made;
 }
 
 function button(name: string, label: string, title: string, act: () => void): HTMLElement {

@@ -20,6 +20,7 @@ export class Pointing {
     private shown: Pointed | undefined;
     private sources: ElementSources | undefined;
     private layout: SliceLayout | undefined; // of the picture that `sources` belongs to
+    private isTapped = false; // whether the label names what a finger has tapped
 
     constructor(
         private readonly drawing: HTMLElement,
@@ -41,6 +42,17 @@ export class Pointing {
         if (column !== undefined) return { element: "vertex", number: column };
         const hit = layout.hitAt(x * ratio, y * ratio, orbit, size, ratio);
         return hit && { ...elementOfHit(hit, polytope), ...(hit.slice && { slice: hit.slice }) };
+    }
+
+    /**
+     * Shows the name of what a finger has tapped until the next touch. The picture may change meanwhile, because a tap moves
+     * the focus.
+     */
+    name(tapped: Pointed, layout: SliceLayout, at: Point): void {
+        const state = this.state()!;
+        const { ownVertices } = new ElementSources(layout.picture, state.polytope).showing(tapped);
+        this.isTapped = true;
+        this.label.show(descriptionOf(tapped, [...ownVertices], layout, state), at);
     }
 
     /** Finds the element under the pointer in the current picture. Returns whether the picture must be drawn again. */
@@ -74,6 +86,8 @@ export class Pointing {
 
     /** Updates once in each animation frame. */
     private moveTo(at: Point | undefined): void {
+        if (this.isTapped) this.label.hide();
+        this.isTapped = false;
         if (!at && !this.at) return;
         this.at = at;
         if (this.scheduled) return;

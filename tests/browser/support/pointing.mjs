@@ -20,9 +20,10 @@ export async function openTurned(settings = {}, options = {}) {
         ...opened,
         size,
         picture,
-        /** Moves the mouse to a point of the drawing, or clicks there. */
+        /** Moves the mouse to a point of the drawing, or clicks or taps there. */
         moveTo: (x, y) => page.mouse.move(box.x + x, box.y + y),
         click: (x, y) => page.mouse.click(box.x + x, box.y + y),
+        tap: (x, y) => page.touchscreen.tap(box.x + x, box.y + y),
     };
 }
 

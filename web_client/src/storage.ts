@@ -1,0 +1,21 @@
+// Values that survive a reload of the page: in this tab only (sessionStorage) or, if they are lasting, in all tabs and
+// later visits of this browser (localStorage).
+
+const storageOf = (isLasting: boolean): Storage => (isLasting ? localStorage : sessionStorage);
+
+/** Returns the value; undefined if there is none, if the entry is invalid, or if the browser forbids storage. */
+export function readStored<T>(key: string, isLasting = false): T | undefined {
+    try {
+        return (JSON.parse(storageOf(isLasting).getItem(key) ?? "null") as T | null) ?? undefined;
+    } catch {
+        return undefined;
+    }
+}
+
+export function writeStored(key: string, value: unknown, isLasting = false): void {
+    try {
+        storageOf(isLasting).setItem(key, JSON.stringify(value));
+    } catch {
+        // Storage is not available: the value is lost at a reload.
+    }
+}
