@@ -356,13 +356,22 @@ Result<Command> boostLine(std::string_view rest, const Words& words, const State
     return oneSetting("boost", velocity);
 }
 
-// Parses the arguments of hide, fade and show: cell type numbers, or the name of a cell type.
+// Returns the cell types that the arguments of hide, fade and show select: numbers, or the name of a cell type; without
+// arguments, that of the highlighted cell.
+Result<CellTypeList> selectedCellTypes(std::string_view rest, const State& state) {
+    const auto& lit = state.look.highlight;
+    if (rest.empty() && lit && lit->kind == slicing::ElementKind::cell)
+        return CellTypeList{slicing::typeOfCells(state.object)[lit->index]};
+    return findCellTypes(rest, slicing::infoOf(state.object));
+}
+
+// Parses the arguments of hide, fade and show. `show` without arguments shows all cells.
 template <scene::CellTypeFilter (*change)(scene::CellTypeFilter, const CellTypeList&)>
 Result<Command> cellTypesLine(std::string_view rest, const Words& /*words*/, const State& state) {
     Set set;
     scene::CellTypeFilter filter;
     if (change != reveal || !rest.empty()) {
-        const auto named = findCellTypes(rest, slicing::infoOf(state.object));
+        const auto named = selectedCellTypes(rest, state);
         if (!named) return named.error();
         filter = change(state.look.cellTypes, *named);
     }

@@ -26,16 +26,30 @@ struct Bounds {
     double least, most;
     std::string_view unit;
 };
+constexpr std::string_view kRadians = " radians";
+
+// The error for a value that is not within its bounds. Angles are told in radians and in degrees. Numbers are rounded,
+// unless the value would then seem to be within the bounds.
+Error outOfRange(std::string_view name, const Bounds& bounds, double value) {
+    const std::string rounded = text::roundedDecimal(value);
+    const bool isClose = rounded == text::roundedDecimal(bounds.least) || rounded == text::roundedDecimal(bounds.most);
+    const auto plain = [&](double number) {
+        return isClose ? text::shortestDecimal(number) : text::roundedDecimal(number);
+    };
+    const auto degrees = [](double radians) { return text::roundedDecimal(radians * 180 / std::numbers::pi) + "°"; };
+    std::string range = plain(bounds.least) + " to " + plain(bounds.most) + std::string(bounds.unit);
+    std::string given = plain(value);
+    if (bounds.unit == kRadians) {
+        range += " (" + degrees(bounds.least) + " to " + degrees(bounds.most) + ")";
+        given += std::string(kRadians) + " (" + degrees(value) + ")";
+    }
+    return {ErrorCode::out_of_range, std::string(name) + " must be from " + range + ", not " + given};
+}
 
 // Stores `value`, if there is one, in `into`. Error: `out_of_range`.
-Result<std::monostate> put(std::string_view name, std::optional<double> value, Bounds range, double& into) {
+Result<std::monostate> put(std::string_view name, std::optional<double> value, Bounds bounds, double& into) {
     if (!value) return std::monostate{};
-    if (!(*value >= range.least && *value <= range.most)) {
-        return Error{ErrorCode::out_of_range, std::string(name) + " must be from " +
-                                                  text::shortestDecimal(range.least) + " to " +
-                                                  text::shortestDecimal(range.most) + std::string(range.unit) +
-                                                  ", not " + text::shortestDecimal(*value)};
-    }
+    if (!(*value >= bounds.least && *value <= bounds.most)) return outOfRange(name, bounds, *value);
     into = *value;
     return std::monostate{};
 }
@@ -55,8 +69,8 @@ Result<std::monostate> setReferenceFrame(State& state, const Set& set, ObjectLoa
         const double speed = glm::length(*set.boost);
         if (!(speed <= kMaxBoost)) {
             return Error{ErrorCode::out_of_range,
-                         "the speed of a boost must be from 0 to " + text::shortestDecimal(kMaxBoost) +
-                             ", where 1 is the speed of light, not " + text::shortestDecimal(speed)};
+                         "the speed of a boost must be from 0 to " + text::roundedDecimal(kMaxBoost) +
+                             ", where 1 is the speed of light, not " + text::roundedDecimal(speed)};
         }
         frame.boost = *set.boost;
     }
@@ -123,7 +137,7 @@ Result<std::monostate> setField(State& state, const Set& set) {
                          "the fog must be off, or " + std::to_string(slicing::kMinFogPoints) + " to " +
                              std::to_string(slicing::kMaxFogPoints) +
                              " points in the order of their values, which are different numbers from " +
-                             text::shortestDecimal(-kMaxLevel) + " to " + text::shortestDecimal(kMaxLevel) +
+                             text::roundedDecimal(-kMaxLevel) + " to " + text::roundedDecimal(kMaxLevel) +
                              ", with opacities from 0 to 1 and, if any, colors from 0 to 16777215"};
         }
         state.look.field.fog = *set.fog;
@@ -135,8 +149,8 @@ Result<std::monostate> setField(State& state, const Set& set) {
         !std::ranges::all_of(sorted, [](double level) { return std::abs(level) <= kMaxLevel; }) ||
         std::ranges::adjacent_find(sorted) != sorted.end()) {
         return Error{ErrorCode::out_of_range, "the levels must be 1 to " + std::to_string(slicing::kMaxLevels) +
-                                                  " different numbers from " + text::shortestDecimal(-kMaxLevel) +
-                                                  " to " + text::shortestDecimal(kMaxLevel)};
+                                                  " different numbers from " + text::roundedDecimal(-kMaxLevel) +
+                                                  " to " + text::roundedDecimal(kMaxLevel)};
     }
     state.look.field.levels = *set.levels;
     return std::monostate{};
@@ -252,12 +266,12 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
     }
     constexpr double kLeastStep = 1e-9;
     for (auto&& done :
-         {put("alpha", set.alpha, {-kTwoPi, kTwoPi, " radians"}, state.alpha),
-          put("beta", set.beta, {-kTwoPi, kTwoPi, " radians"}, state.beta),
-          put("the step", set.step, {kLeastStep, kTwoPi, " radians"}, state.step), setSlices(state, set, limits),
-          put("the camera's azimuth", set.azimuth, {-kMaxOrbitAngle, kMaxOrbitAngle, " radians"},
+         {put("alpha", set.alpha, {-kTwoPi, kTwoPi, kRadians}, state.alpha),
+          put("beta", set.beta, {-kTwoPi, kTwoPi, kRadians}, state.beta),
+          put("the step", set.step, {kLeastStep, kTwoPi, kRadians}, state.step), setSlices(state, set, limits),
+          put("the camera's azimuth", set.azimuth, {-kMaxOrbitAngle, kMaxOrbitAngle, kRadians},
               state.look.orbit.azimuth),
-          put("the camera's elevation", set.elevation, {-kMaxOrbitAngle, kMaxOrbitAngle, " radians"},
+          put("the camera's elevation", set.elevation, {-kMaxOrbitAngle, kMaxOrbitAngle, kRadians},
               state.look.orbit.elevation),
           put("the camera's zoom", set.zoom, {kMinZoom, kMaxZoom, ""}, state.look.orbit.zoom),
           put("the eye", set.eye, {kMinEye, kMaxEye, " circumradii"}, state.look.projection.eye)}) {
@@ -288,9 +302,7 @@ Result<std::monostate> checkTurn(const geometry::Turn& turn) {
     for (const geometry::Plane plane : turn.planes()) {
         const double angle = *turn[plane];
         if (!(std::abs(angle) <= kMaxAngle)) {
-            return Error{ErrorCode::out_of_range, "an angle must be from " + text::shortestDecimal(-kMaxAngle) +
-                                                      " to " + text::shortestDecimal(kMaxAngle) + " radians, not " +
-                                                      text::shortestDecimal(angle)};
+            return outOfRange("an angle", {-kMaxAngle, kMaxAngle, kRadians}, angle);
         }
     }
     return std::monostate{};
@@ -304,9 +316,11 @@ void rotate(State& state, const geometry::Turn& turn) {
 
 Result<std::monostate> turnToward(State& state, const TurnToward& command) {
     if (auto valid = checkElement(state.object, {command.kind, command.index.value_or(0)}); !valid) return valid;
-    const slicing::Element element = command.index
-                                         ? slicing::Element{command.kind, *command.index}
-                                         : *slicing::elementToTurnTo(state.object, command.kind, state.orientation);
+    slicing::Element element{command.kind, command.index.value_or(0)};
+    if (!command.index) {
+        const auto& lit = state.look.highlight;
+        element = slicing::elementToTurnTo(state.object, command.kind, state.orientation, lit).value_or(element);
+    }
     const glm::dvec4 w(0, 0, 0, 1);
     const glm::dvec4 own = slicing::directionOf(state.object, element, state.orientation.inverse()(w));
     const geometry::Rotation way = geometry::Rotation::between(state.orientation(own), w);

@@ -20,33 +20,76 @@ namespace {
 
 using polytopes::Polytope;
 
-// Calls `visit` with the position of each vertex of the element. A vertex of a cell is visited once for each of its
+// Calls `visit` with the number of each vertex of the element. A vertex of a cell is visited once for each of its
 // 2-faces in this cell.
 template <typename Visit>
-void visitVertices(const Polytope& p, const Element& element, Visit visit) {
+void visitVertexNumbers(const Polytope& p, const Element& element, Visit visit) {
     const std::size_t i = element.index;
     switch (element.kind) {
         case ElementKind::vertex:
-            visit(p.vertices[i]);
+            visit(static_cast<std::uint32_t>(i));
             break;
         case ElementKind::edge:
-            for (const auto v : p.edges[i]) visit(p.vertices[v]);
+            for (const auto v : p.edges[i]) visit(v);
             break;
         case ElementKind::face:
-            for (const auto v : p.faces[i]) visit(p.vertices[v]);
+            for (const auto v : p.faces[i]) visit(v);
             break;
         case ElementKind::cell:
             for (const auto face : p.cells[i]) {
-                for (const auto v : p.faces[face]) visit(p.vertices[v]);
+                for (const auto v : p.faces[face]) visit(v);
             }
             break;
     }
 }
 
 template <typename Visit>
-void visitVertices(const geometry::PointCloud& cloud, const Element& element, Visit visit) {
-    visit(cloud.points[element.index]);
+void visitVertexNumbers(const geometry::PointCloud& /*cloud*/, const Element& element, Visit visit) {
+    visit(static_cast<std::uint32_t>(element.index));
 }
+
+const std::vector<glm::dvec4>& verticesOf(const Polytope& p) { return p.vertices; }
+const std::vector<glm::dvec4>& verticesOf(const geometry::PointCloud& cloud) { return cloud.points; }
+
+// Calls `visit` with the position of each vertex of the element, as often as visitVertexNumbers() does.
+template <typename Solid, typename Visit>
+void visitVertices(const Solid& object, const Element& element, Visit visit) {
+    visitVertexNumbers(object, element, [&](std::uint32_t v) { visit(verticesOf(object)[v]); });
+}
+
+// Tells which elements contain a given one, or are contained in it.
+template <typename Solid>
+class Incidence {
+  public:
+    Incidence(const Solid& object, const Element& element) : object_(object), element_(element) {
+        isOwn_.resize(verticesOf(object).size());
+        visitVertexNumbers(object, element, [&](std::uint32_t v) { isOwn_[v] = true; });
+        own_ = static_cast<std::size_t>(std::ranges::count(isOwn_, true));
+    }
+
+    bool operator()(const Element& other) {
+        if (other.kind == element_.kind) return other == element_;
+        common_.clear();
+        bool isWithin = true;
+        visitVertexNumbers(object_, other, [&](std::uint32_t v) {
+            if (isOwn_[v])
+                common_.push_back(v);
+            else
+                isWithin = false;
+        });
+        if (other.kind < element_.kind) return isWithin;
+        std::ranges::sort(common_);
+        const auto repeated = std::ranges::unique(common_);
+        return common_.size() - repeated.size() == own_;
+    }
+
+  private:
+    const Solid& object_;
+    Element element_;
+    std::vector<bool> isOwn_;  // by vertex
+    std::size_t own_ = 0;      // the number of its vertices
+    std::vector<std::uint32_t> common_;
+};
 
 // An orthonormal basis of the directions within an element.
 class Span {
@@ -151,28 +194,34 @@ glm::dvec4 directionOf(const Object& object, const Element& element, const glm::
     return visitElements([&](const auto& shared) { return directionIn(*shared, element, preferred, points); }, object);
 }
 
-std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation) {
-    const std::size_t count = elementCount(object, kind);
-    if (count == 0) return std::nullopt;
+std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
+                                       const std::optional<Element>& incident) {
     const glm::dvec4 w = ownDirectionOfW(orientation);
+    std::vector<std::size_t> candidates(elementCount(object, kind));
+    std::iota(candidates.begin(), candidates.end(), std::size_t{0});
     double best = -2;
-    Element nearest{kind, 0};
+    std::size_t nearest = 0;  // its place among the candidates
     std::vector<glm::dvec4> points;
     const auto findNearest = [&](const auto& shared) {
-        for (std::size_t i = 0; i < count; ++i) {
-            const double cosine = glm::dot(w, glm::normalize(directionIn(*shared, {kind, i}, w, points)));
+        if (incident) {
+            Incidence isIncident(*shared, *incident);
+            std::erase_if(candidates, [&](std::size_t i) { return !isIncident(Element{kind, i}); });
+        }
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+            const double cosine = glm::dot(w, glm::normalize(directionIn(*shared, {kind, candidates[i]}, w, points)));
             // Elements at the same angle are equally near: rounding must not choose among them.
             constexpr double kSame = 1e-9;
             if (cosine > best + kSame) {
                 best = cosine;
-                nearest.index = i;
+                nearest = i;
             }
         }
     };
     visitElements(findNearest, object);
+    if (candidates.empty()) return std::nullopt;
     constexpr double kThere = 1e-12;  // 1 − cos of an angle of 1.4e-6
-    if (best > 1 - kThere) nearest.index = (nearest.index + 1) % count;
-    return nearest;
+    if (best > 1 - kThere) nearest = (nearest + 1) % candidates.size();
+    return Element{kind, candidates[nearest]};
 }
 
 void ElementSources::clear() {

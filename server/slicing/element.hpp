@@ -42,9 +42,11 @@ glm::dvec4 directionOf(const Object& object, const Element& element, const glm::
 
 /// Returns the element of this kind whose direction (see directionOf()) is closest to +w after rotation by
 /// `orientation`. If that element already points to +w, returns the one with the next index, or the first one after the
-/// last; a caller that turns each result to +w thus visits one element after another. Returns std::nullopt if there are
-/// no elements of this kind. Takes time linear in the size of the object.
-std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation);
+/// last; a caller that turns each result to +w thus visits one element after another. With `incident`, considers only
+/// the elements that contain this one or are contained in it, and if it is of the same kind, only itself. Returns
+/// std::nullopt if there are none. Takes time linear in the size of the object.
+std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
+                                       const std::optional<Element>& incident = {});
 
 /// The parts of a picture that show one element of the object: slice vertices and slice edges, given by their source
 /// numbers (see SliceSet), and vertices of the object. The lists are sorted and have no duplicates.

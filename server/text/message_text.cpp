@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
@@ -118,6 +120,30 @@ std::string shortestDecimal(double value) {
     std::array<char, 32> buffer;
     const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
     return {buffer.data(), result.ptr};
+}
+
+std::string roundedDecimal(double value) {
+    constexpr int kDigits = 6;
+    const double size = std::abs(value);
+    std::string text;
+    if (isExactInteger(size)) {
+        text = std::to_string(static_cast<std::int64_t>(size));
+    } else {
+        const bool isFixed = size >= 1e-5 && size < 1e15;
+        const int decimals =
+            isFixed ? std::max(0, kDigits - 1 - static_cast<int>(std::floor(std::log10(size)))) : kDigits - 1;
+        std::array<char, 64> buffer;
+        const auto format = isFixed ? std::chars_format::fixed : std::chars_format::scientific;
+        const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), size, format, decimals);
+        text.assign(buffer.data(), result.ptr);
+        if (text.find('.') != std::string::npos) {
+            const std::size_t end = std::min(text.find('e'), text.size());
+            std::size_t kept = text.find_last_not_of('0', end - 1) + 1;
+            if (text[kept - 1] == '.') --kept;
+            text.erase(kept, end - kept);
+        }
+    }
+    return value < 0 ? "\u2212" + text : text;
 }
 
 }  // namespace oval4d::text

@@ -37,4 +37,8 @@ std::string printable(std::string_view text, std::size_t maxBytes);
 /// within ±2^53.
 std::string shortestDecimal(double value);
 
+/// Returns a number as a person reads it: rounded to six significant digits, without trailing zeros, with the minus
+/// sign U+2212. Writes all digits of an integer within ±2^53, and an exponent only below 1e-5 and from 1e15.
+std::string roundedDecimal(double value);
+
 }  // namespace oval4d::text

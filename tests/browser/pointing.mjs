@@ -256,3 +256,49 @@ test("pointing: the label stays within a narrow drawing, and stars and point clo
     assert.deepEqual(errors, []);
     await close();
 });
+
+test("pointing: a right click or a long press opens the menu of an element, which acts on it", async () => {
+    const { page, script, size, picture, moveTo, errors, close } = await openTurned({}, { hasTouch: true });
+    const menu = page.locator("#element-menu");
+    const { source: cell, at } = faceIn(await picture(), size, 1);
+    const open = async () => {
+        await moveTo(...at);
+        await page.mouse.down({ button: "right" });
+        await page.mouse.up({ button: "right" });
+        await menu.waitFor();
+    };
+    await open();
+    assert.equal(await menu.getAttribute("aria-label"), `Cell ${cell}`);
+    await script.until(({ highlight }) => highlight?.number === cell && highlight.element === "cell", "its light");
+    const items = await menu.locator("button").allTextContents();
+    assert.deepEqual(items.length, 5, items.join());
+    await page.keyboard.press("ArrowUp"); // the last item
+    await page.keyboard.press("Enter");
+    await script.until(({ highlight }) => highlight === null, "the end of the light");
+    assert.equal(await menu.isVisible(), false);
+    assert.equal(await page.evaluate(() => document.activeElement.id), "drawing");
+
+    await open();
+    await page.keyboard.press("Escape");
+    assert.equal(await menu.isVisible(), false);
+    await open();
+    await menu.getByText("Hide its kind of cell").click();
+    await script.until(({ hidden }) => hidden.length === 1, "hidden cells");
+    await script.request({ type: "command", line: "show" });
+    await presented(page, (await script.state()).revision);
+
+    const session = await page.context().newCDPSession(page);
+    const touch = (type, ...points) =>
+        session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y]) => ({ x, y })) });
+    const { x, y } = await page.locator("#drawing").boundingBox();
+    await touch("touchStart", [x + at[0], y + at[1]]);
+    await menu.waitFor();
+    await touch("touchEnd");
+    await menu.getByText("Turn it toward +w").click();
+    const { orientation } = await script.until(({ moving }) => !moving, "the cell at +w");
+    assert.ok(orientation.length === 4);
+    await touch("touchStart", [x + 4, y + 4]);
+    await touch("touchEnd");
+    assert.deepEqual(errors, []);
+    await close();
+});

@@ -87,7 +87,7 @@ async def test_the_hyperplanes_stand_at_any_offset(server):
         await client.request("set", polytope="tesseract", slices={"count": 5, "spacing": 0.5, "offset": 0.1})
         slices = (await client.request("get", what="slices"))["slices"]
         assert [cut["w"] for cut in slices] == pytest.approx([-0.9, -0.4, 0.1, 0.6, 1.1])
-        with pytest.raises(Refused, match="the offset must be from -20 to 20"):
+        with pytest.raises(Refused, match="the offset must be from −20 to 20"):
             await client.request("set", slices={"offset": 21})
         await client.request("command", line=":set offset=-0.25")
         assert (await client.request("get", what="state"))["slices"]["offset"] == -0.25

@@ -9,6 +9,7 @@ import { namesOfKeys } from "./completion";
 import { ConnectionStatus } from "./connection_status";
 import { download, fileName } from "./download";
 import { byId } from "./element";
+import { ElementMenu, type MenuItem } from "./element_menu";
 import { ExportDialog } from "./export_dialog";
 import { FieldPanel } from "./field_panel";
 import { fieldOfLine, type FormulaField, loadOf } from "./fields";
@@ -17,6 +18,7 @@ import { isFirstVisit, kFirstView, Welcome } from "./first_visit";
 import { FocusPoint } from "./focus_point";
 import { FocusPointDrag } from "./focus_point_drag";
 import { FocusSlider } from "./focus_slider";
+import { capitalize } from "./format";
 import { FrameLayout } from "./frame_layout";
 import { FrameMatrix } from "./frame_matrix";
 import { FramePointing } from "./frame_pointing";
@@ -122,6 +124,7 @@ export class App {
         this.pointedLabel,
         (revision) => revision === this.state?.revision && !this.state.moving && this.keyRepeat.mayRepeat,
     );
+    private readonly elementMenu = new ElementMenu(this.drawing);
     private readonly help = new Help();
     private readonly commandLine = new CommandLine({
         run: (line) => this.execute(line),
@@ -167,6 +170,7 @@ export class App {
             rotation: this.rotation,
             focusPoint: this.focusPointDrag,
             click: (at, isTap) => void this.click(at, isTap),
+            openMenu: (at) => void this.openElementMenu(at),
         });
         listenForGamepads(this.rotation);
         document.addEventListener("keydown", (event) => this.keydown(event));
@@ -431,6 +435,26 @@ export class App {
             ...(!isKept && { highlight }),
         };
         if (Object.keys(change).length > 0) void this.send({ type: "set", ...change });
+    }
+
+    /** Lights the element at a point of the drawing, and offers what can be done with it. */
+    private async openElementMenu(at: Point): Promise<void> {
+        const layout = this.stage.layout ?? (await this.frameLayout.request());
+        const pointed = layout && this.pointing.elementAt(at.x, at.y, layout);
+        if (!pointed) return;
+        const { element, number, slice } = pointed;
+        void this.send({ type: "set", highlight: { element, number } });
+        const command = (label: string, line: string): MenuItem => ({
+            label,
+            act: () => void this.send({ type: "command", line }),
+        });
+        const focus = slice && !slice.focus && command("Make its slice the focus", `focus ${slice.index}`);
+        this.elementMenu.open(`${capitalize(element)} ${number}`, at, [
+            command("Turn it toward +w", `toward ${element} ${number}`),
+            ...(focus ? [focus] : []),
+            ...(element === "cell" ? [command("Hide its kind of cell", "hide"), command("Fade its kind of cell", "fade")] : []),
+            command("Remove its highlight", "highlight none"),
+        ]);
     }
 
     private openCommandLine(): void {

@@ -1,5 +1,5 @@
 // Mouse, pen and touch on the drawing. Dragging orbits the view, the wheel or a pinch zooms, and a click keeps the
-// element under the pointer highlighted (see pointing.ts). With the right or middle button, with Alt, or with two fingers,
+// element under the pointer highlighted (see pointing.ts); a right click or a long press opens its menu. With the right or middle button, with Alt, or with two fingers,
 // dragging rolls the 4-D ball; with Shift, too, the ball of every slice. In a panel of the matrix, dragging moves the
 // focus point.
 
@@ -13,6 +13,7 @@ import { TwoFingers } from "./two_fingers";
 const kWheelZoom = 0.0015; // change of the logarithm of the zoom per pixel
 const kLineHeight = 16; // pixels
 const kWheelPause = 400; // milliseconds without a wheel event after which a gesture has ended
+const kLongPress = 600; // milliseconds
 const kButtons = { left: 0, middle: 1, right: 2 }; // of a mouse
 const kSlop = { mouse: 4, touch: 10 }; // pixels by which the pointer may move in a click
 
@@ -22,10 +23,15 @@ export interface GestureTargets {
     focusPoint: FocusPointDrag;
     /** A click, or the tap of a finger, at a point of the drawing. */
     click(at: Point, isTap: boolean): void;
+    /** A click with the right button, or a long press of a finger, at a point of the drawing. */
+    openMenu(at: Point): void;
 }
 
-export function listenForGestures(drawing: HTMLElement, { orbit, rotation, focusPoint, click }: GestureTargets): void {
+export function listenForGestures(drawing: HTMLElement, targets: GestureTargets): void {
+    const { orbit, rotation, focusPoint } = targets;
     const fingers = new Map<number, PointerEvent>();
+    let longPress: ReturnType<typeof setTimeout> | undefined;
+    let isLongPress = false; // whether the last touch has opened the menu
     let isClick = false; // whether the pointer has not moved since it went down
     let isRolling = false; // whether the drag began with Alt, or with another button than the left one
     let movesPoint = false; // whether the drag began in a panel of the matrix
@@ -63,6 +69,20 @@ export function listenForGestures(drawing: HTMLElement, { orbit, rotation, focus
         if (isRolling) rotation.begin();
         movesPoint = isClick && !isRolling && focusPoint.begin(placeOf(event));
         fingersChanged();
+        clearTimeout(longPress);
+        isLongPress = false;
+        if (event.pointerType !== "touch" || !isClick) return;
+        longPress = setTimeout(() => {
+            if (!isClick) return;
+            isClick = false;
+            isLongPress = true;
+            targets.openMenu(placeOf(event));
+        }, kLongPress);
+    });
+    // Otherwise the mouse events that follow a touch would take the focus from the menu.
+    drawing.addEventListener("touchend", (event) => isLongPress && event.preventDefault(), { passive: false });
+    drawing.addEventListener("pointerup", (event) => {
+        if (isClick && event.button === kButtons.right) targets.openMenu(placeOf(event));
     });
     // Some systems open the menu when the button goes down, others when it is released after a drag.
     drawing.addEventListener("contextmenu", (event) => event.preventDefault());
@@ -81,6 +101,7 @@ export function listenForGestures(drawing: HTMLElement, { orbit, rotation, focus
         else if (fingers.size === 1) drag(before, event);
     });
     const removeFinger = (event: PointerEvent): void => {
+        clearTimeout(longPress);
         if (fingers.delete(event.pointerId)) fingersChanged();
     };
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"] as const)
@@ -88,7 +109,7 @@ export function listenForGestures(drawing: HTMLElement, { orbit, rotation, focus
     drawing.addEventListener("click", (event) => {
         // The second click of a double click does not count as a click.
         if (!isClick || event.detail !== 1 || isModified(event)) return;
-        click(placeOf(event), (event as PointerEvent).pointerType === "touch");
+        targets.click(placeOf(event), (event as PointerEvent).pointerType === "touch");
     });
     drawing.addEventListener(
         "wheel",

@@ -10,6 +10,7 @@ const kGestures = [
     ["Wheel, pinch", "Zoom"],
     ["Point", "Name what is under the pointer, and light it everywhere"],
     ["Click", "Keep it lit, and make its slice the focus; on the background: end the light"],
+    ["Right click, long press", "Open the menu of what is under the pointer"],
     ["Double click", "Reset the view"],
     ["Drag or click in the matrix", "Move the focus point there"],
     ["Right or middle button, or Alt + drag", "Turn in xw and yw: roll the 4-D ball"],

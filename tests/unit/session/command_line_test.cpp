@@ -184,6 +184,26 @@ TEST(CommandLine, FogIsATransferFunctionOrOff) {
     EXPECT_TRUE(fog().empty()) << "another field has its own values";
 }
 
+TEST(CommandLine, ActsOnTheHighlightedElement) {
+    Session session;
+    line(session, "polytope cuboctahedral prism");
+    line(session, "highlight cell 5");
+    const std::uint32_t type = slicing::typeOfCells(session.current.object)[5];
+    line(session, "hide");
+    EXPECT_EQ(session.current.look.cellTypes.hidden, std::vector{type});
+    line(session, "fade");
+    EXPECT_EQ(session.current.look.cellTypes.faded, std::vector{type});
+    line(session, "show");
+    EXPECT_TRUE(session.current.look.cellTypes.faded.empty());
+    press(session, "zc");
+    ASSERT_TRUE(session.current.ongoingTurnToward);
+    const glm::dvec4 direction =
+        slicing::directionOf(session.current.object, {slicing::ElementKind::cell, 5}, {0, 0, 0, 1});
+    EXPECT_GT(glm::normalize(session.current.ongoingTurnToward->goal(direction)).w, 1 - 1e-9);
+    line(session, "highlight none");
+    expectRefused(session, CommandLine{"hide"}, ErrorCode::bad_expression, "kind");
+}
+
 TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     Session session;
     press(session, "r");
@@ -215,7 +235,8 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("set spacing=0", ErrorCode::out_of_range, "the spacing must be from");
     refused("set spacing=-1", ErrorCode::out_of_range, "the spacing must be from");
     refused("set alpha=7", ErrorCode::out_of_range, "did you mean 7°?");
-    refused("set alpha=2.1*pi", ErrorCode::out_of_range, "alpha must be from");
+    refused("set alpha=2.1*pi", ErrorCode::out_of_range,
+            "alpha must be from −6.28319 to 6.28319 radians (−360° to 360°), not 6.59734 radians (378°)");
     refused("set alpha=", ErrorCode::bad_expression, "a number is expected");
     refused("set alpha=pi/", ErrorCode::bad_expression, "alpha: 'pi/', position 4");
     refused("set step=0", ErrorCode::out_of_range, "the step must be from");

@@ -39,7 +39,7 @@ TEST(ReferenceFrames, ValuesOutOfRangeAreRefused) {
     refused("set pace=0", ErrorCode::out_of_range, "the pace must be from 0.001 to 1000, not 0");
     refused("set pace=-1", ErrorCode::out_of_range, "the pace must be from 0.001 to 1000");
     refused("set pace=1e4", ErrorCode::out_of_range, "from 0.001 to 1000");
-    refused("follow 0,2000,0", ErrorCode::out_of_range, "the velocity to follow along y must be from -1000 to 1000");
+    refused("follow 0,2000,0", ErrorCode::out_of_range, "the velocity to follow along y must be from −1000 to 1000");
     refused("boost x 1", ErrorCode::out_of_range, "must be from 0 to 0.999, where 1 is the speed of light, not 1");
     refused("boost 0.8,0.8,0", ErrorCode::out_of_range, "from 0 to 0.999");
     refused("boost w 0.5", ErrorCode::bad_expression, "an axis x, y or z");

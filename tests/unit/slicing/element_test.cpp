@@ -134,6 +134,35 @@ TEST(Elements, ClosestToWIsChosenAndThenTheNext) {
     }
 }
 
+// Every face of a 24-cell is in two cells, has three edges and three vertices; every vertex is in six cells (Coxeter,
+// Regular Polytopes, table I).
+TEST(Elements, AreChosenAmongThoseAtAnother) {
+    const Object object = shared("24-cell");
+    std::mt19937 random(14);
+    struct {
+        ElementKind lit, kind;
+        std::size_t count;
+    } const rows[] = {{ElementKind::face, ElementKind::cell, 2},   {ElementKind::face, ElementKind::edge, 3},
+                      {ElementKind::face, ElementKind::vertex, 3}, {ElementKind::face, ElementKind::face, 1},
+                      {ElementKind::vertex, ElementKind::cell, 6}, {ElementKind::cell, ElementKind::vertex, 6},
+                      {ElementKind::edge, ElementKind::face, 3},   {ElementKind::cell, ElementKind::face, 8}};
+    for (const auto& [litKind, kind, count] : rows) {
+        const Element lit{litKind, random() % elementCount(object, litKind)};
+        geometry::Rotation orientation = support::randomRotation(random);
+        std::set<std::size_t> visited;
+        for (std::size_t i = 0; i < 2 * count; ++i) {
+            const auto next = elementToTurnTo(object, kind, orientation, lit);
+            ASSERT_TRUE(next);
+            visited.insert(next->index);
+            orientation = turnedTo(object, *next, orientation);
+        }
+        EXPECT_EQ(visited.size(), count);
+        if (kind == litKind) {
+            EXPECT_EQ(*visited.begin(), lit.index);
+        }
+    }
+}
+
 // Coxeter, Regular Polytopes, table V: the distances of the 600-cell's vertices from one of them.
 TEST(VertexHeights, AreThoseOfCoxetersSections) {
     struct Case {

@@ -1,0 +1,66 @@
+// The menu of an element of the polytope: what can be done with it. Opens at a right click or a long press.
+
+import { byId, element } from "./element";
+import type { Point } from "./hover";
+
+export interface MenuItem {
+    label: string;
+    act(): void;
+}
+
+const kMargin = 4; // pixels between the menu and the edges of the drawing
+const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1 };
+
+export class ElementMenu {
+    private readonly menu = byId("element-menu");
+
+    constructor(private readonly drawing: HTMLElement) {
+        document.addEventListener("pointerdown", ({ target }) => this.menu.contains(target as Node) || this.hide());
+        this.menu.addEventListener("keydown", (event) => this.keydown(event));
+        this.menu.addEventListener("focusout", ({ relatedTarget }) => this.menu.contains(relatedTarget as Node) || this.hide());
+    }
+
+    /** Opens the menu at a point of the drawing, with the focus on its first item. */
+    open(title: string, at: Point, items: MenuItem[]): void {
+        const buttons = items.map(({ label, act }) => {
+            const button = element("button", { type: "button", role: "menuitem", tabindex: "-1" }, label);
+            button.addEventListener("click", () => {
+                this.close();
+                act();
+            });
+            return button;
+        });
+        this.menu.setAttribute("aria-label", title);
+        this.menu.replaceChildren(element("b", { role: "presentation" }, title), ...buttons);
+        this.menu.hidden = false;
+        const { offsetWidth: width, offsetHeight: height } = this.menu;
+        const { clientWidth, clientHeight } = this.drawing;
+        const left = Math.max(kMargin, Math.min(at.x, clientWidth - width - kMargin));
+        const top = Math.max(kMargin, Math.min(at.y, clientHeight - height - kMargin));
+        this.menu.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
+        buttons[0]!.focus();
+    }
+
+    private hide(): void {
+        this.menu.hidden = true;
+    }
+
+    private close(): void {
+        this.hide();
+        this.drawing.focus({ preventScroll: true });
+    }
+
+    /** The arrow keys, Home and End move the focus; Escape and Tab close the menu. Other keys do nothing. */
+    private keydown(event: KeyboardEvent): void {
+        event.stopPropagation();
+        const buttons = [...this.menu.querySelectorAll("button")];
+        const at = buttons.indexOf(document.activeElement as HTMLButtonElement);
+        const step = kSteps[event.key];
+        if (event.key === "Escape" || event.key === "Tab") this.close();
+        else if (step !== undefined) buttons.at((at + step) % buttons.length)!.focus();
+        else if (event.key === "Home") buttons[0]!.focus();
+        else if (event.key === "End") buttons.at(-1)!.focus();
+        else return;
+        event.preventDefault();
+    }
+}
