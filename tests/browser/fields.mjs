@@ -151,7 +151,7 @@ test("fields: both encodings have the same surfaces", async () => {
     for (const color of ["cell", "growth", "w", "value"]) {
         await script.request({ type: "load", name: "formula", format: "formula", data: "x^2 + y^2 - z^2 < w" });
         const caps = color === "cell" ? "value" : "plain";
-        await script.request({ type: "set", color, caps, levels: [0, 1] });
+        await script.request({ type: "set", color, caps, levels: [0, 1], slices: { count: 5 } });
         const surfaces = {};
         for (const encoding of ["json", "cbor"]) {
             await script.client.hello({ encoding });

@@ -263,10 +263,10 @@ async def test_slices_in_json_and_cbor_are_equal(server, color, monkeypatch):
 async def test_each_level_has_its_own_closed_surface(server):
     levels = [0.44, 0, -0.36, -0.75]  # spheres of the radii 1.2, 1, 0.8, 0.5 in the middle slice
     async with field_client(server, BALL, [[-1.5, 1.5]] * 4) as client:
-        await client.request("set", levels=levels)
+        await client.request("set", levels=levels, slices={"count": 5})
         message = await slices_of(client)
         assert (await client.request("get", what="state"))["levels"] == levels
-        middle = message["slices"][10]
+        middle = message["slices"][2]
         for index, level in enumerate(levels):
             radius = math.sqrt(1 + level)
             expected = 4 / 3 * math.pi * radius ** 3
@@ -284,6 +284,7 @@ async def test_each_level_has_its_own_closed_surface(server):
 async def test_undo_and_redo_restore_the_field_and_its_levels(server):
     async with field_client(server, BALL, BALL_BOX) as client:
         seen = []
+        await client.request("set", slices={"count": 5})
         for change in ({}, {"levels": [0, -0.5]}, {"inside": "above"}, {"color": "growth"}):
             await client.request("set", **change)
             seen.append((await slices_of(client))["slices"])
@@ -344,7 +345,8 @@ async def test_a_field_survives_a_restart_with_its_levels_and_constants(tmp_path
     with Server("--store", store) as server:
         async with field_client(server, TIGER, TIGER_BOX) as client:
             await load_field(client, TIGER.replace("0.35", "0.3"), name="thin")
-            await client.request("set", polytope="field", levels=[-0.05, 0.02], inside="above", color="growth")
+            await client.request("set", polytope="field", levels=[-0.05, 0.02], inside="above", color="growth",
+                                 slices={"count": 5})
             await client.request("key", key="y")
             before = [await client.request("get", what="state"), await slices_of(client)]
             picture = png.pixels(await client.request_frame(**SIZE))
