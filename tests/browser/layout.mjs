@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { openWithScript } from "./support/browser.mjs";
+import { openWithScript, presented } from "./support/browser.mjs";
 import { openPanel } from "./support/field.mjs";
 
 // Desktops, a phone upright and lying, and desktops at 200 and 400 %, which leave fewer CSS pixels.
@@ -103,5 +103,17 @@ test("layout: the choices of every format fit into the export dialog", async () 
 test("layout: the panel of a field fits into every window", async () => {
     const { page, close } = await openPanel();
     await assertFits(page, "#field");
+    await close();
+});
+
+test("layout: a long name leaves room for the last rotation", async () => {
+    const { page, script, close } = await openWithScript({ viewport: { width: 1280, height: 800 } });
+    await script.request({ type: "set", polytope: "great grand stellated 120-cell" });
+    const { revision } = await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.41, -2.1] });
+    await presented(page, revision);
+    const hidden = await page
+        .locator(".state-field:last-child button")
+        .evaluate(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth);
+    assert.ok(hidden <= 0, `${hidden} pixels of the last rotation are hidden`);
     await close();
 });

@@ -127,7 +127,7 @@ test("picker: a misspelled name finds similar names, after the text itself", asy
         await page.fill("#picker-search", text);
         assert.deepEqual(await listed(page), [text, similar]);
         assert.equal(await chosen(page), text);
-        assert.equal(await page.textContent("#picker-found"), "1 polytope with a similar name");
+        assert.equal(await page.textContent("#picker-found"), "1 object with a similar name");
     }
     for (const text of ["zq", "qj", "wvqzk", "pyramid of cube"]) {
         await page.fill("#picker-search", text);
@@ -191,7 +191,7 @@ test("picker: says that the server cannot be reached, and lists the polytopes on
     proxy.restore();
     await page.waitForSelector('#picker-list [data-name="24-cell"]');
     assert.equal(await page.locator("#picker-error").textContent(), "");
-    assert.match(await page.locator("#picker-found").textContent(), /^\d+ polytopes$/);
+    assert.match(await page.locator("#picker-found").textContent(), /^\d+ objects$/);
     script.leave();
     await close();
     await proxy.stop();

@@ -322,6 +322,7 @@ export class App {
         this.slider.update(state);
         const { name } = state.polytope;
         this.polytopeButton.querySelector("b")!.textContent = name;
+        this.polytopeButton.title = `${name}: search for another object`;
         document.title = `${name} \u2013 oval4d`;
         this.stateFields.update(state);
         this.welcome.update(state);

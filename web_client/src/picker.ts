@@ -98,7 +98,7 @@ export class Picker {
         const shown = this.listedOptions.length - typed.length;
         const number = shown === 0 ? "No" : formatCount(shown);
         const similar = found.length === 0 && shown > 0 ? " with a similar name" : "";
-        const results = (shown === 1 ? "1 polytope" : `${number} polytopes`) + similar;
+        const results = (shown === 1 ? "1 object" : `${number} objects`) + similar;
         this.resultCount.textContent = this.options.size > 0 ? results : "";
         for (const one of this.options.values()) {
             one.toggleAttribute("data-current", one.dataset["name"] === this.current);
