@@ -1,7 +1,7 @@
 // Mouse, pen and touch on the drawing. Dragging orbits the view, the wheel or a pinch zooms, and a click keeps the
-// element under the pointer highlighted (see pointing.ts); a right click or a long press opens its menu. With the right or middle button, with Alt, or with two fingers,
-// dragging rolls the 4-D ball; with Shift, too, the ball of every slice. In a panel of the matrix, dragging moves the
-// focus point.
+// element under the pointer highlighted (see pointing.ts); a right click or a long press opens its menu. With the right
+// or middle button, with Alt, or with two fingers, dragging rolls the 4-D ball; with Shift, too, the ball of every slice.
+// In a panel of the matrix, dragging moves the focus point.
 
 import type { FocusPointDrag } from "./focus_point_drag";
 import type { Point } from "./hover";
