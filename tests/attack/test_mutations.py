@@ -11,7 +11,7 @@ import random
 from harness import Server
 from raw import CLOSE, TEXT, ConnectionEnded, WebSocket, frame
 
-COUNT = int(os.environ.get("OVAL4D_MUTATIONS", "20000"))
+COUNT = int(os.environ.get("OVAL4D_MUTATIONS", "8000"))
 SEED = int(os.environ.get("OVAL4D_SEED", "4"))
 SIMPLEX = ("4OFF\n5 10 10 5\n1 1 1 -0.447214\n1 -1 -1 -0.447214\n-1 1 -1 -0.447214\n-1 -1 1 -0.447214\n0 0 0 1.788854\n3 0 1 2\n"
            "3 0 1 3\n3 0 1 4\n3 0 2 3\n3 0 2 4\n3 0 3 4\n3 1 2 3\n3 1 2 4\n3 1 3 4\n3 2 3 4\n4 0 1 3 6\n4 0 2 4 7\n4 1 2 5 8\n"
