@@ -24,6 +24,7 @@ import re
 import struct
 import threading
 import time
+import warnings
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit, urlunsplit
 
 import websockets
@@ -83,11 +84,15 @@ def _json(message):
 def connect(url="http://127.0.0.1:8080/", session=None, **options):
     """Connects to the server at `url` (http, https, ws or wss), and returns a Client. Opens a new session, or the
     session with the name `session`, or that of a link that the page's button Share has copied; hello() sends the token of
-    such a link. The options are those of Client. Raises ValueError if the link is damaged."""
+    such a link. In a new session, hello() shows the view of the query of `url`, such as "?polytope=24-cell". The options
+    are those of Client. Raises ValueError if the link is damaged."""
     shared = dict(parse_qsl(urlsplit(url).fragment, keep_blank_values=True))
     if shared and not (shared.get("session") and shared.get("token")):
         raise ValueError("the link to a shared session is damaged: it must end in #session=…&token=…")
-    return Client(socket_url(url, session or shared.get("session")), token=shared.get("token"), **options)
+    session = session or shared.get("session")
+    query = urlsplit(url).query
+    has_view = not session and any(name != "token" for name, _ in parse_qsl(query, keep_blank_values=True))
+    return Client(socket_url(url, session), token=shared.get("token"), view=query if has_view else "", **options)
 
 
 def socket_url(url, session=None):
@@ -101,15 +106,16 @@ def socket_url(url, session=None):
 class Client:
     """A connection to one session. `timeout` (seconds) applies to every call. If `show` is true, pictures of the stream
     are acknowledged as soon as they arrive. `headers` are added to the HTTP request that opens the connection. `token` is
-    that of an existing session.
+    that of an existing session. `view` is the query of an address, whose view the first hello() shows.
 
     If the connection breaks, or the server closes it because the server stops, the client reconnects: at once, and then
     with growing pauses, for `timeout` seconds. Calls wait in the meantime. A call that was in progress raises Closed,
     because it is unknown whether the call took effect."""
 
-    def __init__(self, url, timeout=30, show=True, headers=None, token=None):
+    def __init__(self, url, timeout=30, show=True, headers=None, token=None, view=""):
         self.timeout = timeout
         self._token = {} if token is None else {"token": token}
+        self._view = view
         self.show = show
         self._url = url
         self._headers = headers
@@ -121,6 +127,7 @@ class Client:
         self.newest_slices = None
         self.newest_frame = None
         self.errors = []  # error messages that do not answer a call
+        self._live = None  # called with each picture of the stream
         self.closed = None  # (code, reason) once the connection has ended for good
         self._ids = itertools.count(1)
         self._waiting = {}  # for the id of each call in progress: its answer, None until it arrives
@@ -141,8 +148,12 @@ class Client:
 
     def hello(self, stream="none", **members):
         """Sends the first message. `stream` is "geometry", "frames" or "none"; the other members are width, height,
-        encoding and token."""
-        return self.request("hello", stream=stream, **self._token | members)
+        encoding, scheme and token. Then shows the view of the address given to connect(), if there is one."""
+        welcome = self.request("hello", stream=stream, **self._token | members)
+        view, self._view = self._view, ""
+        if view:
+            self.open_address(view)
+        return welcome
 
     def key(self, key, shift=False, ctrl=False):
         return self.request("key", key=key, shift=shift, ctrl=ctrl)
@@ -173,6 +184,14 @@ class Client:
             raise ValueError('not a state of oval4d, whose "type" is "state"')
         settings = {name: value for name, value in state.items() if name not in ("type", "id")}
         return self.set(**settings | {"turning": False})
+
+    def open_address(self, query):
+        """Shows the view that the query of an address describes, such as "polytope=24-cell&rotate=xw:0.3"."""
+        return self.request("address", query=query.removeprefix("?"))
+
+    def address(self):
+        """Returns the query of an address that opens this view."""
+        return self.get("address")["query"]
 
     def command(self, line):
         return self.request("command", line=line)
@@ -270,28 +289,45 @@ class Client:
     def reset(self):
         return self.request("reset")
 
-    def get(self, what, width=None, height=None):
+    def get(self, what, width=None, height=None, background=None):
         size = {} if width is None else {"width": width, "height": height}
-        return self.request("get", what=what, **size)
+        ground = {} if background is None else {"background": background}
+        return self.request("get", what=what, **size, **ground)
 
     def state(self):
         return self.get("state")
 
-    def slices(self, width=None, height=None):
+    def slices(self, width=None, height=None, background=None):
         """Returns a slices message. A slice of a field has a "surface" if its hyperplane meets one. Its "points",
         "normals" and "triangles" are numpy arrays of shape (n, 3), and its "level", "cap", "colors" and "cap_colors" of
         shape (n,); without numpy, they are lists. The triangles, which are triples of points, are counterclockwise as seen from
         outside, and those of each level form a closed surface. If the field has fog, the slice has a "fog": its "values"
         are a numpy array with the indices z, y, x; without numpy, they are bytes, x fastest."""
-        return self.get("slices", width, height)
+        return self.get("slices", width, height, background)
 
-    def frame(self, width=None, height=None):
-        """Returns a picture as the bytes of a PNG file."""
-        return self.get("frame", width, height)
+    def frame(self, width=None, height=None, background=None):
+        """Returns a picture as the bytes of a PNG file. `background` is "dark", "light", "white" or "transparent"; if it
+        is None, that of the session."""
+        return self.get("frame", width, height, background)
 
     def _repr_png_(self):
         """Shows the picture in a notebook."""
         return self.frame(960, 540)
+
+    def live(self, width=960, height=540):
+        """Shows the picture in a notebook, and renews it after every change of the session: by this script, on the page,
+        or by other clients. The stream is then "frames". Needs IPython, which every notebook has."""
+        from IPython.display import Image, display
+
+        def picture(png):
+            return Image(data=png, format="png", width=width, height=height)
+
+        self._live = None
+        self.hello("frames", width=width, height=height)
+        handle = display(picture(self.frame(width, height)), display_id=True)
+        size = struct.pack(">II", width, height)
+        # A script may also ask for frames of other sizes. The size is at the beginning of a PNG file.
+        self._live = lambda png: png[16:24] == size and handle.update(picture(png))
 
     def at(self, x, y, width=None, height=None):
         """Returns what the picture shows at a point, in pixels from the upper left corner."""
@@ -299,8 +335,8 @@ class Client:
         return self.request("get", what="at", x=x, y=y, **size)
 
     def file(self, format, **members):
-        """Returns the bytes of an exported file. `format` is "stl", "3mf", …; the other members are of, body, size and
-        label, as in `get`."""
+        """Returns the bytes of an exported file. `format` is "stl", "3mf", …; the other members are of, body, size, label,
+        at and fit, as in `get`. Issues a UserWarning for what the file lacks, such as slices that are empty."""
         return self.request("get", what="file", format=format, **members)
 
     def critical(self):
@@ -355,6 +391,10 @@ class Client:
             raise answer
         if isinstance(answer, dict) and answer["type"] == "error":
             raise Refused(answer["code"], answer["message"])
+        if isinstance(answer, tuple):
+            answer, lacks = answer
+            for text in lacks:
+                warnings.warn(text, stacklevel=3)  # at the caller of file()
         return answer
 
     def send(self, message):
@@ -398,6 +438,8 @@ class Client:
             try:
                 async for message in self._socket:
                     picture = self._receive(message)
+                    if picture is not None and self._live and isinstance(message, bytes):
+                        self._live(message)
                     if picture is not None and self.show:
                         await self._socket.send(json.dumps({"type": "shown", "revision": picture}))
             except websockets.ConnectionClosed:
@@ -461,7 +503,7 @@ class Client:
                 setattr(self, "welcome" if kind == "welcome" else "newest_" + kind, message)
             if number in self._waiting:
                 framed = kind == "done" and number in self._wants_bytes
-                self._waiting[number] = self._binary if framed else message
+                self._waiting[number] = (self._binary, message.get("warnings", [])) if framed else message
             elif kind == "error":
                 self.errors.append(message)
             self._change.notify_all()

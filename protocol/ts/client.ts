@@ -3,8 +3,8 @@
 
 import { Arena } from "./arena";
 import { decodeCbor, decodeText, isFile, isPng } from "./decode";
-import type { At, Catalogue, Critical, Done, Encoding, ErrorMessage, FileOptions, Keymap, Message, Request } from "./messages";
-import type { Slices, State, Stream, Viewport, Welcome } from "./messages";
+import type { Address, At, Catalogue, Critical, Done, Encoding, ErrorMessage, ExportedFile, FileOptions, Keymap } from "./messages";
+import type { Message, Request, Scheme, Slices, State, Stream, Viewport, Welcome } from "./messages";
 
 /** The session's name and token, which give access to it. */
 export interface Credentials {
@@ -24,6 +24,8 @@ export interface Options {
     stream?: Stream;
     encoding?: Encoding;
     viewport?: Viewport;
+    /** The scheme of pictures whose background is `auto`. */
+    scheme?: Scheme;
     /** The session to open. If absent, a new session is created. */
     credentials?: Credentials;
     /** If true, the arrays passed to `onSlices` are valid only until the next message, which avoids allocations. */
@@ -57,6 +59,8 @@ export class RequestError extends Error {
     }
 }
 
+type PictureRequest = Extract<Request, { what: "slices" | "frame" }>;
+
 interface PendingRequest {
     wants: "frame" | "file" | "slices" | "message";
     resolve(answer: unknown): void;
@@ -81,7 +85,7 @@ export class Client {
     welcome: Welcome | undefined;
 
     private socket: WebSocket | undefined;
-    private settings: { stream: Stream; encoding: Encoding; viewport: Viewport | undefined };
+    private settings: { stream: Stream; encoding: Encoding; viewport: Viewport | undefined; scheme: Scheme };
     private pending = new Map<number, PendingRequest>();
     private lastId = 0;
     private failures = 0;
@@ -97,6 +101,7 @@ export class Client {
             stream: options.stream ?? "none",
             encoding: options.encoding ?? "json",
             viewport: options.viewport,
+            scheme: options.scheme ?? "dark",
         };
     }
 
@@ -131,23 +136,26 @@ export class Client {
         this.report({ kind: "closed", reason });
     }
 
-    /** Changes the stream, the encoding or the size of pictures, for this connection and for later ones. */
-    hello(change: { stream?: Stream; encoding?: Encoding; viewport?: Viewport }): Promise<Welcome> {
+    /** Changes the stream, the encoding, the size or the scheme of pictures, for this connection and for later ones. */
+    hello(change: { stream?: Stream; encoding?: Encoding; viewport?: Viewport; scheme?: Scheme }): Promise<Welcome> {
         Object.assign(this.settings, change);
-        const { stream, encoding, viewport } = this.settings;
+        const { stream, encoding, viewport, scheme } = this.settings;
         const token = this.credentials?.token;
-        return this.request({ type: "hello", stream, encoding, ...viewport, ...(token !== undefined && { token }) });
+        // A server of an earlier version, which knows no schemes, draws dark pictures.
+        const own = { ...viewport, ...(scheme === "light" && { scheme }), ...(token !== undefined && { token }) };
+        return this.request({ type: "hello", stream, encoding, ...own });
     }
 
     request(message: Extract<Request, { type: "hello" }>): Promise<Welcome>;
     request(message: { type: "get"; what: "state" }): Promise<State>;
-    request(message: { type: "get"; what: "slices"; width?: number; height?: number }): Promise<Slices>;
-    request(message: { type: "get"; what: "frame"; width?: number; height?: number }): Promise<Uint8Array>;
+    request(message: PictureRequest & { what: "slices" }): Promise<Slices>;
+    request(message: PictureRequest & { what: "frame" }): Promise<Uint8Array>;
     request(message: { type: "get"; what: "at"; x: number; y: number; width?: number; height?: number }): Promise<At>;
-    request(message: { type: "get"; what: "file" } & FileOptions): Promise<Uint8Array>;
+    request(message: { type: "get"; what: "file" } & FileOptions): Promise<ExportedFile>;
     request(message: { type: "get"; what: "critical" }): Promise<Critical>;
     request(message: { type: "get"; what: "catalogue" }): Promise<Catalogue>;
     request(message: { type: "get"; what: "keymap" }): Promise<Keymap>;
+    request(message: { type: "get"; what: "address" }): Promise<Address>;
     request(message: Exclude<Request, { type: "hello" | "get" | "shown" }>): Promise<Done>;
     request(message: Request): Promise<unknown> {
         const id = ++this.lastId;
@@ -208,7 +216,7 @@ export class Client {
             return;
         }
         if (request?.wants === "file" && message.type === "done") {
-            request.resolve(this.heldFile);
+            request.resolve({ bytes: this.heldFile, warnings: message.warnings ?? [] });
             this.heldFile = undefined;
             return;
         }

@@ -11,6 +11,13 @@ export type View = "oval" | "single" | "matrix";
  * outward along w, or the value of the second function or of the field itself.
  */
 export type Coloring = "cell" | "kind" | "w" | "plain" | "light" | "growth" | "value";
+/**
+ * The background of pictures, for which the other colors are chosen. `auto`: dark, or light for clients whose `hello` has
+ * the scheme `light`. `transparent`: none in PNG files, otherwise white.
+ */
+export type Background = "auto" | "dark" | "light" | "white" | "transparent";
+/** What colors are chosen for: a dark or a light background. */
+export type Scheme = "dark" | "light";
 export type Vector = [number, number, number];
 /** The side of a level that belongs to the body: where the field's value is smaller, or larger. */
 export type Inside = "below" | "above";
@@ -39,7 +46,7 @@ export interface SliceSettings {
     count: number;
     spacing: number;
     focus: number;
-    /** w of the hyperplane n = 0. */
+    /** w of the hyperplane n = 0, measured from the center of the object. */
     offset: number;
 }
 
@@ -82,15 +89,16 @@ export interface Settings {
     alpha?: number;
     beta?: number;
     step?: number;
-    /** `w` sets focus and offset. */
+    /** `w` sets focus and offset; it is in the coordinates of the object's file. */
     slices?: Partial<SliceSettings> & { w?: number };
-    /** The focus point x, y, z, w of the matrix view; its w moves the focus slice. */
+    /** The focus point x, y, z, w of the matrix view, in the file's coordinates; its w moves the focus slice. */
     point?: [number, number, number, number];
     view?: View;
     turning?: boolean;
     shown?: Partial<Parts>;
     camera?: Partial<Orbit>;
     color?: Coloring;
+    background?: Background;
     /** For fields only. */
     caps?: Caps;
     /** 1 to 4 different numbers; for fields only. */
@@ -131,21 +139,40 @@ export interface ColoringValues {
     colors: number[];
 }
 
-/** The options of an exported file. `body`, `size` and `label` apply only to formats with bodies. */
+/** The options of an exported file. `body` and `label` apply only to formats with bodies, `size` to these and to drawings. */
 export interface FileOptions {
     /** A name that export_formats.json lists. */
     format: string;
     /** What the file contains: one of those that export_formats.json lists for the format, the first by default. */
-    of?: "focus" | "oval" | "critical" | "object" | "coordinates" | "projection" | "matrix";
+    of?: "focus" | "oval" | "highlight" | "critical" | "object" | "coordinates" | "projection" | "matrix";
     /** Filled, or balls and bars merged into one body; "frame" is the former name of "skeleton". */
     body?: "solid" | "skeleton" | "frame";
-    /** The diameter of the polytope's circumscribed sphere, in millimeters. */
+    /** In millimeters: the diameter of the polytope's circumscribed sphere, or the largest side of a drawing. */
     size?: number;
     label?: "none" | "engraved" | "separate";
+    /** The w of the slices, instead of those of the session: numbers, or a text such as "-1,0,1/3". */
+    at?: number[] | string;
+    /** The number of slices, which are spread evenly over the polytope's extent along w. */
+    fit?: number;
+}
+
+/** An exported file. */
+export interface ExportedFile {
+    bytes: Uint8Array;
+    /** What the file lacks, such as slices that are empty. */
+    warnings: string[];
 }
 
 export type Request =
-    | { type: "hello"; stream: Stream; encoding?: Encoding; token?: string; width?: number; height?: number }
+    | {
+          type: "hello";
+          stream: Stream;
+          encoding?: Encoding;
+          scheme?: Scheme;
+          token?: string;
+          width?: number;
+          height?: number;
+      }
     | { type: "key"; key: string; shift?: boolean; ctrl?: boolean }
     | { type: "rotate"; planes: Plane[]; angles: number[]; continues?: boolean }
     | { type: "toward"; element: ElementKind; number?: number; immediately?: boolean }
@@ -162,12 +189,16 @@ export type Request =
           values?: string;
           values_variable?: string;
           append?: boolean;
+          /** The point of the file about which the object turns. */
+          center?: "object" | "origin" | [number, number, number, number];
       }
     | { type: "undo" }
     | { type: "redo" }
     | { type: "reset" }
     | { type: "command"; line: string }
-    | { type: "get"; what: "state" | "slices" | "frame" | "critical" | "catalogue" | "keymap"; width?: number; height?: number }
+    | { type: "address"; query: string }
+    | { type: "get"; what: "state" | "critical" | "catalogue" | "keymap" | "address" }
+    | { type: "get"; what: "slices" | "frame"; width?: number; height?: number; background?: Background }
     | { type: "get"; what: "at"; x: number; y: number; width?: number; height?: number }
     | ({ type: "get"; what: "file" } & FileOptions)
     | { type: "shown"; revision: number };
@@ -197,7 +228,16 @@ export interface State {
     type: "state";
     id?: number;
     revision: number;
-    polytope: { name: string; vertices: number; edges: number; faces: number; cells: number; kinds?: CellKind[] };
+    polytope: {
+        name: string;
+        vertices: number;
+        edges: number;
+        faces: number;
+        cells: number;
+        kinds?: CellKind[];
+        /** The point x, y, z, w of the file about which the object turns; absent if it is the file's origin. */
+        center?: [number, number, number, number];
+    };
     /** The frame of reference, which applies before the orientation. */
     pace: number;
     follow: Vector;
@@ -208,7 +248,7 @@ export interface State {
     beta: number;
     step: number;
     slices: SliceSettings;
-    /** The focus point x, y, z, w, through which the planes of the matrix view pass. */
+    /** The focus point x, y, z, w, in the file's coordinates, through which the planes of the matrix view pass. */
     point: [number, number, number, number];
     view: View;
     turning: boolean;
@@ -219,6 +259,7 @@ export interface State {
     shown: Parts;
     camera: Orbit;
     color: Coloring;
+    background: Background;
     /** The values at which the surfaces of a field are shown, and the side that is inside; absent for other objects. */
     levels?: number[];
     inside?: Inside;
@@ -244,7 +285,7 @@ export interface Done {
     type: "done";
     id: number;
     revision: number;
-    /** The corrections made to a loaded file. */
+    /** The corrections made to a loaded file, or what an exported file lacks. */
     warnings?: string[];
 }
 
@@ -305,6 +346,13 @@ export interface Keymap {
     id?: number;
     groups: { name: string; title: string }[];
     keys: KeyBinding[];
+}
+
+/** The query of an address that opens the view of the session. */
+export interface Address {
+    type: "address";
+    id?: number;
+    query: string;
 }
 
 /** How to draw the slices, so that the picture of every client is the same as a frame. */
@@ -586,6 +634,8 @@ export interface At {
     w?: number;
     least_w?: number;
     most_w?: number;
+    /** Of a vertex: its coordinates in the file, before the rotation. */
+    place?: [number, number, number, number];
     vertices?: number;
     kind?: number;
     name?: string;
@@ -616,4 +666,4 @@ export interface Critical {
     sections: CriticalSection[];
 }
 
-export type Message = Welcome | State | At | Critical | Done | ErrorMessage | Catalogue | Keymap | Slices;
+export type Message = Welcome | State | At | Critical | Done | ErrorMessage | Catalogue | Keymap | Address | Slices;

@@ -2,10 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <iostream>
 #include <limits>
 
 #include "cli/state_arguments.hpp"
 #include "pipeline/export_pipeline.hpp"
+#include "text/choice.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d {
@@ -23,12 +25,25 @@ const exports::Format& formatOf(const ExportOutputOptions& options) {
                                  : "no format is called " + text::inQuotes(name) + "; the formats are " + known);
 }
 
+/// Returns the names in a table of choices, without aliases, as in "solid|skeleton".
+template <typename Choices>
+std::string alternativesOf(const Choices& choices) {
+    std::string out;
+    for (const auto& [name, value] : choices) {
+        if (name != text::nameOf(choices, value)) continue;
+        if (!out.empty()) out += '|';
+        out += name;
+    }
+    return out;
+}
+
 /// Limits far above those of the server, because the user decides how much time and memory to spend on this machine.
 exports::ExportLimits commandLineLimits() {
     exports::ExportLimits limits;
     limits.triangles = 50'000'000;
     limits.bytes = std::numeric_limits<std::size_t>::max();
     limits.time = std::chrono::hours(1);
+    limits.slices = session::Limits{}.maxSlices;
     return limits;
 }
 
@@ -39,19 +54,19 @@ void addExportOptions(CLI::App& app, ExportOutputOptions& options) {
     app.add_option("--format", options.format,
                    text::commaSeparated(exports::formatNames()) + "; default: from the output's extension");
     app.allow_extras();
-    app.footer(
-        std::string(
-            "The content of the file:\n"
-            "  --of focus|oval|coordinates|projection|matrix  --body solid|skeleton  --size MILLIMETERS  --label "
-            "none|engraved|separate\n") +
-        kStateHelp);
+    app.footer("The contents of the file, as far as its format can contain them:\n  --of " +
+               alternativesOf(exports::kExportContents) + "\n  --body " + alternativesOf(exports::kBodies) +
+               "  --size MILLIMETERS  --label " + alternativesOf(exports::kLabels) +
+               "\n  --at W,W,… (slices at these w)  --fit N (N slices that all meet the object)\n" + kStateHelp);
 }
 
 void exportFile(const CLI::App& app, const ExportOutputOptions& options) {
     session::QueryParameters query = queryOf(app.remaining());
     const auto request = valueOrThrow(pipeline::extractExportRequest(query, formatOf(options)));
     const auto state = stateOf(query);
-    writeOutput(options.output, valueOrThrow(pipeline::exportState(state, request, commandLineLimits())));
+    const auto file = valueOrThrow(pipeline::exportState(state, request, commandLineLimits()));
+    for (const std::string& warning : file.warnings) std::cerr << "oval4d: " << warning << '\n';
+    writeOutput(options.output, file.bytes);
 }
 
 }  // namespace oval4d

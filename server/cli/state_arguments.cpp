@@ -50,8 +50,8 @@ bool isArray(const fields::FileContents& file) {
     return fields::formatOfFile(file.bytes.first(std::min(file.bytes.size(), fields::kRecognizedBytes))) != nullptr;
 }
 
-/// Reads the object in a file. An array may be larger than the main memory. Removes the options of arrays from the
-/// query.
+/// Reads the object in a file. An array may be larger than the main memory. Removes the options of the object's kind
+/// from the query.
 Result<session::LoadedObject> readFile(const std::string& path, session::QueryParameters& query) {
     const std::string name = std::filesystem::path(path).filename().string();
     const bool isFolder = std::filesystem::is_directory(path);
@@ -75,7 +75,9 @@ Result<session::LoadedObject> readFile(const std::string& path, session::QueryPa
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     if (!file) throw std::runtime_error("cannot read " + path);
-    return session::readObject({name, std::string(session::detectFormat(text)), text}, session::Limits{});
+    session::LoadObject load{name, std::string(session::detectFormat(text)), text};
+    if (const auto center = take(query, "center")) load.center = valueOrThrow(session::parseCenter(*center));
+    return session::readObject(load, session::Limits{});
 }
 
 /// Returns the state in a picture that oval4d has made, or in a JSON file; nothing if the file is of another kind.

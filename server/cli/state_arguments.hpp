@@ -18,7 +18,8 @@ session::QueryParameters queryOf(const std::vector<std::string>& words);
 
 /// Returns the state that the query describes. The query parameter "load" is the path of a file to show: an object, or
 /// a picture or a state message, whose settings the rest of the query changes. If the file is an array, "axes", "box",
-/// "variable", "values" and "values_variable" say how to read it. Prints warnings about the file to standard error.
+/// "variable", "values" and "values_variable" say how to read it; if it is a polytope or a list of points, "center" is
+/// the point about which it turns. Prints warnings about the file to standard error.
 /// Throws std::runtime_error with a message for the user.
 session::State stateOf(session::QueryParameters query);
 
@@ -35,11 +36,12 @@ void writeOutput(const std::string& path, std::string_view bytes);
 /// The part of the `--help` text about the options that describe a state.
 inline constexpr const char* kStateHelp =
     "All other options describe the state, as for :set and the query of frame.png:\n"
-    "  --polytope 24-cell --rotate xw,yz:pi/8,pi/sqrt(3)-pi/8 --slices 31 --view single\n"
+    "  --polytope 24-cell --rotate xw,yz:pi/8,pi/sqrt(3)-pi/8 --slices 31 --view single --background white\n"
     "--load FILE shows a polytope from a 4OFF file, the points of a file whose first word is CLOUD,\n"
     "a field from an array (npy, netcdf, hdf5, nifti; with --axes tzyx --box X0,X1,Y0,Y1,Z0,Z1,W0,W1\n"
     "--variable NAME), or the convex hull of any other list of points. --values FORMULA, or for arrays\n"
-    "--values_variable NAME, is a second function whose values color the surfaces.\n"
+    "--values_variable NAME, is a second function whose values color the surfaces. --center object|origin|\n"
+    "X,Y,Z,W is the point about which a polytope or points turn.\n"
     "A picture that oval4d has made, or a state as JSON, is shown again; other options change it.\n"
     "--rotate may be repeated; the rotations are applied in the order given.";
 

@@ -23,7 +23,7 @@ enum class ErrorCode {
     bad_polytope,        ///< a loaded polytope is invalid
     bad_field,           ///< a loaded field (an array or a formula) is invalid
     unsupported_format,  ///< a loaded file has a format that the server does not read
-    no_body,             ///< a slice to export is empty or flat, or too small for its label
+    no_body,             ///< what is to be exported is empty or flat, too small for its label, or not highlighted
     nothing_to_undo,     ///< there is nothing to undo, redo, repeat or keep turning
     hello_first,         ///< a message was sent before hello
     not_found,           ///< the session or resource does not exist

@@ -19,12 +19,13 @@ struct ExportLimits {
     /// Called on the exporting thread each time the export estimates the bytes that it needs; the argument is the new
     /// total, not an increment. Returns false to refuse the memory. If null, memory is not limited.
     std::function<bool(std::size_t)> reserve = nullptr;
+    int slices = 201;  ///< the number of slices that ExportRequest::at or ExportRequest::fit may choose
 };
 
 /// The reason why an export produces no file. `message` is its text for the user.
 struct ExportError {
     enum class Cause : std::uint8_t {
-        no_body,    ///< the slice is empty or flat, the label does not fit, or the format cannot contain what is asked
+        no_body,    ///< the body is empty or flat, the label does not fit, or the format cannot contain what is asked
         too_large,  ///< the file would exceed ExportLimits::triangles or ExportLimits::bytes
         too_long,   ///< the export exceeds ExportLimits::time, or a stop was requested
         no_room,    ///< ExportLimits::reserve returned false

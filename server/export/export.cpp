@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -11,12 +12,15 @@
 #include "export/drawing/coordinates_drawing.hpp"
 #include "export/drawing/matrix_drawing.hpp"
 #include "export/drawing/projection_drawing.hpp"
+#include "export/drawing/slices_drawing.hpp"
 #include "export/formats/formats.hpp"
 #include "export/formats/text.hpp"
 #include "export/label/label.hpp"
 #include "export/mesh/field_body.hpp"
 #include "export/mesh/skeleton.hpp"
 #include "export/mesh/solid.hpp"
+#include "export/omissions.hpp"
+#include "slicing/element.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::exports {
@@ -40,33 +44,56 @@ class Exporter {
           request_(request),
           budget_(budget),
           scale_(request.size / 2 / scene.circumradius),
-          grid_(request.size, request.extent == Extent::oval ? coordinateBound(slices_.planes.count, request.size)
-                                                             : 2 * request.size) {
-        if (request.extent == Extent::projection) request_.body = Body::skeleton;
-        hasSurfaces_ = slicing::fieldIn(object) != nullptr && request_.body == Body::solid;
+          grid_(request.size, request.contents == ExportContents::oval
+                                  ? coordinateBound(slices_.planes.count, request.size)
+                                  : 2 * request.size) {
+        if (request.contents == ExportContents::projection) request_.body = Body::skeleton;
+        if (request.contents == ExportContents::highlight) element_ = scene.look.highlight;
+        hasSurfaces_ = slicing::fieldIn(object) != nullptr && request_.body == Body::solid && !element_;
     }
 
-    std::string run() {
+    ExportedFile run() {
+        std::string bytes = write();
+        budget_.checkBytes(bytes.size());
+        return {std::move(bytes), std::move(warnings_)};
+    }
+
+  private:
+    std::string write() {
         const Format& format = *request_.format;
-        refuseOtherExtents();
+        refuseOtherContents();
         if (format.writeDrawing != nullptr) return format.writeDrawing(drawing());
         refuseOtherObjects();
         if (format.writeScene != nullptr)
-            return format.writeScene({scene_, object_, orientation_, request_.extent, budget_});
+            return format.writeScene({scene_, object_, orientation_, request_.contents, budget_, warnings_});
         const std::vector<NamedMesh> solids = bodies();
         return format.writeBodies({solids, scene_.cellColors, scene_.title, budget_});
     }
 
-  private:
+    Drawing draw() const {
+        switch (request_.contents) {
+            case ExportContents::projection:
+                return drawProjection(scene_);
+            case ExportContents::matrix:
+                return drawMatrix(scene_);
+            case ExportContents::oval:
+            case ExportContents::focus:
+                return drawSlices(scene_, object_, budget_);
+            default:
+                return drawCoordinates(scene_, object_, orientation_);
+        }
+    }
+
     Drawing drawing() const {
-        if (request_.extent == Extent::projection) return drawProjection(scene_);
-        if (request_.extent == Extent::matrix) return drawMatrix(scene_);
-        return drawCoordinates(scene_, object_, orientation_);
+        Drawing drawn = draw();
+        drawn.size = request_.size;
+        return drawn;
     }
 
     std::vector<NamedMesh> bodies() {
         std::vector<SliceBodies> groups;
-        const auto color = request_.body == Body::skeleton ? scene::style().bar : scene::style().ball;
+        std::vector<int> empty, thin;  // the slices that are left out
+        const scene::Color color = request_.body == Body::skeleton ? scene::style().bar : colorOfSolids();
         std::size_t triangles = 0;
         if (request_.body == Body::skeleton) prepareSkeleton();
         for (int i = 0; i < slices_.planes.count; ++i) {
@@ -80,21 +107,39 @@ class Exporter {
                                 : solidOf(slices_, i, scale_, grid_, budget_);
                 if (!mesh.triangles.empty()) solids.push_back({nameOf(i), std::move(mesh), color, glm::dvec3(0)});
             }
-            if (solids.empty()) continue;
+            if (solids.empty()) {
+                (isEmpty(i) ? empty : thin).push_back(i);
+                continue;
+            }
             for (const NamedMesh& solid : solids) triangles += solid.mesh.triangles.size();
             budget_.checkTriangles(triangles);
             groups.push_back({i, std::move(solids)});
         }
+        if (groups.empty() && element_) refuseFlatElement();
         if (groups.empty()) refuseEmpty();
+        if (!empty.empty()) warnings_.push_back(warningOfOmission(slices_.planes, empty, "empty"));
+        if (!thin.empty()) warnings_.push_back(warningOfOmission(slices_.planes, thin, "flat or too thin"));
         if (request_.label != Label::none) label(groups);
         if (request_.format->arrangement == Format::Arrangement::plate) {
             arrangeOnPlate(groups, request_.size, grid_);
-        } else if (request_.extent == Extent::oval) {
+        } else if (request_.contents == ExportContents::oval) {
             arrangeInOval(groups, scene_, request_.size, grid_);
         }
         std::vector<NamedMesh> solids;
         for (SliceBodies& group : groups) std::ranges::move(group.solids, std::back_inserter(solids));
         return solids;
+    }
+
+    /// Returns the color of the parts of solids that belong to no cell.
+    scene::Color colorOfSolids() const {
+        const bool isCell = element_ && element_->kind == slicing::ElementKind::cell;
+        return isCell ? scene_.cellColors[element_->index] : scene::style().ball;
+    }
+
+    /// Returns whether nothing of the object is in the hyperplane of a slice.
+    bool isEmpty(int i) const {
+        if (hasSurfaces_) return slices_.surfaces[static_cast<std::size_t>(i)].triangles.empty();
+        return slices_.vertexCount(i) == 0;
     }
 
     /// Returns the bodies of one slice of a field, from the outermost level to the innermost. A printer gets only the
@@ -114,7 +159,7 @@ class Exporter {
         return solids;
     }
 
-    void label(std::vector<SliceBodies>& groups) const {
+    void label(std::vector<SliceBodies>& groups) {
         if (hasSurfaces_ && request_.label == Label::engraved) {
             throw ExportRefused{{ExportError::Cause::no_body,
                                  "the surface of a field has no face to engrave; choose a separate label"}};
@@ -141,6 +186,10 @@ class Exporter {
                      : "no face is flat and large enough for letters of 1 mm; choose a separate label or a "
                        "larger size"}};
         }
+        if (done < groups.size()) {
+            warnings_.push_back("only " + std::to_string(done) + " of " + std::to_string(groups.size()) +
+                                " bodies have a label, because the others have no face that is flat and large enough");
+        }
     }
 
     void prepareSkeleton() {
@@ -154,24 +203,27 @@ class Exporter {
 
     std::string nameOf(int i) const { return scene_.title + ", " + wOf(i); }
     std::string wOf(int i) const {
-        return request_.extent == Extent::projection ? "projection"
-                                                     : labelOfW(slices_.planes.w(i), slices_.planes.spacing);
+        if (element_) return nameOfElement();
+        return request_.contents == ExportContents::projection ? "projection" : labelOfW(slices_.planes, i, origin().w);
     }
+    std::string nameOfElement() const {
+        return std::string(text::nameOf(slicing::kElementKinds, element_->kind)) + ' ' +
+               std::to_string(element_->index);
+    }
+    const glm::dvec4& origin() const { return slicing::infoOf(object_).originInFile; }
 
-    void refuseOtherExtents() const {
-        const auto contains = [&](const Format& format) {
-            return std::ranges::find(format.extents, request_.extent) != format.extents.end();
-        };
-        if (contains(*request_.format)) return;
+    void refuseOtherContents() const {
+        if (request_.format->canContain(request_.contents)) return;
         std::vector<std::string_view> own, formatsWithIt;
-        for (const Extent extent : request_.format->extents) own.push_back(text::nameOf(kExtents, extent));
+        for (const ExportContents contents : request_.format->contents)
+            own.push_back(text::nameOf(kExportContents, contents));
         for (const Format& format : formats()) {
-            if (contains(format)) formatsWithIt.emplace_back(format.name);
+            if (format.canContain(request_.contents)) formatsWithIt.emplace_back(format.name);
         }
+        const std::string asked(text::nameOf(kExportContents, request_.contents));
         throw ExportRefused{{ExportError::Cause::no_body, request_.format->name + " files contain " +
-                                                              text::alternatives(own) + ", not " +
-                                                              std::string(text::nameOf(kExtents, request_.extent)) +
-                                                              "; " + text::alternatives(formatsWithIt) + " files do"}};
+                                                              text::alternatives(own) + ", not " + asked + "; " +
+                                                              text::alternatives(formatsWithIt) + " files do"}};
     }
 
     void refuseOtherObjects() const {
@@ -189,6 +241,25 @@ class Exporter {
         }
     }
 
+    [[noreturn]] void refuseFlatElement() const {
+        const bool isCell = element_->kind == slicing::ElementKind::cell;
+        throw ExportRefused{{ExportError::Cause::no_body, nameOfElement() + " has no volume" +
+                                                              (isCell ? ", or too little for this size" : "") +
+                                                              "; choose body=skeleton, its balls and bars"}};
+    }
+    /// Refuses slices that are not flat, but too small for the grid, because the polytope is far from its origin.
+    void refuseTiny(const std::string& message) const {
+        constexpr double kFewSteps = 8;
+        Box box;
+        for (const glm::dvec4& v : slices_.rotatedVertices) box.include(scale_ * glm::dvec3(v));
+        const glm::dvec3 size = box.size();
+        const double largest = std::max({size.x, size.y, size.z});
+        if (slices_.vertices.empty() || largest > kFewSteps * grid_.step()) return;
+        throw ExportRefused{{ExportError::Cause::no_body,
+                             message + ": the polytope is too small in comparison with its distance from the origin; "
+                                       "load it with center=object"}};
+    }
+
     [[noreturn]] void refuseEmpty() const {
         double least = 1e300;
         double most = -1e300;
@@ -197,9 +268,9 @@ class Exporter {
             most = std::max(most, v.w);
         }
         std::string reach;
-        append(reach, least);
+        append(reach, origin().w + least);
         reach += " to ";
-        append(reach, most);
+        append(reach, origin().w + most);
         const bool many = slices_.planes.count > 1;
         const bool isField = slicing::fieldIn(object_) != nullptr;
         std::string message = many ? "no slice has a volume" : "the slice at ";
@@ -207,11 +278,12 @@ class Exporter {
             message += wOf(0);
             message += slices_.vertices.empty() ? " is empty" : " has no volume";
         }
-        throw ExportRefused{
-            {ExportError::Cause::no_body, message + ": the " + (isField ? "box of the field" : "polytope") +
-                                              " extends from w = " + reach + "; " +
-                                              (isField ? "change the levels, move the focus or turn the field"
-                                                       : "move the focus or turn the polytope")}};
+        refuseTiny(message);
+        const std::string advice = request_.choosesSlices() ? "choose other slices" : "move the focus";
+        throw ExportRefused{{ExportError::Cause::no_body,
+                             message + ": the " + (isField ? "box of the field" : "polytope") +
+                                 " extends from w = " + reach + "; " + (isField ? "change the levels, " : "") + advice +
+                                 " or turn the " + (isField ? "field" : "polytope")}};
     }
 
     const scene::Scene& scene_;
@@ -222,21 +294,21 @@ class Exporter {
     const Budget& budget_;
     const double scale_;  // millimeters per unit of the object
     const Grid grid_;
+    std::optional<slicing::Element> element_;  // the element that is exported alone
     SkeletonRadii radii_;
     double cube_ = 0;
     bool hasSurfaces_ = false;  // whether the bodies are those inside the surfaces of a field
+    std::vector<std::string> warnings_;
 };
 
 }  // namespace
 
-std::variant<std::string, ExportError> exportScene(const scene::Scene& scene, const slicing::Object& object,
-                                                   const geometry::Rotation& orientation, const ExportRequest& request,
-                                                   const ExportLimits& limits, std::stop_token stop) {
+std::variant<ExportedFile, ExportError> exportScene(const scene::Scene& scene, const slicing::Object& object,
+                                                    const geometry::Rotation& orientation, const ExportRequest& request,
+                                                    const ExportLimits& limits, std::stop_token stop) {
     const Budget budget(limits, std::move(stop));
     try {
-        std::string bytes = Exporter(scene, object, orientation, request, budget).run();
-        budget.checkBytes(bytes.size());
-        return bytes;
+        return Exporter(scene, object, orientation, request, budget).run();
     } catch (ExportRefused& refused) {
         return std::move(refused.error);
     }

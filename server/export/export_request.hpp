@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
-#include "export/extent.hpp"
+#include "export/export_contents.hpp"
 #include "export/formats/formats.hpp"
 #include "text/choice.hpp"
 
@@ -22,18 +24,35 @@ inline constexpr auto kBodies = std::to_array<text::Choice<Body>>(
 inline constexpr auto kLabels = std::to_array<text::Choice<Label>>(
     {{"none", Label::none}, {"engraved", Label::engraved}, {"separate", Label::separate}});
 
-inline constexpr double kMinSize = 1, kMaxSize = 10'000;  ///< bounds of ExportRequest::size, in millimeters
+/// The bounds of ExportRequest::size for bodies and for drawings, in millimeters.
+inline constexpr double kMinSize = 1, kMaxSize = 10'000;
+inline constexpr double kMinDrawingSize = 10, kMaxDrawingSize = 5000;
+inline constexpr int kMaxFit = 100'001;  ///< the largest ExportRequest::fit, under any limit
 
-/// The options of an export. `body`, `size` and `label` apply only to formats with bodies.
+/// The options of an export. `body` and `label` apply only to formats with bodies, `size` to these and to drawings.
 struct ExportRequest {
     const Format* format = formatNamed("stl");  ///< a row of formats(); not null
-    Extent extent = Extent::focus;
+    ExportContents contents = ExportContents::focus;
     Body body = Body::solid;
-    double size = 60;  ///< the diameter of the object's circumscribed sphere in millimeters
+    /// In millimeters: the diameter of the object's circumscribed sphere or, for a drawing, its width or height,
+    /// whichever is larger.
+    double size = 60;
     Label label = Label::none;
+    /// The slices of ExportContents::oval, if they are not those of the session: at these w, in the object's units and
+    /// in this order; or `fit` slices at the middles of as many equal parts of the object's extent along w, of which
+    /// none is empty if the object is convex. At most one of the two is given.
+    std::vector<double> at = {};
+    std::optional<int> fit = {};
+
+    /// Returns whether `at` or `fit` is given.
+    bool choosesSlices() const { return !at.empty() || fit.has_value(); }
 };
 
 /// Returns the default options for a format, which is a row of formats().
-inline ExportRequest requestFor(const Format& format) { return {.format = &format, .extent = format.extents.front()}; }
+inline ExportRequest requestFor(const Format& format) {
+    ExportRequest request{.format = &format, .contents = format.contents.front()};
+    if (format.writeDrawing != nullptr) request.size = kDrawingSize;
+    return request;
+}
 
 }  // namespace oval4d::exports

@@ -1,16 +1,25 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 namespace oval4d::geometry {
 
-/// Parallel hyperplanes of 4-D space: w = offset + n · spacing for the integers n = first … first + count − 1.
+/// Parallel hyperplanes of 4-D space: w = offset + n · spacing for the integers n = first … first + count − 1, or, if
+/// `listed` is not empty, w = listed[n − first].
 struct Hyperplanes {
     int first = -10;
     int count = 21;
     double spacing = 0.1;  ///< greater than 0, in the units of the object
     double offset = 0;     ///< w of the hyperplane n = 0, in the units of the object
+    /// The w of `count` hyperplanes in any order, in the units of the object; usually empty. If it is not, `spacing` is
+    /// only the thickness of the slices of a point cloud.
+    std::vector<double> listed = {};
 
     /// Returns the w coordinate of the hyperplane with the index i, from 0 to count − 1. Its n is first + i.
-    double w(int i) const { return offset + (first + i) * spacing; }
+    double w(int i) const {
+        return listed.empty() ? offset + (first + i) * spacing : listed[static_cast<std::size_t>(i)];
+    }
     bool operator==(const geometry::Hyperplanes&) const = default;
 };
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec4.hpp>
+
 namespace oval4d::geometry {
 
 /// A type of cells of a polytope, for example its truncated tetrahedra. The user shows, fades or hides all cells of a
@@ -19,6 +21,8 @@ struct ObjectInfo {
     std::string name;
     std::uint64_t serial = 0;          ///< unique among the objects in this process; the key of an object in caches
     double circumradius = 0;           ///< the largest distance of a vertex (or point) from the origin
+    glm::dvec4 originInFile{0};        ///< what to add to the object's coordinates to get those of its file; not 0 if
+                                       ///< the object was moved when it was loaded (see Centering)
     bool convex = true;                ///< false for a polytope that is not the boundary of a convex body: the faces of
                                        ///< its slices may cross each other; true for every point cloud and field
     bool rebuildableFromName = false;  ///< whether the name determines the object; the name is then all that is stored

@@ -47,6 +47,7 @@ PointCloud imageOf(const PointCloud& cloud, const ReferenceFrame& frame, std::ui
     image.serial = serial;
     image.rebuildableFromName = false;
     image.circumradius = circumradiusOf(mapPoints(frame.matrix(), image.points), image.radii);
+    image.originInFile = frame.matrix() * cloud.originInFile;
     return image;
 }
 

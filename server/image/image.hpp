@@ -11,7 +11,7 @@
 namespace oval4d::image {
 
 /// An RGBA image with 8 bits per channel: 4 · width · height bytes. The bottom row comes first, as in OpenGL. Rows have
-/// no padding.
+/// no padding. The colors are multiplied by alpha; most images are opaque.
 struct Image {
     int width = 0, height = 0;
     std::vector<std::uint8_t> pixels;
@@ -26,6 +26,7 @@ inline std::size_t byteCount(scene::Viewport viewport) {
 struct ImageView {
     int width = 0, height = 0;
     std::span<const std::uint8_t> pixels;
+    bool hasAlpha = false;  ///< whether a file of the image has alpha; if not, alpha is ignored
 };
 
 }  // namespace oval4d::image

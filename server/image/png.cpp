@@ -100,7 +100,9 @@ void PngEncoder::encode(const ImageView& image, int from, int to, Band& band) {
 }
 
 void PngEncoder::encode(const ImageView& image, std::string_view state, std::vector<std::uint8_t>& out) {
-    const std::size_t size = (static_cast<std::size_t>(image.width) * 3 + 1) * static_cast<std::size_t>(image.height);
+    const std::size_t channels = image.hasAlpha ? 4 : 3;
+    const std::size_t size =
+        (static_cast<std::size_t>(image.width) * channels + 1) * static_cast<std::size_t>(image.height);
     if (image.width < 1 || image.height < 1 ||
         image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4)
         throw std::invalid_argument("cannot encode an image that is empty or lacks pixels");
@@ -119,7 +121,8 @@ void PngEncoder::encode(const ImageView& image, std::string_view state, std::vec
     append(out, kSignature, sizeof kSignature);
 
     std::size_t chunk = beginChunk(out, "IHDR");
-    std::uint8_t header[13] = {0, 0, 0, 0, 0, 0, 0, 0, 8, 2, 0, 0, 0};  // 8 bits, RGB, not interlaced
+    const std::uint8_t colorType = image.hasAlpha ? 6 : 2;                      // RGBA or RGB
+    std::uint8_t header[13] = {0, 0, 0, 0, 0, 0, 0, 0, 8, colorType, 0, 0, 0};  // 8 bits, not interlaced
     store32(header, static_cast<std::uint32_t>(image.width));
     store32(header + 4, static_cast<std::uint32_t>(image.height));
     append(out, header, sizeof header);

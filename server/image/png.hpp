@@ -11,16 +11,16 @@
 
 namespace oval4d::image {
 
-/// Encodes images as 8-bit RGB PNG files. Only one thread at a time may use an encoder.
+/// Encodes images as PNG files with 8 bits per channel. Only one thread at a time may use an encoder.
 class PngEncoder {
   public:
     /// If `forkJoin` is not null, encodes large images on two cores. `forkJoin` must outlive this object.
     explicit PngEncoder(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin) {}
 
-    /// Encodes `image` as a PNG file without alpha. Overwrites `out` and reuses its memory. Before the image data, the
-    /// file contains the UTF-8 text `state` in an uncompressed iTXt chunk with the keyword "oval4d". Throws
-    /// std::invalid_argument if the image is empty, if the size of `pixels` is not 4 · width · height bytes, or if the
-    /// uncompressed RGB data exceeds 2 GiB; throws std::runtime_error if compression fails.
+    /// Encodes `image` as an RGB file or, with ImageView::hasAlpha, an RGBA file. Overwrites `out` and reuses its
+    /// memory. Before the image data, the file contains the UTF-8 text `state` in an uncompressed iTXt chunk with the
+    /// keyword "oval4d". Throws std::invalid_argument if the image is empty, if the size of `pixels` is not 4 · width ·
+    /// height bytes, or if the uncompressed data exceed 2 GiB; throws std::runtime_error if compression fails.
     void encode(const ImageView& image, std::string_view state, std::vector<std::uint8_t>& out);
     void encode(const Image& image, std::string_view state, std::vector<std::uint8_t>& out) {
         encode(ImageView{image.width, image.height, image.pixels}, state, out);

@@ -1,7 +1,9 @@
 #include "image/png_filter.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 // All rows except the first have the same filter. Choosing the best filter for each row, as libpng does, would take
 // longer than deflate and would not make the files of these pictures smaller.
@@ -77,14 +79,55 @@ void subtractPaeth(const std::uint8_t* row, const std::uint8_t* above, std::uint
 
 #endif
 
+/// Returns row y of an image, counted from the top.
+const std::uint8_t* rowOf(const image::ImageView& image, int y) {
+    return image.pixels.data() +
+           static_cast<std::size_t>(image.height - 1 - y) * static_cast<std::size_t>(image.width) * 4;
+}
+
+/// Divides the colors of the pixels of a row by their alpha.
+void divideByAlpha(const std::uint8_t* row, std::vector<std::uint8_t>& out) {
+    for (std::size_t i = 0; i < out.size(); i += 4) {
+        const unsigned alpha = row[i + 3];
+        for (std::size_t c = 0; c < 3; ++c) {
+            const unsigned color = alpha == 0 ? 0 : (255U * row[i + c] + alpha / 2) / alpha;
+            out[i + c] = static_cast<std::uint8_t>(std::min(color, 255U));
+        }
+        out[i + 3] = static_cast<std::uint8_t>(alpha);
+    }
+}
+
+/// Transparent pictures are not part of a stream that must be fast, so this does not process several pixels at a time.
+void makeFilteredAlphaRows(const image::ImageView& image, int from, int to, std::vector<std::uint8_t>& out) {
+    const std::size_t bytes = 4 * static_cast<std::size_t>(image.width);
+    out.resize((bytes + 1) * static_cast<std::size_t>(to - from));
+    std::vector<std::uint8_t> row(bytes), above(bytes);
+    if (from > 0) divideByAlpha(rowOf(image, from - 1), above);
+    std::uint8_t* at = out.data();
+    for (int y = from; y < to; ++y) {
+        divideByAlpha(rowOf(image, y), row);
+        *at++ = y == 0 ? kSub : kPaeth;
+        for (std::size_t i = 0; i < bytes; ++i) {
+            // Above the first row, there are zeros, for which both filters are the same.
+            const int left = i < 4 ? 0 : row[i - 4], upperLeft = i < 4 ? 0 : above[i - 4];
+            *at++ = static_cast<std::uint8_t>(row[i] - paeth(left, above[i], upperLeft));
+        }
+        std::swap(row, above);
+    }
+}
+
 }  // namespace
 
 void makeFilteredRows(const image::ImageView& image, int from, int to, std::vector<std::uint8_t>& out) {
+    if (image.hasAlpha) {
+        makeFilteredAlphaRows(image, from, to, out);
+        return;
+    }
     const auto width = static_cast<std::size_t>(image.width);
     out.resize((3 * width + 1) * static_cast<std::size_t>(to - from));
     std::uint8_t* at = out.data();
     for (int y = from; y < to; ++y, at += 3 * width + 1) {
-        const std::uint8_t* row = image.pixels.data() + static_cast<std::size_t>(image.height - 1 - y) * width * 4;
+        const std::uint8_t* row = rowOf(image, y);
         const std::uint8_t* above = row + width * 4;
         at[0] = y == 0 ? kSub : kPaeth;
         for (std::size_t c = 0; c < 3; ++c) {  // no left neighbor: the prediction is the upper neighbor

@@ -69,10 +69,12 @@ EstimatedSeconds geometryCost(const session::State& state, slicing::Quality qual
     return EstimatedSeconds(1e-4 + 1e-7 * n + 1e-7 * state.slices.count * met(n) + field);
 }
 
-EstimatedSeconds exportCost(const session::State& state) {
+EstimatedSeconds exportCost(const session::State& state, const exports::ExportRequest& request) {
     constexpr slicing::Quality kQuality = slicing::Quality::file;
-    const double field = surfaces(state, state.slices.count, slicing::cubesAcross(kQuality), kQuality);
-    return EstimatedSeconds(0.02 + 5e-6 * state.slices.count * met(elements(state.object)) + field);
+    const int chosen = request.fit.value_or(static_cast<int>(request.at.size()));
+    const int slices = request.choosesSlices() ? chosen : state.slices.count;
+    const double field = surfaces(state, slices, slicing::cubesAcross(kQuality), kQuality);
+    return EstimatedSeconds(0.02 + 5e-6 * slices * met(elements(state.object)) + field);
 }
 
 }  // namespace oval4d::pipeline

@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include "export/export_request.hpp"
 #include "scene/scene.hpp"
 #include "session/session.hpp"
 
@@ -20,6 +21,6 @@ EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport
 EstimatedSeconds geometryCost(const session::State& state, slicing::Quality quality);
 
 /// Returns the estimated time of exportState().
-EstimatedSeconds exportCost(const session::State& state);
+EstimatedSeconds exportCost(const session::State& state, const exports::ExportRequest& request);
 
 }  // namespace oval4d::pipeline

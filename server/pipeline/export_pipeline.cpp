@@ -1,9 +1,18 @@
 #include "pipeline/export_pipeline.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <optional>
 #include <utility>
+#include <vector>
 
+#include "pipeline/pipeline.hpp"
 #include "scene/composer.hpp"
+#include "session/expression.hpp"
+#include "session/settings.hpp"
+#include "slicing/element_shape.hpp"
 #include "slicing/projector.hpp"
 #include "slicing/slicer.hpp"
 #include "text/ascii.hpp"
@@ -37,6 +46,79 @@ Result<std::monostate> takeSize(const std::string& text, double& size) {
     return std::monostate{};
 }
 
+Result<std::monostate> takeAt(const std::string& text, std::vector<double>& at) {
+    auto list = session::evaluateList(text);
+    if (!list) return Error{list.error().code, "at: " + list.error().message};
+    at = std::move(*list);
+    return std::monostate{};
+}
+
+Result<std::monostate> takeFit(const std::string& text, std::optional<int>& fit) {
+    const auto value = session::evaluate(text);
+    if (!value) return Error{value.error().code, "fit: " + value.error().message};
+    if (*value != std::trunc(*value) || !(*value >= 1 && *value <= exports::kMaxFit)) {
+        return Error{ErrorCode::out_of_range, "fit must be a whole number of slices from 1 to " +
+                                                  std::to_string(exports::kMaxFit) + ", not " + text::inQuotes(text)};
+    }
+    fit = static_cast<int>(*value);
+    return std::monostate{};
+}
+
+// Returns the hyperplanes at the w of ExportRequest::at, which are those that the labels of slices show.
+Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const session::State& state) {
+    const double origin = slicing::infoOf(state.object).originInFile.w;
+    const double reach = session::kMaxOffset * slicing::infoOf(state.object).circumradius;
+    for (const double w : at) {
+        if (std::abs(w - origin) <= reach) continue;
+        return Error{ErrorCode::out_of_range, "at must be from " + text::roundedDecimal(origin - reach) + " to " +
+                                                  text::roundedDecimal(origin + reach) + ", not " +
+                                                  text::roundedDecimal(w)};
+    }
+    std::vector<double> sorted = at;
+    std::ranges::sort(sorted);
+    if (const auto same = std::ranges::adjacent_find(sorted); same != sorted.end()) {
+        return Error{ErrorCode::out_of_range,
+                     "at must be different values of w; " + text::roundedDecimal(*same) + " is given twice"};
+    }
+    std::vector<double> own = at;
+    for (double& w : own) w -= origin;
+    return geometry::Hyperplanes{0, static_cast<int>(at.size()), state.slices.spacing, 0, std::move(own)};
+}
+
+// Returns `count` hyperplanes in the middles of as many equal parts of the object's extent along w.
+geometry::Hyperplanes fittingHyperplanes(int count, const session::State& state) {
+    const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
+    const double shortest = session::kMinSpacing * slicing::infoOf(state.object).circumradius;
+    const double spacing = std::max((most - least) / count, shortest);  // a flat object may have no extent
+    const double middle = (least + most) / 2;
+    return {-(count - 1) / 2, count, spacing, count % 2 == 1 ? middle : middle - spacing / 2};
+}
+
+// Returns the hyperplanes of the slices in the file. Errors: `bad_message` if the options contradict each other;
+// `out_of_range`.
+Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& request, const session::State& state,
+                                            int maxSlices) {
+    const bool all = request.contents == exports::ExportContents::oval;
+    if (!request.choosesSlices()) {
+        auto planes = state.hyperplanes();
+        if (!all) planes = {state.slices.focus, 1, planes.spacing, planes.offset};
+        return planes;
+    }
+    if (!request.at.empty() && request.fit) return Error{ErrorCode::bad_message, "give either at or fit, not both"};
+    if (!all) {
+        return Error{ErrorCode::bad_message, "at and fit choose slices, so the file must be of oval, not of " +
+                                                 std::string(text::nameOf(exports::kExportContents, request.contents))};
+    }
+    const std::size_t count = request.fit ? static_cast<std::size_t>(*request.fit) : request.at.size();
+    if (count > static_cast<std::size_t>(maxSlices)) {
+        return Error{ErrorCode::out_of_range, std::string(request.fit ? "fit" : "the number of values of at") +
+                                                  " must be at most " + std::to_string(maxSlices) + ", not " +
+                                                  std::to_string(count)};
+    }
+    if (request.fit) return fittingHyperplanes(*request.fit, state);
+    return hyperplanesAt(request.at, state);
+}
+
 // Returns the projection of the whole object as a slice, which takes the place of the focus slice. Uses the perspective
 // projection if the picture shows none.
 slicing::SliceSet projectionOf(const session::State& state, const slicing::SliceSet& slices) {
@@ -56,33 +138,62 @@ slicing::SliceSet projectionOf(const session::State& state, const slicing::Slice
 
 // Returns whether the file contains the surfaces of a field.
 bool needsSurfaces(const exports::ExportRequest& request) {
-    if (request.extent == exports::Extent::projection || request.extent == exports::Extent::matrix) return false;
+    using enum exports::ExportContents;
+    if (request.contents == projection || request.contents == matrix || request.contents == highlight) return false;
     return request.format->writeBodies != nullptr ? request.body == exports::Body::solid
                                                   : request.format->takesSurfaces;
 }
 
 }  // namespace
 
-Result<std::string> exportState(const session::State& state, const exports::ExportRequest& request,
-                                const exports::ExportLimits& limits, std::stop_token stop) {
-    auto planes = state.hyperplanes();
-    if (request.extent != exports::Extent::oval) planes = {state.slices.focus, 1, planes.spacing, planes.offset};
+Result<exports::ExportedFile> exportState(const session::State& state, const exports::ExportRequest& request,
+                                          const exports::ExportLimits& limits, std::stop_token stop) {
+    const auto chosen = hyperplanesOf(request, state, limits.slices);
+    if (!chosen) return chosen.error();
+    const geometry::Hyperplanes& planes = *chosen;
     const bool drawing = request.format->writeDrawing != nullptr;
+    if (drawing && !(request.size >= exports::kMinDrawingSize && request.size <= exports::kMaxDrawingSize)) {
+        return Error{ErrorCode::out_of_range, "the size of a drawing must be from " +
+                                                  text::shortestDecimal(exports::kMinDrawingSize) + " to " +
+                                                  text::shortestDecimal(exports::kMaxDrawingSize) +
+                                                  " millimeters, not " + text::shortestDecimal(request.size)};
+    }
     const bool isField = slicing::fieldIn(state.object) != nullptr;
+    std::optional<slicing::Element> element;  // that is exported alone
+    if (request.contents == exports::ExportContents::highlight && request.format->canContain(request.contents)) {
+        element = state.look.highlight;
+        if (!element) {
+            return Error{ErrorCode::no_body,
+                         "nothing is highlighted; click an element of the picture, or name one, as in highlight cell "
+                         "17 on the command line or highlight=cell:17 in a query"};
+        }
+    }
+    const bool showsSlices = drawing && (request.contents == exports::ExportContents::oval ||
+                                         request.contents == exports::ExportContents::focus);
     slicing::SliceSet slices;
     slicing::SurfaceDetail detail;
     if (isField && needsSurfaces(request)) {
         slicing::setEvenDetail(slicing::infoOf(state.object).circumradius, planes, slicing::Quality::file, detail);
         detail.secondValues = true;
     }
-    slicing::Slicer().slice(state.object, state.orientation, planes, state.look.field, detail, slices);
-    if (request.extent == exports::Extent::projection && !drawing) slices = projectionOf(state, slices);
+    if (element) {
+        slicing::shapeOf(state.object, *element, state.orientation, slices);
+    } else {
+        slicing::Slicer().slice(state.object, state.orientation, planes, state.look.field, detail, slices);
+    }
+    if (request.contents == exports::ExportContents::projection && !drawing) slices = projectionOf(state, slices);
     scene::Look look;
     if (drawing) {
         look = state.look;
-        look.view = request.extent == exports::Extent::matrix ? scene::View::matrix : scene::View::single;
-        if (look.projection.kind == scene::ProjectionKind::off)
+        look.background = scene::Background::white;  // as paper
+        look.view = request.contents == exports::ExportContents::matrix ? scene::View::matrix
+                    : request.contents == exports::ExportContents::oval ? scene::View::oval
+                                                                        : scene::View::single;
+        if (showsSlices) {
+            look.projection.kind = scene::ProjectionKind::off;
+        } else if (look.projection.kind == scene::ProjectionKind::off) {
             look.projection.kind = scene::ProjectionKind::perspective;
+        }
     }
     look.coloring = state.look.coloring;
     look.parts.coordinates = false;  // drawings have their own layout of the coordinates
@@ -90,7 +201,13 @@ Result<std::string> exportState(const session::State& state, const exports::Expo
     if (!drawing) look.parts.faces = isField;  // formats with bodies fill the faces of polytopes themselves
     scene::Scene scene;
     scene::Composer composer;
-    composer.compose(state.object, state.orientation, slices, state.slices.focus, look, {}, scene);
+    composer.limitFill(Pipeline::kFillSteps);
+    // A drawing of the focus slice is square, any other as wide as a picture of the usual size.
+    const bool isSquare = showsSlices && request.contents == exports::ExportContents::focus;
+    const scene::Viewport viewport = isSquare ? scene::Viewport{720, 720} : scene::Viewport{};
+    const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
+    composer.compose(state.object, state.orientation, slices, focus, look, viewport, scene);
+    if (element) scene.look.highlight = element;  // set afterward, so that the element has its own color
     auto made = exports::exportScene(scene, state.object, state.orientation, request, limits, std::move(stop));
     if (auto* error = std::get_if<exports::ExportError>(&made)) {
         using Cause = exports::ExportError::Cause;
@@ -99,16 +216,22 @@ Result<std::string> exportState(const session::State& state, const exports::Expo
                                                                 : ErrorCode::too_large;
         return Error{code, std::move(error->message)};
     }
-    return std::get<std::string>(std::move(made));
+    return std::get<exports::ExportedFile>(std::move(made));
 }
 
 Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format) {
     exports::ExportRequest request = exports::requestFor(format);
     session::QueryParameters rest;
+    bool hasContents = false;
     for (auto& [name, value] : query) {
         Result<std::monostate> done = std::monostate{};
         if (name == "of") {
-            done = choose(name, value, exports::kExtents, request.extent);
+            hasContents = true;
+            done = choose(name, value, exports::kExportContents, request.contents);
+        } else if (name == "at") {
+            done = takeAt(value, request.at);
+        } else if (name == "fit") {
+            done = takeFit(value, request.fit);
         } else if (name == "body") {
             done = choose(name, value, exports::kBodies, request.body);
         } else if (name == "label") {
@@ -120,6 +243,7 @@ Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& qu
         }
         if (!done) return done.error();
     }
+    if (!hasContents && request.choosesSlices()) request.contents = exports::ExportContents::oval;
     query = std::move(rest);
     return request;
 }

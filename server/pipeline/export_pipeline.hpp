@@ -9,16 +9,19 @@
 
 namespace oval4d::pipeline {
 
-/// Exports what `request.extent` selects from a session's state (state → slices → scene → file), and returns the bytes
-/// of the file. Used by the server and the command line. Errors: `no_body` if there is nothing to export; `too_large`
-/// if the file exceeds a limit or takes too long, or if `stop` is requested; `too_many` if ExportLimits::reserve
-/// refuses memory for the file.
-Result<std::string> exportState(const session::State& state, const exports::ExportRequest& request,
-                                const exports::ExportLimits& limits, std::stop_token stop = {});
+/// Exports what `request.contents` selects from a session's state (state → slices → scene → file). Used by the server
+/// and the command line. Errors: `no_body` if there is nothing to export; `too_large` if the file exceeds a limit or
+/// takes too long, or if `stop` is requested; `too_many` if ExportLimits::reserve refuses memory for the file;
+/// `bad_message` if the request gives both `at` and `fit`, or one of them for other contents than ExportContents::oval;
+/// `out_of_range` for w in `at` that are equal or farther from 0 than session::kMaxOffset circumradii, for more slices
+/// than ExportLimits::slices, and for the size of a drawing that is not from kMinDrawingSize to kMaxDrawingSize.
+Result<exports::ExportedFile> exportState(const session::State& state, const exports::ExportRequest& request,
+                                          const exports::ExportLimits& limits, std::stop_token stop = {});
 
-/// Removes the parameters "of", "body", "size" and "label" from `query`, and returns the export request that they
-/// describe. Missing parameters have their default values. Errors: `bad_message` for an unknown value; `out_of_range`
-/// for a size that is not allowed. The error messages list the allowed values.
+/// Removes the parameters "of", "body", "size", "label", "at" and "fit" from `query`, and returns the export request
+/// that they describe. Missing parameters have their default values; with "at" or "fit", the default of "of" is "oval".
+/// Errors: `bad_message` for an unknown value; `out_of_range` for a size or a number of slices that is not allowed;
+/// those of session::evaluateList(). The error messages list the allowed values.
 Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format);
 
 /// Returns a suggested file name: the name of the object, with unusual characters replaced by _, such as "24-cell.stl".

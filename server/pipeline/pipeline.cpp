@@ -58,7 +58,8 @@ void Pipeline::drawPng(const session::State& state, std::string_view stateText, 
                        slicing::Quality quality, std::vector<std::uint8_t>& out, const std::function<void()>& drawn) {
     const parallel::ExclusiveUse::Use use(inUse_);
     times_ = {};
-    const image::ImageView image{viewport.width, viewport.height, rasterizer_->draw(state, viewport, quality, times_)};
+    const image::ImageView image{viewport.width, viewport.height, rasterizer_->draw(state, viewport, quality, times_),
+                                 state.look.background == scene::Background::transparent};
     if (drawn) drawn();
     times_.encode = measureSeconds([&] { memory_.encoder.encode(image, stateText, out); });
 }

@@ -201,8 +201,7 @@ class Orienter {
             const auto loop = p_.faces[p_.cells.items[incidence]];
             for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
                 sum += p_.cellSigns[incidence] *
-                       glm::determinant(
-                           glm::dmat4(apex, p_.vertices[loop[0]], p_.vertices[loop[i]], p_.vertices[loop[i + 1]]));
+                       glm::determinant(glm::dmat4(apex, from(loop[0]), from(loop[i]), from(loop[i + 1])));
             }
         }
         return sum;
@@ -320,6 +319,7 @@ Polytope imageOf(const Polytope& polytope, const geometry::ReferenceFrame& frame
     image.serial = serial;
     image.rebuildableFromName = false;
     image.circumradius = geometry::mapPoints(frame.matrix(), image.vertices);
+    image.originInFile = frame.matrix() * polytope.originInFile;
     return image;
 }
 

@@ -13,12 +13,12 @@ namespace {
 // added to Look but not here.
 template <typename Archive, typename Look>
 void visitLook(Archive& archive, Look& look) {
-    auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint, field, caps] = look;
+    auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint, field, caps, background] = look;
     auto& [hidden, faded] = cellTypes;
     archive(view), archive(parts), archive(orbit), archive(coloring), archive(hidden), archive(faded);
     archive(projection), archive(highlight), archive(focusPoint);
     auto& [levels, inside, fog] = field;
-    archive(levels), archive(inside), archive(fog), archive(caps);
+    archive(levels), archive(inside), archive(fog), archive(caps), archive(background);
 }
 
 }  // namespace

@@ -75,6 +75,25 @@ PixelArea areaOfProjection(const scene::Scene& scene) {
             glm::ivec2(glm::clamp(glm::ceil(middle + reach), glm::vec2(0), glm::vec2(size)))};
 }
 
+/// Sets the color with which OpenGL clears pictures to the background.
+void setClearColor(const scene::Style& style) {
+    const auto alpha = static_cast<float>(style.backgroundOpacity);
+    const auto channel = [&](int shift) { return alpha * static_cast<float>(style.background >> shift & 255) / 255; };
+    glClearColor(channel(16), channel(8), channel(0), alpha);
+}
+
+/// Removes the slices from the part of the picture that belongs to the parallel coordinates. They extend into it only
+/// if the viewer has moved the camera.
+void clearCoordinates(const scene::Scene& scene) {
+    if (!scene.look.parts.coordinates || scene.look.orbit == scene::CameraOrbit{}) return;
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, scene.viewport.width,
+              static_cast<int>(std::lround(scene.coordinates.top() * scene.viewport.height)));
+    setClearColor(scene.style());
+    glClear(GL_COLOR_BUFFER_BIT);
+    glDisable(GL_SCISSOR_TEST);
+}
+
 /// Clears a part of the depth buffer of OpenGL.
 void clearDepth(const PixelArea& area) {
     glEnable(GL_SCISSOR_TEST);
@@ -170,8 +189,8 @@ std::size_t Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
     shapeRasterizer.setDepthArea(areaOfProjection(scene));
     shapeRasterizer.add(shapes, 0, nearer, Depth::unused);
     const auto& [solid, translucent, depths] = projectionLayers;
-    shapeRasterizer.add(solid, 0, solid.patches().size(), Depth::written);
-    shapeRasterizer.add(translucent, 0, translucent.patches().size(), Depth::tested);
+    shapeRasterizer.add(solid, 0, solid.patches().size(), Depth::written_with_coverage);
+    shapeRasterizer.add(translucent, 0, translucent.patches().size(), Depth::tested_with_coverage);
     return nearer;
 }
 
@@ -184,7 +203,7 @@ void Renderer::Impl::addSurfaces(const scene::Scene& scene) {
     const auto prepare = [&](SurfacePart& surfacePart, SurfaceBatch::Part part) {
         DepthRange depths;  // not needed here
         surfacePart.batch.collect(scene, depths, part);
-        surfacePart.rasterizer.prepare(scene.viewport, scene::style(), surfacePart.batch);
+        surfacePart.rasterizer.prepare(scene.viewport, scene.style(), surfacePart.batch);
     };
     const auto prepareNear = [&] {
         prepare(near, SurfaceBatch::Part::near);
@@ -337,22 +356,20 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     const auto lock = lockDriver();
     impl_->context.begin(scene.viewport.width, scene.viewport.height, pixels.data());
 
-    shapes.begin(scene::style());
+    shapes.begin(scene.style());
     overlay.begin(scene.viewport);
     const bool inMemory =
         impl_->shapesInMemory && !needsOpenGl(scene) && scene.viewport.width >= ShapeRasterizer::kMinWidth;
     std::size_t notAdded = 0;  // the first of the shapes that are yet to be added to the rasterizer
     if (inMemory) {
-        impl_->shapeRasterizer.begin(scene.viewport, scene::style(), pixels);
+        impl_->shapeRasterizer.begin(scene.viewport, scene.style(), pixels);
         if (scene.crossing) {
             impl_->addSurfaces(scene);
         } else {
             notAdded = impl_->addConvexSlices(scene);
         }
     } else {
-        const scene::Color background = scene::style().background;
-        const auto channel = [&](int shift) { return static_cast<float>(background >> shift & 255) / 255; };
-        glClearColor(channel(16), channel(8), channel(0), 1);
+        setClearColor(scene.style());
         glClear(GL_COLOR_BUFFER_BIT);
     }
     glEnable(GL_BLEND);
@@ -375,6 +392,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     } else {
         impl_->patchDepthProgram.draw(shapes);
     }
+    clearCoordinates(scene);
     impl_->densityStrip.draw(scene);
     overlay.draw();
     impl_->context.finish();

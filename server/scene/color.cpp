@@ -39,19 +39,36 @@ Color oklch(double lightness, double chroma, double hue) {
     }
 }
 
+// A lightness in Oklch for each scheme.
+struct Lightness {
+    double onDark, onLight;
+};
+
+// Returns a color for a scheme. On a light ground, reduces its lightness if its contrast to white is too small.
+Color colorFor(Scheme scheme, Lightness lightness, double chroma, double hue) {
+    constexpr double kLeastContrast = 3.6;
+    constexpr Color kWhite = 0xffffff;
+    if (scheme == Scheme::dark) return oklch(lightness.onDark, chroma, hue);
+    for (double least = lightness.onLight;; least *= 0.98) {
+        const Color color = oklch(least, chroma, hue);
+        if (contrast(color, kWhite) >= kLeastContrast) return color;
+    }
+}
+
 // Returns color i of `count` colors with well-separated hues.
-Color distinct(std::size_t i, std::size_t count) {
+Color distinct(std::size_t i, std::size_t count, Scheme scheme) {
     const double step = count <= 8 ? 1.0 / static_cast<double>(count) : std::numbers::phi - 1;
-    return oklch(i % 2 == 0 ? 0.76 : 0.69, 0.18, kTau * (0.07 + std::fmod(static_cast<double>(i) * step, 1.0)));
+    const double hue = kTau * (0.07 + std::fmod(static_cast<double>(i) * step, 1.0));
+    return colorFor(scheme, i % 2 == 0 ? Lightness{0.76, 0.61} : Lightness{0.69, 0.5}, 0.18, hue);
 }
 
 // Colors up to kFew cells with well-separated hues. For more cells, the Hopf map takes the direction of each cell's
 // center to a point on the 2-sphere; its longitude determines the hue, and its latitude the lightness. The cells of a
 // ring along a Hopf fiber therefore have the same color.
-void paintByCell(const slicing::Object& object, std::vector<Color>& out) {
+void paintByCell(const slicing::Object& object, Scheme scheme, std::vector<Color>& out) {
     constexpr std::size_t kFew = 24;
     if (out.size() <= kFew) {
-        for (std::size_t c = 0; c < out.size(); ++c) out[c] = distinct(c, out.size());
+        for (std::size_t c = 0; c < out.size(); ++c) out[c] = distinct(c, out.size(), scheme);
         return;
     }
     std::vector<glm::dvec4> centers;
@@ -62,28 +79,39 @@ void paintByCell(const slicing::Object& object, std::vector<Color>& out) {
         const double p = 2 * (d.x * d.z + d.y * d.w) / r2;
         const double q = 2 * (d.y * d.z - d.x * d.w) / r2;
         const double height = (d.x * d.x + d.y * d.y - d.z * d.z - d.w * d.w) / r2;
-        out[c] = oklch(0.71 + 0.11 * height, 0.16, std::atan2(q, p) + 0.45);
+        out[c] = colorFor(scheme, {0.71 + 0.11 * height, 0.53 + 0.09 * height}, 0.16, std::atan2(q, p) + 0.45);
     }
 }
 
-void paintByType(const slicing::Object& object, std::vector<Color>& out) {
+void paintByType(const slicing::Object& object, Scheme scheme, std::vector<Color>& out) {
     const std::size_t types = slicing::infoOf(object).cellTypes.size();
     const auto typeOfCell = slicing::typeOfCells(object);
-    for (std::size_t c = 0; c < out.size(); ++c) out[c] = cellTypeColor(typeOfCell[c], types);
+    for (std::size_t c = 0; c < out.size(); ++c) out[c] = cellTypeColor(typeOfCell[c], types, scheme);
 }
 
 // A diverging color scale for values from −1 to 1: blue, gray at 0, amber.
 constexpr int kScaleSteps = 255;
 using Scale = std::array<Color, kScaleSteps>;
-Scale divergingScale() {
+Scale divergingScale(Scheme scheme) {
     constexpr double kBlue = 4.5, kAmber = 1.25;  // hues in radians
     Scale scale{};
     for (int i = 0; i < kScaleSteps; ++i) {
-        const double t = 2.0 * i / (kScaleSteps - 1) - 1;
-        scale.at(static_cast<std::size_t>(i)) = oklch(0.74 - 0.06 * std::abs(t) * (t < 0 ? 1.5 : -0.5),
-                                                      0.01 + 0.17 * std::pow(std::abs(t), 0.8), t < 0 ? kBlue : kAmber);
+        const double t = 2.0 * i / (kScaleSteps - 1) - 1, reach = std::abs(t);
+        const Lightness lightness{0.74 - 0.06 * reach * (t < 0 ? 1.5 : -0.5), 0.62 - reach * (t < 0 ? 0.15 : 0.05)};
+        scale.at(static_cast<std::size_t>(i)) =
+            colorFor(scheme, lightness, 0.01 + 0.17 * std::pow(reach, 0.8), t < 0 ? kBlue : kAmber);
     }
     return scale;
+}
+
+// The scales for both schemes, by the numbers of their enumerators.
+using Scales = std::array<Scale, kSchemes.size()>;
+Scales scalesFor(Scale (*make)(Scheme)) { return {make(Scheme::dark), make(Scheme::light)}; }
+const Scale& scaleOf(const Scales& scales, Scheme scheme) { return scales.at(static_cast<std::size_t>(scheme)); }
+
+const Scales& divergingScales() {
+    static const Scales kScales = scalesFor(divergingScale);
+    return kScales;
 }
 
 // The direction toward the light in four dimensions, after the rotation of the object: from the upper left, from the
@@ -92,24 +120,28 @@ const glm::dvec4 kLight = glm::normalize(glm::dvec4(-0.35, 0.65, 0.5, 0.6));
 
 // A scale of one hue for the cosine of the angle between a cell's normal and the light, from −1 (turned away) to 1. The
 // lightness falls smoothly on the dark side, too, so that cells there differ from each other.
-Scale lightScale() {
-    constexpr double kHue = 4.2, kDark = 0.3, kRange = 0.58;
+Scale lightScale(Scheme scheme) {
+    constexpr double kHue = 4.2;
+    constexpr Lightness kDark{0.3, 0.22}, kRange{0.58, 0.4};
     Scale scale{};
     for (int i = 0; i < kScaleSteps; ++i) {
-        const double t = static_cast<double>(i) / (kScaleSteps - 1);
-        scale.at(static_cast<std::size_t>(i)) = oklch(kDark + kRange * std::pow(t, 1.3), 0.09, kHue);
+        const double light = std::pow(static_cast<double>(i) / (kScaleSteps - 1), 1.3);
+        const Lightness lightness{kDark.onDark + kRange.onDark * light, kDark.onLight + kRange.onLight * light};
+        scale.at(static_cast<std::size_t>(i)) = colorFor(scheme, lightness, 0.09, kHue);
     }
     return scale;
 }
 
 // A scale whose lightness grows evenly while the hue turns from blue through green to yellow.
-Scale sequentialScale() {
-    constexpr double kDarkest = 0.4, kLightest = 0.92, kBlue = 4.8, kYellow = 1.8;
+Scale sequentialScale(Scheme scheme) {
+    constexpr double kBlue = 4.8, kYellow = 1.8;
+    constexpr Lightness kDarkest{0.4, 0.28}, kLightest{0.92, 0.6};
     Scale scale{};
     for (int i = 0; i < kScaleSteps; ++i) {
         const double t = static_cast<double>(i) / (kScaleSteps - 1);
-        scale.at(static_cast<std::size_t>(i)) =
-            oklch(kDarkest + (kLightest - kDarkest) * t, 0.14, kBlue + (kYellow - kBlue) * t);
+        const Lightness lightness{std::lerp(kDarkest.onDark, kLightest.onDark, t),
+                                  std::lerp(kDarkest.onLight, kLightest.onLight, t)};
+        scale.at(static_cast<std::size_t>(i)) = colorFor(scheme, lightness, 0.14, kBlue + (kYellow - kBlue) * t);
     }
     return scale;
 }
@@ -120,23 +152,33 @@ Color colorAt(const Scale& scale, double value) {
 
 }  // namespace
 
-Color cellTypeColor(std::size_t type, std::size_t count) { return distinct(type, count); }
-
-Color levelColor(std::size_t i, std::size_t count) { return distinct(i, std::max<std::size_t>(count, 3)); }
-
-Color plainColor() {
-    static const Color kPlain = oklch(0.72, 0.1, 4.2);
-    return kPlain;
+double contrast(Color a, Color b) {
+    const auto luminance = [](Color color) {
+        const auto linear = [&](int shift) {
+            const double c = (color >> shift & 255) / 255.0;
+            return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+        };
+        return 0.2126 * linear(16) + 0.7152 * linear(8) + 0.0722 * linear(0);
+    };
+    const auto [darker, lighter] = std::minmax({luminance(a), luminance(b)});
+    return (lighter + 0.05) / (darker + 0.05);
 }
 
-Color divergingColor(double value) {
-    static const Scale kScale = divergingScale();
-    return colorAt(kScale, std::isnan(value) ? 0 : value);
+Color cellTypeColor(std::size_t type, std::size_t count, Scheme scheme) { return distinct(type, count, scheme); }
+
+Color levelColor(std::size_t i, std::size_t count, Scheme scheme) {
+    return distinct(i, std::max<std::size_t>(count, 3), scheme);
 }
 
-Color sequentialColor(double value) {
-    static const Scale kScale = sequentialScale();
-    return colorAt(kScale, 2 * value - 1);
+Color plainColor(Scheme scheme) { return colorFor(scheme, {0.72, 0.55}, 0.1, 4.2); }
+
+Color divergingColor(double value, Scheme scheme) {
+    return colorAt(scaleOf(divergingScales(), scheme), std::isnan(value) ? 0 : value);
+}
+
+Color sequentialColor(double value, Scheme scheme) {
+    static const Scales kScales = scalesFor(sequentialScale);
+    return colorAt(scaleOf(kScales, scheme), 2 * value - 1);
 }
 
 Color noValueColor() {
@@ -144,26 +186,27 @@ Color noValueColor() {
     return kGray;
 }
 
-void CellPainter::paint(const slicing::Object& object, Coloring coloring, const geometry::Rotation& orientation,
-                        std::vector<Color>& out) {
+void CellPainter::paint(const slicing::Object& object, Coloring coloring, Scheme scheme,
+                        const geometry::Rotation& orientation, std::vector<Color>& out) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     const std::size_t cells = slicing::elementCounts(object)[3];
-    const bool changed = paintedFor_ != info.serial || coloring_ != coloring || out.size() != cells;
+    const bool changed =
+        paintedFor_ != info.serial || coloring_ != coloring || scheme_ != scheme || out.size() != cells;
     paintedFor_ = info.serial;
     coloring_ = coloring;
+    scheme_ = scheme;
     out.resize(cells);
-    if (changed && coloring == Coloring::cell) paintByCell(object, out);
-    if (changed && coloring == Coloring::cell_type) paintByType(object, out);
+    if (changed && coloring == Coloring::cell) paintByCell(object, scheme, out);
+    if (changed && coloring == Coloring::cell_type) paintByType(object, scheme, out);
     if (changed && (coloring == Coloring::plain || coloring == Coloring::growth || coloring == Coloring::value))
-        std::fill(out.begin(), out.end(), plainColor());
+        std::fill(out.begin(), out.end(), plainColor(scheme));
     if (coloring == Coloring::w) {
         if (changed) findCenters(object);
-        static const Scale kScale = divergingScale();
-        paintBy(kScale, orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
+        paintBy(scaleOf(divergingScales(), scheme), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
     } else if (coloring == Coloring::light) {
         if (changed) findNormals(object);
-        static const Scale kScale = lightScale();
-        paintBy(kScale, orientation.inverse()(kLight), out);
+        static const Scales kScales = scalesFor(lightScale);
+        paintBy(scaleOf(kScales, scheme), orientation.inverse()(kLight), out);
     }
 }
 

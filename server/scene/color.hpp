@@ -17,23 +17,29 @@ namespace oval4d::scene {
 /// An sRGB color: 0xRRGGBB.
 using Color = std::uint32_t;
 
+/// Returns the contrast of two colors by WCAG 2.2: 1 if they have the same luminance, 21 for black and white.
+double contrast(Color a, Color b);
+
+// The colors below have the same hues for both schemes. Those for a light ground have a contrast to white of at least
+// 3.6; it is at least 3 where a light brightens them, also to a ground that is nearly white.
+
 /// Returns the color that Coloring::cell_type gives to the cells of type `type`, an index less than `count`, the number
 /// of the object's cell types.
-Color cellTypeColor(std::size_t type, std::size_t count);
+Color cellTypeColor(std::size_t type, std::size_t count, Scheme scheme = Scheme::dark);
 
 /// Returns the color that Coloring::cell gives to level i of a field with `count` levels.
-Color levelColor(std::size_t i, std::size_t count);
+Color levelColor(std::size_t i, std::size_t count, Scheme scheme = Scheme::dark);
 
 /// Returns the color of cells and surfaces whose color has no meaning, as with Coloring::plain.
-Color plainColor();
+Color plainColor(Scheme scheme = Scheme::dark);
 
 /// Returns the color of a value on a diverging scale: blue at −1, gray at 0, amber at 1. Values outside this range have
 /// the color of the nearer end; NaN has the gray of 0.
-Color divergingColor(double value);
+Color divergingColor(double value, Scheme scheme = Scheme::dark);
 
-/// Returns the color of a value on a sequential scale, from dark blue at 0 through green to light yellow at 1. Values
-/// outside this range have the color of the nearer end.
-Color sequentialColor(double value);
+/// Returns the color of a value on a sequential scale, from dark blue at 0 through green to light yellow at 1; on a
+/// light ground, the yellow is as dark as an olive. Values outside this range have the color of the nearer end.
+Color sequentialColor(double value, Scheme scheme = Scheme::dark);
 
 /// Returns the color of points without a value: a gray.
 Color noValueColor();
@@ -42,7 +48,7 @@ Color noValueColor();
 class CellPainter {
   public:
     /// Writes one color per cell to `out`. Every call must get the vector that the previous call wrote: colors that
-    /// stay the same are not written again. The colors depend only on `object`, `coloring` and `orientation`.
+    /// stay the same are not written again. The colors depend only on the other arguments.
     ///
     /// - Coloring::cell: up to 24 cells all have different colors; with more than 24 cells, those along one Hopf fiber
     ///   (a great circle) share a color.
@@ -52,7 +58,7 @@ class CellPainter {
     /// - Coloring::light: one hue, whose lightness depends on the angle between the cell's outward normal after the
     ///   rotation and the direction toward a light in four dimensions.
     /// - Other values: plainColor().
-    void paint(const slicing::Object& object, Coloring coloring, const geometry::Rotation& orientation,
+    void paint(const slicing::Object& object, Coloring coloring, Scheme scheme, const geometry::Rotation& orientation,
                std::vector<Color>& out);
 
   private:
@@ -62,6 +68,7 @@ class CellPainter {
 
     std::uint64_t paintedFor_ = 0;  // the serial number of the object whose cells were last colored
     Coloring coloring_ = Coloring::cell;
+    Scheme scheme_ = Scheme::dark;
     std::vector<glm::dvec4> directions_;  // per cell, before the rotation: with Coloring::w, its center divided by the
                                           // greatest distance of a center; with Coloring::light, its unit normal
 };

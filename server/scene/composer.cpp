@@ -74,14 +74,14 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     const fields::Field* const field = slicing::fieldIn(object);
     const bool isField = field != nullptr;
     out.crossing = isField || !info.convex;
-    out.faceOpacity = out.crossing ? 1 : style().faceOpacity;
+    out.faceOpacity = out.crossing ? 1 : out.style().faceOpacity;
     out.surfaces.clear();
     if (isField && look.parts.faces) chooseSurfaceLook(*field, look, slices.planes, out.surfaces);
     out.fog.clear();
-    if (isField && !slices.fogs.empty()) makeFogTable(look.field.fog, out.fog);
+    if (isField && !slices.fogs.empty()) makeFogTable(look.field.fog, out.fog, schemeOn(look.background));
     out.visibilities = visibilities_;
     removeHighlightColor(out);
-    cellPainter_.paint(object, look.coloring, orientation, out.cellColors);
+    cellPainter_.paint(object, look.coloring, schemeOn(look.background), orientation, out.cellColors);
     highlight(object, objectChanged, out);
     nameSection(object, focus, out);
     layOutIfChanged(object, slices.planes, focus, out);
@@ -115,7 +115,7 @@ void Composer::highlight(const Object& object, bool objectChanged, Scene& out) {
     if (!out.highlight.empty() && element->kind == slicing::ElementKind::cell) {
         Color& color = out.cellColors[element->index];
         replacedColor_ = {element->index, color};
-        color = style().highlight;
+        color = out.style().highlight;
     }
 }
 
@@ -149,7 +149,8 @@ void Composer::layOutIfChanged(const Object& object, const geometry::Hyperplanes
     LayoutInput& input = layoutInput_;
     input.planes = planes;
     input.focus = focus;
-    input.content = {slicing::elementCounts(object)[0], slicing::fieldIn(object) != nullptr};
+    input.content = {slicing::elementCounts(object)[0], slicing::fieldIn(object) != nullptr,
+                     slicing::infoOf(object).originInFile.w};
     input.ballRadius = ballRadius_;
     input.look = out.look;
     input.viewport = out.viewport;
@@ -181,7 +182,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     const double radius = out.projectionPlacement.radius / (magnification + kThickness * ballRadius_);
     projection.scale = radius / out.circumradius;
     const double ball = kThickness * ballRadius_ * radius, bar = 0.4 * ball;
-    const Style& styles = style();
+    const Style& styles = out.style();
     projection.parts.clear();
     const double barRadius = look.parts.bars ? bar : 0;
     // Without balls, the bars are joined by balls of their own radius and color, as in slices.
@@ -264,7 +265,7 @@ void Composer::measureValues(const Object& object, const geometry::Rotation& ori
     for (std::size_t i = 0; i < settings.levels.size(); ++i) {
         const double level = settings.levels[i];
         if (level < least || level > greatest) continue;
-        out.histogram.levels.push_back({level, surfaceColor(i, settings.levels.size(), out.look.coloring)});
+        out.histogram.levels.push_back({level, surfaceColor(i, settings.levels.size(), out.look)});
     }
 }
 

@@ -48,7 +48,7 @@ class Composer {
     struct LayoutInput {
         geometry::Hyperplanes planes;
         int focus = 0;
-        CoordinatesContent content;
+        LayoutContent content;
         double ballRadius = 0;
         Look look;
         Viewport viewport;

@@ -11,13 +11,13 @@
 
 namespace oval4d::scene {
 
-void makeFogTable(std::span<const slicing::FogPoint> points, FogTable& out) {
+void makeFogTable(std::span<const slicing::FogPoint> points, FogTable& out, Scheme scheme) {
     out.clear();
     if (points.empty()) return;
     const double least = points.front().value, range = points.back().value - least;
     // The color and the opacity of a control point, each component from 0 to 255.
     const auto look = [&](const slicing::FogPoint& point) {
-        const Color color = point.color.value_or(divergingColor(2 * ((point.value - least) / range) - 1));
+        const Color color = point.color.value_or(divergingColor(2 * ((point.value - least) / range) - 1, scheme));
         return glm::dvec4(color >> 16 & 255, color >> 8 & 255, color & 255, 255 * point.opacity);
     };
     out.push_back(0);

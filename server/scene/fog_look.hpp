@@ -7,6 +7,7 @@
 
 #include <glm/gtc/type_precision.hpp>
 
+#include "scene/background.hpp"
 #include "slicing/field_settings.hpp"
 #include "slicing/surfaces/slice_fog.hpp"
 
@@ -24,7 +25,7 @@ inline constexpr std::size_t kFogEntries = 256;
 /// different values. Entry 1 is for the value of the first point, entry 255 for that of the last. A point without a
 /// color gets a color of divergingColor(), from blue at the first point to amber at the last. Between two points, sRGB
 /// colors and opacities are interpolated linearly. Overwrites `out`.
-void makeFogTable(std::span<const slicing::FogPoint> points, FogTable& out);
+void makeFogTable(std::span<const slicing::FogPoint> points, FogTable& out, Scheme scheme = Scheme::dark);
 
 /// The number of cubes of a lattice along each side of a block.
 inline constexpr int kFogBlock = 4;

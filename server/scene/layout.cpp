@@ -33,12 +33,17 @@ constexpr int kReferenceCount = 21;  // the number of slices for which the oval 
 constexpr double kMargin = 0.02;     // around the picture
 constexpr double kLabelGap = 0.014;  // between a slice and its label
 
+// Labels are placed in the direction away from the curve of the oval, and somewhat below it, by this part of a unit
+// vector. With more, they would cover the next slice; with less, those at the sides would leave less room for the
+// slices.
+constexpr double kLabelDrop = 0.54;
+
 // The size of labels, as fractions of their font size. The characters' widths are those of DejaVu Sans, rounded up; the
 // margins are those of the plates behind the labels.
 constexpr double kDigitWidth = 0.64, kSignWidth = 0.84, kPointWidth = 0.32, kFocusPrefixWidth = 2.31;
 constexpr double kLetterWidth = 0.62;  // the mean width of the letters of a section's name, rounded up
 constexpr double kDigitHeight = 0.73;
-constexpr double kPlateMarginX = 0.34, kPlateMarginY = 0.26, kFocusPlateMarginX = 0.66, kFocusPlateMarginY = 0.44;
+constexpr double kPlateMarginX = 0.19, kPlateMarginY = 0.1, kFocusPlateMarginX = 0.66, kFocusPlateMarginY = 0.44;
 
 constexpr double kSingleDistance = 7;  // from the eye to the slice in the single view, in circumradii
 
@@ -78,7 +83,7 @@ void layOutHistogram(double aspect, CoordinatesLayout& out) {
     out.zero = kMargin + kStripNameRoom * style().textHeight + kStripAmplitude;
 }
 
-void layOutCoordinates(const CoordinatesContent& content, double aspect, CoordinatesLayout& out) {
+void layOutCoordinates(const LayoutContent& content, double aspect, CoordinatesLayout& out) {
     if (content.isField) {
         layOutHistogram(aspect, out);
         return;
@@ -220,7 +225,7 @@ void fit(const Rect& bounds, const Rect& room, double aspect, double zoom, Camer
 }
 
 // Places the slices along the oval, and sets the text and size of their labels.
-void placeSlices(const geometry::Hyperplanes& planes, int focus, const Oval& oval, const Look& look,
+void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW, const Oval& oval, const Look& look,
                  std::vector<SlicePlacement>& placements) {
     placements.resize(planes.count);
     const double half = std::max((planes.count - 1) / 2.0, 1.0);
@@ -233,7 +238,8 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, const Oval& ova
         placement.focus = placement.index == focus;
         placement.drawn = look.view == View::oval || placement.focus;
         placement.position = {oval.halfWidth * u, 0, -oval.depth * u * u};
-        placement.label = !look.parts.labels ? "" : labelOf(placement.w, decimalsFor(planes.spacing), placement.focus);
+        placement.label =
+            !look.parts.labels ? "" : labelOf(originW + placement.w, decimalsFor(planes.spacing), placement.focus);
         const double away = space.depth(placement.position) / space.distance;
         placement.labelSize = placement.focus ? 1.15 : std::clamp(std::pow(away, -0.25), 0.62, 1.0);
     }
@@ -265,10 +271,10 @@ bool overlap(const Box& a, const Box& b) {
 class Labels {
   public:
     // `radius` is that of the slices with their balls.
-    Labels(const Oval& oval, double radius, double spacing, std::vector<SlicePlacement>& placements)
+    Labels(const Oval& oval, double radius, double spacing, double originW, std::vector<SlicePlacement>& placements)
         : oval_(oval), space_(oval), radius_(radius), placements_(placements) {
         // All labels have room for the longest one, with a sign. So the layout stays the same when the focus moves.
-        const double w = std::max(std::abs(placements.front().w), std::abs(placements.back().w));
+        const double w = std::max(std::abs(originW + placements.front().w), std::abs(originW + placements.back().w));
         const int decimals = decimalsFor(spacing);
         const double digits = std::max(std::floor(std::log10(w + 0.5 * std::pow(10, -decimals))), 0.0) + 1 + decimals;
         width_ = kSignWidth + digits * kDigitWidth + kPointWidth;
@@ -318,9 +324,9 @@ class Labels {
     }
 
     // Removes labels so that none overlaps another: keeps the focus slice's label and, of the others, every k-th. If
-    // the viewer has moved the camera, also removes those that overlap labels nearer to the focus slice's, or leave the
-    // picture.
-    void thin(const Camera& camera, double aspect) {
+    // the viewer has moved the camera, also removes those that overlap labels nearer to the focus slice's or another
+    // slice, or leave the picture, whose lower edge is `bottom`.
+    void thin(const Camera& camera, double aspect, double bottom, bool isMoved) {
         const auto count = static_cast<std::ptrdiff_t>(placements_.size());
         const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus) - placements_.begin();
         const std::ptrdiff_t step = smallestStep(focus, camera.magnification());
@@ -333,6 +339,8 @@ class Labels {
             const Box box = boxOf(i);
             if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) return false;
             if (box.center.y < box.half.y || box.center.y > 1 - box.half.y) return false;
+            if (isMoved && (box.center.y < bottom + box.half.y || isOverSlice(i, box, camera, toView, aspect)))
+                return false;
             // The labels between the focus slice and this one, and as many on the other side, have been decided on.
             for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(focus - distance, 0);
                  j <= std::min(focus + distance, count - 1); ++j) {
@@ -375,7 +383,7 @@ class Labels {
         const glm::dvec2 along = onPlane(u + 1e-3) - onPlane(u - 1e-3);
         glm::dvec2 outward{0, -1};
         if (glm::length(along) > 0)
-            outward = glm::normalize(glm::normalize(glm::dvec2(along.y, -along.x)) + glm::dvec2(0, -0.7));
+            outward = glm::normalize(glm::normalize(glm::dvec2(along.y, -along.x)) + glm::dvec2(0, -kLabelDrop));
         const double radius = radius_ * std::sqrt(1 - u * u) * scale;
         return outward * (radius + kLabelGap + glm::dot(glm::abs(outward), halfText(placements_[i])));
     }
@@ -388,11 +396,30 @@ class Labels {
                 halfPlate(placements_[i])};
     }
 
+    // Returns the place on the screen of a point in view coordinates.
+    static glm::dvec2 onScreen(const glm::dvec3& p, const Camera& camera, double aspect) {
+        return glm::dvec2(p) * (camera.magnification() / -p.z) +
+               glm::dvec2((0.5 + camera.shiftX) * aspect, 0.5 + camera.shiftY);
+    }
+
+    // Returns whether the box of label i overlaps another slice than its own.
+    bool isOverSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
+                     double aspect) const {
+        for (std::size_t j = 0; j < placements_.size(); ++j) {
+            const glm::dvec3 p(toView * glm::dvec4(placements_[j].position, 1));
+            if (static_cast<std::ptrdiff_t>(j) == i || !placements_[j].drawn || p.z > -camera.near) continue;
+            const double u = parameterOf(j, placements_.size());
+            const double radius = radius_ * std::sqrt(1 - u * u) * camera.magnification() / -p.z;
+            const glm::dvec2 apart = glm::abs(onScreen(p, camera, aspect) - box.center) - box.half;
+            if (glm::length(glm::max(apart, glm::dvec2(0))) < radius) return true;
+        }
+        return false;
+    }
+
     Box boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
                   const SlicePlacement& placement) const {
         const glm::dvec3 p(toView * glm::dvec4(placement.labelAt, 1));
-        const glm::dvec2 top = glm::dvec2(p) * (camera.magnification() / -p.z) +
-                               glm::dvec2((0.5 + camera.shiftX) * aspect, 0.5 + camera.shiftY);
+        const glm::dvec2 top = onScreen(p, camera, aspect);
         const double name = placement.focus ? fontSize(placement) * nameWidth_ / 2 : 0;
         return {top - glm::dvec2(0, kDigitHeight / 2 * fontSize(placement)),
                 halfPlate(placement) + glm::dvec2(name, 0)};
@@ -475,7 +502,7 @@ std::optional<MatrixLayout::Panel> MatrixLayout::panelAt(glm::dvec2 position) co
     return found;
 }
 
-void layOut(const geometry::Hyperplanes& planes, int focus, const CoordinatesContent& content, double ballRadius,
+void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent& content, double ballRadius,
             const Look& look, Viewport viewport, std::string_view focusName, Layout& out) {
     const double aspect = static_cast<double>(viewport.width) / viewport.height;
     layOutCoordinates(content, aspect, out.coordinates);
@@ -489,7 +516,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const CoordinatesCon
     out.sliceRadius =
         single ? 1 : std::clamp(std::pow(static_cast<double>(kReferenceCount) / planes.count, 0.8), 0.1, 1.25);
     const double reach = out.sliceRadius * (1 + ballRadius);
-    placeSlices(planes, focus, oval, look, out.placements);
+    placeSlices(planes, focus, content.originW, oval, look, out.placements);
     aim(look.orbit, oval, out.camera);
     Rect bounds = boundsOf(out.placements, ViewSpace(oval), reach);
     const bool projected = look.projection.kind != ProjectionKind::off;
@@ -499,7 +526,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const CoordinatesCon
         out.projectionPlacement = besideFocusSlice((room.right - room.left) / (room.top - room.bottom), reach);
         include(out.projectionPlacement, ViewSpace(oval), bounds);
     }
-    Labels labels(oval, reach, planes.spacing, out.placements);
+    Labels labels(oval, reach, planes.spacing, content.originW, out.placements);
     const Rect inside = roomInside(room, bounds, labels);
     if (projected && !alone) {
         const double scale = scaleFor(bounds, inside);
@@ -510,7 +537,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const CoordinatesCon
     labels.place(out.camera);
     if (look.parts.labels) {
         labels.nameFocusSlice(focusName, out.camera, aspect);
-        labels.thin(out.camera, aspect);
+        labels.thin(out.camera, aspect, room.bottom - kMargin, look.orbit != CameraOrbit{});
     }
 }
 

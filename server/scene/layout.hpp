@@ -19,10 +19,11 @@ namespace oval4d::scene {
 /// The placement of one slice and its label in world space.
 struct SlicePlacement {
     int index = 0;           ///< the index n of the hyperplane
-    double w = 0;            ///< the w of the hyperplane, in the object's units
+    double w = 0;            ///< the w of the hyperplane, in the object's coordinates
     glm::dvec3 position{0};  ///< the position of the slice's origin
-    /// The text of the label: "−0.25"; for the focus slice, "w = −0.25", followed by a comma and the name of the
-    /// section if it has a name for which there is room. Empty if the label is not shown.
+    /// The text of the label, with w in the coordinates of the object's file: "−0.25"; for the focus slice, "w =
+    /// −0.25", followed by a comma and the name of the section if it has a name for which there is room. Empty if the
+    /// label is not shown.
     std::string label;
     glm::dvec3 labelAt{0};  ///< the center of the label's top edge
     double labelSize = 1;   ///< the font size of the label, as a multiple of Style::textHeight
@@ -52,6 +53,8 @@ struct CoordinatesLayout {
     bool density = false;  ///< whether a density strip is drawn
     double panel = 0;      ///< the width of the panels of a field's histogram; 0 if none is drawn
 
+    /// Returns the height of the part of the picture that belongs to the coordinates.
+    double top() const { return zero + amplitude + 0.01; }
     /// Returns whether each vertex has lines of its own.
     bool hasLines() const { return !density && panel == 0; }
     bool operator==(const CoordinatesLayout&) const = default;
@@ -116,17 +119,18 @@ struct Layout {
     MatrixLayout matrix;
 };
 
-/// The properties of an object that determine the layout of its parallel coordinates.
-struct CoordinatesContent {
+/// The properties of an object that determine the layout of its parallel coordinates and the labels of its slices.
+struct LayoutContent {
     std::size_t vertices = 0;
     bool isField = false;
-    bool operator==(const CoordinatesContent&) const = default;
+    double originW = 0;  ///< the w of geometry::ObjectInfo::originInFile
+    bool operator==(const LayoutContent&) const = default;
 };
 
 /// Lays out a picture. `planes` are the hyperplanes of the slices, and `focus` is the index n of the focus slice;
 /// `ballRadius` is the radius of balls as a fraction of the slice radius; `focusName` is the text that follows w in the
 /// focus slice's label, if there is room for it. Overwrites `out` and reuses its memory.
-void layOut(const geometry::Hyperplanes& planes, int focus, const CoordinatesContent& content, double ballRadius,
+void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutContent& content, double ballRadius,
             const Look& look, Viewport viewport, std::string_view focusName, Layout& out);
 
 }  // namespace oval4d::scene

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "scene/background.hpp"
 #include "scene/parts.hpp"
 #include "slicing/element.hpp"
 #include "slicing/field_settings.hpp"
@@ -97,6 +98,7 @@ struct Look {
     glm::dvec3 focusPoint{0};
     slicing::FieldSettings field = {};  ///< for a field: the surfaces and the fog that are shown
     CapStyle caps = CapStyle::plain;
+    Background background = Background::automatic;
     bool operator==(const Look&) const = default;
 };
 

@@ -102,6 +102,8 @@ struct Scene : Layout {
     std::vector<std::uint8_t> density;
     HistogramAxes histogram;  ///< valid if showsHistogram()
 
+    /// Returns the style of the picture, which depends on its background.
+    const Style& style() const { return scene::style(look.background); }
     /// Returns the cell that determines the color of a face of `slices`.
     std::uint32_t cellOfFace(std::size_t face) const {
         return faceCells.empty() ? slices->faceSource[face] : faceCells[face];

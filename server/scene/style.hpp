@@ -5,13 +5,16 @@
 
 #include <glm/vec3.hpp>
 
+#include "scene/background.hpp"
 #include "scene/color.hpp"
 
 namespace oval4d::scene {
 
-/// The colors and sizes that are the same in all pictures.
+/// The colors and sizes that are the same in all pictures with the same background. Only the colors, their opacities
+/// and those of faces depend on the background.
 struct Style {
     Color background, text, focusText, ball, bar, zeroLine;
+    double backgroundOpacity;   ///< 1, or 0 if the background is transparent
     std::array<Color, 4> axes;  ///< the colors of the axes x, y, z and w
     Color highlight;            ///< the color of the highlighted element
     double faceOpacity;         ///< 0 … 1
@@ -21,7 +24,11 @@ struct Style {
     double ambient, diffuse, specular, shininess;
     double textHeight;  ///< the font size of labels, as a fraction of the viewport's height
 };
-/// Returns the style of all pictures.
-const Style& style();
+
+/// Returns the style of pictures with this background. `automatic` is the same as `dark`.
+///
+/// On the ground, texts have a contrast (WCAG 2.2) of at least 4.5, and balls, bars and lines of at least 3. The zero
+/// lines of the parallel coordinates on a dark ground are fainter.
+const Style& style(Background background = Background::automatic);
 
 }  // namespace oval4d::scene

@@ -6,24 +6,27 @@
 
 namespace oval4d::scene {
 
-Color growthColor(float growth) { return divergingColor(std::atan(growth) * 2 / std::numbers::pi); }
+Color growthColor(float growth, Scheme scheme) {
+    return divergingColor(std::atan(growth) * 2 / std::numbers::pi, scheme);
+}
 
 Color ValueScale::color(double value) const {
     if (std::isnan(value)) return noValueColor();
     const double at = greatest > least ? (value - least) / (greatest - least) : 0.5;
-    return diverging ? divergingColor(2 * at - 1) : sequentialColor(at);
+    return diverging ? divergingColor(2 * at - 1, scheme) : sequentialColor(at, scheme);
 }
 
-ValueScale valueScaleFor(const fields::ValueRange& range) {
+ValueScale valueScaleFor(const fields::ValueRange& range, Scheme scheme) {
     constexpr double kLeastSide = 1.0 / 9;  // of the longer side
     const auto& [least, greatest] = range;
     const double reach = std::max(-least, greatest);
-    if (least < 0 && greatest > 0 && std::min(-least, greatest) >= kLeastSide * reach) return {-reach, reach, true};
-    return {least, greatest, false};
+    if (least < 0 && greatest > 0 && std::min(-least, greatest) >= kLeastSide * reach)
+        return {-reach, reach, true, scheme};
+    return {least, greatest, false, scheme};
 }
 
 Color SurfaceLook::pointColor(const slicing::SliceSurface& surface, std::size_t point) const {
-    return pointColoring == PointColoring::growth ? growthColor(surface.growth[point])
+    return pointColoring == PointColoring::growth ? growthColor(surface.growth[point], scheme)
                                                   : scale.color(surface.coloringValues()[point]);
 }
 
@@ -31,8 +34,9 @@ Color SurfaceLook::capPointColor(const slicing::SliceSurface& surface, std::size
     return scale.color(surface.coloringValues()[point]);
 }
 
-Color surfaceColor(std::size_t i, std::size_t count, Coloring coloring) {
-    return coloring == Coloring::cell ? levelColor(i, count) : plainColor();
+Color surfaceColor(std::size_t i, std::size_t count, const Look& look) {
+    const Scheme scheme = schemeOn(look.background);
+    return look.coloring == Coloring::cell ? levelColor(i, count, scheme) : plainColor(scheme);
 }
 
 void chooseSurfaceLook(const fields::Field& field, const Look& look, const geometry::Hyperplanes& planes,
@@ -41,8 +45,9 @@ void chooseSurfaceLook(const fields::Field& field, const Look& look, const geome
     const slicing::FieldSettings& settings = look.field;
     const Coloring coloring = look.coloring;
     const std::size_t count = settings.levels.size();
+    out.scheme = schemeOn(look.background);
     out.levels.resize(count);
-    for (std::size_t i = 0; i < count; ++i) out.levels[i] = {i, surfaceColor(i, count, coloring), kOuterOpacity, false};
+    for (std::size_t i = 0; i < count; ++i) out.levels[i] = {i, surfaceColor(i, count, look), kOuterOpacity, false};
     const bool below = settings.inside == fields::Inside::below;
     std::ranges::sort(out.levels, [&](const SurfaceLook::Level& a, const SurfaceLook::Level& b) {
         const double first = settings.levels[a.index], second = settings.levels[b.index];
@@ -57,10 +62,11 @@ void chooseSurfaceLook(const fields::Field& field, const Look& look, const geome
                         : coloring == Coloring::value ? PointColoring::value
                                                       : PointColoring::none;
     out.capColoring = look.caps == CapStyle::value ? PointColoring::value : PointColoring::none;
-    if (colorsByValue(look)) out.scale = valueScaleFor(field.coloringRange->get());
+    if (colorsByValue(look)) out.scale = valueScaleFor(field.coloringRange->get(), out.scheme);
     out.sliceColors.clear();
     if (coloring != Coloring::w) return;
-    for (int i = 0; i < planes.count; ++i) out.sliceColors.push_back(divergingColor(planes.w(i) / field.circumradius));
+    for (int i = 0; i < planes.count; ++i)
+        out.sliceColors.push_back(divergingColor(planes.w(i) / field.circumradius, out.scheme));
 }
 
 }  // namespace oval4d::scene

@@ -18,6 +18,7 @@ namespace oval4d::scene {
 struct ValueScale {
     double least = 0, greatest = 1;  ///< the values at the ends
     bool diverging = false;
+    Scheme scheme = Scheme::dark;
 
     /// Returns the color of a value; for NaN, noValueColor().
     Color color(double value) const;
@@ -27,7 +28,7 @@ struct ValueScale {
 /// Returns the scale for values in this range. If 0 lies in the middle four fifths of the range, the scale is
 /// diverging, with gray at 0 and ends at equal distances from 0; otherwise it is sequential, from the least to the
 /// greatest value.
-ValueScale valueScaleFor(const fields::ValueRange& range);
+ValueScale valueScaleFor(const fields::ValueRange& range, Scheme scheme = Scheme::dark);
 
 /// Returns whether the colors of surfaces or caps show values: those of the second function if the field has one, else
 /// those of the field's function.
@@ -52,6 +53,7 @@ struct SurfaceLook {
     PointColoring pointColoring = PointColoring::none;  ///< for the points of level sets
     PointColoring capColoring = PointColoring::none;    ///< for the points of caps: none or value
     ValueScale scale;                                   ///< valid if a member above is PointColoring::value
+    Scheme scheme = Scheme::dark;                       ///< of all colors
 
     /// Removes all levels, so that no surfaces are shown.
     void clear() {
@@ -73,11 +75,11 @@ struct SurfaceLook {
 
 /// Returns the color of a point where the surface moves outward at the speed `growth` as w increases (see
 /// SliceSurface::growth): amber where the body grows, blue where it shrinks, gray where it does not change.
-Color growthColor(float growth);
+Color growthColor(float growth, Scheme scheme = Scheme::dark);
 
 /// Returns the color of level i of `count` levels for a coloring that does not depend on the slice or the point; for
-/// other colorings, plainColor().
-Color surfaceColor(std::size_t i, std::size_t count, Coloring coloring);
+/// other colorings, plainColor(). It is that of `look`, which shows the level, on its background.
+Color surfaceColor(std::size_t i, std::size_t count, const Look& look);
 
 /// Chooses how the surfaces are drawn. The innermost level is opaque; the other levels are translucent, so that inner
 /// levels are visible through them. Only the outermost level has caps, because these cover the caps of the other

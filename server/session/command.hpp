@@ -14,6 +14,7 @@
 #include <glm/vec3.hpp>
 
 #include "fields/readers/file_contents.hpp"
+#include "geometry/centering.hpp"
 #include "geometry/rotation.hpp"
 #include "scene/scene.hpp"
 #include "slicing/element.hpp"
@@ -62,7 +63,8 @@ struct LoadObject {
     std::vector<std::shared_ptr<const fields::FileHandle>> series = {};
     /// A Zarr folder, instead of `data`.
     std::shared_ptr<const fields::FileHandle> folder = {};
-    std::string path = {};  ///< the name of an array in the server's data folder, instead of `data`
+    std::string path = {};            ///< the name of an array in the server's data folder, instead of `data`
+    geometry::Centering center = {};  ///< for a polytope or a point cloud: the point about which it turns
 
     /// Returns whether the array is in a file, not in `data`; the format may then be empty.
     bool isFile() const { return file || folder || !series.empty() || !path.empty(); }
@@ -82,15 +84,17 @@ struct Set {
     std::optional<double> spacing;      ///< SliceSettings::spacing
     std::optional<int> focus;           ///< SliceSettings::focus
     std::optional<double> offset;       ///< SliceSettings::offset
-    std::optional<double> focusW;       ///< w of the focus slice: sets focus and offset (see moveFocusTo())
+    std::optional<double> focusW;       ///< w of the focus slice, in the coordinates of the object's file: sets focus
+                                        ///< and offset (see moveFocusTo())
     std::optional<scene::View> view;
-    std::optional<glm::dvec4> focusPoint;  ///< x, y, z: Look::focusPoint. w: like `focusW`, but ignored if
-                                           ///< `focus`, `offset` or `focusW` is present
+    std::optional<glm::dvec4> focusPoint;  ///< in the coordinates of the object's file. x, y, z: Look::focusPoint. w:
+                                           ///< like `focusW`, but ignored if `focus`, `offset` or `focusW` is present
     std::optional<bool> turning;           ///< whether the object turns continuously
     std::array<std::optional<bool>, scene::kParts.size()> parts;  ///< per row of scene::kParts: whether it is shown
     std::optional<double> azimuth, elevation, zoom;               ///< the members of scene::CameraOrbit
     std::optional<scene::Coloring> coloring;
     std::optional<scene::CapStyle> caps;
+    std::optional<scene::Background> background;
     std::optional<scene::ProjectionKind> projection;
     std::optional<double> eye;                                ///< ProjectionSettings::eye
     std::optional<std::vector<double>> levels;                ///< FieldSettings::levels; for fields only
@@ -110,6 +114,10 @@ struct Reset {};
 struct CommandLine {
     std::string line;  ///< with or without the ':'
 };
-using Command = std::variant<Key, Rotate, TurnToward, Set, LoadObject, Undo, Redo, Reset, CommandLine>;
+/// Shows the view that the query of an address describes. What the query does not contain stays as it is.
+struct OpenAddress {
+    std::string query;  ///< see parseQuery()
+};
+using Command = std::variant<Key, Rotate, TurnToward, Set, LoadObject, Undo, Redo, Reset, CommandLine, OpenAddress>;
 
 }  // namespace oval4d::session

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +9,7 @@
 #include "session/cell_types.hpp"
 #include "session/expression.hpp"
 #include "session/load.hpp"
-#include "session/session.hpp"
+#include "session/setting_text.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::session {
@@ -20,221 +18,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-// A pointer to a member of Set.
-using Member =
-    std::variant<std::optional<double> Set::*, std::optional<int> Set::*, std::optional<bool> Set::*,
-                 std::optional<std::string> Set::*, std::optional<scene::View> Set::*,
-                 std::optional<scene::Coloring> Set::*, std::optional<scene::ProjectionKind> Set::*,
-                 std::optional<CellTypeList> Set::*, std::optional<std::optional<slicing::Element>> Set::*,
-                 std::optional<glm::dvec4> Set::*, std::optional<glm::dvec3> Set::*,
-                 std::optional<std::vector<double>> Set::*, std::optional<fields::Inside> Set::*,
-                 std::optional<scene::CapStyle> Set::*, std::optional<std::vector<slicing::FogPoint>> Set::*>;
-/// One setting: its name, and the member of Set that stores it.
-struct Setting {
-    std::string_view name;
-    Member member;
-};
-const auto kSettings = std::to_array<Setting>({{"polytope", &Set::object},
-                                               {"pace", &Set::pace},
-                                               {"follow", &Set::follow},
-                                               {"boost", &Set::boost},
-                                               {"alpha", &Set::alpha},
-                                               {"beta", &Set::beta},
-                                               {"step", &Set::step},
-                                               {"slices", &Set::count},
-                                               {"spacing", &Set::spacing},
-                                               {"focus", &Set::focus},
-                                               {"offset", &Set::offset},
-                                               {"w", &Set::focusW},
-                                               {"point", &Set::focusPoint},
-                                               {"view", &Set::view},
-                                               {"turning", &Set::turning},
-                                               {"azimuth", &Set::azimuth},
-                                               {"elevation", &Set::elevation},
-                                               {"zoom", &Set::zoom},
-                                               {"color", &Set::coloring},
-                                               {"projection", &Set::projection},
-                                               {"eye", &Set::eye},
-                                               {"levels", &Set::levels},
-                                               {"inside", &Set::inside},
-                                               {"caps", &Set::caps},
-                                               {"fog", &Set::fog},
-                                               {"hidden", &Set::hidden},
-                                               {"faded", &Set::faded},
-                                               {"highlight", &Set::highlight}});
-
-std::vector<std::string_view> names() {
-    std::vector<std::string_view> all;
-    for (const Setting& setting : kSettings) all.push_back(setting.name);
-    for (const scene::PartRow& part : scene::kParts) all.push_back(part.name);
-    return all;
-}
-
 Error bad(ErrorCode code, std::string message) { return {code, std::move(message)}; }
-
-// Parses `text` as the value of the setting `name`, and stores it in a member of `set`.
-struct ValueReader {
-    Set& set;
-    std::string_view name, text;
-
-    Result<std::monostate> operator()(std::optional<double> Set::* member) const {
-        constexpr auto kAngles = std::to_array({&Set::alpha, &Set::beta, &Set::step, &Set::azimuth, &Set::elevation});
-        const bool isAngle = std::ranges::find(kAngles, member) != kAngles.end();
-        const auto value = isAngle ? evaluateAngle(text) : evaluate(text);
-        if (!value) return bad(value.error().code, std::string(name) + ": " + value.error().message);
-        set.*member = *value;
-        return std::monostate{};
-    }
-    Result<std::monostate> operator()(std::optional<int> Set::* member) const {
-        const auto value = evaluate(text);
-        if (!value) return bad(value.error().code, std::string(name) + ": " + value.error().message);
-        constexpr double kMaxMagnitude = 1'000'000'000;
-        if (*value != std::trunc(*value) || std::abs(*value) > kMaxMagnitude) {
-            return bad(ErrorCode::out_of_range,
-                       std::string(name) + " must be a whole number, not " + text::inQuotes(text));
-        }
-        set.*member = static_cast<int>(*value);
-        return std::monostate{};
-    }
-    Result<std::monostate> operator()(std::optional<bool> Set::* member) const { return readFlag(set.*member); }
-    Result<std::monostate> readFlag(std::optional<bool>& into) const {
-        const bool yes = text == "on" || text == "true" || text == "yes" || text == "1";
-        const bool no = text == "off" || text == "false" || text == "no" || text == "0";
-        if (!yes && !no)
-            return bad(ErrorCode::bad_expression,
-                       std::string(name) + " must be on or off, not " + text::inQuotes(text));
-        into = yes;
-        return std::monostate{};
-    }
-    Result<std::monostate> operator()(std::optional<glm::dvec4> Set::* member) const {
-        return readVector(4, "four numbers x,y,z,w without blanks, such as 0.1,0,-0.2,0", set.*member);
-    }
-    Result<std::monostate> operator()(std::optional<glm::dvec3> Set::* member) const {
-        if (text == "none") {
-            set.*member = glm::dvec3(0);
-            return std::monostate{};
-        }
-        return readVector(3, "none or a velocity x,y,z without blanks, such as 0.3,0,0", set.*member);
-    }
-    template <typename Vector>
-    Result<std::monostate> readVector(std::ptrdiff_t size, std::string_view form, std::optional<Vector>& into) const {
-        if (std::ranges::count(text, ',') != size - 1) {
-            return bad(ErrorCode::bad_expression,
-                       std::string(name) + " must be " + std::string(form) + ", not " + text::inQuotes(text));
-        }
-        const auto list = readNumbers();
-        if (!list) return list.error();
-        for (int axis = 0; axis < size; ++axis) into.emplace(into.value_or(Vector(0)))[axis] = (*list)[axis];
-        return std::monostate{};
-    }
-    Result<std::monostate> operator()(std::optional<std::string> Set::* member) const {
-        if (text.empty()) return bad(ErrorCode::bad_expression, std::string(name) + " must be a name");
-        set.*member = std::string(text);
-        return std::monostate{};
-    }
-    Result<std::monostate> operator()(std::optional<std::vector<double>> Set::* member) const {
-        auto list = readNumbers();
-        if (!list) return list.error();
-        set.*member = std::move(*list);
-        return std::monostate{};
-    }
-    Result<std::monostate> operator()(std::optional<std::vector<slicing::FogPoint>> Set::* member) const {
-        std::vector<slicing::FogPoint>& points = (set.*member).emplace();
-        if (text == "off") return std::monostate{};
-        for (std::string_view rest = text;;) {
-            const std::size_t comma = rest.find(',');
-            auto point = readFogPoint(rest.substr(0, comma));
-            if (!point) return point.error();
-            points.push_back(*point);
-            if (comma == std::string_view::npos) return std::monostate{};
-            rest.remove_prefix(comma + 1);
-        }
-    }
-    Result<slicing::FogPoint> readFogPoint(std::string_view word) const {
-        const std::size_t first = word.find(':');
-        const std::size_t second = first == std::string_view::npos ? first : word.find(':', first + 1);
-        const auto malformed = [&] {
-            return bad(ErrorCode::bad_expression,
-                       std::string(name) +
-                           " must be off, or points value:opacity or value:opacity:RRGGBB without blanks, such as "
-                           "0:0.8,1:0.2:ff8800,2:0, not " +
-                           text::inQuotes(text));
-        };
-        if (first == std::string_view::npos) return malformed();
-        slicing::FogPoint point;
-        const std::string_view opacity =
-            word.substr(first + 1, second == std::string_view::npos ? second : second - first - 1);
-        for (const auto& [part, into] : {std::pair(word.substr(0, first), &point.value), {opacity, &point.opacity}}) {
-            const auto value = evaluate(part);
-            if (!value) return bad(value.error().code, std::string(name) + ": " + value.error().message);
-            *into = *value;
-        }
-        if (second == std::string_view::npos) return point;
-        constexpr std::size_t kDigits = 6;
-        const std::string_view color = word.substr(second + 1);
-        const auto [end, error] = std::from_chars(color.data(), color.data() + color.size(), point.color.emplace(), 16);
-        if (error != std::errc{} || end != color.data() + color.size() || color.size() != kDigits) return malformed();
-        return point;
-    }
-    Result<std::vector<double>> readNumbers() const {
-        std::vector<double> list;
-        for (std::string_view rest = text;;) {
-            const std::size_t comma = rest.find(',');
-            const auto value = evaluate(rest.substr(0, comma));
-            if (!value) return bad(value.error().code, std::string(name) + ": " + value.error().message);
-            list.push_back(*value);
-            if (comma == std::string_view::npos) return list;
-            rest.remove_prefix(comma + 1);
-        }
-    }
-    Result<std::monostate> operator()(std::optional<fields::Inside> Set::* member) const {
-        return choose(fields::kInsides, set.*member);
-    }
-    Result<std::monostate> operator()(std::optional<scene::View> Set::* member) const {
-        return choose(scene::kViews, set.*member);
-    }
-    Result<std::monostate> operator()(std::optional<scene::Coloring> Set::* member) const {
-        return choose(scene::kColorings, set.*member);
-    }
-    Result<std::monostate> operator()(std::optional<scene::CapStyle> Set::* member) const {
-        return choose(scene::kCapStyles, set.*member);
-    }
-    Result<std::monostate> operator()(std::optional<scene::ProjectionKind> Set::* member) const {
-        return choose(scene::kProjectionKinds, set.*member);
-    }
-    template <typename Choices, typename Value>
-    Result<std::monostate> choose(const Choices& choices, std::optional<Value>& into) const {
-        into = oval4d::text::valueNamed(choices, text);
-        if (into) return std::monostate{};
-        return bad(ErrorCode::bad_expression, std::string(name) + " must be " +
-                                                  oval4d::text::alternatives(oval4d::text::namesOf(choices)) +
-                                                  ", not " + oval4d::text::inQuotes(text));
-    }
-    Result<std::monostate> operator()(std::optional<std::optional<slicing::Element>> Set::* member) const {
-        if (text == "none") {
-            (set.*member).emplace();
-            return std::monostate{};
-        }
-        const std::size_t colon = text.find(':');
-        if (colon == std::string_view::npos) {
-            return bad(
-                ErrorCode::bad_expression,
-                std::string(name) + " must be none or an element such as cell:17, not " + oval4d::text::inQuotes(text));
-        }
-        const auto kind = parseElementKind(text.substr(0, colon));
-        if (!kind) return kind.error();
-        const auto index = parseElementIndex(text.substr(colon + 1));
-        if (!index) return index.error();
-        (set.*member).emplace(slicing::Element{*kind, *index});
-        return std::monostate{};
-    }
-    Result<std::monostate> operator()(std::optional<CellTypeList> Set::* member) const {
-        auto types = parseCellTypes(text);
-        if (!types) return bad(types.error().code, std::string(name) + ": " + types.error().message);
-        set.*member = std::move(*types);
-        return std::monostate{};
-    }
-};
 
 Words split(std::string_view line) {
     Words words;
@@ -416,35 +200,6 @@ constexpr auto kVerbs = std::to_array<Verb>(
      {"redo", noArguments<Redo>}});
 
 }  // namespace
-
-std::string settingNames() { return text::commaSeparated(names()); }
-
-Result<slicing::ElementKind> parseElementKind(std::string_view text) {
-    const auto kind = text::valueNamed(slicing::kElementKinds, text);
-    if (kind) return *kind;
-    return bad(ErrorCode::bad_expression, "an element is " + text::alternatives(text::namesOf(slicing::kElementKinds)) +
-                                              ", not " + text::inQuotes(text));
-}
-
-Result<std::size_t> parseElementIndex(std::string_view text) {
-    std::uint32_t index = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
-    if (error == std::errc{} && end == text.data() + text.size()) return std::size_t{index};
-    return bad(ErrorCode::bad_expression,
-               "the number of an element must be a whole number from 0, not " + text::inQuotes(text));
-}
-
-Result<std::monostate> parseSetting(std::string_view name, std::string_view value, Set& set) {
-    for (const Setting& setting : kSettings) {
-        if (setting.name == name) return std::visit(ValueReader{set, name, value}, setting.member);
-    }
-    for (std::size_t i = 0; i < scene::kParts.size(); ++i) {
-        if (scene::kParts[i].name == name) return ValueReader{set, name, value}.readFlag(set.parts[i]);
-    }
-    return bad(ErrorCode::unknown_command, "no setting is called " + text::inQuotes(name) +
-                                               text::didYouMean(name, names()) + "; the settings are " +
-                                               settingNames());
-}
 
 Result<Command> parseCommandLine(std::string_view line, const State& state) {
     const auto trim = [&line] {

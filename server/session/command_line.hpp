@@ -1,25 +1,18 @@
 #pragma once
-// Parses settings and elements, given as text on the ':' line and in the queries of URLs.
+// The ':' line, which is the command line of the page.
 
 #include <string_view>
 
 #include "errors/error.hpp"
 #include "session/command.hpp"
+#include "session/session.hpp"
 
 namespace oval4d::session {
 
-/// Parses the value of one setting and writes it to `set`. Examples of a name and a value: "slices" and "31", "alpha"
-/// and "pi/12", "faces" and "off". Errors: `unknown_command` for an unknown name; `bad_expression` or `out_of_range`
-/// for an invalid value.
-Result<std::monostate> parseSetting(std::string_view name, std::string_view value, Set& set);
-
-/// Parses the kind of an element, such as "cell". Error: `bad_expression`.
-Result<slicing::ElementKind> parseElementKind(std::string_view text);
-
-/// Parses the index of an element. Error: `bad_expression`.
-Result<std::size_t> parseElementIndex(std::string_view text);
-
-/// Returns all names that parseSetting() accepts, separated by commas.
-std::string settingNames();
+/// Parses a ':' line, with or without the ':', such as "polytope 24-cell", "set slices=31", "rotate xw,yz pi/8 pi/5" or
+/// "reset". `state` is the current state: its angles are used if "rotate" gives none, and "hide", "fade" and "show"
+/// change its lists of cell types. Errors: `unknown_command`, `bad_expression`, `out_of_range`, `unknown_polytope`,
+/// `unknown_key`.
+Result<Command> parseCommandLine(std::string_view line, const State& state);
 
 }  // namespace oval4d::session

@@ -200,6 +200,18 @@ Result<double> evaluated(std::string_view text, bool units) {
 
 Result<double> evaluate(std::string_view text) { return evaluated(text, false); }
 
+Result<std::vector<double>> evaluateList(std::string_view text) {
+    std::vector<double> list;
+    while (true) {
+        const std::size_t comma = text.find(',');
+        const auto value = evaluate(text.substr(0, comma));
+        if (!value) return value.error();
+        list.push_back(*value);
+        if (comma == std::string_view::npos) return list;
+        text.remove_prefix(comma + 1);
+    }
+}
+
 Result<double> evaluateAngle(std::string_view text) {
     auto value = evaluated(text, true);
     const bool isBareNumber = text.find_first_not_of(" \t+-.0123456789") == std::string_view::npos;

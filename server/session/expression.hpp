@@ -15,6 +15,9 @@ namespace oval4d::session {
 /// if the value is not finite.
 Result<double> evaluate(std::string_view text);
 
+/// Evaluates one or more expressions that are not angles, with commas between them. Errors: those of evaluate().
+Result<std::vector<double>> evaluateList(std::string_view text);
+
 /// Evaluates an expression that is an angle, and returns it in radians. The units ° and deg (degrees) and rad may
 /// follow a number, name or parenthesis. Errors: those of evaluate(); `out_of_range` if `text` is a number without a
 /// unit and larger than a full turn, since degrees are probably meant.

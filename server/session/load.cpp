@@ -13,6 +13,7 @@
 #include "fields/array_field.hpp"
 #include "fields/formula_field.hpp"
 #include "fields/readers/field_reader.hpp"
+#include "geometry/centering.hpp"
 #include "geometry/point_cloud.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
 #include "polytopes/import/import.hpp"
@@ -45,17 +46,23 @@ Error errorOf(const FileError& error) {
     return {error.tooLarge ? ErrorCode::too_large : ErrorCode::bad_polytope, text_files::message(error)};
 }
 
-Result<LoadedObject> readPolytope(polytopes::FileFormat format, std::string_view text, const std::string& name,
-                                  const Limits& limits) {
-    auto imported = polytopes::importPolytope(format, text, name, {limits.maxVertices, limits.maxHullCells});
-    if (const auto* error = std::get_if<FileError>(&imported)) return errorOf(*error);
-    auto& [polytope, warnings] = std::get<polytopes::Imported>(imported);
-    return LoadedObject{std::make_shared<const polytopes::Polytope>(std::move(polytope)), std::move(warnings)};
+// Appends a warning if the object was moved because it is far from the origin of its file.
+void warnOfMove(const geometry::Centering& wanted, const glm::dvec4& originInFile, std::vector<std::string>& warnings) {
+    if (wanted.kind != geometry::Centering::Kind::automatic || originInFile == glm::dvec4(0)) return;
+    std::string center;
+    for (int axis = 0; axis < 4; ++axis) center += (axis == 0 ? "" : ", ") + text::shortestDecimal(originInFile[axis]);
+    warnings.push_back("the object is far from the origin: it turns about its center, (" + center +
+                       "), where the middle of the slices is, too; the option center=origin keeps the origin");
 }
 
 template <polytopes::FileFormat format>
 Result<LoadedObject> readPolytope(const LoadObject& load, const Limits& limits) {
-    return readPolytope(format, load.data, load.name, limits);
+    auto imported =
+        polytopes::importPolytope(format, load.data, load.name, {limits.maxVertices, limits.maxHullCells}, load.center);
+    if (const auto* error = std::get_if<FileError>(&imported)) return errorOf(*error);
+    auto& [polytope, warnings] = std::get<polytopes::Imported>(imported);
+    warnOfMove(load.center, polytope.originInFile, warnings);
+    return LoadedObject{std::make_shared<const polytopes::Polytope>(std::move(polytope)), std::move(warnings)};
 }
 
 // Reads a point cloud: an optional keyword CLOUD, then a table of points, which may have radii.
@@ -74,7 +81,11 @@ Result<LoadedObject> readCloud(const LoadObject& load, const Limits& limits) {
             table.remove_prefix(static_cast<std::size_t>(word.data() + word.size() - text.data()));
         auto warnings = text_files::readPoints(
             table, {.maxPoints = limits.maxVertices, .radii = true, .firstLine = file.line()}, add);
+        const glm::dvec4 center = geometry::centerFor(load.center, points);
+        for (glm::dvec4& point : points) point -= center;
         auto cloud = geometry::makePointCloud(load.name, std::move(points), std::move(radii));
+        cloud.originInFile = center;
+        warnOfMove(load.center, center, warnings);
         return LoadedObject{std::make_shared<const geometry::PointCloud>(std::move(cloud)), std::move(warnings)};
     } catch (const FileError& error) {
         return errorOf(error);
@@ -308,6 +319,8 @@ std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {
     if (!load.valuesVariable.empty() && !array) return refused("only arrays take a variable of values");
     if (!load.values.empty() && !load.valuesVariable.empty())
         return Error{ErrorCode::bad_message, "give either the formula of the values or their variable, not both"};
+    if (load.center != geometry::Centering{} && (array || load.format == kFormula))
+        return refused("only polytopes and points take a center");
     if (load.append && !load.values.empty())
         return Error{ErrorCode::bad_message, "moments have no formula of values: that of the field remains"};
     if (load.append && !array) return refused("only arrays can be added to a field");

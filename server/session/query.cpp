@@ -1,35 +1,99 @@
 #include "session/query.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "fields/field.hpp"
 #include "geometry/rotation.hpp"
-#include "session/command_line.hpp"
+#include "session/example_fields.hpp"
 #include "session/expression.hpp"
 #include "session/load.hpp"
+#include "session/setting_text.hpp"
 #include "session/settings.hpp"
+#include "slicing/object.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::session {
 
-Result<fields::Box> parseBox(std::string_view text) {
-    fields::Box box;
+namespace {
+
+// Returns the parameters that name the object. Error: `unknown_polytope` if it has no name that everyone knows.
+Result<QueryParameters> objectParameters(const slicing::Object& object) {
+    const geometry::ObjectInfo& info = slicing::infoOf(object);
+    const fields::Field* const field = slicing::fieldIn(object);
+    const ExampleField* const example = exampleNamed(info.name);
+    if (info.rebuildableFromName || (example != nullptr && example->field.get() == field))
+        return QueryParameters{{"polytope", info.name}};
+    if (field == nullptr || field->formula.empty() || (field->second && field->second->formula.empty())) {
+        return Error{
+            ErrorCode::unknown_polytope,
+            "an address cannot contain " + text::inQuotes(info.name) +
+                ", which was read from a file: share the session, or save a picture, which contains the state"};
+    }
+    std::vector<double> ends;
+    for (int axis = 0; axis < 4; ++axis) {
+        ends.push_back(field->box.min[axis]);
+        ends.push_back(field->box.max[axis]);
+    }
+    QueryParameters parameters{{std::string(kFormula), field->formula}, {"box", numberList(ends)}};
+    if (field->second) parameters.emplace_back("values", field->second->formula);
+    return parameters;
+}
+
+// Returns the rotation from the initial orientation, such as "xy,zw:0.1,0.2"; empty for none.
+std::string rotationText(const geometry::Rotation& orientation) {
+    const geometry::Turn turn = orientation.turn();
+    std::string planes;
+    std::vector<double> angles;
+    for (const geometry::Plane plane : turn.planes()) {
+        planes += (planes.empty() ? "" : ",") + std::string(geometry::name(plane));
+        angles.push_back(*turn[plane]);
+    }
+    return planes.empty() ? "" : planes + ":" + numberList(angles);
+}
+
+// Parses `Count` numbers or expressions, separated by commas, as the value of the parameter `name`. `form` says what it
+// must be.
+template <std::size_t Count>
+Result<std::array<double, Count>> parseNumbers(std::string_view name, std::string_view form, std::string_view text) {
+    std::array<double, Count> numbers{};
     std::string_view rest = text;
-    for (int i = 0; i < 8; ++i) {
+    for (std::size_t i = 0; i < Count; ++i) {
         const std::size_t comma = rest.find(',');
-        if ((comma == std::string_view::npos) != (i == 7)) {
+        if ((comma == std::string_view::npos) != (i + 1 == Count)) {
             return Error{ErrorCode::bad_expression,
-                         "box must be eight numbers, the ranges of x, y, z and w, such as -1,1,-1,1,-1,1,0,2, not " +
-                             text::inQuotes(text)};
+                         std::string(name) + " must be " + std::string(form) + ", not " + text::inQuotes(text)};
         }
         const auto value = evaluate(rest.substr(0, comma));
-        if (!value) return Error{value.error().code, "box: " + value.error().message};
-        (i % 2 == 0 ? box.min : box.max)[i / 2] = *value;
+        if (!value) return Error{value.error().code, std::string(name) + ": " + value.error().message};
+        numbers.at(i) = *value;
         rest.remove_prefix(std::min(comma, rest.size() - 1) + 1);
     }
+    return numbers;
+}
+
+}  // namespace
+
+Result<fields::Box> parseBox(std::string_view text) {
+    const auto ends =
+        parseNumbers<8>("box", "eight numbers, the ranges of x, y, z and w, such as -1,1,-1,1,-1,1,0,2", text);
+    if (!ends) return ends.error();
+    fields::Box box;
+    for (std::size_t i = 0; i < ends->size(); ++i)
+        (i % 2 == 0 ? box.min : box.max)[static_cast<int>(i / 2)] = ends->at(i);
     return box;
+}
+
+Result<geometry::Centering> parseCenter(std::string_view text) {
+    using Kind = geometry::Centering::Kind;
+    if (text == "object") return geometry::Centering{Kind::object};
+    if (text == "origin") return geometry::Centering{Kind::origin};
+    const auto place = parseNumbers<4>("center", "object, origin or four numbers x,y,z,w, such as 0,0,0,2", text);
+    if (!place) return place.error();
+    return geometry::Centering{Kind::point, {(*place)[0], (*place)[1], (*place)[2], (*place)[3]}};
 }
 
 Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits, ObjectLoader& loader, State state) {
@@ -89,6 +153,23 @@ Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits,
         if (auto done = turnToward(state, *toward); !done) return done.error();
     }
     return state;
+}
+
+Result<QueryParameters> queryFromState(const State& state, ObjectLoader& loader) {
+    auto query = objectParameters(state.source);
+    if (!query) return query;
+    if (const std::string rotation = rotationText(state.orientation); !rotation.empty())
+        query->emplace_back("rotate", rotation);
+    State fresh = initialState();
+    if (auto done = replaceObject(fresh, state.source, loader); !done) return done.error();
+    // The spacing of a new object depends on these.
+    const bool isSpaced = state.slices.count == fresh.slices.count && state.referenceFrame == fresh.referenceFrame;
+    const QueryParameters initial = settingTexts(settingsOf(fresh));
+    for (auto& setting : settingTexts(settingsOf(state))) {
+        const bool isInitial = std::ranges::find(initial, setting) != initial.end();
+        if (!isInitial || (setting.first == "spacing" && !isSpaced)) query->push_back(std::move(setting));
+    }
+    return query;
 }
 
 }  // namespace oval4d::session

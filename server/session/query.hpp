@@ -1,25 +1,24 @@
 #pragma once
-// Converts names and values, from the query of a URL or the options of `oval4d render`, to a state.
+// Converts names and values, from the query of an address or the options of `oval4d render`, to a state, and back.
 
-#include <optional>
-#include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "errors/error.hpp"
 #include "fields/scalar_function.hpp"
+#include "geometry/centering.hpp"
 #include "session/object_loader.hpp"
+#include "session/query_text.hpp"
 #include "session/session.hpp"
 
 namespace oval4d::session {
 
-/// The parameters of a URL query: pairs of names and values, in the order given. A name may occur more than once.
-using QueryParameters = std::vector<std::pair<std::string, std::string>>;
-
 /// Parses the ranges of x, y, z and w: eight numbers or expressions, separated by commas. Errors: `bad_expression` and
 /// those of evaluate().
 Result<fields::Box> parseBox(std::string_view text);
+
+/// Parses the point about which an object turns: "object", "origin", or four numbers or expressions, separated by
+/// commas. Errors: `bad_expression` and those of evaluate().
+Result<geometry::Centering> parseCenter(std::string_view text);
 
 /// Returns the state that a query describes. The names in the query are those that parseSetting() accepts; "rotate",
 /// which may occur any number of times; and "toward", such as "cell" or "cell:3". Rotations are applied in the order
@@ -28,5 +27,11 @@ Result<fields::Box> parseBox(std::string_view text);
 /// parseSetting(), parseTurn(), checkTurn(), parseElementKind(), parseElementIndex(), turnToward() and applySet().
 Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits, ObjectLoader& loader,
                              State state = initialState());
+
+/// Returns a query that describes the view that a state shows: stateFromQuery() makes a state from it that shows the
+/// same, with the same settings. It contains no settings that are those of a new object, and neither the last rotation
+/// nor a motion that is under way. Error: `unknown_polytope` if the object was read from a file or uploaded, because an
+/// address cannot contain it.
+Result<QueryParameters> queryFromState(const State& state, ObjectLoader& loader);
 
 }  // namespace oval4d::session

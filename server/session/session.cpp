@@ -1,17 +1,21 @@
 #include "session/session.hpp"
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "fields/field.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
 #include "polytopes/catalogue/polytope_cache.hpp"
+#include "session/command_line.hpp"
 #include "session/history.hpp"
 #include "session/keymap.hpp"
 #include "session/object_loader.hpp"
 #include "session/object_lookup.hpp"
+#include "session/query.hpp"
 #include "session/settings.hpp"
 #include "text/message_text.hpp"
 
@@ -54,6 +58,9 @@ std::optional<geometry::Turn> turnOfStep(const State& before, const State& curre
     }
     return whole.turn();
 }
+
+// Returns whether a parameter of a query is not part of the view, but belongs to the connection or to a picture.
+bool isOfConnection(std::string_view name) { return name == "token" || name == "width" || name == "height"; }
 
 // Applies each command to a copy of the state, which becomes the current state only on success.
 class Applier {
@@ -134,6 +141,23 @@ class Applier {
         const auto parsed = parseCommandLine(command.line, session_.current);
         if (!parsed) return parsed.error();
         return std::visit(*this, *parsed);
+    }
+    Done operator()(const OpenAddress& command) {
+        auto query = parseQuery(command.query);
+        if (!query) {
+            return Error{ErrorCode::bad_expression,
+                         "in the query of an address, two hexadecimal digits must follow each %, as in 5%25"};
+        }
+        std::erase_if(*query, [](const auto& parameter) { return isOfConnection(parameter.first); });
+        auto next = stateFromQuery(*query, limits_, loader_, session_.current);
+        if (!next) return next.error();
+        const auto formula = std::ranges::find(*query, kFormula, &QueryParameters::value_type::first);
+        if (formula != query->end()) {
+            if (Done room = checkRoom(session_.loaded, formula->first); !room) return room;
+            session_.loaded.insert_or_assign(formula->first, next->source);
+        }
+        commit(session_, std::move(*next), limits_);
+        return std::monostate{};
     }
 
   private:

@@ -124,10 +124,4 @@ inline constexpr double kTurnsPerSecond = 6;
 /// or turns so slowly that its orientation stays the same: a continuous rotation by the angle 0 has no effect.
 void advance(Session& session, double seconds);
 
-/// Parses a ':' line, with or without the ':', such as "polytope 24-cell", "set slices=31", "rotate xw,yz pi/8 pi/5" or
-/// "reset". `state` is the current state: its angles are used if "rotate" gives none, and "hide", "fade" and "show"
-/// change its lists of cell types. Errors: `unknown_command`, `bad_expression`, `out_of_range`, `unknown_polytope`,
-/// `unknown_key`.
-Result<Command> parseCommandLine(std::string_view line, const State& state);
-
 }  // namespace oval4d::session

@@ -100,27 +100,27 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
         }
         state.slices.focus = *set.focus;
     }
+    const double reach = kMaxOffset * radius;
+    const glm::dvec4& origin = slicing::infoOf(state.object).originInFile;
+    const auto around = [&](double middle) { return Bounds{middle - reach, middle + reach, ""}; };
     if (set.focusPoint) {
         // If `focus`, `offset` or `focusW` is set, w of the point is ignored and may be any number.
         const bool placed = set.focus || set.offset || set.focusW;
-        glm::dvec4 point(0);
+        glm::dvec4 point = origin;
         for (int axis = 0; axis < (placed ? 3 : 4); ++axis) {
             const std::string name = std::string("the point's ") + "xyzw"[axis];
-            if (auto done =
-                    put(name, (*set.focusPoint)[axis], {-kMaxOffset * radius, kMaxOffset * radius, ""}, point[axis]);
-                !done) {
-                return done;
-            }
+            if (auto done = put(name, (*set.focusPoint)[axis], around(origin[axis]), point[axis]); !done) return done;
         }
+        point -= origin;
         state.look.focusPoint = glm::dvec3(point);
         if (!placed) moveFocusTo(state, point.w);
     }
     if (set.focusW) {
         double w = 0;
-        if (auto done = put("w", set.focusW, {-kMaxOffset * radius, kMaxOffset * radius, ""}, w); !done) return done;
-        moveFocusTo(state, w);
+        if (auto done = put("w", set.focusW, around(origin.w), w); !done) return done;
+        moveFocusTo(state, w - origin.w);
     }
-    return put("the offset", set.offset, {-kMaxOffset * radius, kMaxOffset * radius, ""}, state.slices.offset);
+    return put("the offset", set.offset, around(0), state.slices.offset);
 }
 
 // Errors: `out_of_range`; also if the object is not a field.
@@ -282,6 +282,7 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
     state.look.projection.kind = set.projection.value_or(state.look.projection.kind);
     state.look.coloring = set.coloring.value_or(state.look.coloring);
     state.look.caps = set.caps.value_or(state.look.caps);
+    state.look.background = set.background.value_or(state.look.background);
     if (auto done = applyCellTypeVisibility(state, set); !done) return done;
     if (auto done = setField(state, set); !done) return done;
     if (set.highlight) {
@@ -296,6 +297,42 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
         return Error{ErrorCode::nothing_to_undo, "nothing to repeat: no rotation has been made yet"};
     }
     return std::monostate{};
+}
+
+Set settingsOf(const State& state) {
+    const scene::Look& look = state.look;
+    Set set;
+    set.pace = state.referenceFrame.pace;
+    set.follow = state.referenceFrame.follow;
+    set.boost = state.referenceFrame.boost;
+    set.alpha = state.alpha;
+    set.beta = state.beta;
+    set.step = state.step;
+    set.count = state.slices.count;
+    set.spacing = state.slices.spacing;
+    set.focus = state.slices.focus;
+    set.offset = state.slices.offset;
+    set.view = look.view;
+    // Focus and offset give the w of the focus point.
+    set.focusPoint = slicing::infoOf(state.object).originInFile + glm::dvec4(look.focusPoint, 0);
+    for (std::size_t i = 0; i < scene::kParts.size(); ++i) set.parts[i] = look.parts.*scene::kParts[i].flag;
+    set.azimuth = look.orbit.azimuth;
+    set.elevation = look.orbit.elevation;
+    set.zoom = look.orbit.zoom;
+    set.coloring = look.coloring;
+    set.caps = look.caps;
+    set.background = look.background;
+    set.projection = look.projection.kind;
+    set.eye = look.projection.eye;
+    if (slicing::fieldIn(state.object) != nullptr) {
+        set.levels = look.field.levels;
+        set.inside = look.field.inside;
+        set.fog = look.field.fog;
+    }
+    set.hidden = look.cellTypes.hidden;
+    set.faded = look.cellTypes.faded;
+    set.highlight = look.highlight;
+    return set;
 }
 
 Result<std::monostate> checkTurn(const geometry::Turn& turn) {
@@ -321,9 +358,7 @@ Result<std::monostate> turnToward(State& state, const TurnToward& command) {
         const auto& lit = state.look.highlight;
         element = slicing::elementToTurnTo(state.object, command.kind, state.orientation, lit).value_or(element);
     }
-    const glm::dvec4 w(0, 0, 0, 1);
-    const glm::dvec4 own = slicing::directionOf(state.object, element, state.orientation.inverse()(w));
-    const geometry::Rotation way = geometry::Rotation::between(state.orientation(own), w);
+    const geometry::Rotation way = slicing::wayToW(state.object, element, state.orientation);
     const geometry::Rotation goal = way * state.orientation;
     state.turning = false;
     state.ongoingTurnToward.reset();

@@ -49,6 +49,10 @@ void setCount(State& state, int count);
 Result<std::monostate> applySet(State& state, const Set& set, const LoadedObjects& loaded, const Limits& limits,
                                 ObjectLoader& loader);
 
+/// Returns the settings of a state: applySet() with them makes a state with the same object equal to this one, except
+/// for the orientation, the last rotation and the motion, which they do not contain.
+Set settingsOf(const State& state);
+
 /// Returns the error `out_of_range` unless the angles are finite and within ±kMaxAngle.
 Result<std::monostate> checkTurn(const geometry::Turn& turn);
 
@@ -61,8 +65,8 @@ void rotate(State& state, const geometry::Turn& turn);
 /// `out_of_range` if the object has no such element.
 Result<std::monostate> turnToward(State& state, const TurnToward& command);
 
-/// Moves the focus to this w, in the object's units: sets the focus to the slice that would be closest to w if the
-/// offset were 0, and the offset to the difference. Requires |w| ≤ kMaxOffset circumradii.
+/// Moves the focus to this w, in the object's coordinates: sets the focus to the slice that would be closest to w if
+/// the offset were 0, and the offset to the difference. Requires |w| ≤ kMaxOffset circumradii.
 void moveFocusTo(State& state, double w);
 
 /// Moves the focus upward, or downward if `upward` is false, to the next w at which the section changes its type. For a

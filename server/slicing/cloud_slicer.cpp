@@ -5,6 +5,8 @@
 
 #include <glm/mat4x4.hpp>
 
+#include "slicing/listed_hyperplanes.hpp"
+
 namespace oval4d::slicing {
 
 double ballRadius(const geometry::PointCloud& cloud) {
@@ -15,6 +17,11 @@ double ballRadius(const geometry::PointCloud& cloud) {
 
 void CloudSlicer::slice(const geometry::PointCloud& cloud, const geometry::Rotation& orientation,
                         const geometry::Hyperplanes& planes, SliceSet& out) {
+    if (!planes.listed.empty()) {
+        cutEach(planes, out,
+                [&](const geometry::Hyperplanes& plane, SliceSet& one) { slice(cloud, orientation, plane, one); });
+        return;
+    }
     out.planes = planes;
     const std::size_t count = cloud.points.size();
     const glm::dmat4 matrix = orientation.matrix();

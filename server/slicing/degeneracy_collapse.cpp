@@ -75,7 +75,7 @@ std::uint32_t DegeneracyCollapse::collapseEdges(const polytopes::Polytope& polyt
 }
 
 void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, SliceCounts at, SliceCounts& size,
-                                       SliceSet& out) const {
+                                       SliceSet& out) {
     const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     const auto* vertexSource = out.vertexSource.data() + at.vertices;
@@ -84,6 +84,7 @@ void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, Slic
     auto* corners = out.corners.data();
     auto* cornerEdges = out.cornerEdges.data();
     cornerBegin[size.faces] = at.corners + size.corners;
+    coinciding_.begin(size.edges);
     std::uint32_t kept = 0;
     std::uint32_t to = at.corners;
     std::uint32_t from = to;
@@ -100,6 +101,7 @@ void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, Slic
             ++to;
         }
         if (to - begin < 3) {
+            if (to - begin == 2) coinciding_.join(cornerEdges[begin], cornerEdges[begin + 1]);
             to = begin;
             continue;
         }
@@ -109,6 +111,26 @@ void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, Slic
     }
     size.faces = kept;
     size.corners = to - at.corners;
+    if (coinciding_.any()) removeCoincidingEdges(at, size, out);
+}
+
+void DegeneracyCollapse::removeCoincidingEdges(SliceCounts at, SliceCounts& size, SliceSet& out) {
+    auto* sliceEdges = out.edges.data() + at.edges;
+    auto* edgeSource = out.edgeSource.data() + at.edges;
+    newEdge_.resize(size.edges);
+    std::uint32_t kept = 0;
+    for (std::uint32_t i = 0; i < size.edges; ++i) {
+        if (const std::uint32_t first = coinciding_.firstOf(i); first != i) {
+            newEdge_[i] = newEdge_[first];
+            continue;
+        }
+        sliceEdges[kept] = sliceEdges[i];
+        edgeSource[kept] = edgeSource[i];
+        newEdge_[i] = kept++;
+    }
+    size.edges = kept;
+    for (std::uint32_t i = at.corners; i < at.corners + size.corners; ++i)
+        out.cornerEdges[i] = newEdge_[out.cornerEdges[i]];
 }
 
 // Returns the edge of the 2-face that lies in the hyperplane and joins these two vertices of the slice; kNone if there

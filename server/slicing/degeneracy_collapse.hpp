@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "polytopes/polytope.hpp"
+#include "slicing/coinciding_edges.hpp"
 #include "slicing/slice_set.hpp"
 #include "slicing/vertex_ranks.hpp"
 
@@ -18,7 +19,12 @@ namespace oval4d::slicing {
 /// - A slice vertex that was cut from an edge with one end in the hyperplane moves to this end.
 /// - A slice edge that was cut from a 2-face with an edge in the hyperplane moves to this edge.
 /// - A slice face that was cut from a cell with a 2-face in the hyperplane moves to this 2-face.
-/// - Slice edges that shrink to points, and slice faces that shrink to edges or points, are removed.
+/// - Slice edges that shrink to points, and slice faces that shrink to edges or points, are removed. The two edges that
+///   are left of a face become one.
+///
+/// As vertices count as lying in the hyperplane if they are close to it, a cell may have vertices in it that are not
+/// those of one of its elements: if the hyperplane of the cell is inclined by a tiny angle. The slice is closed even
+/// then.
 ///
 /// The polytope must have vertices on both sides of the hyperplane; otherwise the slice just above the hyperplane would
 /// miss elements that lie in it. Reuses its memory.
@@ -40,7 +46,8 @@ class DegeneracyCollapse {
                                    SliceSet& out);
     std::uint32_t collapseEdges(const polytopes::Polytope& polytope, SliceCounts at, std::uint32_t count,
                                 SliceSet& out);
-    void collapseFaces(const polytopes::Polytope& polytope, SliceCounts at, SliceCounts& size, SliceSet& out) const;
+    void collapseFaces(const polytopes::Polytope& polytope, SliceCounts at, SliceCounts& size, SliceSet& out);
+    void removeCoincidingEdges(SliceCounts at, SliceCounts& size, SliceSet& out);
     std::uint32_t edgeInHyperplane(const polytopes::Polytope& polytope, std::uint32_t face,
                                    std::array<std::uint32_t, 2> ends) const;
     std::uint32_t faceInHyperplane(const polytopes::Polytope& polytope, std::uint32_t cell, std::size_t corners) const;
@@ -52,6 +59,7 @@ class DegeneracyCollapse {
     std::vector<std::uint32_t> sliceVertex_, sliceEdge_;
     // Per vertex or edge of the slice before the collapse: its index afterward; kNone for an edge that was removed.
     std::vector<std::uint32_t> newVertex_, newEdge_;
+    CoincidingEdges coinciding_;  // per edge of the slice after the collapse
 };
 
 }  // namespace oval4d::slicing

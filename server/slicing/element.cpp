@@ -194,6 +194,11 @@ glm::dvec4 directionOf(const Object& object, const Element& element, const glm::
     return visitElements([&](const auto& shared) { return directionIn(*shared, element, preferred, points); }, object);
 }
 
+geometry::Rotation wayToW(const Object& object, const Element& element, const geometry::Rotation& orientation) {
+    const glm::dvec4 own = directionOf(object, element, ownDirectionOfW(orientation));
+    return geometry::Rotation::between(orientation(own), {0, 0, 0, 1});
+}
+
 std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
                                        const std::optional<Element>& incident) {
     const glm::dvec4 w = ownDirectionOfW(orientation);

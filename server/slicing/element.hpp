@@ -40,6 +40,10 @@ std::size_t elementCount(const Object& object, ElementKind kind);
 /// not 0. Requires element.index < elementCount(object, element.kind), and that `preferred` is not 0.
 glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred);
 
+/// Returns the shortest rotation that turns the direction of the element (see directionOf()), after a rotation of the
+/// object by `orientation`, to +w. Requires element.index < elementCount(object, element.kind).
+geometry::Rotation wayToW(const Object& object, const Element& element, const geometry::Rotation& orientation);
+
 /// Returns the element of this kind whose direction (see directionOf()) is closest to +w after rotation by
 /// `orientation`. If that element already points to +w, returns the one with the next index, or the first one after the
 /// last; a caller that turns each result to +w thus visits one element after another. With `incident`, considers only

@@ -146,6 +146,12 @@ const void* identityOf(const Object& object) {
     return std::visit([](const auto& shared) -> const void* { return shared.get(); }, object);
 }
 
+glm::dvec4 vertexInFile(const Object& object, std::size_t index) {
+    const glm::dvec4& own = verticesOf(object)[index];
+    const fields::Field* const field = fieldIn(object);
+    return field == nullptr ? infoOf(object).originInFile + own : field->center + field->toFunction * own;
+}
+
 std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotation& orientation) {
     const glm::dmat4 matrix = orientation.matrix();
     const glm::dvec4 row(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
@@ -185,11 +191,13 @@ std::span<const std::uint32_t> typeOfCells(const Object& object) {
 }
 
 std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices) {
-    return visitElements(Visitor{[&](const PolytopePtr& p) { return polytopes::write4Off(*p, rotatedVertices); },
+    std::vector<glm::dvec4> vertices(rotatedVertices.begin(), rotatedVertices.end());
+    for (glm::dvec4& v : vertices) v += infoOf(object).originInFile;
+    return visitElements(Visitor{[&](const PolytopePtr& p) { return polytopes::write4Off(*p, vertices); },
                                  [&](const CloudPtr& cloud) {
                                      Polytope points;
                                      points.name = cloud->name;
-                                     return polytopes::write4Off(points, rotatedVertices);
+                                     return polytopes::write4Off(points, vertices);
                                  }},
                          object);
 }

@@ -67,6 +67,10 @@ std::size_t memoryOf(const Object& object);
 /// Returns the address of the shared data. It identifies the object: all copies of an Object return the same address.
 const void* identityOf(const Object& object);
 
+/// Returns the coordinates that a vertex (or point) has in the object's file, before any rotation. Those of a field are
+/// the coordinates of its function.
+glm::dvec4 vertexInFile(const Object& object, std::size_t index);
+
 /// Returns the smallest and the largest w coordinate of the vertices after rotation by `orientation`.
 std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotation& orientation);
 
@@ -91,8 +95,9 @@ void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals,
 std::span<const std::uint32_t> typeOfCells(const Object& object);
 
 /// Returns the object as the text of a 4OFF file, in the object's units. The file contains `rotatedVertices` in place
-/// of the object's own vertices, so importing it gives the rotated polytope. The file of a point cloud has only
-/// vertices; that of a field contains the domain.
+/// of the object's own vertices, in the coordinates of the object's file (see ObjectInfo::originInFile), so importing
+/// it gives the polytope turned about its origin. The file of a point cloud has only vertices; that of a field contains
+/// the domain.
 std::string write4Off(const Object& object, std::span<const glm::dvec4> rotatedVertices);
 
 }  // namespace oval4d::slicing

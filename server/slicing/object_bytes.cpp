@@ -1,10 +1,13 @@
 #include "slicing/object_bytes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include <glm/geometric.hpp>
 
 #include "fields/array_field.hpp"
 #include "fields/formula_field.hpp"
@@ -41,7 +44,7 @@ void visitPolytope(Archive& archive, P& p) {
 template <typename Archive, typename Cloud>
 void visitCloud(Archive& archive, Cloud& cloud) {
     archive(cloud.name), archive(cloud.serial), archive(cloud.circumradius);
-    archive(cloud.points), archive(cloud.radii);
+    archive(cloud.points), archive(cloud.radii), archive(cloud.originInFile);
 }
 
 // Writes samples, or the number of their file and their place in it.
@@ -156,6 +159,7 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files) {
                            archive(Kind::polytope), visitPolytope(archive, *p);
                            archive(p->cellTypes.size());
                            for (const auto& [name, cells] : p->cellTypes) archive(name), archive(cells);
+                           archive(p->originInFile);
                        },
                        [&](const CloudPtr& cloud) { archive(Kind::cloud), visitCloud(archive, *cloud); },
                        [&](const FieldPtr& field) {
@@ -187,16 +191,19 @@ Object decodeObject(std::string_view bytes, const MappedFiles& files) {
         auto& [name, cells] = p->cellTypes.emplace_back();
         archive(name), archive(cells);
     }
+    archive(p->originInFile);
     return PolytopePtr(std::move(p));
 }
 
 void writeParts(const Object& object, ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory) {
     std::visit(
         Visitor{[&](const PolytopePtr& p) {
-                    archive(Kind::polytope), archive(p->vertices);
+                    archive(Kind::polytope), archive(p->vertices), archive(p->originInFile);
                     visitArray(archive, p->faces), visitArray(archive, p->cells), archive(p->typeOfCell);
                 },
-                [&](const CloudPtr& cloud) { archive(Kind::cloud), archive(cloud->points), archive(cloud->radii); },
+                [&](const CloudPtr& cloud) {
+                    archive(Kind::cloud), archive(cloud->points), archive(cloud->originInFile), archive(cloud->radii);
+                },
                 [&](const FieldPtr& field) { archive(Kind::field), writeField(*field, archive, files, maxInMemory); }},
         object);
 }
@@ -208,12 +215,16 @@ Object readParts(ByteReader& archive, const std::string& name, std::size_t maxVe
     std::vector<glm::dvec4> vertices;
     archive(vertices);
     if (vertices.size() > maxVertices) throw std::runtime_error("too many vertices");
+    glm::dvec4 originInFile;
+    archive(originInFile);
+    if (!std::isfinite(glm::length(originInFile))) throw std::runtime_error("an origin that is not finite");
     if (kind == Kind::cloud) {
         std::vector<double> radii;
         archive(radii);
         try {
-            return std::make_shared<const geometry::PointCloud>(
-                geometry::makePointCloud(name, std::move(vertices), std::move(radii)));
+            geometry::PointCloud cloud = geometry::makePointCloud(name, std::move(vertices), std::move(radii));
+            cloud.originInFile = originInFile;
+            return std::make_shared<const geometry::PointCloud>(std::move(cloud));
         } catch (const std::invalid_argument& invalid) {
             throw std::runtime_error("an invalid point cloud: " + std::string(invalid.what()));
         }
@@ -225,8 +236,10 @@ Object readParts(ByteReader& archive, const std::string& name, std::size_t maxVe
     if (typeOfCell.size() != cells.size()) throw std::runtime_error("cell types that do not match the cells");
     try {
         // Rejects indices that are out of range, and cells that are not closed surfaces.
-        return std::make_shared<const Polytope>(polytopes::makePolytope(name, std::move(vertices), std::move(faces),
-                                                                        std::move(cells), std::move(typeOfCell)));
+        Polytope polytope = polytopes::makePolytope(name, std::move(vertices), std::move(faces), std::move(cells),
+                                                    std::move(typeOfCell));
+        polytope.originInFile = originInFile;
+        return std::make_shared<const Polytope>(std::move(polytope));
     } catch (const std::invalid_argument& invalid) {
         throw std::runtime_error("an invalid polytope: " + std::string(invalid.what()));
     }

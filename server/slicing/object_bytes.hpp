@@ -26,8 +26,8 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files);
 Object decodeObject(std::string_view bytes, const MappedFiles& files = {});
 
 /// Writes the data from which readParts() rebuilds the object, without its name: the vertices, 2-faces, cells and cell
-/// types of a polytope; the points and radii of a cloud; or the functions (formulas or samples) and the domain of a
-/// field.
+/// types of a polytope; the points and radii of a cloud; for both, ObjectInfo::originInFile; or the functions (formulas
+/// or samples) and the domain of a field.
 ///
 /// Samples are written inline if they are not in a file, or while the number of inline samples is at most
 /// `maxInMemory`. Otherwise a reference to their file is written, and the file is added to `files` if it is not there

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "slicing/listed_hyperplanes.hpp"
 #include "slicing/prefix_sums.hpp"
 
 // The polytope is cut just above each hyperplane, where there are no vertices, and the section is then moved down into
@@ -17,6 +18,11 @@ namespace oval4d::slicing {
 
 void PolytopeSlicer::slice(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
                            const geometry::Hyperplanes& planes, SliceSet& out) {
+    if (!planes.listed.empty()) {
+        cutEach(planes, out,
+                [&](const geometry::Hyperplanes& plane, SliceSet& one) { slice(polytope, orientation, plane, one); });
+        return;
+    }
     out.planes = planes;
     locateVertices(polytope, orientation, out);
     if (!polytope.convex || !cutConvex(polytope, out)) cutGeneral(polytope, out);
@@ -170,31 +176,32 @@ void PolytopeSlicer::cutFaces(const polytopes::Polytope& polytope, SliceSet& out
         lyingIn_[f] = above.from == above.to && leastUpTo == mostUpTo && leastUpTo > above.to ? above.to : kNoPlane;
         segmentBegin_[f] = static_cast<std::uint32_t>(segments_.size());
         if (above.from == above.to) continue;
-        if (polytope.convexFaces) {
-            cutConvexFace(polytope, f, above);
-        } else {
-            cutNonconvexFace(polytope, f, above, out);
-        }
+        if (!polytope.convexFaces || !cutConvexFace(polytope, f, above)) cutNonconvexFace(polytope, f, above, out);
     }
     segmentBegin_[faces] = static_cast<std::uint32_t>(segments_.size());
     numberEdges(polytope, out);
 }
 
-// The vertex loop of a convex 2-face ascends through a hyperplane once, and descends once.
-void PolytopeSlicer::cutConvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above) {
+// The vertex loop of a convex 2-face ascends through a hyperplane once, and descends once. Returns false, and adds
+// nothing, if it does so more often: rounding errors can have this effect if the 2-face nearly lies in a hyperplane.
+bool PolytopeSlicer::cutConvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above) {
     const auto loop = polytope.faces[face];
     const auto loopEdges = polytope.faceEdges[face];
+    std::int32_t ascents = 0;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const std::int32_t from = below_[loop[i]];
         const std::int32_t to = below_[loop[i + 1 == loop.size() ? 0 : i + 1]];
         std::uint32_t slot = slotBegin_[loopEdges[i]];
         if (from < to) {
+            ascents += to - from;
             for (std::int32_t k = from; k < to; ++k) up_[k] = slot++;
         } else {
             for (std::int32_t k = to; k < from; ++k) down_[k] = slot++;
         }
     }
+    if (ascents != above.to - above.from) return false;
     for (std::int32_t k = above.from; k < above.to; ++k) addSegment(polytope, face, k, up_[k], down_[k]);
+    return true;
 }
 
 // A nonconvex loop may cross the hyperplane several times. The crossings are sorted along the line in which the
@@ -301,15 +308,32 @@ void PolytopeSlicer::cutCells(const polytopes::Polytope& polytope, SliceSet& out
         }
         cellSpan_[c] = span;
     }
+    stands_.assign(cells, true);
+    for (std::uint32_t c = 0; c < cells && anyOnPlane_; ++c) stands_[c] = standsOnFaces(polytope, c, out);
     loops_.clear();
     loopCorners_.clear();
+    coinciding_.begin(static_cast<std::uint32_t>(out.edges.size()));
     next_.assign(slotPoint_.size(), kNone);
     nextEdge_.resize(slotPoint_.size());
     addLyingFaces(polytope, out);
     for (std::uint32_t c = 0; c < cells; ++c) {
-        if (cellSpan_[c].from < cellSpan_[c].to) traceCell(polytope, c);
+        if (cellSpan_[c].from < cellSpan_[c].to || !stands_[c]) traceCell(polytope, c);
     }
+    if (coinciding_.any()) removeCoincidingEdges(out);
     placeLoops(out);
+}
+
+// Requires that numberEdges() has run.
+bool PolytopeSlicer::standsOnFaces(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const {
+    const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
+    for (const std::uint32_t f : polytope.cells[cell]) {
+        for (std::uint32_t i = segmentBegin_[f]; i < segmentBegin_[f + 1]; ++i) {
+            const Segment& segment = segments_[i];
+            if (segment.plane >= cellSpan_[cell].from) break;  // the segments of a 2-face are sorted by hyperplane
+            if (segment.edge != kNone && out.edgeSource[segment.edge] < faces) return false;
+        }
+    }
+    return true;
 }
 
 // Joins the segments that were cut from the cell's 2-faces, each directed by the orientation of its 2-face in this
@@ -322,7 +346,7 @@ void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_
         const bool outward = polytope.cellSigns[at] > 0;
         for (std::uint32_t i = segmentBegin_[f]; i < segmentBegin_[f + 1]; ++i) {
             const Segment& segment = segments_[i];
-            if (segment.plane < span.from) continue;
+            if (segment.plane < span.from && stands_[cell]) continue;  // see addLyingFaces()
             const std::uint32_t from = outward ? segment.up : segment.down;
             next_[from] = outward ? segment.down : segment.up;
             nextEdge_[from] = segment.edge;
@@ -340,14 +364,15 @@ void PolytopeSlicer::traceCell(const polytopes::Polytope& polytope, std::uint32_
         if (loop.size >= 3) {
             loops_.push_back(loop);
         } else {
+            if (loop.size == 2) coinciding_.join(loopCorners_[loop.begin][1], loopCorners_[loop.begin + 1][1]);
             loopCorners_.resize(loop.begin);
         }
     }
 }
 
-// A 2-face in the hyperplane is a face of the slice if one of its cells lies above the hyperplane, or if one of its
-// cells lies in the hyperplane, on top of the polytope. The slice face then has the orientation of the 2-face in this
-// cell. If the polytope only touches the hyperplane in this 2-face, the 2-face is the whole slice.
+// A 2-face in the hyperplane is a face of the slice if one of its cells stands on it, above the hyperplane, or if one
+// of its cells lies in the hyperplane, on top of the polytope. The slice face then has the orientation of the 2-face in
+// this cell. If the polytope only touches the hyperplane in this 2-face, the 2-face is the whole slice.
 void PolytopeSlicer::addLyingFaces(const polytopes::Polytope& polytope, const SliceSet& out) {
     touchingFaces_.clear();
     bounded_.assign(out.planes.count, false);
@@ -363,7 +388,7 @@ void PolytopeSlicer::addLyingFaces(const polytopes::Polytope& polytope, const Sl
             const auto place = std::find(faces.begin(), faces.end(), f) - faces.begin();
             outward.at(i) = polytope.cellSigns[polytope.cells.begin[cell] + place] > 0;
             const Span span = cellSpan_[cell];
-            placements.at(i) = span.from > plane && span.to > plane;
+            placements.at(i) = span.from > plane && span.to > plane && stands_[cell];
             bounds.at(i) =
                 placements.at(i) || (span.from > plane && span.to <= plane && liesOnTop(polytope, cell, out));
         }
@@ -378,7 +403,8 @@ void PolytopeSlicer::addLyingFaces(const polytopes::Polytope& polytope, const Sl
     for (const std::uint32_t f : touchingFaces_) {
         bool alone = true;
         for (const std::uint32_t cell : polytope.faceCells[f]) {
-            alone = alone && (cellSpan_[cell].from > lyingIn_[f] || cellSpan_[cell].to <= lyingIn_[f]);
+            const bool stands = cellSpan_[cell].from > lyingIn_[f] && stands_[cell];
+            alone = alone && (stands || cellSpan_[cell].to <= lyingIn_[f]);
         }
         if (alone && !bounded_[lyingIn_[f]]) addLyingFace(polytope, f, true);
     }
@@ -411,6 +437,28 @@ bool PolytopeSlicer::liesOnTop(const polytopes::Polytope& polytope, std::uint32_
         }
     }
     return volume > 0;
+}
+
+void PolytopeSlicer::removeCoincidingEdges(SliceSet& out) {
+    std::vector<std::uint32_t> number(out.edges.size());
+    std::uint32_t kept = 0;
+    for (int k = 0; k < out.planes.count; ++k) {
+        const std::uint32_t begin = out.edgeBegin[k], end = out.edgeBegin[k + 1];
+        out.edgeBegin[k] = kept;
+        for (std::uint32_t e = begin; e < end; ++e) {
+            if (const std::uint32_t first = coinciding_.firstOf(e); first != e) {
+                number[e] = number[first];
+                continue;
+            }
+            out.edges[kept] = out.edges[e];
+            out.edgeSource[kept] = out.edgeSource[e];
+            number[e] = kept++;
+        }
+    }
+    out.edgeBegin[out.planes.count] = kept;
+    out.edges.resize(kept);
+    out.edgeSource.resize(kept);
+    for (auto& corner : loopCorners_) corner[1] = number[corner[1]];
 }
 
 // Writes the loops to `out`, sorted by hyperplane.

@@ -13,6 +13,7 @@
 #include "geometry/rotation.hpp"
 #include "parallel/fork_join.hpp"
 #include "polytopes/polytope.hpp"
+#include "slicing/coinciding_edges.hpp"
 #include "slicing/convex_slicer.hpp"
 #include "slicing/slice_set.hpp"
 
@@ -73,7 +74,7 @@ class PolytopeSlicer {
     void cutOnePlane(const polytopes::Polytope& polytope, SliceSet& all, std::int32_t plane, SliceSet& single);
     void cutEdges(const polytopes::Polytope& polytope, SliceSet& out);
     void cutFaces(const polytopes::Polytope& polytope, SliceSet& out);
-    void cutConvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above);
+    bool cutConvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above);
     void cutNonconvexFace(const polytopes::Polytope& polytope, std::uint32_t face, Span above, const SliceSet& out);
     void addSegment(const polytopes::Polytope& polytope, std::uint32_t face, std::int32_t plane, std::uint32_t up,
                     std::uint32_t down);
@@ -84,10 +85,15 @@ class PolytopeSlicer {
                below_[edge[1]] < upTo_[edge[1]];
     }
     void cutCells(const polytopes::Polytope& polytope, SliceSet& out);
+    // Returns whether the section of a cell just above a hyperplane through its lowest vertices moves, in the
+    // hyperplane, to the border of those of its 2-faces that lie in it, or to nothing if there are none. Returns true
+    // for a cell without vertices in a hyperplane below it. Otherwise the cell nearly lies in the hyperplane.
+    bool standsOnFaces(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
     void addLyingFaces(const polytopes::Polytope& polytope, const SliceSet& out);
     void addLyingFace(const polytopes::Polytope& polytope, std::uint32_t face, bool forward);
     bool liesOnTop(const polytopes::Polytope& polytope, std::uint32_t cell, const SliceSet& out) const;
     void traceCell(const polytopes::Polytope& polytope, std::uint32_t cell);
+    void removeCoincidingEdges(SliceSet& out);
     void placeLoops(SliceSet& out);
 
     ConvexSlicer convexSlicer_;
@@ -108,6 +114,8 @@ class PolytopeSlicer {
     std::vector<std::uint32_t> segmentBegin_;
     std::vector<Span> faceSpan_, cellSpan_;  // per element: the hyperplanes with its vertices on both sides
     std::vector<std::int32_t> lyingIn_;      // per 2-face: the hyperplane that contains all of it, or kNoPlane
+    std::vector<bool> stands_;               // per cell: standsOnFaces()
+    CoincidingEdges coinciding_;             // per slice edge
     // Per slot, while a cell is traced: the next slot around the section of the cell, and the slice edge that leads to
     // it. next_ is kNone for a slot that has no next slot or has already been traced.
     std::vector<std::uint32_t> next_, nextEdge_;

@@ -75,6 +75,10 @@ struct SliceSet {
     }
     /// Records that the last slice ends at `at`, and truncates the arrays there.
     void end(SliceCounts at);
+    /// Removes the elements of all slices. Afterward, append() can add slices.
+    void clearElements();
+    /// Adds the elements of the slices of `more`, as further slices.
+    void append(const SliceSet& more);
 };
 
 /// A set without slices.

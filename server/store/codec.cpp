@@ -202,7 +202,8 @@ json encoded(const slicing::FieldSettings& settings) {
 }
 
 json encoded(const scene::Look& look) {
-    const auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint, field, caps] = look;
+    const auto& [view, parts, orbit, coloring, cellTypes, projection, highlight, focusPoint, field, caps, background] =
+        look;
     const auto& [azimuth, elevation, zoom] = orbit;
     const auto& [hidden, faded] = cellTypes;
     json flags = json::array();
@@ -219,7 +220,8 @@ json encoded(const scene::Look& look) {
             highlight ? json({static_cast<unsigned>(highlight->kind), highlight->index}) : json(),
             {focusPoint.x, focusPoint.y, focusPoint.z},
             encoded(field),
-            static_cast<unsigned>(caps)};
+            static_cast<unsigned>(caps),
+            static_cast<unsigned>(background)};
 }
 
 /// A record written by an earlier version of the program has fewer flags; the other parts keep their defaults.
@@ -280,8 +282,10 @@ scene::Look lookIn(const json& value, const slicing::Object& object) {
         value.size() > 8 ? elementIn(value.at(8), object) : std::nullopt,
         value.size() > 9 ? pointIn(value.at(9), slicing::infoOf(object).circumradius) : glm::dvec3(0),
         value.size() > 10 ? fieldSettingsIn(value.at(10)) : slicing::FieldSettings{},
-        value.size() > 11 ? enumerator(value.at(11), scene::CapStyle::open) : scene::CapStyle::plain};
-    // Records written by earlier versions of the program lack the projection, highlight, focus point, field and caps.
+        value.size() > 11 ? enumerator(value.at(11), scene::CapStyle::open) : scene::CapStyle::plain,
+        value.size() > 12 ? enumerator(value.at(12), scene::Background::transparent) : scene::Background::automatic};
+    // Records written by earlier versions of the program lack the projection, highlight, focus point, field, caps and
+    // background.
     if (value.size() > 6)
         look.projection = {enumerator(value.at(6), scene::ProjectionKind::orthogonal),
                            readNumber(value.at(7), session::kMinEye, session::kMaxEye)};

@@ -51,26 +51,29 @@ std::vector<glm::dvec4> verticesIn(const json& value) {
 }
 
 // Decodes [version, name, vertices, 2-faces, cells, the type of each cell].
-slicing::Object polytopeIn(const json& value) {
+slicing::Object polytopeIn(const json& value, const glm::dvec4& originInFile) {
     geometry::JaggedArray cells = arrayIn(value.at(4));
     std::vector<std::uint32_t> typeOfCell = readIntegers(value.at(5));
     if (typeOfCell.size() != cells.size()) throwUnreadable("the numbers of cells and of their types differ");
     try {
-        return std::make_shared<const Polytope>(polytopes::makePolytope(readShortText(value.at(1)),
-                                                                        verticesIn(value.at(2)), arrayIn(value.at(3)),
-                                                                        std::move(cells), std::move(typeOfCell)));
+        Polytope polytope = polytopes::makePolytope(readShortText(value.at(1)), verticesIn(value.at(2)),
+                                                    arrayIn(value.at(3)), std::move(cells), std::move(typeOfCell));
+        polytope.originInFile = originInFile;
+        return std::make_shared<const Polytope>(std::move(polytope));
     } catch (const polytopes::InvalidPolytope& fault) {
         throwUnreadable(std::string("a polytope is not valid: ") + fault.what());
     }
 }
 
 // Decodes [version, name, points, radii].
-slicing::Object cloudIn(const json& value) {
+slicing::Object cloudIn(const json& value, const glm::dvec4& originInFile) {
     std::vector<double> radii;
     for (const json& radius : value.at(3)) radii.push_back(readNumber(radius, 0, kMaxCoordinate));
     try {
-        return std::make_shared<const geometry::PointCloud>(
-            geometry::makePointCloud(readShortText(value.at(1)), verticesIn(value.at(2)), std::move(radii)));
+        geometry::PointCloud cloud =
+            geometry::makePointCloud(readShortText(value.at(1)), verticesIn(value.at(2)), std::move(radii));
+        cloud.originInFile = originInFile;
+        return std::make_shared<const geometry::PointCloud>(std::move(cloud));
     } catch (const std::invalid_argument& fault) {
         throwUnreadable(std::string("a point cloud is not valid: ") + fault.what());
     }
@@ -163,6 +166,16 @@ slicing::Object fileIn(const json& value, const FileOpener& open) {
     return *object;
 }
 
+// A record of an object that was moved when it was loaded has this many members: [version, [origin in the file, the
+// record of the object]]. Records of all other objects have more.
+constexpr std::size_t kMovedMembers = 2;
+constexpr std::size_t kCloudMembers = 4, kPolytopeMembers = 6;
+
+json encodedWithOrigin(const glm::dvec4& originInFile, json record) {
+    if (originInFile == glm::dvec4(0)) return record;
+    return json({kRecordVersion, json::array({encoded(std::vector{originInFile}), std::move(record)})});
+}
+
 }  // namespace
 
 bool namesFile(std::string_view record) { return record.starts_with(kFileRecord); }
@@ -170,10 +183,12 @@ bool namesFile(std::string_view record) { return record.starts_with(kFileRecord)
 std::string encodeObjectRecord(const slicing::Object& object) {
     const slicing::Visitor encode{
         [](const slicing::PolytopePtr& p) {
-            return json({kRecordVersion, p->name, encoded(p->vertices), rows(p->faces), rows(p->cells), p->typeOfCell});
+            return encodedWithOrigin(p->originInFile, json({kRecordVersion, p->name, encoded(p->vertices),
+                                                            rows(p->faces), rows(p->cells), p->typeOfCell}));
         },
         [](const slicing::CloudPtr& cloud) {
-            return json({kRecordVersion, cloud->name, encoded(cloud->points), cloud->radii});
+            return encodedWithOrigin(cloud->originInFile,
+                                     json({kRecordVersion, cloud->name, encoded(cloud->points), cloud->radii}));
         },
         [](const slicing::FieldPtr& field) {
             if (field->source) return encoded(field->name, *field->source);
@@ -192,10 +207,21 @@ std::string encodeObjectRecord(const slicing::Object& object) {
 
 slicing::Object decodeObjectRecord(std::string_view bytes, const FileOpener& open) {
     return translatingErrors([&] {
-        const json value = parseRecord(bytes);
+        json value = parseRecord(bytes);
+        glm::dvec4 originInFile(0);
+        if (value.size() == kMovedMembers) {
+            const std::vector<glm::dvec4> origins = verticesIn(value.at(1).at(0));
+            if (origins.size() != 1) throwUnreadable("an object does not have one origin");
+            originInFile = origins.front();
+            value = json(value.at(1).at(1));
+            if (value.size() != kCloudMembers && value.size() != kPolytopeMembers)
+                throwUnreadable("an object with an origin is neither a polytope nor a point cloud");
+        }
         if (value.size() == kFileMembers) return fileIn(value, open);
         const bool isField = value.size() == 5 || value.size() == 7;
-        return value.size() == 4 ? cloudIn(value) : isField ? fieldIn(value) : polytopeIn(value);
+        return value.size() == kCloudMembers ? cloudIn(value, originInFile)
+               : isField                     ? fieldIn(value)
+                                             : polytopeIn(value, originInFile);
     });
 }
 

@@ -45,7 +45,14 @@ void writeCounts(JsonWriter& w, const Counts& counts) {
     w.member("cells", counts[3]);
 }
 
-void writeObject(JsonWriter& w, const slicing::Object& object) {
+void writePoint(JsonWriter& w, std::string_view name, const glm::dvec4& point) {
+    w.key(name);
+    w.beginArray();
+    for (int axis = 0; axis < 4; ++axis) w.value(point[axis]);
+    w.endArray();
+}
+
+void writeObject(JsonWriter& w, const slicing::Object& object, scene::Scheme scheme) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     w.key("polytope");
     w.beginObject();
@@ -57,10 +64,11 @@ void writeObject(JsonWriter& w, const slicing::Object& object) {
         w.beginObject();
         w.member("name", std::string_view(info.cellTypes[i].name));
         w.member("cells", std::uint64_t{info.cellTypes[i].cells});
-        w.member("color", scene::cellTypeColor(i, info.cellTypes.size()));
+        w.member("color", scene::cellTypeColor(i, info.cellTypes.size(), scheme));
         w.endObject();
     }
     w.endArray();
+    if (info.originInFile != glm::dvec4(0)) writePoint(w, "center", info.originInFile);
     w.endObject();
 }
 
@@ -106,9 +114,9 @@ void writeLast(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
 }
 
 // Writes the member `values`: the second function, if there is one, and the color scale of values.
-void writeValues(JsonWriter& w, const fields::Field& field) {
+void writeValues(JsonWriter& w, const fields::Field& field, scene::Scheme scheme) {
     constexpr int kColors = 9;
-    const scene::ValueScale scale = scene::valueScaleFor(field.coloringRange->get());
+    const scene::ValueScale scale = scene::valueScaleFor(field.coloringRange->get(), scheme);
     w.key("values");
     w.beginObject();
     if (field.second && field.second->array) {
@@ -131,7 +139,7 @@ void writeValues(JsonWriter& w, const fields::Field& field) {
     w.endObject();
 }
 
-void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& look) {
+void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& look, scene::Scheme scheme) {
     w.key("field");
     w.beginObject();
     if (field.array) {
@@ -148,7 +156,7 @@ void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& lo
     } else {
         w.member("formula", std::string_view(field.formula));
     }
-    if (field.second || scene::colorsByValue(look)) writeValues(w, field);
+    if (field.second || scene::colorsByValue(look)) writeValues(w, field, scheme);
     w.key("box");
     w.beginArray();
     for (int axis = 0; axis < 4; ++axis) {
@@ -177,12 +185,13 @@ void writeFog(JsonWriter& w, const std::vector<slicing::FogPoint>& points) {
 }  // namespace
 
 void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
-                  std::optional<double> id, std::string& out, slicing::Quality quality) {
+                  std::optional<double> id, std::string& out, slicing::Quality quality, scene::Scheme viewer) {
+    const scene::Scheme scheme = scene::schemeOn(state.look.background, viewer);
     JsonWriter w(out);
     begin(w, "state", id);
     w.member("revision", revision);
     if (quality == slicing::Quality::draft) w.member("draft", true);
-    writeObject(w, state.object);
+    writeObject(w, state.object, scheme);
     w.member("pace", state.referenceFrame.pace);
     writeVector(w, "follow", state.referenceFrame.follow);
     writeVector(w, "boost", state.referenceFrame.boost);
@@ -199,15 +208,13 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
     w.endObject();
     w.key("section");
     w.beginObject();
-    w.member("w", state.focusW());
+    const glm::dvec4 point =
+        slicing::infoOf(state.object).originInFile + glm::dvec4(state.look.focusPoint, state.focusW());
+    w.member("w", point.w);
     w.member("name", section.slice);
     w.member("vertices", section.vertices);
     w.endObject();
-    w.key("point");
-    w.beginArray();
-    for (int axis = 0; axis < 3; ++axis) w.value(state.look.focusPoint[axis]);
-    w.value(state.focusW());
-    w.endArray();
+    writePoint(w, "point", point);
     w.member("view", text::nameOf(scene::kViews, state.look.view));
     w.member("turning", state.turning);
     w.member("moving", state.moves());
@@ -222,6 +229,7 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
     w.member("zoom", state.look.orbit.zoom);
     w.endObject();
     w.member("color", text::nameOf(scene::kColorings, state.look.coloring));
+    w.member("background", text::nameOf(scene::kBackgrounds, state.look.background));
     if (slicing::fieldIn(state.object) != nullptr) {
         w.key("levels");
         w.beginArray();
@@ -230,7 +238,7 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
         w.member("inside", text::nameOf(fields::kInsides, state.look.field.inside));
         w.member("caps", text::nameOf(scene::kCapStyles, state.look.caps));
         writeFog(w, state.look.field.fog);
-        writeField(w, *slicing::fieldIn(state.object), state.look);
+        writeField(w, *slicing::fieldIn(state.object), state.look, scheme);
     }
     w.member("projection", text::nameOf(scene::kProjectionKinds, state.look.projection.kind));
     w.member("eye", state.look.projection.eye);
@@ -245,11 +253,11 @@ void stateMessage(const session::State& state, const slicing::SectionNames& sect
 }
 
 std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
-                         std::optional<double> id, slicing::Quality quality) {
+                         std::optional<double> id, slicing::Quality quality, scene::Scheme viewer) {
     constexpr std::size_t kTypicalBytes = 1024;
     std::string out;
     out.reserve(kTypicalBytes);
-    stateMessage(state, section, revision, id, out, quality);
+    stateMessage(state, section, revision, id, out, quality, viewer);
     return out;
 }
 
@@ -257,6 +265,7 @@ std::string atMessage(const std::optional<scene::PickedElement>& picked, const s
                       const scene::Scene& scene, const slicing::Object& object, std::uint64_t revision,
                       std::optional<double> id) {
     std::string out;
+    const glm::dvec4& origin = slicing::infoOf(object).originInFile;
     {
         JsonWriter w(out);
         begin(w, "at", id);
@@ -267,7 +276,7 @@ std::string atMessage(const std::optional<scene::PickedElement>& picked, const s
             w.member("in", text::nameOf(scene::kPictureAreas, picked->area));
             if (picked->area == scene::PictureArea::slice) {
                 w.member("slice", scene.placements[picked->slice].index);
-                w.member("w", scene.placements[picked->slice].w);
+                w.member("w", origin.w + scene.placements[picked->slice].w);
             }
             slicing::ElementSources sources;
             slicing::findSourcesShowing(object, picked->element, sources);
@@ -276,21 +285,18 @@ std::string atMessage(const std::optional<scene::PickedElement>& picked, const s
                 least = std::min(least, scene.slices->rotatedVertices[v].w);
                 most = std::max(most, scene.slices->rotatedVertices[v].w);
             }
-            w.member("least_w", least);
-            w.member("most_w", most);
+            w.member("least_w", origin.w + least);
+            w.member("most_w", origin.w + most);
             w.member("vertices", std::uint64_t{sources.ownVertices.size()});
+            if (picked->element.kind == slicing::ElementKind::vertex)
+                writePoint(w, "place", slicing::vertexInFile(object, picked->element.index));
             if (picked->element.kind == slicing::ElementKind::cell) {
                 const std::uint32_t kind = slicing::typeOfCells(object)[picked->element.index];
                 w.member("kind", std::uint64_t{kind});
                 w.member("name", std::string_view(slicing::infoOf(object).cellTypes[kind].name));
             }
         }
-        if (point) {
-            w.key("point");
-            w.beginArray();
-            for (int axis = 0; axis < 4; ++axis) w.value((*point)[axis]);
-            w.endArray();
-        }
+        if (point) writePoint(w, "point", origin + *point);
         w.endObject();
     }
     return out;
@@ -321,22 +327,22 @@ void writePair(JsonWriter& w, std::string_view name, Number before, Number after
 
 }  // namespace
 
-std::string criticalMessage(const slicing::CriticalSections& sections, std::uint64_t revision,
+std::string criticalMessage(const slicing::CriticalSections& sections, double originW, std::uint64_t revision,
                             std::optional<double> id) {
     std::string out;
     {
         JsonWriter w(out);
         begin(w, "critical", id);
         w.member("revision", revision);
-        w.member("least_w", sections.least);
-        w.member("most_w", sections.greatest);
+        w.member("least_w", originW + sections.least);
+        w.member("most_w", originW + sections.greatest);
         w.member("tolerance", sections.tolerance);
         w.member("resolution", sections.resolution);
         w.key("sections");
         w.beginArray();
         for (const slicing::CriticalSection& section : sections.all) {
             w.beginObject();
-            w.member("w", section.w);
+            w.member("w", originW + section.w);
             w.member("change", text::nameOf(slicing::kSectionChanges, section.change));
             if (section.change == slicing::SectionChange::vertices) {
                 w.member("vertices", std::uint64_t{section.vertices});
@@ -435,6 +441,17 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
         for (const slicing::Object& object : loaded) add(slicing::infoOf(object).name, "loaded", countsOf(object));
         for (const std::string& name : data) add(name, "data", kBox);
         w.endArray();
+        w.endObject();
+    }
+    return out;
+}
+
+std::string addressMessage(std::string_view query, std::optional<double> id) {
+    std::string out;
+    {
+        JsonWriter w(out);
+        begin(w, "address", id);
+        w.member("query", query);
         w.endObject();
     }
     return out;

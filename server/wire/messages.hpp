@@ -19,12 +19,15 @@
 namespace oval4d::wire {
 
 /// Returns the `state` message of a state. `section` has the names of its focus slice, and `quality` is the quality of
-/// the picture that follows. The PNG files of frames contain the same text.
+/// the picture that follows. `viewer` is the scheme of this picture if the background is scene::Background::automatic;
+/// the message has the colors of kinds and of values. The PNG files of frames contain the same text.
 std::string stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
-                         std::optional<double> id = {}, slicing::Quality quality = slicing::Quality::full);
+                         std::optional<double> id = {}, slicing::Quality quality = slicing::Quality::full,
+                         scene::Scheme viewer = scene::Scheme::dark);
 /// Writes the `state` message to `out`. Overwrites `out` and reuses its memory.
 void stateMessage(const session::State& state, const slicing::SectionNames& section, std::uint64_t revision,
-                  std::optional<double> id, std::string& out, slicing::Quality quality = slicing::Quality::full);
+                  std::optional<double> id, std::string& out, slicing::Quality quality = slicing::Quality::full,
+                  scene::Scheme viewer = scene::Scheme::dark);
 
 /// Returns the `at` message, which describes what the picture `scene` of `object` shows at a point. `picked` is the
 /// element there, if there is one. `point` is the 4-D point that a panel of the matrix shows there, if there is a
@@ -33,8 +36,9 @@ std::string atMessage(const std::optional<scene::PickedElement>& picked, const s
                       const scene::Scene& scene, const slicing::Object& object, std::uint64_t revision,
                       std::optional<double> id);
 
-/// Returns the `critical` message: the critical values of w of the object.
-std::string criticalMessage(const slicing::CriticalSections& sections, std::uint64_t revision,
+/// Returns the `critical` message: the critical values of w of the object, in the coordinates of its file. `originW` is
+/// the w of its geometry::ObjectInfo::originInFile.
+std::string criticalMessage(const slicing::CriticalSections& sections, double originW, std::uint64_t revision,
                             std::optional<double> id);
 
 /// Returns the `error` message.
@@ -46,6 +50,8 @@ std::string doneMessage(std::optional<double> id, std::uint64_t revision,
 /// loaded objects and by the arrays in the data folder, whose names are `data`.
 std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded = {},
                              std::span<const std::string> data = {});
+/// Returns the `address` message. `query` is the text of a query; see session::queryText().
+std::string addressMessage(std::string_view query, std::optional<double> id);
 /// Returns the `keymap` message, the key table of protocol/keymap.json.
 std::string keymapMessage(std::optional<double> id);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "image/png_text.hpp"
+#include "session/expression.hpp"
 #include "session/load.hpp"
 #include "text/message_text.hpp"
 #include "wire/json_parser.hpp"
@@ -20,6 +21,7 @@ using nlohmann::json;
 // Thrown for a fault of a message that its schema cannot describe.
 struct InvalidRequest {
     std::string message;
+    ErrorCode code = ErrorCode::bad_message;
 };
 
 template <typename T>
@@ -70,6 +72,7 @@ Hello helloOf(const json& message) {
     choose(message, "stream", kStreams, hello.stream);
     choose(message, "encoding", kEncodings, hello.encoding);
     hello.viewport = viewportOf(message).value_or(scene::Viewport{});
+    choose(message, "scheme", scene::kSchemes, hello.scheme);
     take(message, "token", hello.token);
     return hello;
 }
@@ -151,6 +154,7 @@ session::Set setOf(const json& message) {
     }
     choose(message, "color", scene::kColorings, set.coloring);
     choose(message, "caps", scene::kCapStyles, set.caps);
+    choose(message, "background", scene::kBackgrounds, set.background);
     choose(message, "projection", scene::kProjectionKinds, set.projection);
     take(message, "eye", set.eye);
     take(message, "levels", set.levels);
@@ -177,6 +181,21 @@ session::TurnToward towardOf(const json& message) {
     return toward;
 }
 
+geometry::Centering centerOf(const json& center) {
+    using Kind = geometry::Centering::Kind;
+    if (center.is_array()) {
+        geometry::Centering result{Kind::point};
+        for (int axis = 0; axis < 4; ++axis) result.place[axis] = center[axis].get<double>();
+        return result;
+    }
+    const std::string& name = center.get_ref<const std::string&>();
+    if (name != "object" && name != "origin") {
+        throw InvalidRequest{"load: /center must be \"object\", \"origin\" or an array x, y, z, w, not " +
+                             text::inQuotes(name)};
+    }
+    return {name == "object" ? Kind::object : Kind::origin};
+}
+
 session::LoadObject loadOf(const json& message) {
     if (!message.contains("data") && !message.contains("path"))
         throw InvalidRequest{"load: /data is missing: the text of a file, or else /path, a name in the data folder"};
@@ -192,7 +211,16 @@ session::LoadObject loadOf(const json& message) {
     load.valuesVariable = message.value("values_variable", "");
     load.append = message.value("append", false);
     if (const auto box = message.find("box"); box != message.end()) load.box = boxOf(*box);
+    if (const auto center = message.find("center"); center != message.end()) load.center = centerOf(*center);
     return load;
+}
+
+/// Returns numbers from a list of them, or from a text with expressions.
+std::vector<double> numbersOf(const json& value, const std::string& where) {
+    if (value.is_array()) return value.get<std::vector<double>>();
+    auto list = session::evaluateList(value.get_ref<const std::string&>());
+    if (!list) throw InvalidRequest{where + ": " + list.error().message, list.error().code};
+    return std::move(*list);
 }
 
 exports::ExportRequest exportRequestOf(const json& message) {
@@ -204,10 +232,13 @@ exports::ExportRequest exportRequestOf(const json& message) {
                              text::inQuotes(format)};
     }
     exports::ExportRequest request = exports::requestFor(*known);
-    choose(message, "of", exports::kExtents, request.extent);
+    choose(message, "of", exports::kExportContents, request.contents);
     choose(message, "body", exports::kBodies, request.body);
     choose(message, "label", exports::kLabels, request.label);
     request.size = message.value("size", request.size);
+    if (const auto at = message.find("at"); at != message.end()) request.at = numbersOf(*at, "get: /at");
+    take(message, "fit", request.fit);
+    if (!message.contains("of") && request.choosesSlices()) request.contents = exports::ExportContents::oval;
     return request;
 }
 
@@ -217,6 +248,7 @@ Get getOf(const json& message) {
     Get get;
     choose(message, "what", kGetTargets, get.what);
     get.viewport = viewportOf(message);
+    choose(message, "background", scene::kBackgrounds, get.background);
     if (get.what == GetTarget::at) {
         if (!message.contains("x") || !message.contains("y"))
             throw InvalidRequest{"get: the element at a point needs /x and /y, in pixels from the upper left corner"};
@@ -240,6 +272,7 @@ decltype(Request::body) bodyOf(const std::string& type, const json& message) {
     if (type == "reset") return session::Command{session::Reset{}};
     if (type == "command") return session::Command{session::CommandLine{message.at("line")}};
     if (type == "load") return session::Command{loadOf(message)};
+    if (type == "address") return session::Command{session::OpenAddress{message.at("query")}};
     if (type == "get") return getOf(message);
     return helloOf(message);
 }
@@ -326,7 +359,7 @@ std::variant<Request, BadRequest> requestOf(ParsedJson&& read) {
     try {
         return Request{id, bodyOf(name, message)};
     } catch (const InvalidRequest& invalid) {
-        return refuse(ErrorCode::bad_message, invalid.message);
+        return refuse(invalid.code, invalid.message);
     }
 }
 

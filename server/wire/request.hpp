@@ -35,10 +35,11 @@ struct Hello {
     Stream stream = Stream::none;
     Encoding encoding = Encoding::json;
     scene::Viewport viewport;
-    std::optional<std::string> token;  ///< the token of the session that the connection joins
+    scene::Scheme scheme = scene::Scheme::dark;  ///< that of pictures with scene::Background::automatic
+    std::optional<std::string> token;            ///< the token of the session that the connection joins
 };
 /// The data that a `get` message requests.
-enum class GetTarget : std::uint8_t { state, slices, frame, at, file, critical, catalogue, keymap };
+enum class GetTarget : std::uint8_t { state, slices, frame, at, file, critical, catalogue, keymap, address };
 inline constexpr auto kGetTargets = std::to_array<text::Choice<GetTarget>>({{"state", GetTarget::state},
                                                                             {"slices", GetTarget::slices},
                                                                             {"frame", GetTarget::frame},
@@ -46,15 +47,17 @@ inline constexpr auto kGetTargets = std::to_array<text::Choice<GetTarget>>({{"st
                                                                             {"file", GetTarget::file},
                                                                             {"critical", GetTarget::critical},
                                                                             {"catalogue", GetTarget::catalogue},
-                                                                            {"keymap", GetTarget::keymap}});
+                                                                            {"keymap", GetTarget::keymap},
+                                                                            {"address", GetTarget::address}});
 
 /// Requests data once.
 struct Get {
     GetTarget what = GetTarget::state;
     std::optional<scene::Viewport>
-        viewport;                 ///< for slices, frames and at; if absent, the connection's viewport is used
-    glm::dvec2 point{0};          ///< for GetTarget::at: pixels from the upper left corner
-    exports::ExportRequest file;  ///< the options of the export, for GetTarget::file
+        viewport;  ///< for slices, frames and at; if absent, the connection's viewport is used
+    std::optional<scene::Background> background;  ///< for slices and frames; if absent, that of the session is used
+    glm::dvec2 point{0};                          ///< for GetTarget::at: pixels from the upper left corner
+    exports::ExportRequest file;                  ///< the options of the export, for GetTarget::file
 };
 /// Reports that the client has shown the picture with this revision.
 struct ShownRevision {

@@ -24,9 +24,9 @@ using nlohmann::json;
 using valijson::adapters::NlohmannJsonAdapter;
 
 constexpr auto kRequests = std::to_array<std::string_view>(
-    {"hello", "key", "rotate", "toward", "set", "load", "undo", "redo", "reset", "command", "get", "shown"});
+    {"hello", "key", "rotate", "toward", "set", "load", "undo", "redo", "reset", "command", "address", "get", "shown"});
 constexpr auto kAnswers = std::to_array<std::string_view>(
-    {"welcome", "state", "slices", "at", "critical", "done", "error", "catalogue", "keymap"});
+    {"welcome", "state", "slices", "at", "critical", "done", "error", "catalogue", "keymap", "address"});
 
 struct MessageSchema {
     json text;

@@ -177,7 +177,7 @@ void SlicesMessageWriter::writeMessage(W&& w, CachedText<StaticScene>& cache, co
                             scene.scale,       scene.circumradius, scene.ballRadius, scene.barRadius,
                             scene.faceOpacity, scene.axes,         scene.coordinates};
     w.raw(cache.textFor(fixed, [&](std::string& out) { writeStaticScene(W(out), fixed); }));
-    writeColors(w, scene::style(), scene.cellColors);
+    writeColors(w, scene.style(), scene.cellColors);
     SurfaceWriter::writeLook(w, scene.surfaces);
     writeFogTable(w, scene.fog);
     w.endObject();

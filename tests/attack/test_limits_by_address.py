@@ -172,7 +172,8 @@ def test_connections_per_address_are_limited():
         held = [websocket_in_session(server) for _ in range(5)]
         assert fetch(server, "/", source=ATTACKER).status in FULL
         _, refused = open_websockets(server, 3, ATTACKER)
-        assert len(refused) == 3 and set(refused) <= set(FULL)
+        # One that has not sent its request yet may be closed without an answer, to make room for the next.
+        assert len(refused) == 3 and set(refused) <= {*FULL, None}
         Bystander(server).assert_served()
         close_all(held[:1])
         server.wait_for(lambda: fetch(server, "/", source=ATTACKER).status == 200)
@@ -380,7 +381,7 @@ def test_connections_behind_a_proxy_count_for_the_forwarded_address():
     with Server("--max-client-connections", 4, "--trusted-proxy", "127.0.0.2") as server:
         held = [websocket_in_session(server, f"X-Forwarded-For: 192.0.2.{number % 3}") for number in range(12)]
         opened, refused = open_websockets(server, 4, ATTACKER, "X-Forwarded-For: 192.0.2.1")
-        assert not opened and set(refused) <= set(FULL)
+        assert not opened and set(refused) <= {*FULL, None}
         close_all(held + opened)
 
 

@@ -1,12 +1,20 @@
 // Every action has a button that does the same as its key.
 import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { promisify } from "node:util";
+
 import { test } from "./support/suite.mjs";
 
-import { openWithScript, presented, stateAfter } from "./support/browser.mjs";
+import { named, openPage, openWithScript, presented, stateAfter } from "./support/browser.mjs";
 import { bytesOf } from "./support/downloads.mjs";
 import { table } from "./support/keys.mjs";
 import { decode } from "./support/pixels.mjs";
 import { pngText } from "./node_modules/.oval4d/client.mjs";
+
+const kPythonClient = new URL("../../protocol/python", import.meta.url).pathname;
 
 const comparable = ({ id, revision, ...state }) => state;
 
@@ -155,6 +163,35 @@ test("buttons: Export and Share are in the header, or on narrow screens in the t
     await page.click(".tabs button:text-is('More')");
     assert.equal(await page.locator(inHeader).filter({ visible: true }).count(), 0);
     assert.equal(await page.locator(inTools).filter({ visible: true }).count(), 2);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("buttons: a link and a script open the view elsewhere", async () => {
+    const permissions = ["clipboard-read", "clipboard-write"];
+    const { page, script, errors, close } = await openWithScript({ permissions });
+    const copied = async (name, notice) => {
+        await page.locator(`[data-page-tool=${name}]`).dispatchEvent("click");
+        await page.waitForFunction((text) => document.getElementById("notice").textContent.startsWith(text), notice);
+        return page.evaluate(() => navigator.clipboard.readText());
+    };
+    await script.request({ type: "set", polytope: "24-cell", slices: { count: 5 } });
+    const { revision } = await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.3, 1] });
+    await presented(page, revision);
+    const link = await copied("view_link", "Link copied");
+    const other = await openPage({ url: link });
+    await named(other.page, "24-cell");
+    await other.page.waitForFunction(() => document.querySelector("[data-state-field=slices]").textContent === "5");
+    assert.deepEqual(other.errors, []);
+    await other.close();
+    const python = await copied("python", "Python script copied");
+    assert.ok(python.includes(`with connect(${JSON.stringify(link)}) as oval:`), python);
+    const folder = await mkdtemp(join(tmpdir(), "oval4d-python-"));
+    await promisify(execFile)("/usr/bin/python3", ["-c", python], { cwd: folder, env: { PYTHONPATH: kPythonClient } });
+    const { orientation } = JSON.parse(pngText(await readFile(join(folder, "24-cell.png"))));
+    await rm(folder, { recursive: true });
+    const expected = (await script.state()).orientation.flat();
+    orientation.flat().forEach((entry, i) => assert.ok(Math.abs(entry - expected[i]) < 1e-9, `${entry} ${expected[i]}`));
     assert.deepEqual(errors, []);
     await close();
 });

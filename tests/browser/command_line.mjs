@@ -318,7 +318,7 @@ test("command line: :export saves a file in each format, as the export dialog do
         await named(page, "8-cell");
         for (const { name, of } of some) {
             const download = await save(page, `export ${name}`);
-            const part = of[0] === "focus" ? "-w-0" : of.length > 1 ? `-${of[0]}` : "";
+            const part = of.includes("focus") ? "-w-0" : of.length > 1 ? `-${of[0]}` : "";
             assert.equal(download.suggestedFilename(), `8-cell${part}.${name}`);
             assert.ok((await bytesOf(download)).length > 50, name);
         }
@@ -333,6 +333,23 @@ test("command line: :export explains what it cannot save, and without a format o
     await named(page, "8-cell");
     assert.equal((await save(page, "export PNG")).suggestedFilename(), "8-cell.png");
     assert.equal(await page.locator("#export").isVisible(), false);
+
+    assert.equal((await save(page, "export stl fit=3")).suggestedFilename(), "8-cell-3-slices.stl");
+    assert.equal((await save(page, "export stl at=0,1/2,4")).suggestedFilename(), "8-cell-slices.stl");
+    await page.waitForFunction(() => /1 of 3 slices is empty/.test(document.getElementById("notice").textContent));
+    assert.equal((await save(page, "export stl body=skeleton")).suggestedFilename(), "8-cell-w-0-skeleton.stl");
+    for (const [line, says] of [
+        ["export stl fit", "“fit” is not an option, such as fit=5; the options are of, body, size, label, at, fit"],
+        ["export stl size=big", "size must be a number, not “big”"],
+        ["export stl at=0 fit=2", "give either at or fit"],
+        ["export png size=3", "the size of a PNG is chosen in the export dialog"],
+    ]) {
+        await type(page, line);
+        await page.waitForFunction((text) => {
+            return document.getElementById("command-error").textContent.toLowerCase().includes(text.toLowerCase());
+        }, says);
+        await page.keyboard.press("Escape");
+    }
 
     await type(page, "export stel");
     await page.waitForFunction(() =>

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { named, openWithScript } from "./support/browser.mjs";
+import { named, openWithScript, presented } from "./support/browser.mjs";
 import { bytesOf, pagesOf } from "./support/downloads.mjs";
 import { decode } from "./support/pixels.mjs";
 import { startServer } from "./support/server.mjs";
@@ -104,6 +104,66 @@ test("export: size, body and slices are as chosen", async () => {
     await close();
 });
 
+/** The number of triangles of a binary STL file of cubes, each of which has twelve. */
+const cubesIn = (stl) => stl.readUInt32LE(80) / 12;
+
+test("export: slices are those that are chosen, and what the file lacks is told", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "8-cell" });
+    await named(page, "8-cell");
+    await openExport(page);
+    await choose(page, "format", "stl");
+    assert.equal(await page.locator("#export [data-choice=slices]").isVisible(), false, "there is only the focus slice");
+    await page.keyboard.press("Escape");
+    const fitted = await exported(page, { of: "oval", slices: "fit" }, { fit: 4 });
+    assert.equal(fitted.name, "8-cell-4-slices.stl");
+    assert.equal(cubesIn(fitted.bytes), 4);
+    assert.equal(await page.locator("#notice").textContent(), "");
+    const listed = await exported(page, { slices: "at" }, { at: "-1/2, 0, 3" });
+    assert.equal(listed.name, "8-cell-slices.stl");
+    assert.equal(cubesIn(listed.bytes), 2);
+    await page.waitForFunction(() => /1 of 3 slices is empty/.test(document.getElementById("notice").textContent));
+    await openExport(page);
+    await page.fill("#export [name=at]", "one");
+    await page.click("#export-submit");
+    await page.waitForFunction(() => /nothing is called 'one'/.test(document.getElementById("export-error").textContent));
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("export: the highlighted element alone, if there is one", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "8-cell" });
+    await named(page, "8-cell");
+    const isOffered = () => page.locator('#export label:has([name=of][value="highlight"])').isVisible();
+    await openExport(page);
+    await choose(page, "format", "stl");
+    assert.equal(await isOffered(), false);
+    await page.keyboard.press("Escape");
+    const lit = async (element, number) => {
+        const { revision } = await script.request({ type: "set", highlight: { element, number } });
+        await presented(page, revision);
+    };
+    await lit("cell", 3);
+    const cell = await exported(page, { of: "highlight" });
+    assert.equal(cell.name, "8-cell-cell-3.stl");
+    assert.equal(cubesIn(cell.bytes), 1);
+    await lit("edge", 5);
+    await openExport(page);
+    assert.equal(await page.locator("#export-highlight").textContent(), "edge 5");
+    assert.equal(await page.locator("#export [name=body]:checked").inputValue(), "skeleton", "an edge has no volume");
+    assert.equal(await page.locator('#export label:has([name=body][value="solid"])').isVisible(), false);
+    await page.keyboard.press("Escape");
+    await script.request({ type: "set", highlight: null });
+    await script.until(({ highlight }) => highlight === null, "the end of the light");
+    await presented(page, (await script.state()).revision);
+    await openExport(page);
+    assert.equal(await isOffered(), false);
+    assert.equal(await page.locator("#export [name=of]:checked").inputValue(), "focus");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("export: figures show what is chosen", async () => {
     const { page, script, close } = await openWithScript();
     await script.request({ type: "set", polytope: "8-cell" });
@@ -112,11 +172,15 @@ test("export: figures show what is chosen", async () => {
         ["coordinates", "8-cell-coordinates.svg", "Parallel coordinates"],
         ["projection", "8-cell-projection.svg", "Perspective projection"],
         ["matrix", "8-cell-matrix.svg", "Planar sections"],
+        ["oval", "8-cell-oval.svg", "Slices"],
+        ["focus", "8-cell-w-0.svg", "Slice: "],
     ]) {
         const { name, bytes } = await exported(page, { format: "svg", of });
         assert.equal(name, file);
         assert.match(text(bytes, 400), new RegExp(`<title>${title}`));
     }
+    const { bytes } = await exported(page, {}, { side: 100 });
+    assert.match(text(bytes, 400), /width="100.000mm" height="100.000mm"/);
     await close();
 });
 
@@ -154,8 +218,8 @@ test("export: only the options of the format are shown", async () => {
         off: [],
         csv: ["of"],
         vtp: ["of"],
-        png: ["pixels"],
-        svg: ["of"],
+        png: ["pixels", "background"],
+        svg: ["of", "side"],
         glb: ["of", "body", "size", "label"],
     })) {
         await choose(page, "format", format);

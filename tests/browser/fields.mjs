@@ -178,7 +178,9 @@ test("fields: the colorings are those of a field, and growth is amber and blue",
     assert.deepEqual(await offered(), ["Level", "w", "Plain", "Growth", "Value"]);
     assert.equal(await page.locator(".kinds > div").count(), 0, "no kinds of cells");
     await page.locator("#tools label", { hasText: "Growth" }).click();
-    const { revision } = await script.until(({ color }) => color === "growth", "growth");
+    await script.until(({ color }) => color === "growth", "growth");
+    // Otherwise the edges of the box would be before some points of the surface.
+    const { revision } = await script.request({ type: "set", shown: { bars: false, balls: false } });
     await presented(page, revision);
     assert.match(await page.locator(".scale").innerText(), /shrinks\s+grows/);
     await spoken(page, "colored by growth");

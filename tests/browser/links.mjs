@@ -7,7 +7,7 @@ import { common, named, openPage, openWithScript, presented, ready, scriptFor } 
 test("links: a query opens its view", async () => {
     const { url } = await common();
     const query =
-        "?polytope=24-cell&rotate=xw,yz:pi/8,pi/sqrt(3)-pi/8&rotate=xy:0.1+0.1&slices=31&alpha=pi/8&width=640";
+        "?polytope=24-cell&rotate=xw,yz:pi/8,pi/sqrt(3)-pi/8&rotate=xy:0.1+0.1&slices=31&alpha=pi/8&background=white&width=640";
     const { page, errors, close } = await openPage({ url: url + query });
     await ready(page);
     const script = await scriptFor(page);
@@ -15,6 +15,7 @@ test("links: a query opens its view", async () => {
     assert.equal(state.polytope.name, "24-cell");
     assert.equal(state.slices.count, 31);
     assert.equal(state.alpha, Math.PI / 8);
+    assert.equal(state.background, "white");
     assert.deepEqual(state.last, { planes: ["xy"], angles: [0.2] });
     assert.ok(Math.abs(state.orientation[3][3] - Math.cos(Math.PI / 8)) < 1e-12);
     assert.equal(await page.locator("#notice").textContent(), "");

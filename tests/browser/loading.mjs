@@ -52,6 +52,21 @@ test("loading: a file that begins with CLOUD is shown as points", async () => {
     await close();
 });
 
+test("loading: an object far from the origin turns about its center, or about the origin", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    const far = Array.from({ length: 8 }, (_, i) => [0, 0, 0, 5e6].map((c, k) => c + (k === i >> 1 ? 1 - 2 * (i & 1) : 0)));
+    await drop(page, file("far.txt", far.map((point) => point.join(" ")).join("\n")));
+    const { polytope } = await script.until((one) => one.polytope.name === "far.txt", "the file's polytope");
+    assert.deepEqual(polytope.center, [0, 0, 0, 5e6]);
+    await page.waitForFunction(() => document.querySelector("[data-state-field=w]").textContent === "5000000.00");
+    assert.match(await report(page), /far from the origin/);
+    await page.click("#loading .report button");
+    await script.until((one) => one.polytope.center === undefined, "the same about the origin");
+    await page.waitForSelector("#loading", { state: "hidden" });
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("loading: text in UTF-16 is read as in UTF-8", async () => {
     const { page, script, errors, close } = await openWithScript();
     const little = Buffer.from(simplex, "utf16le");

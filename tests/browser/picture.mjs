@@ -100,6 +100,10 @@ const views = [
         settings: { polytope: "600-cell", projection: "orthogonal" },
         ...{ mean: 1.6, far: 0.008 },
     },
+    {
+        name: "a projection whose sections shine through its faces",
+        settings: { polytope: "600-cell", projection: "perspective", shown: { sections: true } },
+    },
     { name: "faces alone", settings: { polytope: "8-cell", shown: { bars: false, balls: false, coordinates: false } } },
 ];
 for (const { name, settings, mean = 1, far = 0.005 } of views) {

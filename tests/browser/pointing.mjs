@@ -271,7 +271,7 @@ test("pointing: a right click or a long press opens the menu of an element, whic
     assert.equal(await menu.getAttribute("aria-label"), `Cell ${cell}`);
     await script.until(({ highlight }) => highlight?.number === cell && highlight.element === "cell", "its light");
     const items = await menu.locator("button").allTextContents();
-    assert.deepEqual(items.length, 5, items.join());
+    assert.deepEqual(items.length, 6, items.join());
     await page.keyboard.press("ArrowUp"); // the last item
     await page.keyboard.press("Enter");
     await script.until(({ highlight }) => highlight === null, "the end of the light");
@@ -281,6 +281,13 @@ test("pointing: a right click or a long press opens the menu of an element, whic
     await open();
     await page.keyboard.press("Escape");
     assert.equal(await menu.isVisible(), false);
+    await open();
+    await menu.getByText("Export it").click();
+    await page.waitForSelector("#export[open]");
+    assert.equal(await page.locator("#export [name=of]:checked").inputValue(), "highlight");
+    assert.equal(await page.locator("#export-highlight").textContent(), `cell ${cell}`);
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("#drawing:focus");
     await open();
     await menu.getByText("Hide its kind of cell").click();
     await script.until(({ hidden }) => hidden.length === 1, "hidden cells");
@@ -293,10 +300,12 @@ test("pointing: a right click or a long press opens the menu of an element, whic
     const { x, y } = await page.locator("#drawing").boundingBox();
     await touch("touchStart", [x + at[0], y + at[1]]);
     await menu.waitFor();
+    const { camera } = await script.state();
+    await touch("touchMove", [x + at[0] + 40, y + at[1]]);
     await touch("touchEnd");
     await menu.getByText("Turn it toward +w").click();
-    const { orientation } = await script.until(({ moving }) => !moving, "the cell at +w");
-    assert.ok(orientation.length === 4);
+    const turned = await script.until(({ moving }) => !moving, "the cell at +w");
+    assert.deepEqual(turned.camera, camera, "a finger that moves on does not move the camera behind the menu");
     await touch("touchStart", [x + 4, y + 4]);
     await touch("touchEnd");
     assert.deepEqual(errors, []);

@@ -1,6 +1,10 @@
 // Fuzzes the access control and the targets of HTTP requests. The input has one line each for the target, Host, Origin,
 // Authorization and Cookie.
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "net/http/access_control.hpp"
 #include "net/http/request_target.hpp"
 #include "pipeline/export_pipeline.hpp"
@@ -77,8 +81,9 @@ void describe(session::QueryParameters query) {
         }
         require(request->format == &format && request->size >= exports::kMinSize && request->size <= exports::kMaxSize,
                 "a file is of the size that is allowed");
+        constexpr auto kTaken = std::to_array<std::string_view>({"of", "body", "label", "size", "at", "fit"});
         for (const auto& [name, value] : settings)
-            require(name != "of" && name != "body" && name != "label" && name != "size", "what was taken is gone");
+            require(std::ranges::find(kTaken, name) == kTaken.end(), "what was taken is gone");
         if (&format != &exports::formats().back()) continue;
         session::ObjectLoader loader(fuzz::kLimits, fuzz::cache());
         const auto state = session::stateFromQuery(settings, fuzz::kLimits, loader);

@@ -15,6 +15,7 @@
 
 #include "polytopes/catalogue/catalogue.hpp"
 #include "polytopes/catalogue/polytope_cache.hpp"
+#include "session/command_line.hpp"
 #include "session/history.hpp"
 #include "session/load.hpp"
 #include "session/object_loader.hpp"

@@ -1,13 +1,20 @@
 """Loading of files: what is read, repaired and refused; a load does not delay other clients."""
 
 import asyncio
+import csv
+import io
 import itertools
 import math
 import random
+from pathlib import Path
 
+import meshes
 import pytest
-from harness import Server
+from harness import Server, run_oval4d
 from wire import Client, Refused
+
+WILD = Path(__file__).parents[1] / "wild"
+SIZE = {"width": 640, "height": 360}
 
 
 def point_lines(points):
@@ -18,8 +25,9 @@ def tesseract_vertices():
     return [point for point in itertools.product((-1, 1), repeat=4)]
 
 
-def tesseract_file(edges=32):
-    """Returns a tesseract as 4OFF; a 2-face consists of the four vertices that share two coordinates."""
+def tesseract_file(edges=32, move=None):
+    """Returns a tesseract as 4OFF; a 2-face consists of the four vertices that share two coordinates. `move` maps each
+    coordinate to that in the file."""
     points = tesseract_vertices()
     faces, faces_of = [], {}
     for fixed in itertools.combinations(range(4), 2):
@@ -29,7 +37,8 @@ def tesseract_file(edges=32):
             faces.append([corners[0], corners[1], corners[3], corners[2]])
     cells = [[n for fixed, n in faces_of.items() if (axis, value) in fixed] for axis in range(4) for value in (-1, 1)]
     records = "".join(f"{len(r)} {' '.join(map(str, r))}\n" for r in faces + cells)
-    return f"4OFF\n16 {len(faces)} {edges} {len(cells)}\n" + point_lines(points) + records
+    lines = point_lines(points) if move is None else "".join(f"{' '.join(repr(move(x)) for x in p)}\n" for p in points)
+    return f"4OFF\n16 {len(faces)} {edges} {len(cells)}\n" + lines + records
 
 
 async def element_counts(client):
@@ -39,6 +48,12 @@ async def element_counts(client):
 
 async def load_file(client, format_, data, name="mine"):
     return await client.request("load", name=name, format=format_, data=data)
+
+
+async def get_file(client, **members):
+    """Returns the bytes of an exported file, which arrives right before `done`."""
+    done = await client.request("get", what="file", **members)
+    return client.messages[client.messages.index(done) - 1]
 
 
 async def load_refusal(client, format_, data):
@@ -81,7 +96,8 @@ async def test_the_convex_hull_is_independent_of_position_and_scale(server):
         for by in (0, 10, -100000):
             for size in (1, 1e-9, 0.5, 1e4):
                 points = [[size * (x + by), *(size * c for c in rest)] for x, *rest in cell24]
-                assert "warnings" not in await load_file(client, "points", point_lines(points))
+                done = await load_file(client, "points", point_lines(points))
+                assert all("far from the origin" in warning for warning in done.get("warnings", []))
                 assert await element_counts(client) == [24, 96, 96, 24]
 
 
@@ -147,3 +163,133 @@ async def test_messages_wait_for_the_load_before_them(server):
         await client.send("load", id=500, name="mine", format="points", data=moment_curve_points(250))
         state = await client.request("get", what="state")
         assert state["polytope"]["name"] == "mine" and client.answer_to(500)["type"] == "done"
+
+
+def cross_vertices(center):
+    """Returns the vertices of a 16-cell of circumradius 1."""
+    return [[c + sign * (i == axis) for i, c in enumerate(center)] for axis in range(4) for sign in (1, -1)]
+
+
+async def shape_of_slices(client):
+    """Returns the numbers of elements of all slices, the spacing, and the triangles of the focus slice as STL."""
+    slices = (await client.request("get", what="slices", **SIZE))["slices"]
+    counts = [[len(one[part]) for part in ("vertices", "edges", "faces")] for one in slices]
+    spacing = (await client.request("get", what="state"))["slices"]["spacing"]
+    return counts, spacing, (await get_file(client, format="stl"))[80:]
+
+
+@pytest.mark.parametrize("center", [[10, 10, 0, 0], [5e6, 0, 0, -5e6], [0, 0, 123.5, 0]], ids=str)
+async def test_an_object_far_away_is_seen_like_one_at_the_origin(server, center):
+    async with Client(server, stream="none") as client:
+        assert "warnings" not in await load_file(client, "points", point_lines(cross_vertices([0, 0, 0, 0])))
+        near = await shape_of_slices(client)
+        assert sum(counts[2] > 0 for counts in near[0]) == 19
+        done = await load_file(client, "points", point_lines(cross_vertices(center)))
+        assert len(done["warnings"]) == 1 and "far from the origin" in done["warnings"][0]
+        assert await shape_of_slices(client) == near
+
+
+async def test_what_is_told_of_an_object_is_in_the_coordinates_of_its_file(server):
+    center = [5e6, 0, 0, -5e6]
+    async with Client(server, stream="none") as client:
+        await load_file(client, "points", point_lines(cross_vertices(center)))
+        await client.request("rotate", planes=["xy"], angles=[0.3])
+        state = await client.request("get", what="state")
+        assert state["polytope"]["center"] == center
+        assert state["point"] == [5e6, 0, 0, -5e6] and state["section"]["w"] == -5e6
+        assert state["slices"]["offset"] == 0
+        slices = await client.request("get", what="slices", **SIZE)
+        assert next(one["label"] for one in slices["slices"] if one["focus"]).startswith("w = −5000000.00")
+
+        # The lines of vertex 6, (0, 0, 0, 1) from the center, in the parallel coordinates.
+        layout = slices["scene"]["coordinates"]
+        x = layout["left"] + 6 * layout["column_step"] + 1.5 * layout["line_step"]
+        at = await client.request("get", what="at", x=x * 360, y=(1 - layout["zero"]) * 360, **SIZE)
+        assert at["highlight"] == {"element": "vertex", "number": 6}
+        assert at["place"] == [5e6, 0, 0, -4999999] and at["least_w"] == at["most_w"] == -4999999
+
+        critical = await client.request("get", what="critical")
+        assert [section["w"] for section in critical["sections"]] == [-5000001, -5e6, -4999999]
+        await client.request("set", slices={"w": -4999999.5})
+        row = next(csv.DictReader(io.StringIO((await get_file(client, format="csv")).decode())))
+        assert float(row["w"]) == -4999999.5
+        assert float(row["centroid_x"]) == pytest.approx(5e6, abs=1e-6)
+        exported = (await get_file(client, format="off")).decode()
+        assert "0 0 -4999999\n" in exported
+        done = await load_file(client, "off", exported, "again")
+        assert len(done["warnings"]) == 1
+        assert (await client.request("get", what="state"))["polytope"]["center"] == pytest.approx(center)
+
+        before = await client.request("get", what="state")
+        await client.request("set", **{name: value for name, value in before.items() if name not in ("type", "id")})
+        after = await client.request("get", what="state")
+        assert {**after, "id": 0, "revision": 0} == {**before, "id": 0, "revision": 0}
+
+
+async def test_a_load_may_choose_the_center(server):
+    async with Client(server, stream="none") as client:
+        async def center_of(points, center):
+            done = await client.request("load", name="mine", format="points", data=point_lines(points), center=center)
+            assert "warnings" not in done
+            return (await client.request("get", what="state"))["polytope"].get("center")
+
+        far, near = cross_vertices([10, 10, 0, 0]), cross_vertices([0.5, 0, 0, 0])
+        assert await center_of(far, "origin") is None
+        assert await center_of(far, [9, 9, 0, 1]) == [9, 9, 0, 1]
+        assert await center_of(near, "object") == [0.5, 0, 0, 0]
+        await client.request("undo")
+        assert (await client.request("get", what="state"))["polytope"]["center"] == [9, 9, 0, 1]
+        with pytest.raises(Refused, match="/center must be"):
+            await center_of(near, "middle")
+        with pytest.raises(Refused, match="only polytopes and points take a center"):
+            await client.request("load", name="f", format="formula", data="x", center="origin")
+
+
+def test_the_command_line_may_choose_the_center(tmp_path):
+    path = tmp_path / "far.txt"
+    path.write_text(point_lines(cross_vertices([5e6, 5e6, 0, 0])))
+    done = run_oval4d("export", "--load", path, "--format", "stl", "-o", "-")
+    assert done.returncode == 0 and b"far from the origin" in done.stderr
+    done = run_oval4d("export", "--load", path, "--center", "origin", "--format", "stl", "-o", "-")
+    assert done.returncode != 0 and b"too small in comparison with its distance from the origin" in done.stderr
+    done = run_oval4d("export", "--load", path, "--center", "5e6,5e6,0,0", "--format", "stl", "-o", "-")
+    assert done.returncode == 0 and done.stderr == b""
+
+
+def assert_closed(one):
+    """Asserts that the faces of a slice pass every edge once in each direction."""
+    passes = [(a, b) for face in one["faces"] for a, b in zip(face, face[1:] + face[:1])]
+    assert sorted(passes) == sorted((b, a) for a, b in passes)
+
+
+@pytest.mark.parametrize("noise", [0, 1e-9, 1e-6, 1e-4])
+async def test_cells_that_are_nearly_flat_have_closed_sections(server, noise):
+    """CSV, slices and STL agree about a tesseract with noise, of which the hyperplanes w = const are parallel to cells."""
+    rng = random.Random(5)
+    async with Client(server, stream="none") as client:
+        done = await load_file(client, "off", tesseract_file(move=lambda x: x + rng.uniform(-noise, noise)))
+        assert ("warnings" in done) == (noise > 0)
+        for w in [0.3, 1, -1, 1 + noise / 2, 1 - noise / 2, 1 - 2 * noise - 1e-7, -1 + noise / 3]:
+            await client.request("set", slices={"w": w, "count": 1})
+            one, = (await client.request("get", what="slices", **SIZE))["slices"]
+            if len(one["faces"]) > 1:
+                assert_closed(one)
+            if abs(w) < 1 - noise:
+                assert [len(one[part]) for part in ("vertices", "edges", "faces")] == [8, 12, 6]
+                row = next(csv.DictReader(io.StringIO((await get_file(client, format="csv")).decode())))
+                assert float(row["volume"]) == pytest.approx(8, rel=10 * noise + 1e-9)
+                triangles = meshes.stl_triangles(await get_file(client, format="stl", size=60))
+                assert len(triangles) == 12
+                millimeters = pytest.approx(float(row["volume"]) * 15**3, rel=1e-4 + 10 * noise)
+                assert abs(meshes.volume_of(triangles)) == millimeters
+
+
+async def test_a_nearly_flat_pyramid_has_closed_sections(server):
+    async with Client(server, stream="none") as client:
+        done = await load_file(client, "off", (WILD / "nearly-flat-cell.off").read_text())
+        assert len(done["warnings"]) == 1 and "moved by up to 0.00005" in done["warnings"][0]
+        for w in (0, 2e-5, 5e-5, 8e-5, 1e-4, 1.2e-4, 0.3):
+            await client.request("set", slices={"w": w, "count": 1})
+            one, = (await client.request("get", what="slices", **SIZE))["slices"]
+            if len(one["faces"]) > 1:
+                assert_closed(one)

@@ -1,6 +1,7 @@
 """The client in protocol/python, used as in a script."""
 
 import asyncio
+import base64
 import importlib.util
 import os
 import re
@@ -11,7 +12,7 @@ from pathlib import Path
 
 import numpy
 import pytest
-from harness import DEADLINE, Server, free_port
+from harness import DEADLINE, Server, free_port, wait_until
 
 PYTHON = Path(__file__).resolve().parents[2] / "protocol/python"
 sys.path.insert(0, str(PYTHON))
@@ -406,6 +407,31 @@ def test_a_notebook_shows_the_picture(server):
         assert png_state(oval._repr_png_())["polytope"]["name"] == "5-cell"
 
 
+def test_a_notebook_shows_every_change(server, tmp_path, monkeypatch):
+    monkeypatch.setenv("IPYTHONDIR", str(tmp_path))
+    from IPython.core.displaypub import CapturingDisplayPublisher
+    from IPython.core.interactiveshell import InteractiveShell
+    from traitlets.config import Config
+
+    shell = InteractiveShell.instance(config=Config(HistoryManager={"enabled": False}))
+    shown = shell.display_pub = CapturingDisplayPublisher()
+
+    def name_in(output):
+        return png_state(base64.b64decode(output["data"]["image/png"]))["polytope"]["name"]
+
+    try:
+        with connect(server.url, timeout=DEADLINE) as oval:
+            oval.live(320, 200)
+            assert name_in(shown.outputs[0]) == "5-cell" and not shown.outputs[0]["update"]
+            oval.frame(64, 48)  # is not shown
+            oval.set(polytope="24-cell")
+            wait_until(lambda: name_in(shown.outputs[-1]) == "24-cell", "the picture of the change")
+            assert all(output["update"] for output in shown.outputs[1:])
+            assert len({output["transient"]["display_id"] for output in shown.outputs}) == 1
+    finally:
+        InteractiveShell.clear_instance()
+
+
 def test_a_script_joins_the_session_of_a_shared_link(server):
     with connect(server.url, timeout=DEADLINE) as oval:
         session, token = (oval.hello()[name] for name in ("session", "token"))
@@ -416,3 +442,22 @@ def test_a_script_joins_the_session_of_a_shared_link(server):
     for fragment in (f"session={session}", f"token={token}", "session=&token="):
         with pytest.raises(ValueError, match="damaged"):
             connect(f"{server.url}#{fragment}")
+
+
+def test_an_address_opens_its_view(server):
+    with connect(server.url + "?polytope=24-cell&rotate=xw:0.1+pi/8&slices=11&utm_source=x", timeout=DEADLINE) as oval:
+        oval.hello()
+        state = oval.state()
+        assert (state["polytope"]["name"], state["slices"]["count"], state["revision"]) == ("24-cell", 11, 1)
+        oval.hello()
+        assert oval.state()["revision"] == 1
+        oval.rotate("yz", 0.2)
+        view = oval.address()
+        state = oval.state()
+    with connect(server.url + "?" + view, timeout=DEADLINE) as other:
+        other.hello()
+        shown = other.state()
+        assert (shown["polytope"], shown["slices"]) == (state["polytope"], state["slices"])
+        assert numpy.allclose(shown["orientation"], state["orientation"], rtol=0, atol=1e-12)
+    with connect(server.url + "?polytope=25-cell", timeout=DEADLINE) as oval, pytest.raises(Refused, match="24-cell"):
+        oval.hello()

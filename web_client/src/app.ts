@@ -1,8 +1,9 @@
 // The page: connects the session to the picture, the keys, the buttons and the display of the state.
 
 import { Client, RequestError } from "@oval4d/protocol";
-import type { Done, KeyBinding, Keymap, Request, Settings, State } from "@oval4d/protocol";
+import type { Done, KeyBinding, Keymap, PolytopeElement, Request, Settings, State } from "@oval4d/protocol";
 
+import { ColorScheme, groundOf, type SchemeChoice } from "./color_scheme";
 import { Colors } from "./colors";
 import { CommandLine } from "./command_line";
 import { namesOfKeys } from "./completion";
@@ -22,6 +23,7 @@ import { capitalize } from "./format";
 import { FrameLayout } from "./frame_layout";
 import { FrameMatrix } from "./frame_matrix";
 import { FramePointing } from "./frame_pointing";
+import { FullScreen } from "./full_screen";
 import { listenForGamepads } from "./gamepad";
 import { listenForGestures } from "./gestures";
 import { Help } from "./help";
@@ -29,15 +31,17 @@ import type { Point } from "./hover";
 import { KeyRepeat } from "./key_repeat";
 import { editingAction, isForControl, strokeFromEvent, strokesOfBinding, type KeyStroke } from "./keys";
 import { Latency } from "./latency";
-import { extractSharedSession, readInitialView, rememberSession, shareLink } from "./link";
+import { extractSharedSession, readInitialView, rememberSession } from "./link";
 import { Notice } from "./notice";
 import { OrbitControl } from "./orbit";
-import { markMode, pageSections } from "./page_tools";
+import { markFullScreen, markMode, markScheme, pageSections } from "./page_tools";
 import { executePageCommand } from "./page_commands";
 import { Picker } from "./picker";
 import { type Mode, Stage } from "./picture/stage";
 import { PointedLabel } from "./pointed_label";
 import { Pointing } from "./pointing";
+import { PrintView } from "./print_view";
+import { Sharing } from "./sharing";
 import { StateFields } from "./state_fields";
 import { RotationControl } from "./rotation";
 import { readStored, writeStored } from "./storage";
@@ -61,6 +65,7 @@ export class App {
     private readonly latency = new Latency();
     private readonly initialView = readInitialView();
     private usesSingleKeys = readStored<boolean>(kSingleKeysKey, true) ?? true;
+    private readonly colorScheme = new ColorScheme(() => this.schemeChanged());
     private readonly stage = new Stage(this.drawing, {
         presented: (revision, by) => this.picturePresented(revision, by),
         resized: () => this.stageResized(),
@@ -73,6 +78,7 @@ export class App {
     private readonly client = new Client({
         url: new URL(".", location.href),
         encoding: "cbor",
+        scheme: this.colorScheme.current,
         transient: true,
         ...(this.initialView.credentials && { credentials: this.initialView.credentials }),
         onStatus: (status) => {
@@ -142,13 +148,18 @@ export class App {
     private readonly fileLoading = new FileLoading(this.client, (state) =>
         this.request({ ...state, type: "set", turning: false }),
     );
+    private readonly sharing = new Sharing(this.client, this.notice);
     private readonly fieldPanel = new FieldPanel({
         load: (...change) => this.loadField(...change),
         set: (settings) => this.request({ type: "set", ...settings }),
-        shareAddress: (address) => void this.copyLink(address, "It opens this field"),
+        shareAddress: (address) => void this.sharing.copyLink(address, "It opens this field"),
         closed: () => this.drawing.focus(),
     });
-    private readonly exportDialog = new ExportDialog(this.client, () => this.stage.size);
+    private readonly exportDialog = new ExportDialog(
+        this.client,
+        () => this.stage.size,
+        (warnings) => this.notice.showAll(warnings),
+    );
     private readonly tools = new Tools({ press: (...binding) => this.press(...binding) });
     private readonly tour = new Tour(() => this.drawing.focus());
     private readonly welcome = new Welcome(
@@ -157,13 +168,21 @@ export class App {
         () => this.drawing.focus(),
     );
     private readonly colors = new Colors((change) => void this.send({ type: "set", ...change }));
+    private readonly fullScreen = new FullScreen((isOn) => this.fullScreenChanged(isOn));
     private chosenMode = readStored<Mode>(kModeKey) ?? "geometry"; // by the user; WebGL may be unavailable
     private keymap: Keymap | undefined;
     private state: State | undefined;
     private lostState: State | undefined; // the last state of a lost session, which the new session restores
     private resizing: ReturnType<typeof setTimeout> | undefined;
+    private hadTools = true; // whether the tools were open before full screen
 
     start(): void {
+        new PrintView(
+            this.client,
+            this.stage,
+            () => this.state?.polytope.name ?? "",
+            (error) => this.notice.show(error.message),
+        );
         this.stage.mode = this.stage.canDrawGeometry ? this.chosenMode : "frames";
         listenForGestures(this.drawing, {
             orbit: this.orbit,
@@ -180,7 +199,7 @@ export class App {
             if (event.target instanceof Element && event.target.closest("button")) event.preventDefault();
         });
         byId("export-button").addEventListener("click", () => this.openExport());
-        byId("share-button").addEventListener("click", () => void this.shareSession());
+        byId("share-button").addEventListener("click", () => void this.sharing.copySessionLink());
         byId("help-button").addEventListener("click", () => this.help.open());
         byId("help-tour").addEventListener("click", () => this.startTour());
         // Keys act on the drawing while the tour explains them, but the space bar presses the tour's buttons.
@@ -227,7 +246,6 @@ export class App {
         this.keyRepeat.restart();
         this.latency.restart();
         this.slider.restart();
-        this.focusPoint.restart();
         try {
             await this.restoreView();
             this.requestStream();
@@ -253,16 +271,22 @@ export class App {
             canDrawGeometry: this.stage.canDrawGeometry,
             setMode: (mode) => this.chooseMode(mode),
             reset: () => void this.send({ type: "reset" }),
-            share: () => void this.shareSession(),
+            share: () => void this.sharing.copySessionLink(),
+            copyViewLink: () => void this.sharing.copyViewLink(),
+            copyPython: () => void this.sharing.copyPython(this.state?.polytope.name ?? "", this.stage.size),
             save: () => void this.savePicture(),
             openField: () => this.fieldPanel.open(),
+            scheme: this.colorScheme.choice,
+            chooseScheme: (choice) => this.chooseScheme(choice),
+            fullScreen: this.fullScreen,
+            failed: (error) => this.notice.show(error.message),
             usesSingleKeys: this.usesSingleKeys,
             useSingleKeys: (on) => {
                 this.usesSingleKeys = on;
                 writeStored(kSingleKeysKey, on, true);
             },
         });
-        this.tools.show(keymap, [this.colors.section, ...page]);
+        this.tools.show(keymap, [...this.colors.sections, ...page]);
     }
 
     /** In a new session, restores the view of a lost session or applies the view in the page's address. */
@@ -315,6 +339,7 @@ export class App {
 
     private update(state: State): void {
         this.state = state;
+        document.documentElement.dataset["ground"] = groundOf(state.background, this.colorScheme.current);
         this.orbit.adoptCamera(state);
         this.frameLayout.update(state);
         this.frameMatrix.update(state);
@@ -370,6 +395,25 @@ export class App {
         markMode(mode);
         this.requestStream();
         if (this.state) this.frameMatrix.update(this.state);
+    }
+
+    private chooseScheme(choice: SchemeChoice): void {
+        this.colorScheme.choice = choice;
+        markScheme(choice);
+    }
+
+    /** Asks for pictures in the new color scheme of the page. */
+    private schemeChanged(): void {
+        if (this.state) this.update(this.state);
+        this.client.hello({ scheme: this.colorScheme.current }).catch(() => {}); // applies to later connections, too
+    }
+
+    /** In full screen, the picture takes the room of the tools, until the button Tools is pressed. */
+    private fullScreenChanged(isOn: boolean): void {
+        if (isOn) this.hadTools = !document.body.hasAttribute("data-tools-hidden");
+        this.setToolsOpen(!isOn && this.hadTools);
+        markFullScreen(isOn);
+        this.stage.redraw();
     }
 
     private keydown(event: KeyboardEvent): void {
@@ -454,6 +498,7 @@ export class App {
             command("Turn it toward +w", `toward ${element} ${number}`),
             ...(focus ? [focus] : []),
             ...(element === "cell" ? [command("Hide its kind of cell", "hide"), command("Fade its kind of cell", "fade")] : []),
+            { label: "Export it…", act: () => this.openExport({ element, number }) },
             command("Remove its highlight", "highlight none"),
         ]);
     }
@@ -472,8 +517,8 @@ export class App {
                 this.commandLine.close();
                 this.help.open(topic);
             },
-            exportFile: (format) => {
-                if (format !== "") return this.state && this.exportDialog.save(format, this.state);
+            exportFile: (description) => {
+                if (description !== "") return this.state && this.exportDialog.save(description, this.state);
                 this.commandLine.close();
                 return this.openExport();
             },
@@ -521,9 +566,12 @@ export class App {
         this.tour.stop();
     }
 
-    private openExport(): void {
+    /** Opens the export dialog; with an element, to export only this. */
+    private openExport(highlight?: PolytopeElement): void {
         this.notice.hide();
-        if (this.state) this.exportDialog.open(this.state);
+        if (!this.state) return;
+        if (highlight) this.exportDialog.open({ ...this.state, highlight }, "highlight");
+        else this.exportDialog.open(this.state);
     }
 
     /** Requests a change, and tracks it until its picture is presented. */
@@ -559,21 +607,6 @@ export class App {
         );
     }
 
-    private async shareSession(): Promise<void> {
-        if (!this.client.credentials) return;
-        await this.copyLink(shareLink(this.client.credentials), "Anyone who opens it joins this session");
-    }
-
-    /** Copies a link, or shows it for copying; `effect` says what it does. */
-    private async copyLink(link: string, effect: string): Promise<void> {
-        try {
-            await navigator.clipboard.writeText(link);
-            this.notice.show(`Link copied. ${effect}.`);
-        } catch {
-            this.notice.show(`Copy this link. ${effect}:`, link);
-        }
-    }
-
     private async savePicture(): Promise<void> {
         try {
             const png = await this.client.request({ type: "get", what: "frame", ...this.stage.size });
@@ -585,10 +618,11 @@ export class App {
 
     private listenForToolsButton(): void {
         const button = byId("tools-button");
-        const setToolsOpen = (open: boolean): void => {
-            document.body.toggleAttribute("data-tools-hidden", !open);
-            button.setAttribute("aria-expanded", String(open));
-        };
-        button.addEventListener("click", () => setToolsOpen(button.getAttribute("aria-expanded") === "false"));
+        button.addEventListener("click", () => this.setToolsOpen(button.getAttribute("aria-expanded") === "false"));
+    }
+
+    private setToolsOpen(open: boolean): void {
+        document.body.toggleAttribute("data-tools-hidden", !open);
+        byId("tools-button").setAttribute("aria-expanded", String(open));
     }
 }

@@ -1,6 +1,6 @@
 // The controls for colors: how the faces are colored, and which kinds of cells are shown, faded or hidden.
 
-import type { CellKind, Coloring, Settings, State } from "@oval4d/protocol";
+import type { Background, CellKind, Coloring, Settings, State } from "@oval4d/protocol";
 
 import { element } from "./element";
 import { isField } from "./fields";
@@ -48,6 +48,13 @@ const kScales: Partial<Record<Coloring, Scale>> = {
         text: "From blue where the body shrinks through gray to amber where it grows",
     },
 };
+const kBackgrounds: Record<Background, { label: string; title: string }> = {
+    auto: { label: "Auto", title: "The background of each viewer's page, dark or light" },
+    dark: { label: "Dark", title: "Dark for all viewers" },
+    light: { label: "Light", title: "Light for all viewers" },
+    white: { label: "White", title: "White, as paper" },
+    transparent: { label: "Clear", title: "None in PNG files, for slides; white on this page" },
+};
 const kPresences = ["shown", "faded", "hidden"] as const;
 type Presence = (typeof kPresences)[number];
 
@@ -57,6 +64,7 @@ export class Colors {
     private readonly modes = element("div", { class: "segments", role: "group", "aria-label": "Color by" });
     private readonly options = new Map<Coloring, HTMLElement>();
     private readonly scale = element("p", { class: "scale", hidden: true });
+    private readonly backgrounds = element("div", { class: "segments", role: "group", "aria-label": "Background" });
     private readonly list = element("div", { class: "kinds" });
     private rows: HTMLElement[] = [];
     private listedKinds: string | undefined; // identifies the kinds of cells in the rows
@@ -74,10 +82,20 @@ export class Colors {
             this.applyChange({ color: (event.target as HTMLInputElement).value as Coloring });
         });
         this.list.addEventListener("change", () => this.applyPresences());
+        for (const [value, { label, title }] of Object.entries(kBackgrounds)) {
+            const radio = element("input", { type: "radio", name: "background", value });
+            this.backgrounds.append(element("label", { title }, radio, element("span", {}, label)));
+        }
+        this.backgrounds.addEventListener("change", (event) => {
+            this.applyChange({ background: (event.target as HTMLInputElement).value as Background });
+        });
     }
 
-    get section(): Section {
-        return { title: "Colors", after: "look", content: [this.modes, this.scale, this.list] };
+    get sections(): Section[] {
+        return [
+            { title: "Colors", after: "look", content: [this.modes, this.scale, this.list] },
+            { title: "Background", content: [this.backgrounds] },
+        ];
     }
 
     update(state: State): void {
@@ -88,6 +106,7 @@ export class Colors {
         if (listed !== this.listedKinds) this.listKinds(kinds);
         this.listedKinds = listed;
         this.showColoring(state);
+        checkRadio(this.backgrounds, state.background);
         this.list.toggleAttribute("data-colored", state.color === "kind");
         this.rows.forEach((row, kind) => {
             const presence = presenceOf(state, kind);

@@ -24,6 +24,7 @@ export class CriticalLevels {
     isExact = false;
     /** The lowest and the highest w of the object; 0 before they are known. */
     range: [number, number] = [0, 0];
+    private originW = 0; // to add to the w of pictures
     private knownFor = ""; // what the known or requested levels depend on
     private restTime = kRestTime;
     private isAsking = false; // whether an answer is outstanding: there is one request at a time
@@ -39,6 +40,7 @@ export class CriticalLevels {
         const key = JSON.stringify([object, orientation, slices.spacing]); // δ changes if another object has this name
         if (key === this.knownFor) return;
         this.knownFor = key;
+        this.originW = polytope.center?.[3] ?? 0;
         this.isCurrent = this.isExact = false;
         this.restTime = field ? kFieldRestTime : kRestTime;
         if (field) {
@@ -57,7 +59,8 @@ export class CriticalLevels {
         if (this.isCurrent || coordinates.length === 0) return;
         const heights = coordinates.filter((_, i) => i % 4 === 3).sort();
         this.all = [];
-        for (const w of heights) {
+        for (const height of heights) {
+            const w = this.originW + height;
             const last = this.all.at(-1);
             if (last && w - last.w <= kRounding * scene.circumradius) last.vertices = (last.vertices ?? 0) + 1;
             else this.all.push({ w, vertices: 1 });

@@ -1,6 +1,6 @@
 // The dialog that exports a slice, the oval, the polytope or a picture to a file.
 
-import type { Client, FileOptions, State, Viewport } from "@oval4d/protocol";
+import type { Background, Client, ExportedFile, FileOptions, State, Viewport } from "@oval4d/protocol";
 
 import { Dialog } from "./dialog";
 import { download, fileName } from "./download";
@@ -12,6 +12,17 @@ import { readStored, writeStored } from "./storage";
 const kChoicesKey = "oval4d.export";
 const kAllFormats = kFormats.flatMap(({ formats }) => formats);
 
+/** The options of a file, without its format; see the message `get`. */
+type Options = Record<string, string | number>;
+const kOptions: Record<string, (value: string) => string | number> = {
+    of: String,
+    body: String,
+    size: Number,
+    label: String,
+    at: String,
+    fit: Number,
+};
+
 export class ExportDialog {
     private readonly dialog = new Dialog("export");
     private readonly form = byId<HTMLFormElement>("export-form");
@@ -21,10 +32,11 @@ export class ExportDialog {
     private state: State | undefined;
     private requestNumber = 0; // number of the current request; answers to earlier requests are ignored
 
-    /** `size` returns the size of the picture on the page. */
+    /** `size` returns the size of the picture on the page; `warn` shows what a saved file lacks. */
     constructor(
         private readonly client: Client,
         private readonly size: () => Viewport,
+        private readonly warn: (warnings: string[]) => void,
     ) {
         byId("export-formats").append(...kFormats.map((group) => formatButtons(group.title, group.formats)));
         this.restoreChoices();
@@ -36,13 +48,24 @@ export class ExportDialog {
         byId("export").addEventListener("close", () => this.abandonRequest());
     }
 
-    open(state: State): void {
+    /** Opens the dialog; with `of`, that is chosen as the contents of the file. */
+    open(state: State, of?: string): void {
+        if (of !== undefined) {
+            const format = this.format.of.includes(of) ? this.format : kAllFormats.find((one) => one.of.includes(of));
+            this.field("format").value = format!.name;
+            this.field("of").value = of;
+        }
         this.prepare(state);
         this.dialog.open(this.form.querySelector<HTMLElement>("[name=format]:checked")!);
     }
 
-    /** Saves a file in the format of this name with the choices in the dialog, without opening it. */
-    async save(name: string, state: State): Promise<void> {
+    /**
+     * Saves the file that a text describes: the name of a format and options that replace choices in the dialog, as in
+     * "stl fit=5". Does not open the dialog.
+     */
+    async save(description: string, state: State): Promise<void> {
+        const [name = "", ...words] = description.trim().split(/\s+/);
+        const given = optionsOf(words);
         const format = kAllFormats.find((one) => one.name === name.toLowerCase());
         if (!format) {
             const names = [...kAllFormats.map((one) => one.name), "latency"].join(", ");
@@ -53,7 +76,9 @@ export class ExportDialog {
         if (this.format !== format) throw new Error(`${format.label} files contain only ${format.objects}`);
         const wrong = this.form.querySelector<HTMLInputElement>("input:enabled:invalid");
         if (wrong) throw new Error(`the ${wrong.name} in the export dialog is not valid: ${wrong.validationMessage}`);
-        download(await this.requestFile(format), this.fileNameFor(format), format.type);
+        if (format.name === "png" && words.length > 0) throw new Error("the size of a PNG is chosen in the export dialog");
+        const options = withChanges(this.options, given);
+        this.finish(await this.requestFile(format, options), format, options);
     }
 
     private prepare(state: State): void {
@@ -61,6 +86,7 @@ export class ExportDialog {
         byId("export-of").textContent = state.polytope.name;
         byId("export-focus").textContent = `w = ${focusW(state)}`;
         byId("export-oval").textContent = `${state.slices.count} slices`;
+        byId("export-highlight").textContent = nameOf(state.highlight);
         const { limits = {} } = this.client.welcome ?? {};
         const { width, height } = this.size();
         for (const [name, pageSize] of Object.entries({ width, height })) {
@@ -136,27 +162,48 @@ export class ExportDialog {
             set.hidden = set.disabled = !used;
         }
         this.showContents(format);
+        this.showSlices(format);
+        this.showBodies();
         this.submit.textContent = `Download ${format.label}`;
     }
 
     /** Offers what files of the format can contain, and chooses the default if they cannot contain what is chosen. */
-    private showContents({ of }: Format): void {
+    private showContents(format: Format): void {
+        const of = format.of.filter((one) => one !== "highlight" || this.state?.highlight);
         if (of.length > 0 && !of.includes(this.chosenValue("of"))) this.field("of").value = of[0]!;
         for (const radio of this.form.querySelectorAll<HTMLInputElement>("[name=of]")) {
             radio.disabled = radio.parentElement!.hidden = !of.includes(radio.value);
         }
     }
 
+    /** Offers to choose slices for the whole oval, and shows the field for the choice. */
+    private showSlices({ choices }: Format): void {
+        const set = this.form.querySelector<HTMLFieldSetElement>("[data-choice=slices]")!;
+        set.hidden = set.disabled = !choices.includes("of") || this.chosenValue("of") !== "oval";
+        for (const name of ["fit", "at"]) {
+            const field = this.field(name);
+            field.disabled = field.parentElement!.hidden = this.chosenValue("slices") !== name;
+        }
+    }
+
+    /** Offers no solid of a face, an edge or a vertex, which has no volume. */
+    private showBodies(): void {
+        const isFlat = this.chosenValue("of") === "highlight" && this.state?.highlight?.element !== "cell";
+        if (isFlat) this.field("body").value = "skeleton";
+        const solid = this.form.querySelector<HTMLInputElement>('[name=body][value="solid"]')!;
+        solid.disabled = solid.parentElement!.hidden = isFlat;
+    }
+
     private async downloadFile(): Promise<void> {
         const number = ++this.requestNumber;
-        const { format } = this;
+        const { format, options } = this;
         this.error.textContent = "";
         this.submit.disabled = true;
         this.submit.textContent = "Creating the file…";
         try {
-            const bytes = await this.requestFile(format);
+            const file = await this.requestFile(format, options);
             if (number !== this.requestNumber) return;
-            download(bytes, this.fileNameFor(format), format.type);
+            this.finish(file, format, options);
             this.dialog.close();
         } catch (error) {
             if (number !== this.requestNumber) return;
@@ -165,30 +212,46 @@ export class ExportDialog {
         }
     }
 
-    /** Requests the file. Fields that the format does not use are disabled, and therefore omitted. */
-    private requestFile({ name }: Format): Promise<Uint8Array> {
-        const fields = this.formValues();
-        if (name === "png") {
-            const [width, height] = [Number(fields["width"]), Number(fields["height"])];
-            return this.client.request({ type: "get", what: "frame", width, height });
+    /** The chosen options. Fields that the format does not use are disabled, and therefore omitted. */
+    private get options(): Options {
+        const { side, ...values } = this.formValues(); // `side` is the size of a drawing
+        const all = side === undefined ? values : { ...values, size: side };
+        const chosen = Object.entries(all).filter(([name]) => name in kOptions);
+        return Object.fromEntries(chosen.map(([name, value]) => [name, kOptions[name]!(value)]));
+    }
+
+    private async requestFile({ name: format }: Format, options: Options): Promise<ExportedFile> {
+        if (format !== "png") {
+            const chosen = options as unknown as Partial<FileOptions>;
+            return this.client.request({ type: "get", what: "file", ...chosen, format });
         }
-        const { size, ...rest } = fields;
-        const options = { ...rest, ...(size !== undefined && { size: Number(size) }) };
-        return this.client.request({ type: "get", what: "file", ...(options as unknown as FileOptions) });
+        const { width, height, background } = this.formValues();
+        const request = {
+            width: Number(width),
+            height: Number(height),
+            ...(background && { background: background as Background }),
+        };
+        return { bytes: await this.client.request({ type: "get", what: "frame", ...request }), warnings: [] };
+    }
+
+    private finish({ bytes, warnings }: ExportedFile, format: Format, options: Options): void {
+        download(bytes, this.fileNameFor(format, options), format.type);
+        this.warn(warnings);
     }
 
     private formValues(): Record<string, string> {
         return Object.fromEntries(new FormData(this.form)) as Record<string, string>;
     }
 
-    private fileNameFor({ name, choices }: Format): string {
+    private fileNameFor({ name, choices }: Format, { of, fit, at, body }: Options): string {
         const state = this.state!;
         const parts = [state.polytope.name];
-        if (choices.includes("of")) {
-            const of = this.chosenValue("of");
-            parts.push(of === "focus" ? `w ${focusW(state).replace("\u2212", "-")}` : of);
-        }
-        if (choices.includes("body") && this.chosenValue("body") === "skeleton") parts.push("skeleton");
+        if (fit !== undefined) parts.push(`${fit} slices`);
+        else if (at !== undefined) parts.push("slices");
+        else if (of === "highlight") parts.push(nameOf(state.highlight));
+        else if (of === "focus") parts.push(`w ${focusW(state).replace("\u2212", "-")}`);
+        else if (of !== undefined && choices.includes("of")) parts.push(String(of));
+        if (body === "skeleton") parts.push("skeleton");
         return fileName(parts, name);
     }
 
@@ -199,6 +262,34 @@ export class ExportDialog {
         this.submit.disabled = false;
         this.submit.textContent = `Download ${this.format.label}`;
     }
+}
+
+/** The name of an element, such as "cell 17". */
+function nameOf(element: State["highlight"]): string {
+    return element ? `${element.element} ${element.number}` : "";
+}
+
+/** The options that words such as "fit=5" give. */
+function optionsOf(words: string[]): Options {
+    const options: Options = {};
+    for (const word of words) {
+        const [, name = "", text = ""] = /^(\w+)=(.+)$/.exec(word) ?? [];
+        if (!Object.hasOwn(kOptions, name)) {
+            const all = Object.keys(kOptions).join(", ");
+            throw new Error(`“${word}” is not an option, such as fit=5; the options are ${all}`);
+        }
+        const value = kOptions[name]!(text);
+        if (Number.isNaN(value)) throw new Error(`${name} must be a number, not “${text}”`);
+        options[name] = value;
+    }
+    return options;
+}
+
+/** The chosen options with changes. The contents and the slices of a file belong together. */
+function withChanges({ of, at, fit, ...others }: Options, changes: Options): Options {
+    const changesSlices = ["of", "at", "fit"].some((name) => name in changes);
+    const kept = { ...(of !== undefined && { of }), ...(at !== undefined && { at }), ...(fit !== undefined && { fit }) };
+    return { ...others, ...(changesSlices ? {} : kept), ...changes };
 }
 
 function formatButtons(title: string, formats: Format[]): HTMLElement {

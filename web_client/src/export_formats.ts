@@ -2,7 +2,7 @@
 
 import table from "../../protocol/export_formats.json";
 
-export type Choice = "of" | "body" | "size" | "label" | "pixels";
+export type Choice = "of" | "body" | "size" | "label" | "side" | "pixels" | "background";
 
 export interface Format {
     /** The name in the protocol, and the file name extension. */
@@ -25,7 +25,7 @@ const kPng: Format = {
     label: "PNG",
     about: "The picture; scripts can restore its state from the file",
     type: "image/png",
-    choices: ["pixels"],
+    choices: ["pixels", "background"],
     of: [],
 };
 
@@ -60,5 +60,5 @@ function format(row: Row): Format {
 
 function choicesOf(row: Row): Choice[] {
     if (row.bodies) return ["of", "body", "size", "label"];
-    return row.of.length > 1 ? ["of"] : [];
+    return [...(row.of.length > 1 ? ["of" as const] : []), ...(row.group === "figure" ? ["side" as const] : [])];
 }

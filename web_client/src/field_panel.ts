@@ -22,7 +22,7 @@ export interface FieldEvents {
      */
     load(field: FormulaField, settings: Settings, continues: boolean): Promise<number>;
     /** Changes settings; throws an Error whose message is shown. */
-    set(settings: Settings & { continues?: boolean }): Promise<unknown>;
+    set(settings: Settings & { continues?: boolean }): Promise<{ revision: number }>;
     /** Gives the user a link to this address. */
     shareAddress(address: string): void;
     /** Called when the panel has been closed. */

@@ -77,11 +77,38 @@ export class FileLoading {
                 return;
             }
             read = await readFile(file, limit);
-            const done = await this.send(read);
-            this.keep(read);
-            this.showWarnings(done.warnings ?? []);
+            await this.loadObject(read);
         } catch (error) {
             this.showError(error as Error, read?.data ?? "");
+        }
+    }
+
+    private async loadObject(object: LoadedObject): Promise<void> {
+        const { warnings = [] } = await this.send(object);
+        this.keep(object);
+        this.showWarnings(warnings, warnings.length > 0 ? await this.originButton(object) : []);
+    }
+
+    /**
+     * A button that loads an object again so that it turns about the origin of its file; none if it does so already, or if
+     * another object is shown.
+     */
+    private async originButton(object: LoadedObject): Promise<Node[]> {
+        const { polytope } = await this.client.request({ type: "get", what: "state" });
+        if (polytope.name !== object.name || !polytope.center) return [];
+        const button = element("button", { type: "button" }, "Turn about the origin of the file");
+        button.addEventListener("click", () => {
+            this.queue = this.queue.then(() => this.loadAgain({ ...object, center: "origin" }));
+        });
+        return [button];
+    }
+
+    private async loadAgain(object: LoadedObject): Promise<void> {
+        try {
+            this.showProgress(object.name);
+            await this.loadObject(object);
+        } catch (error) {
+            this.showError(error as Error, object.data);
         }
     }
 
@@ -128,11 +155,11 @@ export class FileLoading {
         this.showReport("Reading the file");
     }
 
-    private showWarnings(warnings: string[]): void {
+    private showWarnings(warnings: string[], buttons: Node[] = []): void {
         this.endProgress("done");
         if (warnings.length === 0) return this.hide();
         const list = element("ul", {}, ...warnings.map((warning) => element("li", {}, toSentence(warning))));
-        this.showReport("Loaded, with these warnings:", list);
+        this.showReport("Loaded, with these warnings:", list, ...buttons);
         return undefined;
     }
 

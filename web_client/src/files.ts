@@ -7,6 +7,7 @@ export interface LoadedObject {
     name: string;
     format: "off" | "points" | "cloud";
     data: string;
+    center?: "origin";
 }
 
 /** The reason why a file is refused before it is sent. */

@@ -3,6 +3,9 @@
 
 import type { Client, State } from "@oval4d/protocol";
 
+import { LastChange } from "./last_change";
+import { originInFile } from "./origin";
+
 /** A point x, y, z, w. */
 export type Point4 = State["point"];
 
@@ -10,11 +13,6 @@ export interface FocusPointEvents {
     /** Called when a gesture begins, which may move the focus slice. */
     began(): void;
     failed(error: Error): void;
-}
-
-interface PointOfRevision {
-    point: Point4;
-    revision: number;
 }
 
 const kOrigin: Point4 = [0, 0, 0, 0];
@@ -25,8 +23,9 @@ export class FocusPoint {
     private isSending = false;
     private isScheduled = false;
     private continues = false; // whether the next move belongs to the undo step of the last one
-    private answered: PointOfRevision = { point: kOrigin, revision: 0 };
-    private seen: PointOfRevision = { point: kOrigin, revision: 0 }; // in the newest state
+    private current = kOrigin; // in the session
+    private readonly lastChange = new LastChange();
+    private origin = kOrigin; // to add to the coordinates in the picture
 
     constructor(
         private readonly client: Client,
@@ -34,13 +33,9 @@ export class FocusPoint {
     ) {}
 
     /** Follows the focus point of the session. */
-    update({ point, revision }: State): void {
-        this.seen = { point, revision };
-    }
-
-    /** Forgets the revisions, because a new connection may be to a session whose revisions start at 0. */
-    restart(): void {
-        this.answered.revision = this.seen.revision = 0;
+    update(state: State): void {
+        if (!this.lastChange.isAfter(state)) this.current = state.point;
+        this.origin = originInFile(state);
     }
 
     /** Begins a gesture: the moves up to the next call are one undo step. */
@@ -49,10 +44,10 @@ export class FocusPoint {
         this.events.began();
     }
 
-    /** Changes some coordinates of the point: pairs of an axis, 0 to 3, and a coordinate. */
+    /** Changes some coordinates of the point: pairs of an axis, 0 to 3, and a coordinate in the picture. */
     move(coordinates: readonly (readonly [axis: number, value: number])[]): void {
         const point: Point4 = [...this.point];
-        for (const [axis, value] of coordinates) point[axis] = value;
+        for (const [axis, value] of coordinates) point[axis] = this.origin[axis]! + value;
         this.wanted = point;
         this.isUnsent = true;
         this.schedule();
@@ -60,8 +55,7 @@ export class FocusPoint {
 
     /** Where the point is, or will be when the server has answered. */
     private get point(): Point4 {
-        if (this.isUnsent || this.isSending) return this.wanted;
-        return this.seen.revision >= this.answered.revision ? this.seen.point : this.answered.point;
+        return this.isUnsent || this.isSending ? this.wanted : this.current;
     }
 
     private schedule(): void {
@@ -79,7 +73,8 @@ export class FocusPoint {
         this.continues = true;
         try {
             const { revision } = await this.client.request({ type: "set", point, ...(continues && { continues }) });
-            this.answered = { point, revision };
+            this.current = point;
+            this.lastChange.answered(revision);
         } catch (error) {
             this.isUnsent = false;
             this.events.failed(error as Error);

@@ -1,12 +1,11 @@
 // The transfer function of fog: the opacity and the color of each value of a field.
 
-import type { FogPoint, Inside, Slices } from "@oval4d/protocol";
+import type { FogPoint, Inside, Scheme, Slices } from "@oval4d/protocol";
+
+import table from "../../protocol/colors.json";
 
 export const kMinFogPoints = 2;
 export const kMaxFogPoints = 8;
-
-/** The colors at the ends and in the middle of the scale that gives points without a color theirs. */
-const kScale = [0x418dfa, 0xa7abb1, 0xf3a00f] as const;
 
 /** The distribution of a field's values. */
 export interface ValueDistribution {
@@ -53,19 +52,25 @@ export function hexOf(color: number): string {
     return color.toString(16).padStart(6, "0");
 }
 
-/** The color of point i: its own, or that of the scale, which extends from the first point to the last. */
-export function colorOf(points: FogPoint[], i: number): number {
+/**
+ * The color of point i: its own, or that of the scale, which extends from the first point to the last, in a picture of
+ * this scheme.
+ */
+export function colorOf(points: FogPoint[], i: number, scheme: Scheme): number {
     const { value, color } = points[i]!;
     if (color !== undefined) return color;
     const [first, last] = [points[0]!.value, points.at(-1)!.value];
     const place = (2 * (value - first)) / (last - first);
-    const [from, to] = place < 1 ? [kScale[0], kScale[1]] : [kScale[1], kScale[2]];
+    const [least, middle, most] = table.schemes[scheme].scale.map((one) => parseInt(one.slice(1), 16)) as Scale;
+    const [from, to] = place < 1 ? [least, middle] : [middle, most];
     const part = place < 1 ? place : place - 1;
     return [16, 8, 0].reduce((sum, shift) => {
         const [a, b] = [(from >> shift) & 255, (to >> shift) & 255];
         return sum | (Math.round(a + part * (b - a)) << shift);
     }, 0);
 }
+
+type Scale = [least: number, middle: number, most: number];
 
 /** Whether the server accepts these points: their values increase. */
 export function isTransferFunction(points: FogPoint[]): boolean {

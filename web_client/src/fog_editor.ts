@@ -3,11 +3,13 @@
 
 import type { FogPoint, Settings, Slices, State } from "@oval4d/protocol";
 
+import { schemeOfPicture } from "./color_scheme";
 import { byId, element } from "./element";
 import { type ValueDistribution, colorOf, distributionOf, hexOf, isTransferFunction } from "./fog";
 import { kMaxFogPoints, kMinFogPoints, usualFog, withNewPoint, withPoint } from "./fog";
 import { parseNumbers } from "./fields";
 import { toSentence } from "./format";
+import { LastChange } from "./last_change";
 import { NewestOnly } from "./newest_only";
 
 const kTypingDelay = 150; // milliseconds after the last change by typing
@@ -32,6 +34,7 @@ export class FogEditor {
     private readonly show = byId<HTMLButtonElement>("fog-show");
     private readonly off = byId<HTMLButtonElement>("fog-off");
     private readonly changes = new NewestOnly<{ fog: FogPoint[]; continues: boolean }>((change) => this.apply(change));
+    private readonly lastChange = new LastChange();
     private rows: Row[] = [];
     private points: FogPoint[] = []; // what the editor shows
     private state: State | undefined;
@@ -41,7 +44,7 @@ export class FogEditor {
     private isContinued = false; // whether the next change belongs to the undo step of the last one
 
     /** `set` changes settings; it throws an Error whose message is shown. */
-    constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<unknown>) {
+    constructor(private readonly set: (change: Settings & { continues?: boolean }) => Promise<{ revision: number }>) {
         this.add.addEventListener("click", () => this.change(withNewPoint(this.points)));
         this.show.addEventListener("click", () => this.change(this.usual()));
         this.off.addEventListener("click", () => {
@@ -56,7 +59,8 @@ export class FogEditor {
     update(state: State): void {
         this.state = state;
         this.show.disabled = state.fog === undefined;
-        if (this.dragged !== undefined || this.changes.isBusy) return; // the state is older than the editor
+        const isOld = this.lastChange.isAfter(state);
+        if (isOld || this.dragged !== undefined || this.changes.isBusy) return; // the editor is newer
         this.points = state.fog ?? [];
         this.draw();
     }
@@ -85,7 +89,8 @@ export class FogEditor {
 
     private async apply({ fog, continues }: { fog: FogPoint[]; continues: boolean }): Promise<void> {
         try {
-            await this.set({ fog, ...(continues && { continues }) });
+            const { revision } = await this.set({ fog, ...(continues && { continues }) });
+            this.lastChange.answered(revision);
             this.refusal = "";
         } catch (error) {
             this.refusal = toSentence((error as Error).message);
@@ -143,7 +148,7 @@ export class FogEditor {
         const floor = kHeight - kMargin;
         const stops = places.map(([x], i) => {
             const offset = String((x - kMargin) / (kWidth - 2 * kMargin));
-            return shape("stop", { offset, "stop-color": `#${hexOf(colorOf(points, i))}` });
+            return shape("stop", { offset, "stop-color": `#${hexOf(colorOf(points, i, schemeOfPicture()))}` });
         });
         const gradient = shape("linearGradient", {
             ...{ id: "fog-colors", gradientUnits: "userSpaceOnUse" },
@@ -158,7 +163,7 @@ export class FogEditor {
             ...places.map(([x, y], i) => {
                 const place = { cx: String(x), cy: String(y) };
                 const handle = shape("g", { "data-point": String(i) });
-                const fill = `#${hexOf(colorOf(points, i))}`;
+                const fill = `#${hexOf(colorOf(points, i, schemeOfPicture()))}`;
                 handle.append(shape("circle", { ...place, r: "11", class: "reach" }), shape("circle", { ...place, r: "5", fill }));
                 return handle;
             }),
@@ -197,7 +202,7 @@ export class FogEditor {
                 if (document.activeElement === input || parseNumbers(input.value)[0] === number) continue;
                 input.value = String(number);
             }
-            if (document.activeElement !== row.color) row.color.value = `#${hexOf(colorOf(this.points, i))}`;
+            if (document.activeElement !== row.color) row.color.value = `#${hexOf(colorOf(this.points, i, schemeOfPicture()))}`;
             row.remove.disabled = this.points.length <= kMinFogPoints;
         });
     }

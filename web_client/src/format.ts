@@ -35,8 +35,8 @@ export function formatCoordinate(value: number): string {
 }
 
 /** The w of the focus slice. */
-export function focusW({ slices: { focus, spacing, offset } }: State): string {
-    return formatW(offset + focus * spacing, spacing);
+export function focusW({ section, slices }: State): string {
+    return formatW(section.w, slices.spacing);
 }
 
 /** The w of a slice, rounded like its label in the picture (labelOf() in server/scene/layout.cpp). */

@@ -80,7 +80,9 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
         }, kLongPress);
     });
     // Otherwise the mouse events that follow a touch would take the focus from the menu.
-    drawing.addEventListener("touchend", (event) => isLongPress && event.preventDefault(), { passive: false });
+    drawing.addEventListener("touchend", (event) => isLongPress && event.cancelable && event.preventDefault(), {
+        passive: false,
+    });
     drawing.addEventListener("pointerup", (event) => {
         if (isClick && event.button === kButtons.right) targets.openMenu(placeOf(event));
     });
@@ -91,7 +93,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     });
     drawing.addEventListener("pointermove", (event) => {
         const before = fingers.get(event.pointerId);
-        if (!before) return;
+        if (!before || isLongPress) return; // the menu is open
         const slop = event.pointerType === "mouse" ? kSlop.mouse : kSlop.touch;
         const distance = Math.hypot(event.clientX - before.clientX, event.clientY - before.clientY);
         if (isClick && distance < slop) return;

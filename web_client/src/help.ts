@@ -31,6 +31,7 @@ const kSticks = [
 const kCommonKeys = [
     ["Ctrl-z", "Undo; on a Mac, Cmd-z"],
     ["Ctrl-y", "Redo; also Ctrl-Shift-z"],
+    ["Ctrl-p", "Print the picture alone, on white"],
     ["Esc", "Return the focus to the drawing; there, end the light"],
 ] as const;
 

@@ -69,6 +69,14 @@ export function shareLink({ session, token }: Credentials): string {
     return link.href;
 }
 
+/** A link that opens the view of a query in a new session. */
+export function viewLink(query: string): string {
+    const link = new URL(location.href);
+    link.search = query;
+    link.hash = "";
+    return link.href;
+}
+
 /** Decodes percent signs; returns the text unchanged if it is not valid UTF-8, so that the error message shows it. */
 function decodePercents(text: string): string {
     try {

@@ -14,7 +14,8 @@ export class Notice {
         this.write([message]);
         if (text === undefined) return;
         clearTimeout(this.timer);
-        const field = element("input", { type: "text", readonly: true, value: text, "aria-label": "Link" });
+        const rows = String(text.trimEnd().split("\n").length);
+        const field = element("textarea", { readonly: true, rows, "aria-label": "Text to copy" }, text);
         this.root.append(field);
         field.select();
     }

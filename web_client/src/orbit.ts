@@ -3,6 +3,7 @@
 
 import type { Client, Orbit, State } from "@oval4d/protocol";
 
+import { LastChange } from "./last_change";
 import type { SliceLayout } from "./picture/slice_layout";
 import type { Stage } from "./picture/stage";
 
@@ -18,6 +19,7 @@ const kZoomStep = 1.1;
 export class OrbitControl {
     private sending = false;
     private unsent = false;
+    private readonly lastChange = new LastChange();
     private unlimited: Orbit | undefined; // the orbit before the first move that was made while the layout was unknown
     /** What the actions of the camera in the key table do. */
     private readonly actions: Record<string, () => void> = {
@@ -108,7 +110,8 @@ export class OrbitControl {
 
     /** Adopts the camera of the state, unless this page has changes that the session has not answered. */
     adoptCamera(state: State): void {
-        if (this.sending || this.unsent) return;
+        const isOld = this.lastChange.isAfter(state);
+        if (isOld || this.sending || this.unsent) return; // the page's orbit is newer
         this.stage.orbit = state.camera;
     }
 
@@ -125,7 +128,8 @@ export class OrbitControl {
         while (this.unsent) {
             this.unsent = false;
             const camera = this.stage.orbit;
-            await this.client.request({ type: "set", camera }).catch(() => {});
+            const done = await this.client.request({ type: "set", camera }).catch(() => undefined);
+            if (done) this.lastChange.answered(done.revision);
         }
         this.sending = false;
     }

@@ -3,8 +3,8 @@
 export interface PageCommands {
     /** Opens the help, or shows what it says about a topic. */
     help(topic: string): void;
-    /** Saves a file in this format, or opens the export dialog if the format is "". */
-    exportFile(format: string): Promise<void> | undefined | void;
+    /** Saves a file that a format and options describe, such as "stl fit=5", or opens the export dialog for "". */
+    exportFile(description: string): Promise<void> | undefined | void;
 }
 
 /** Executes a line; returns false if it is not a command of the page. */

@@ -1,6 +1,9 @@
 // Buttons for actions of the page that have no key.
 
+import { kSchemeChoices, type SchemeChoice } from "./color_scheme";
 import { element } from "./element";
+import { capitalize } from "./format";
+import type { FullScreen } from "./full_screen";
 import type { Mode } from "./picture/stage";
 import type { Section } from "./tools";
 
@@ -10,11 +13,24 @@ export interface PageActions {
     setMode(mode: Mode): void;
     reset(): void;
     share(): void;
+    copyViewLink(): void;
+    copyPython(): void;
     save(): void;
     openField(): void;
+    scheme: SchemeChoice;
+    chooseScheme(choice: SchemeChoice): void;
+    fullScreen: FullScreen;
+    /** Shows an error. */
+    failed(error: Error): void;
     usesSingleKeys: boolean;
     useSingleKeys(on: boolean): void;
 }
+
+const kSchemeTitles: Record<SchemeChoice, string> = {
+    system: "A dark or a light page, as the system is set",
+    dark: "A dark page",
+    light: "A light page; the picture is light, too, unless it has another background",
+};
 
 export function pageSections(actions: PageActions): Section[] {
     const renderer = (mode: Mode, label: string, title: string): HTMLElement => {
@@ -44,6 +60,10 @@ export function pageSections(actions: PageActions): Section[] {
             ],
         },
         {
+            title: "Appearance",
+            content: [...kSchemeChoices.map((choice) => schemeButton(choice, actions)), fullScreenButton(actions)],
+        },
+        {
             title: "Help and commands",
             content: [singleKeysButton(actions)],
         },
@@ -52,6 +72,18 @@ export function pageSections(actions: PageActions): Section[] {
             content: [
                 button("save", "Save picture", "Save the picture as a PNG file", actions.save),
                 button("share", "Share", "Copy a link with which others can join this session", actions.share),
+                button(
+                    "view_link",
+                    "Copy link to this view",
+                    "Copy a link that opens this view in a new session",
+                    actions.copyViewLink,
+                ),
+                button(
+                    "python",
+                    "Copy as Python",
+                    "Copy a script that opens this view and saves its picture",
+                    actions.copyPython,
+                ),
             ],
         },
     ];
@@ -62,6 +94,32 @@ export function markMode(mode: Mode): void {
     for (const name of ["geometry", "frames"]) {
         document.querySelector(`[data-page-tool="${name}"]`)?.setAttribute("aria-pressed", String(name === mode));
     }
+}
+
+/** Marks the button of the chosen color scheme as pressed. */
+export function markScheme(choice: SchemeChoice): void {
+    for (const name of kSchemeChoices) {
+        document.querySelector(`[data-page-tool="scheme_${name}"]`)?.setAttribute("aria-pressed", String(name === choice));
+    }
+}
+
+/** Marks the button Full screen as pressed while the page fills the screen. */
+export function markFullScreen(isOn: boolean): void {
+    document.querySelector('[data-page-tool="full_screen"]')?.setAttribute("aria-pressed", String(isOn));
+}
+
+function schemeButton(choice: SchemeChoice, { scheme, chooseScheme }: PageActions): HTMLElement {
+    const made = button(`scheme_${choice}`, capitalize(choice), kSchemeTitles[choice], () => chooseScheme(choice));
+    made.setAttribute("aria-pressed", String(choice === scheme));
+    return made;
+}
+
+function fullScreenButton({ fullScreen, failed }: PageActions): HTMLElement {
+    const title = "Fill the screen, with texts for the back of a room; Escape ends it";
+    const made = button("full_screen", "Full screen", title, () => void fullScreen.toggle().catch(failed));
+    made.toggleAttribute("disabled", !fullScreen.isAvailable);
+    made.setAttribute("aria-pressed", String(fullScreen.isOn));
+    return made;
 }
 
 /** A switch, for those who type keys unintentionally, such as by speech (WCAG 2.1.4). */

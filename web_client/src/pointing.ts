@@ -4,6 +4,7 @@
 import type { PolytopeElement, Slice, State } from "@oval4d/protocol";
 
 import { followHover, type Point } from "./hover";
+import { originInFile } from "./origin";
 import { elementOfHit, ElementSources } from "./picture/element_sources";
 import type { SliceLayout } from "./picture/slice_layout";
 import type { Stage } from "./picture/stage";
@@ -103,10 +104,13 @@ function descriptionOf(
     { element, number, slice }: Pointed,
     own: number[],
     { picture: { coordinates } }: SliceLayout,
-    { polytope: { kinds = [] } }: State,
+    state: State,
 ): ElementDescription {
-    const points = coordinates.length > 0 ? own.map((v) => [...coordinates.subarray(4 * v, 4 * v + 4)]) : [];
-    const common = { element, number, sliceW: slice?.w };
+    const { kinds = [] } = state.polytope;
+    const origin = originInFile(state);
+    const placeOf = (v: number): number[] => origin.map((from, axis) => from + coordinates[4 * v + axis]!);
+    const points = coordinates.length > 0 ? own.map(placeOf) : [];
+    const common = { element, number, sliceW: slice && origin[3] + slice.w };
     if (element === "vertex") return { ...common, coordinates: points[0] };
     const w = points.map((point) => point[3]!);
     const [a, b] = points.length === 2 ? points : [];

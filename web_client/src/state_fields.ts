@@ -123,6 +123,7 @@ function announcementsOf(state: State): string[] {
         state.turning ? "turning" : "at rest",
         spokenColoring(state),
         spokenKinds(state),
+        `${state.background === "auto" ? "automatic" : state.background} background`,
         spokenLevels(state),
         spokenFrame(state) || "observer at rest",
         state.highlight ? `${state.highlight.element} ${state.highlight.number} highlighted` : "no highlight",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "scene/density_plot.hpp"
@@ -14,14 +15,15 @@ namespace {
 constexpr double kAmplitude = 40;  // length of a line whose value is the circumradius
 constexpr double kMaxColumn = 48;  // bounds of the width of a vertex's column
 constexpr double kMinColumn = 5;
-constexpr double kText = 7;  // font size
+constexpr double kText = 7;                // font size
+constexpr double kNameRoom = 3.2 * kText;  // for the label of a vertex
 
 /// The positions of the columns. Each vertex has a column, with a vertical line for each of its four coordinates; the
 /// columns are arranged in rows.
 struct Columns {
     std::size_t count, perRow, rows;
-    double step, rowStep;  ///< from a column to the next, from a row to the next
-    bool named;            ///< whether there is room for the labels P0, P1, …
+    double step, rowStep;    ///< from a column to the next, from a row to the next
+    std::size_t namedEvery;  ///< of how many columns one has room for its label: P0, P1, …
 
     explicit Columns(std::size_t vertices) : count(vertices) {
         const double width = kDrawingWidth - 2 * kDrawingMargin;
@@ -29,8 +31,8 @@ struct Columns {
         rows = (count + most - 1) / most;
         perRow = (count + rows - 1) / rows;
         step = std::min(width / static_cast<double>(perRow), kMaxColumn);
-        named = step > 3.2 * kText;
-        rowStep = 2 * kAmplitude + kDrawingMargin + (named ? 1.5 * kText : 0);
+        namedEvery = static_cast<std::size_t>(std::ceil(kNameRoom / step));
+        rowStep = 2 * kAmplitude + kDrawingMargin + 1.5 * kText;
     }
     double left(std::size_t i) const { return kDrawingMargin + step * static_cast<double>(i % perRow); }
     double zero(std::size_t row) const { return kDrawingMargin + kAmplitude + rowStep * static_cast<double>(row); }
@@ -40,7 +42,7 @@ Drawing drawStrip(const scene::Scene& scene) {
     scene::DensityPlot density;
     density.measure(scene.slices->rotatedVertices, glm::dmat4(1), scene.circumradius);
     const double step = (kDrawingWidth - 2 * kDrawingMargin) / 3, bottom = kDrawingMargin + 2 * kAmplitude;
-    const auto& colors = scene::style().axes;
+    const auto& colors = scene.style().axes;
     const auto tones = density.tones();
     ShapeGroup strip{"density",
                      {DensityImage{{kDrawingMargin, kDrawingMargin},
@@ -73,7 +75,7 @@ Drawing drawHistogram(const scene::Scene& scene, const fields::Field& field, con
     ShapeGroup levels{"levels", {}}, axes{"axes", {}};
     for (int k = 0; k < 4; ++k) {
         const double left = kDrawingMargin + k * (width + kGap), right = left + width;
-        const scene::Color color = scene::style().axes[static_cast<std::size_t>(k)];
+        const scene::Color color = scene.style().axes[static_cast<std::size_t>(k)];
         const std::string name(1, "xyzw"[k]);
         DensityImage panel{{left, kDrawingMargin}, {right, bottom}, {}, CoordinateHistograms::kPanel, {color}};
         for (int row = 0; row < CoordinateHistograms::kRows; ++row) {
@@ -86,11 +88,10 @@ Drawing drawHistogram(const scene::Scene& scene, const fields::Field& field, con
             const double level = settings.levels[i];
             if (level < least || level > greatest) continue;
             const double y = bottom - 2 * kAmplitude * (level - least) / (greatest - least);
-            levels.shapes.emplace_back(
-                Line{.from = {left, y},
-                     .to = {right, y},
-                     .width = 0.5,
-                     .color = scene::surfaceColor(i, settings.levels.size(), scene.look.coloring)});
+            levels.shapes.emplace_back(Line{.from = {left, y},
+                                            .to = {right, y},
+                                            .width = 0.5,
+                                            .color = scene::surfaceColor(i, settings.levels.size(), scene.look)});
         }
         axes.shapes.emplace_back(Line{.from = {left, bottom}, .to = {right, bottom}, .color = color, .id = name});
         axes.shapes.emplace_back(TextLine{{(left + right) / 2, bottom + 1.3 * kText}, kText, kDrawingText, name});
@@ -117,9 +118,9 @@ Drawing drawCoordinates(const scene::Scene& scene, const slicing::Object& object
     for (std::size_t row = 0; row < columns.rows; ++row) {
         const double y = columns.zero(row);
         zeros.shapes.emplace_back(
-            Line{.from = {kDrawingMargin, y}, .to = {right, y}, .width = 0.4, .color = scene::style().zeroLine});
+            Line{.from = {kDrawingMargin, y}, .to = {right, y}, .width = 0.4, .color = scene.style().zeroLine});
     }
-    const auto& colors = scene::style().axes;
+    const auto& colors = scene.style().axes;
     const double lineStep = columns.step / 5;
     for (int axis = 0; axis < 4; ++axis) {
         ShapeGroup& lines = drawing.groups.emplace_back(std::string(1, "xyzw"[axis]), std::vector<Shape>());
@@ -131,9 +132,16 @@ Drawing drawCoordinates(const scene::Scene& scene, const slicing::Object& object
                                            .color = colors[static_cast<std::size_t>(axis)]});
         }
     }
-    if (!columns.named) return drawing;
     ShapeGroup& names = drawing.groups.emplace_back("names", std::vector<Shape>());
+    for (int axis = 0; axis < 4; ++axis) {
+        const double x = kDrawingMargin + kText * (axis + 0.5);
+        names.shapes.emplace_back(TextLine{{x, kDrawingMargin - 0.4 * kText},
+                                           kText,
+                                           colors[static_cast<std::size_t>(axis)],
+                                           std::string(1, "xyzw"[axis])});
+    }
     for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (i % columns.perRow % columns.namedEvery != 0) continue;
         names.shapes.emplace_back(
             TextLine{{columns.left(i) + columns.step / 2, columns.zero(i / columns.perRow) + kAmplitude + 1.2 * kText},
                      kText,

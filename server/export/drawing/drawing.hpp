@@ -1,6 +1,7 @@
 #pragma once
 // Vector drawings for printing. The writers of SVG and PDF files get a Drawing and no other data.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -13,7 +14,10 @@
 
 namespace oval4d::exports {
 
-// Lengths are in points (1/72 inch). Positions are measured from the upper left corner, with y downward.
+// Lengths are in units that Drawing::size defines. Positions are measured from the upper left corner, with y downward.
+
+/// The default of Drawing::size: about the width of the text on a page of A4.
+inline constexpr double kDrawingSize = 170;
 
 /// A straight line.
 struct Line {
@@ -73,9 +77,13 @@ struct Drawing {
     std::string title;
     double width = 0, height = 0;
     std::vector<ShapeGroup> groups;  ///< later groups cover earlier ones
+    double size = kDrawingSize;      ///< the larger of width and height on paper, in millimeters
+
+    /// Returns the length of a unit on paper, in millimeters.
+    double unit() const { return size / std::max(width, height); }
 };
 
-/// The width of drawings: the width of the text on a printed page.
+/// The width of drawings. A unit is about 1/72 inch if the drawing has its default size.
 inline constexpr double kDrawingWidth = 480;
 inline constexpr double kDrawingMargin = 12;
 inline constexpr scene::Color kDrawingText = 0x444444;

@@ -2,14 +2,38 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
 
 namespace oval4d::exports {
 
 namespace {
 
-constexpr double kPanelGap = 6, kName = 26;
-constexpr double kPanel = (kDrawingWidth - 2 * kDrawingMargin - 3 * kPanelGap) / 4;
-constexpr scene::Color kFrame = 0xc4cad4, kFill = 0xe9ecf1, kPoint = 0x2b3340;
+constexpr double kPanelGap = 6, kName = 26, kNumberSize = 6;
+constexpr double kNumberRoom = 14;  // to the left of the matrix and below it
+constexpr double kPanel = (kDrawingWidth - 2 * kDrawingMargin - kNumberRoom - 3 * kPanelGap) / 4;
+constexpr scene::Color kFrame = 0x8a93a3, kFill = 0xe9ecf1, kPoint = 0x2b3340;
+
+/// Returns the distance between the numbers at an axis from −reach to reach: 1, 2 or 5 times a power of ten, such that
+/// one or two numbers on each side of 0 have room.
+double numberStep(double reach) {
+    constexpr double kMost = 2.6;
+    const double power = std::pow(10, std::floor(std::log10(reach)));
+    for (const double factor : {0.5, 1.0, 2.0}) {
+        if (reach / (factor * power) < kMost) return factor * power;
+    }
+    return 5 * power;
+}
+
+/// Returns `multiple` steps with as many decimals as the step has.
+std::string numberText(int multiple, double step) {
+    if (multiple == 0) return "0";
+    const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.*f", decimals, multiple * step);
+    return text.data();
+}
 
 class SectionDrawer {
   public:
@@ -49,22 +73,50 @@ class SectionDrawer {
             const double opacity = slicing::opacityOf(styles.points[i]) * (differ ? from.ballOpacity[i] : 1);
             if (opacity == 0) continue;
             group.shapes.emplace_back(Disk{place(from.points[i]), (differ ? 1.5 * from.ballScale[i] : 0.6) * width,
-                                           styles.highlighted[i] ? scene::style().highlight : kPoint, opacity});
+                                           styles.highlighted[i] ? scene_.style().highlight : kPoint, opacity});
         }
         return group;
     }
 
-    static TextLine nameOf(int axis) {
+    /// Draws numbers and marks at the outer edges of the outermost panels: at the left of each row, and below each
+    /// column.
+    ShapeGroup drawNumbers() const {
+        constexpr double kMark = 3, kDigits = 0.73 * kNumberSize;
+        const double reach = scene::MatrixLayout::kReach * scene_.circumradius, step = numberStep(reach);
+        const double half = kPanel / 2;
+        ShapeGroup numbers{"numbers", {}};
+        const auto add = [&](const glm::dvec2& mark, const glm::dvec2& outward, const TextLine& text) {
+            numbers.shapes.emplace_back(
+                Line{.from = mark, .to = mark + kMark * outward, .width = 0.5, .color = text.color});
+            numbers.shapes.emplace_back(text);
+        };
+        for (int axis = 0; axis < 4; ++axis) {
+            const glm::dvec2 below = centerOf(axis == 3 ? 2 : 3, axis), beside = centerOf(axis, axis == 0 ? 1 : 0);
+            for (int k = -static_cast<int>(reach / step); k * step <= reach; ++k) {
+                const double at = scale_ * k * step;
+                const std::string text = numberText(k, step);
+                const glm::dvec2 under = below + glm::dvec2(at, half), left = beside + glm::dvec2(-half, -at);
+                add(under, {0, 1}, {under + glm::dvec2(0, kMark + 1 + kDigits), kNumberSize, colorOfAxis(axis), text});
+                const double width = 0.3 * kNumberSize * static_cast<double>(text.size());  // half of it
+                add(left, {-1, 0},
+                    {left + glm::dvec2(-kMark - 1 - width, kDigits / 2), kNumberSize, colorOfAxis(axis), text});
+            }
+        }
+        return numbers;
+    }
+
+    TextLine nameOf(int axis) const {
         const glm::dvec2 center = centerOf(axis, axis);
         return {{center.x, center.y + 0.35 * kName}, kName, colorOfAxis(axis), std::string(1, "xyzw"[axis])};
     }
 
   private:
     static glm::dvec2 centerOf(int row, int column) {
-        return kDrawingMargin + (kPanel + kPanelGap) * glm::dvec2(column, row) + kPanel / 2;
+        return kDrawingMargin + glm::dvec2(kNumberRoom, 0) + (kPanel + kPanelGap) * glm::dvec2(column, row) +
+               kPanel / 2;
     }
 
-    static scene::Color colorOfAxis(int axis) { return scene::style().axes[static_cast<std::size_t>(axis)]; }
+    scene::Color colorOfAxis(int axis) const { return scene_.style().axes[static_cast<std::size_t>(axis)]; }
 
     static void drawFrame(const glm::dvec2& center, ShapeGroup& group) {
         const double half = kPanel / 2;
@@ -107,7 +159,8 @@ Drawing drawMatrix(const scene::Scene& scene) {
         for (const bool transposed : {false, true}) drawing.groups.push_back(drawer.draw(i, transposed));
     }
     ShapeGroup& names = drawing.groups.emplace_back("names", std::vector<Shape>());
-    for (int axis = 0; axis < 4; ++axis) names.shapes.emplace_back(SectionDrawer::nameOf(axis));
+    for (int axis = 0; axis < 4; ++axis) names.shapes.emplace_back(drawer.nameOf(axis));
+    drawing.groups.push_back(drawer.drawNumbers());
     return drawing;
 }
 

@@ -16,9 +16,8 @@ namespace {
 
 using slicing::SliceSet;
 
-constexpr scene::Color kNear = 0x2b3340, kFar = 0xb4bcca, kHalo = 0xffffff;
-constexpr scene::Color kSection = 0xc79a00;  // the section of the focus slice; darker than in pictures, on white ground
-constexpr double kHaloWidth = 1.8;           // of the gap where a bar passes before another, as a multiple of its width
+constexpr scene::Color kNear = 0x2b3340, kFar = 0x8a93a3, kHalo = 0xffffff;
+constexpr double kHaloWidth = 1.8;  // of the gap where a bar passes before another, as a multiple of its width
 
 scene::Color mix(scene::Color a, scene::Color b, double t) {
     scene::Color mixed = 0;
@@ -61,7 +60,8 @@ class ProjectionDrawer {
 
     // The color of a part at a depth.
     scene::Color colorAt(std::size_t part, double depth) const {
-        if (part > 0) return scene_.projection.parts[part].barColor == scene::style().axes[3] ? kSection : kFar;
+        const scene::Color focus = scene_.style().axes[3];
+        if (part > 0) return scene_.projection.parts[part].barColor == focus ? focus : kFar;
         const double reach = scale_ * scene_.projectionPlacement.radius;
         return mix(kFar, kNear, std::clamp((depth / reach + 1) / 2, 0.0, 1.0));
     }
@@ -69,7 +69,7 @@ class ProjectionDrawer {
     void addPart(std::size_t part) {
         const scene::ProjectionPart& look = scene_.projection.parts[part];
         const SliceSet& set = scene_.projection.elements;
-        const scene::Style& style = scene::style();
+        const scene::Style& style = scene_.style();
         const std::uint32_t v0 = set.vertexBegin[part];
         const auto isSeen = [&](slicing::Visibility v) { return v != slicing::Visibility::hidden; };
         for (std::uint32_t f = set.faceBegin[part]; look.faceOpacity > 0 && f < set.faceBegin[part + 1]; ++f) {

@@ -16,10 +16,11 @@ namespace oval4d::exports {
 
 namespace {
 
-void appendSlice(std::string& out, const slicing::SliceSet& slices, int i) {
+// `origin` is added to coordinates.
+void appendSlice(std::string& out, const slicing::SliceSet& slices, const glm::dvec4& origin, int i) {
     const SliceMeasurements m = measureSlice(slices, i);
     out += std::to_string(slices.planes.first + i) + ',';
-    append(out, slices.planes.w(i));
+    append(out, origin.w + slices.planes.w(i));
     for (const std::size_t count : {slices.vertexCount(i), slices.edgeCount(i), m.faces})
         out += ',' + std::to_string(count);
     for (const double number : {m.volume, m.area}) {
@@ -28,7 +29,7 @@ void appendSlice(std::string& out, const slicing::SliceSet& slices, int i) {
     }
     for (int axis = 0; axis < 3; ++axis) {
         out += ',';
-        if (m.hasCentroid) append(out, m.centroid[axis]);
+        if (m.hasCentroid) append(out, origin[axis] + m.centroid[axis]);
     }
     out += "\n";
 }
@@ -93,7 +94,7 @@ std::string criticalCsv(const SceneInput& source) {
     for (const glm::dvec4& v : source.scene.slices->rotatedVertices) levels.push_back(v.w);
     const double same = slicing::kOnPlane * source.scene.circumradius;
     for (const auto& [w, vertices] : slicing::groupHeights(std::move(levels), same)) {
-        append(out, w);
+        append(out, slicing::infoOf(source.object).originInFile.w + w);
         out += ',' + std::to_string(vertices) + '\n';
     }
     return out;
@@ -103,7 +104,7 @@ std::string criticalCsv(const SceneInput& source) {
 
 std::string measurementsCsv(const SceneInput& source) {
     const fields::Field* field = slicing::fieldIn(source.object);
-    if (source.extent == Extent::critical) {
+    if (source.contents == ExportContents::critical) {
         if (field == nullptr) return criticalCsv(source);
         throw ExportRefused{{ExportError::Cause::no_body,
                              "the critical w of a field are searched for; get them with the message get critical"}};
@@ -111,7 +112,8 @@ std::string measurementsCsv(const SceneInput& source) {
     if (field != nullptr) return fieldCsv(source, *field);
     const slicing::SliceSet& slices = *source.scene.slices;
     std::string out = "n,w,vertices,edges,faces,volume,area,centroid_x,centroid_y,centroid_z\n";
-    for (int i = 0; i < slices.planes.count; ++i) appendSlice(out, slices, i);
+    const glm::dvec4& origin = slicing::infoOf(source.object).originInFile;
+    for (int i = 0; i < slices.planes.count; ++i) appendSlice(out, slices, origin, i);
     return out;
 }
 

@@ -9,7 +9,7 @@
 
 #include "export/budget.hpp"
 #include "export/drawing/drawing.hpp"
-#include "export/extent.hpp"
+#include "export/export_contents.hpp"
 #include "export/mesh/mesh.hpp"
 #include "geometry/rotation.hpp"
 #include "scene/scene.hpp"
@@ -40,8 +40,9 @@ struct SceneInput {
     const scene::Scene& scene;
     const slicing::Object& object;
     const geometry::Rotation& orientation;
-    Extent extent;
+    ExportContents contents;
     const Budget& budget;
+    std::vector<std::string>& warnings;  ///< to which the writer adds what the file lacks (see ExportedFile::warnings)
 };
 
 /// A file format of protocol/export_formats.json. Exactly one of its three writers is not null: writeBodies for a
@@ -57,11 +58,14 @@ struct Format {
     std::string mediaType;  ///< the value of the Content-Type header
     Arrangement arrangement = Arrangement::none;
     Objects objects = Objects::all;
-    std::vector<Extent> extents;  ///< what a file can contain; the first of them is the default
-    bool takesSurfaces = false;   ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
+    std::vector<ExportContents> contents;  ///< what a file can contain; the first of them is the default
+    bool takesSurfaces = false;            ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
     std::string (*writeBodies)(const BodiesToWrite&) = nullptr;
     std::string (*writeScene)(const SceneInput&) = nullptr;
     std::string (*writeDrawing)(const Drawing&) = nullptr;
+
+    /// Returns whether files of the format can contain this.
+    bool canContain(ExportContents what) const { return std::ranges::find(contents, what) != contents.end(); }
 };
 
 }  // namespace oval4d::exports

@@ -63,7 +63,8 @@ std::vector<Format> readTable() {
         if (!bodies.empty())
             format.arrangement = bodies == "plate" ? Format::Arrangement::plate : Format::Arrangement::oval;
         format.objects = text::valueNamed(kObjects, row.value("objects", "all")).value();
-        for (const std::string of : row.at("of")) format.extents.push_back(text::valueNamed(kExtents, of).value());
+        for (const std::string of : row.at("of"))
+            format.contents.push_back(text::valueNamed(kExportContents, of).value());
         format.takesSurfaces = writer->takesSurfaces;
         format.writeBodies = writer->ofBodies;
         format.writeScene = writer->ofScene;

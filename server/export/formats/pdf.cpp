@@ -17,6 +17,8 @@ namespace oval4d::exports {
 
 namespace {
 
+constexpr double kPointsPerMillimeter = 72 / 25.4;
+
 // libharu reports errors to this function, whose parameters it prescribes. `first` is the HPDF_STATUS that keeps the
 // first error. After an error, the functions of libharu do nothing.
 void recordError(HPDF_STATUS error, HPDF_STATUS /*detail*/, void* first) {
@@ -26,7 +28,7 @@ void recordError(HPDF_STATUS error, HPDF_STATUS /*detail*/, void* first) {
 
 float channel(scene::Color color, int shift) { return static_cast<float>(color >> shift & 255U) / 255; }
 
-// Draws shapes on a page. PDF measures positions from the lower left corner.
+// Draws shapes on a page, in the units of the drawing. PDF measures positions from the lower left corner.
 class PageWriter {
   public:
     PageWriter(HPDF_Doc document, HPDF_Page page, double height)
@@ -142,8 +144,10 @@ std::string pdf(const Drawing& drawing) {
     HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, textString(drawing.title).c_str());
     HPDF_SetInfoAttr(document.get(), HPDF_INFO_CREATOR, "oval4d");
     const HPDF_Page page = HPDF_AddPage(document.get());
-    HPDF_Page_SetWidth(page, static_cast<float>(drawing.width));
-    HPDF_Page_SetHeight(page, static_cast<float>(drawing.height));
+    const double scale = drawing.unit() * kPointsPerMillimeter;
+    HPDF_Page_SetWidth(page, static_cast<float>(drawing.width * scale));
+    HPDF_Page_SetHeight(page, static_cast<float>(drawing.height * scale));
+    HPDF_Page_Concat(page, static_cast<float>(scale), 0, 0, static_cast<float>(scale), 0, 0);
     PageWriter writer(document.get(), page, drawing.height);
     for (const ShapeGroup& group : drawing.groups) {
         for (const Shape& shape : group.shapes) std::visit(writer, shape);

@@ -110,9 +110,11 @@ struct ElementWriter {
 }  // namespace
 
 std::string svg(const Drawing& drawing) {
+    const auto millimeters = [&](double length) { return number(length * drawing.unit()) + "mm"; };
     std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(drawing.width) + ' ' +
-                      number(drawing.height) + '"' + attribute("width", drawing.width) +
-                      attribute("height", drawing.height) + ">\n<title>" + xmlEscaped(drawing.title) + "</title>\n";
+                      number(drawing.height) + '"' + attribute("width", millimeters(drawing.width)) +
+                      attribute("height", millimeters(drawing.height)) + ">\n<title>" + xmlEscaped(drawing.title) +
+                      "</title>\n";
     for (const ShapeGroup& group : drawing.groups) {
         out += "<g" + attribute("id", xmlEscaped(group.id)) + ">\n";
         for (const Shape& shape : group.shapes) out += std::visit(ElementWriter(), shape);

@@ -6,6 +6,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "geometry/hyperplanes.hpp"
+
 namespace oval4d::exports {
 
 /// Appends the shortest decimal text that reads back as the same number.
@@ -14,9 +16,9 @@ void append(std::string& out, float number);
 /// Appends three numbers separated by spaces.
 void append(std::string& out, const glm::dvec3& point);
 
-/// Returns a label such as "w = −0.25", with enough decimals (2 to 9) to distinguish neighboring slices. `spacing` is
-/// the distance between neighboring hyperplanes.
-std::string labelOfW(double w, double spacing);
+/// Returns a label of the hyperplane with the index i, such as "w = −0.25", with enough decimals (2 to 9) to
+/// distinguish the hyperplanes. `origin` is added to w: ObjectInfo::originInFile.
+std::string labelOfW(const geometry::Hyperplanes& planes, int i, double origin = 0);
 
 /// Returns the text without the characters that XML 1.0 cannot contain (section 2.2): control characters, U+FFFE and
 /// U+FFFF. Tabs and line ends are removed, too. The text must be UTF-8.

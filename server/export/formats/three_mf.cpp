@@ -6,6 +6,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "export/formats/text.hpp"
+
 namespace oval4d::exports {
 
 namespace {

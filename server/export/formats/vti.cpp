@@ -84,8 +84,7 @@ std::string vti(const SceneInput& source) {
         throw ExportRefused{{ExportError::Cause::no_body, std::move(message)}};
     };
     if (slices.vertices.empty()) {
-        refuse("the slice at " + labelOfW(slices.planes.w(0), slices.planes.spacing) +
-               " is empty: move the focus or turn the field");
+        refuse("the slice at " + labelOfW(slices.planes, 0) + " is empty: move the focus or turn the field");
     }
     const fields::Field& field = *slicing::fieldIn(source.object);
     const Image image = imageOf(slices, 2 * field.circumradius / kCells);

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "export/formats/vtk_xml.hpp"
+#include "export/omissions.hpp"
 #include "fields/field.hpp"
 
 namespace oval4d::exports {
@@ -30,7 +31,7 @@ void appendVector(std::vector<float>& out, const glm::dvec3& v) {
 }
 
 glm::dvec3 placeOf(const SceneInput& source, int slice) {
-    if (source.extent != Extent::oval) return glm::dvec3(0);
+    if (source.contents != ExportContents::oval) return glm::dvec3(0);
     return source.scene.placements[static_cast<std::size_t>(slice)].position / source.scene.scale;
 }
 
@@ -47,7 +48,7 @@ void addFaces(const SceneInput& source, int slice, PolyData& out) {
         out.ends.push_back(static_cast<std::int64_t>(out.corners.size()));
         out.cell.push_back(static_cast<std::int32_t>(source.scene.cellOfFace(f)));
         out.n.push_back(slices.planes.first + slice);
-        out.w.push_back(slices.planes.w(slice));
+        out.w.push_back(slicing::infoOf(source.object).originInFile.w + slices.planes.w(slice));
     }
 }
 
@@ -153,11 +154,16 @@ std::string vtp(const SceneInput& source) {
     const fields::Field* const field = slicing::fieldIn(source.object);
     const bool isField = field != nullptr;
     PolyData data;
+    std::vector<int> empty;
     for (int i = 0; i < source.scene.slices->planes.count; ++i) {
         source.budget.checkTime();
         source.budget.checkTriangles(data.ends.size());
+        const std::size_t before = data.ends.size();
         isField ? addSurface(source, i, data) : addFaces(source, i, data);
+        if (data.ends.size() == before) empty.push_back(i);
     }
+    if (!empty.empty())
+        source.warnings.push_back(warningOfOmission(source.scene.slices->planes, empty, "without faces"));
     return vtkFile("PolyData", "", written(data, isField, isField && field->second != nullptr));
 }
 

@@ -36,16 +36,18 @@ std::function<ExportResult(std::size_t worker)> exportJob(Services services, con
         ScopedFileMetrics fileMetrics(services.metrics);
         auto held = client->byteAccount().forceReserve(0);
         exports::ExportLimits limits = services.options.file;
+        limits.slices = services.options.session.maxSlices;
         limits.reserve = [&held](std::size_t bytes) { return bytes <= held.size() || held.growTo(bytes); };
         auto made = pipeline::exportState(state, request, limits, services.exportWorkers.stopToken());
         if (!made) {
             const bool overBudget = made.error().code == ErrorCode::too_many;
-            return Result<SharedBytes>(overBudget ? kTooManyBytes : made.error());
+            return Result<FinishedFile>(overBudget ? kTooManyBytes : made.error());
         }
         fileMetrics.markSucceeded();
-        held.resize(made->size());
-        return Result<SharedBytes>(spool(std::move(*made), services.options.spool)
-                                       .keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(held))));
+        held.resize(made->bytes.size());
+        SharedBytes bytes = spool(std::move(made->bytes), services.options.spool)
+                                .keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(held)));
+        return Result<FinishedFile>(FinishedFile{std::move(bytes), std::move(made->warnings)});
     };
 }
 

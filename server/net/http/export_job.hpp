@@ -3,6 +3,8 @@
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "net/clients.hpp"
 #include "net/services.hpp"
@@ -11,8 +13,14 @@
 
 namespace oval4d::net {
 
+/// A file, and the warnings about it (see exports::ExportedFile).
+struct FinishedFile {
+    SharedBytes bytes;
+    std::vector<std::string> warnings;
+};
+
 /// The file, or an error; empty only until the job is done.
-using ExportResult = std::optional<Result<SharedBytes>>;
+using ExportResult = std::optional<Result<FinishedFile>>;
 
 /// Returns a job that makes the requested file. The bytes of the file are reserved on the client's byte account until
 /// the last copy of the SharedBytes is destroyed. Errors: those of pipeline::exportState(); `too_many` means that the

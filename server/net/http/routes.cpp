@@ -14,6 +14,7 @@
 #include "net/run_on_pool.hpp"
 #include "pipeline/cost.hpp"
 #include "session/object_loader.hpp"
+#include "session/query.hpp"
 #include "text/message_text.hpp"
 #include "wire/messages.hpp"
 
@@ -90,6 +91,13 @@ Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipe
     }
     query = std::move(rest);
     return pipeline::checkViewport(viewport, limits);
+}
+
+/// Returns the value of the header field Export-Warnings: the warnings, which contain no semicolons, separated by them.
+std::string warningsField(const std::vector<std::string>& warnings) {
+    std::string value;
+    for (const std::string& warning : warnings) value += (value.empty() ? "" : "; ") + warning;
+    return value;
 }
 
 /// Returns the file format that a path requests, such as stl for "/api/v1/file.stl"; null for other paths.
@@ -236,9 +244,12 @@ asio::awaitable<Reply> Routes::file(session::QueryParameters query, const export
         if (!requested) co_return countedError(requested.error());
         const ExportResult made = co_await runOnPool<ExportResult>(
             services_.exportWorkers, exportJob(services_, *requested, *exported, client), client->exportLane(),
-            pipeline::exportCost(*requested));
+            pipeline::exportCost(*requested, *exported));
         if (!*made) co_return countedError(made->error());
-        Reply answer = reply(format.mediaType, **made);
+        const FinishedFile& finished = **made;
+        Reply answer = reply(format.mediaType, finished.bytes);
+        if (!finished.warnings.empty())
+            answer.headers.emplace_back("Export-Warnings", warningsField(finished.warnings));
         answer.headers.emplace_back("Content-Disposition",
                                     "attachment; filename=\"" + pipeline::fileName(*requested, *exported) + "\"");
         co_return answer;

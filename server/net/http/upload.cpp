@@ -12,6 +12,7 @@
 
 #include "net/services.hpp"
 #include "session/load.hpp"
+#include "session/query.hpp"
 #include "text/message_text.hpp"
 #include "wire/parse.hpp"
 

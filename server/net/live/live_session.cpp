@@ -19,6 +19,7 @@
 #include "net/run_on_pool.hpp"
 #include "pipeline/cost.hpp"
 #include "session/history.hpp"
+#include "session/query.hpp"
 #include "wire/messages.hpp"
 
 namespace oval4d::net {
@@ -178,7 +179,8 @@ std::function<void(std::function<void(bool)>)> LiveSession::storeWriter(store::W
 asio::awaitable<void> LiveSession::welcomeOnStrand(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
     assertOnStrand();
     Lanes lanes = lanesOf(peer->client());
-    clients_[peer.get()] = Subscriber{peer, std::move(lanes), {hello.stream, hello.encoding, hello.viewport}, {}};
+    const StreamKey key{hello.stream, hello.encoding, hello.viewport, hello.scheme};
+    clients_[peer.get()] = Subscriber{peer, std::move(lanes), key, {}};
     peer->send(
         textMessage(wire::welcomeMessage(credentials_.id, credentials_.token, limitsJson(services_.options), id)));
     update();
@@ -345,9 +347,10 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
     if (client == clients_.end()) co_return;
     StreamKey key = client->second.streamKey;
     if (get.viewport) key.viewport = *get.viewport;
+    key.background = get.background;
     switch (get.what) {
         case wire::GetTarget::state:
-            peer->send(textMessage(stateText(id)));
+            peer->send(textMessage(stateText(id, key.scheme)));
             break;
         case wire::GetTarget::catalogue: {
             const std::vector<std::string> names = co_await dataNames(services_, peer->client());
@@ -358,6 +361,9 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
         }
         case wire::GetTarget::keymap:
             peer->send(textMessage(wire::keymapMessage(id)));
+            break;
+        case wire::GetTarget::address:
+            answerWithAddress(*peer, id);
             break;
         case wire::GetTarget::slices:
             key.stream = Stream::geometry;
@@ -381,6 +387,15 @@ asio::awaitable<void> LiveSession::answer(std::shared_ptr<Peer> peer, wire::Get 
     }
 }
 
+void LiveSession::answerWithAddress(Peer& peer, RequestId id) {
+    const auto query = session::queryFromState(session_.current, *makeLoader());
+    if (query) {
+        peer.send(textMessage(wire::addressMessage(session::queryText(*query), id)));
+    } else {
+        sendError(peer, query.error(), id);
+    }
+}
+
 asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
                                                   RequestId id) {
     const std::uint64_t askedRevision = revision();
@@ -388,7 +403,7 @@ asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, ex
     try {
         made = co_await runOnPool<ExportResult>(
             services_.exportWorkers, exportJob(services_, session_.current, request, peer->client()),
-            lanesOf(peer->client()).exports, pipeline::exportCost(session_.current));
+            lanesOf(peer->client()).exports, pipeline::exportCost(session_.current, request));
     } catch (const parallel::QueueFull&) {
         made = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -398,15 +413,17 @@ asio::awaitable<void> LiveSession::answerWithFile(std::shared_ptr<Peer> peer, ex
         sendError(*peer, made ? made->error() : kInternalError, id);
         co_return;
     }
+    const FinishedFile& finished = **made;
     Message message;
-    message.bytes = **made;
+    message.bytes = finished.bytes;
     message.binary = true;
     peer->send(std::move(message));
-    peer->send(doneMessage(id, askedRevision));
+    peer->send(textMessage(wire::doneMessage(id, askedRevision, finished.warnings)));
 }
 
 asio::awaitable<void> LiveSession::answerWithCritical(std::shared_ptr<Peer> peer, RequestId id) {
     const std::uint64_t askedRevision = revision();
+    const double originW = slicing::infoOf(session_.current.object).originInFile.w;
     Result<slicing::CriticalPtr> found = kInternalError;
     try {
         found = co_await findCritical(peer);
@@ -420,7 +437,7 @@ asio::awaitable<void> LiveSession::answerWithCritical(std::shared_ptr<Peer> peer
         sendError(*peer, found.error(), id);
         co_return;
     }
-    peer->send(textMessage(wire::criticalMessage(**found, askedRevision, id)));
+    peer->send(textMessage(wire::criticalMessage(**found, originW, askedRevision, id)));
 }
 
 /// Finds the critical w of the current object. Unless they are known, an export worker searches for them.
@@ -710,7 +727,7 @@ void LiveSession::sendPicture(Subscriber& client, const Message& picture) {
     client.pacing.sent(snapshot_->revision);
     client.quality = snapshot_->quality;
     services_.metrics.countPicture(client.streamKey.stream);
-    peer->send({snapshot_->stateText, false});
+    peer->send({snapshot_->stateTextFor(client.streamKey.scheme), false});
     peer->send(picture,
                [weak = weak_from_this(), to = client.peer, sent = snapshot_->revision, since = snapshot_->changed] {
                    const auto now = Clock::now();
@@ -726,9 +743,9 @@ void LiveSession::sendPicture(Subscriber& client, const Message& picture) {
                });
 }
 
-std::string LiveSession::stateText(RequestId id) const {
+std::string LiveSession::stateText(RequestId id, scene::Scheme scheme) const {
     const auto section = pipeline::FocusSectionNamer().names(session_.current);
-    return wire::stateMessage(session_.current, section, revision(), id);
+    return wire::stateMessage(session_.current, section, revision(), id, slicing::Quality::full, scheme);
 }
 
 /// Sends the newest state to a client without a stream, one message at a time: if the state changes faster than the
@@ -736,14 +753,20 @@ std::string LiveSession::stateText(RequestId id) const {
 void LiveSession::sendState(Subscriber& client) {
     const auto peer = client.peer.lock();
     if (!peer) return;
-    if (stateRevision_ != revision()) {
-        stateText_ = SharedBytes(stateText({}));
-        stateRevision_ = revision();
+    SharedBytes text;
+    if (client.streamKey.scheme == scene::Scheme::dark) {
+        if (stateRevision_ != revision()) {
+            stateText_ = SharedBytes(stateText({}, scene::Scheme::dark));
+            stateRevision_ = revision();
+        }
+        text = stateText_;
+    } else {
+        text = SharedBytes(stateText({}, client.streamKey.scheme));
     }
     client.pacing.skipped(revision());
     client.quality = slicing::Quality::full;
     client.stateInFlight = true;
-    peer->send({stateText_, false}, [weak = weak_from_this(), to = client.peer] {
+    peer->send({text, false}, [weak = weak_from_this(), to = client.peer] {
         const auto session = weak.lock();
         if (!session) return;
         asio::post(session->strand_, [session, to] {

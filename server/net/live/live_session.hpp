@@ -152,6 +152,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
                                                    std::optional<glm::dvec2> point = {});
+    void answerWithAddress(Peer& peer, RequestId id);
     boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
                                                 RequestId id);
     boost::asio::awaitable<void> answerWithCritical(std::shared_ptr<Peer> peer, RequestId id);
@@ -186,7 +187,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void scheduleRetry();
     void onJobDone(JobResult result);
     void sendPicture(Subscriber& client, const Message& picture);
-    std::string stateText(RequestId id) const;
+    std::string stateText(RequestId id, scene::Scheme scheme) const;
     void sendState(Subscriber& client);
     void schedulePacing();
     void expirePictures();
@@ -219,7 +220,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     bool changesQuickly_ = false;  // whether the last change soon followed another one, and no rest has followed
     SnapshotPtr snapshot_;         // the newest snapshot, kept while a client waits for a picture; else null
     EncodedPictures pictures_;     // pictures of snapshot_
-    SharedBytes stateText_;        // the `state` message of stateRevision_, for clients without a stream
+    SharedBytes stateText_;        // the `state` message of stateRevision_, for clients without a stream or a scheme
     std::optional<std::uint64_t> stateRevision_;
     std::uint64_t jobs_ = 0;                 // the number of jobs posted so far; also the number of the newest job
     std::uint64_t drawing_ = 0;              // the number of the job that is queued or being drawn; 0 if there is none

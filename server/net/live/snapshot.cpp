@@ -1,5 +1,6 @@
 #include "net/live/snapshot.hpp"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,11 @@ namespace oval4d::net {
 
 using wire::Stream;
 
+SharedBytes Snapshot::stateTextFor(scene::Scheme scheme) const {
+    if (scheme == scene::Scheme::dark) return stateText;
+    return SharedBytes(wire::stateMessage(state, section, revision, {}, quality, scheme));
+}
+
 SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
                          std::chrono::steady_clock::time_point changed, const StreamKey& key,
                          slicing::Quality quality) {
@@ -19,7 +25,8 @@ SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& sta
     made->revision = revision;
     made->changed = changed;
     made->quality = quality;
-    made->stateText = SharedBytes(wire::stateMessage(state, pipeline.nameFocusSection(state), revision, {}, quality));
+    made->section = pipeline.nameFocusSection(state);
+    made->stateText = SharedBytes(wire::stateMessage(state, made->section, revision, {}, quality));
     made->sliced = key.stream != Stream::frames;
     if (made->sliced) pipeline.slice(state, quality, made->slices);
     return made;
@@ -31,13 +38,27 @@ bool suffices(const SnapshotPtr& snapshot, const StreamKey& key) {
 
 Message makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
                     std::optional<double> id, const std::function<void()>& whenDrawn) {
+    using scene::Background;
+    const Background own = snapshot.state.look.background, wanted = key.background.value_or(own);
+    const bool isLight = wanted == Background::automatic && key.scheme == scene::Scheme::light;
+    const Background seen = isLight ? Background::light : wanted;
+    std::optional<session::State> changed;  // a copy, which most pictures do not need
+    if (seen != own) {
+        changed = snapshot.state;
+        changed->look.background = seen;
+    }
+    const session::State& state = changed ? *changed : snapshot.state;
     if (key.stream == Stream::frames) {
         std::vector<std::uint8_t> png;
-        pipeline.drawPng(snapshot.state, snapshot.stateText.view(), key.viewport, snapshot.quality, png, whenDrawn);
+        SharedBytes stateText = snapshot.stateTextFor(key.scheme);
+        if (key.background)
+            stateText =
+                SharedBytes(wire::stateMessage(state, snapshot.section, snapshot.revision, {}, snapshot.quality));
+        pipeline.drawPng(state, stateText.view(), key.viewport, snapshot.quality, png, whenDrawn);
         return {SharedBytes(std::move(png)), true};
     }
     std::string text;
-    pipeline.writeSlices(snapshot.state, snapshot.slices, snapshot.revision, id, key.viewport, key.encoding, text,
+    pipeline.writeSlices(state, snapshot.slices, snapshot.revision, id, key.viewport, key.encoding, text,
                          snapshot.quality);
     return {SharedBytes(std::move(text)), key.encoding != wire::Encoding::json};
 }

@@ -23,6 +23,8 @@ struct StreamKey {
     wire::Stream stream = wire::Stream::none;
     wire::Encoding encoding = wire::Encoding::json;
     scene::Viewport viewport;
+    scene::Scheme scheme = scene::Scheme::dark;        ///< that of pictures with scene::Background::automatic
+    std::optional<scene::Background> background = {};  ///< in place of that of the session
     bool operator==(const StreamKey&) const = default;
 };
 
@@ -32,9 +34,13 @@ struct Snapshot {
     std::uint64_t revision = 0;
     std::chrono::steady_clock::time_point changed;      ///< the time at which the session reached this revision
     slicing::Quality quality = slicing::Quality::full;  ///< quality of the pictures made from this snapshot
-    SharedBytes stateText;                              ///< the `state` message of this revision
+    slicing::SectionNames section;                      ///< of the focus slice
+    SharedBytes stateText;                              ///< the `state` message for viewers who prefer dark pictures
     bool sliced = false;                                ///< whether `slices` is set
     slicing::SliceSet slices;
+
+    /// Returns the `state` message of this revision for viewers who prefer pictures of this scheme.
+    SharedBytes stateTextFor(scene::Scheme scheme) const;
 };
 using SnapshotPtr = std::shared_ptr<const Snapshot>;
 

@@ -245,7 +245,7 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
 
     MergedHull merged = mergeCoplanar(simplices, places, frame);
     if (merged.cells.size() > maxCells) refuseSize(maxCells);
-    Hull hull{{}, std::move(merged.faces), std::move(merged.cells), merged.ambiguousRidges};
+    Hull hull{{}, std::move(merged.faces), std::move(merged.cells), merged.ambiguousRidges, rounding};
     std::vector<std::uint32_t> used;
     for (const std::uint32_t v : hull.faces.items) used.push_back(v);
     std::sort(used.begin(), used.end());

@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
+#include "polytopes/import/flatten.hpp"
 #include "polytopes/import/hull.hpp"
 #include "polytopes/import/off4.hpp"
 #include "polytopes/import/polygon_soup.hpp"
 #include "polytopes/import/repair.hpp"
 #include "polytopes/import/written_precision.hpp"
+#include "text/message_text.hpp"
 #include "text_files/plain_text.hpp"
 #include "text_files/point_table.hpp"
 
@@ -33,36 +38,85 @@ void checkCells(const PolygonSoup& soup) {
     }
 }
 
-Imported repairAndBuild(const PolygonSoup& soup, double mergeDistance, const std::string& name) {
-    Imported result;
+// Returns the largest rounding error of a point whose coordinates are doubles.
+double doubleRounding(std::span<const glm::dvec4> points) {
+    double largest = 0;
+    for (const glm::dvec4& p : points) largest = std::max(largest, glm::length(p));
+    return 4 * std::numeric_limits<double>::epsilon() * largest;
+}
+
+// Moves the origin of the coordinates to the center, which is returned.
+glm::dvec4 moveOrigin(std::vector<glm::dvec4>& points, const geometry::Centering& centering) {
+    const glm::dvec4 center = geometry::centerFor(centering, points);
+    for (glm::dvec4& p : points) p -= center;
+    return center;
+}
+
+// Makes the cells flat, and appends warnings of what has changed. A move by at most `rounding`, and one that is tiny
+// compared with the size, is not worth a warning. Returns whether cells or 2-faces were divided.
+bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warnings) {
+    constexpr double kTiny = 1e-12;
+    const double size = halfDiagonal(soup.vertices);
+    const std::size_t faces = soup.faces.size();
+    const Flattening done = flatten(soup, size, kFlatInFile * size, std::max(rounding, kTiny * size));
+    if (done.moved > 0) {
+        const bool one = done.moved == 1;
+        warnings.push_back(
+            std::to_string(done.moved) + (one ? " vertex was moved by " : " vertices were moved by up to ") +
+            text::roundedDecimal(done.distance) + ", so that the vertices of each cell lie in one hyperplane");
+    }
+    if (soup.faces.size() == faces) return false;
+    std::string divided = std::to_string(done.split) + " cells were divided into tetrahedra";
+    if (done.split == 1) divided = "it was divided into tetrahedra";
+    if (done.split == 0) divided = "2-faces were divided into triangles";
+    warnings.push_back("cell " + std::to_string(done.farthest) + " deviates from a flat one by " +
+                       text::roundedDecimal(done.deviation) +
+                       ", and small moves of the vertices do not make it flat: " + divided);
+    return true;
+}
+
+// A polytope, and whether its elements are others than those of the file.
+struct Built {
+    Imported imported;
+    bool divided = false;
+};
+
+Built repairAndBuild(const PolygonSoup& soup, double mergeDistance, const std::string& name,
+                     const geometry::Centering& centering) {
+    Built result;
     PolygonSoup repaired = soup;
-    repair(repaired, mergeDistance, result.warnings);
+    repair(repaired, mergeDistance, result.imported.warnings);
+    const double rounding = doubleRounding(repaired.vertices);
+    const glm::dvec4 center = moveOrigin(repaired.vertices, centering);
     checkFlat(repaired);
-    result.polytope = build(std::move(repaired), name);
+    result.divided = makeFlat(repaired, rounding, result.imported.warnings);
+    result.imported.polytope = build(std::move(repaired), name);
+    result.imported.polytope.originInFile = center;
     return result;
 }
 
-Imported importOff4(std::string_view text, const std::string& name, const ImportLimits& limits) {
+Imported importOff4(std::string_view text, const std::string& name, const ImportLimits& limits,
+                    const geometry::Centering& centering) {
     const auto [soup, edges] = readOff4(text, limits.maxVertices);
     checkCells(soup);
 
-    Imported result = [&soup = soup, &name] {
+    auto [result, divided] = [&soup = soup, &name, &centering] {
         try {
-            return repairAndBuild(soup, kMergeDistance * halfDiagonal(soup.vertices), name);
+            return repairAndBuild(soup, kMergeDistance * halfDiagonal(soup.vertices), name, centering);
         } catch (const FileError&) {
             // Coinciding vertices may belong to different components of a compound: try again without merging them.
             try {
-                return repairAndBuild(soup, -1, name);
+                return repairAndBuild(soup, -1, name, centering);
             } catch (const FileError&) {
             }
             throw;
         }
     }();
-    if (edges != 0 && edges != result.polytope.edges.size()) {
+    if (edges != 0 && edges != result.polytope.edges.size() && !divided) {
         result.warnings.push_back("the file states " + std::to_string(edges) + " edges, but its 2-faces have " +
                                   std::to_string(result.polytope.edges.size()));
     }
-    return result;
+    return std::move(result);
 }
 
 // Returns the convex hull of points, to the precision with which their coordinates are written. Whole numbers are
@@ -86,7 +140,8 @@ Hull hullOf(std::span<const glm::dvec4> points, const WrittenPrecision& precisio
     return round ? std::move(rounded) : std::move(exact);
 }
 
-Imported importPoints(std::string_view text, std::string name, const ImportLimits& limits) {
+Imported importPoints(std::string_view text, std::string name, const ImportLimits& limits,
+                      const geometry::Centering& centering) {
     std::vector<glm::dvec4> points;
     WrittenPrecision precision;
     Imported result;
@@ -109,19 +164,27 @@ Imported importPoints(std::string_view text, std::string name, const ImportLimit
                                   " 2-faces, the coordinates are too imprecise to tell whether the two cells lie in "
                                   "one hyperplane");
     }
+    // The noise of the hull is a multiple of the rounding, because the cells extend beyond the points that fix them.
+    constexpr double kAmplification = 32, kHullNoise = 1e-10;
+    PolygonSoup soup{std::move(hull.vertices), std::move(hull.faces), std::move(hull.cells), {}, {}};
+    const double rounding = kAmplification * glm::length(hull.rounding) + kHullNoise * halfDiagonal(soup.vertices) +
+                            doubleRounding(soup.vertices);
+    const glm::dvec4 center = moveOrigin(soup.vertices, centering);
+    makeFlat(soup, rounding, result.warnings);
     result.polytope =
-        makePolytope(std::move(name), std::move(hull.vertices), std::move(hull.faces), std::move(hull.cells));
+        makePolytope(std::move(name), std::move(soup.vertices), std::move(soup.faces), std::move(soup.cells));
+    result.polytope.originInFile = center;
     return result;
 }
 
 }  // namespace
 
 std::variant<Imported, FileError> importPolytope(FileFormat format, std::string_view text, std::string name,
-                                                 const ImportLimits& limits) {
+                                                 const ImportLimits& limits, const geometry::Centering& centering) {
     try {
         const std::string plain = text_files::plainText(text);
-        return format == FileFormat::off4 ? importOff4(plain, name, limits)
-                                          : importPoints(plain, std::move(name), limits);
+        return format == FileFormat::off4 ? importOff4(plain, name, limits, centering)
+                                          : importPoints(plain, std::move(name), limits, centering);
     } catch (const FileError& error) {
         return error;
     } catch (const std::invalid_argument& unsound) {

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "geometry/centering.hpp"
 #include "polytopes/polytope.hpp"
 #include "text_files/file_error.hpp"
 
@@ -30,7 +31,7 @@ using text_files::FileError;
 /// A polytope read from a file.
 struct Imported {
     Polytope polytope;
-    std::vector<std::string> warnings;  ///< repairs, points left out, and uncertainties due to rounding
+    std::vector<std::string> warnings;  ///< repairs, moves, points left out, and uncertainties due to rounding
 };
 
 /// Reads a polytope from the bytes of a text file (see text_files::plainText()) and gives it this name. Returns a
@@ -44,17 +45,20 @@ struct Imported {
 /// hyperplane, to within 0.5 % of half the diagonal of the bounding box of the vertices; this allows for coordinates
 /// with three decimals. The polytope must also meet the conditions of makePolytope(). The following faults are
 /// repaired, with a warning: a wrong number of edges, vertices on no 2-face, duplicate vertices, 2-faces in no cell,
-/// 2-faces that are given once for each of their cells, 2-faces that pass through a vertex twice, and cells that
-/// consist of several pieces.
+/// 2-faces that are given once for each of their cells, 2-faces that pass through a vertex twice, cells that consist of
+/// several pieces, and 2-faces and cells that are not exactly flat (see flatten()).
 ///
 /// A list of points is a table of the columns x, y, z and w (see text_files::readPoints()). The polytope is the convex
 /// hull of the points. Parts of the hull that lie in one hyperplane, to the precision of the coordinates in the file,
-/// become one cell.
+/// become one cell, and the vertices are moved so that the cells are exactly flat. There is a warning only if a move
+/// exceeds this precision.
 ///
-/// The vertices keep the coordinates of the file. Memory use is bounded by the length of the text and by the limits: a
-/// short text cannot cause large allocations by stating large numbers of elements.
+/// The origin of the polytope is the point of the file's coordinates that `centering` chooses: Polytope::originInFile.
+/// Apart from that, vertices that need not be moved keep the coordinates of the file. Memory use is bounded by the
+/// length of the text and by the limits: a short text cannot cause large allocations by stating large numbers of
+/// elements.
 std::variant<Imported, FileError> importPolytope(FileFormat format, std::string_view text, std::string name,
-                                                 const ImportLimits& limits);
+                                                 const ImportLimits& limits, const geometry::Centering& centering = {});
 
 /// Guesses the format of a file: 4OFF if its first word contains "OFF", else a list of points. `text`: the text of the
 /// file (see text_files::plainText()).

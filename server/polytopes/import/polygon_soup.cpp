@@ -14,7 +14,6 @@ using text_files::throwFileError;
 
 namespace {
 
-constexpr double kFlat = 5e-3;  // relative to the size; allows for coordinates with three decimals
 constexpr double kThin = 1e-6;  // relative to the size: the minimum extent of a polytope in any direction
 
 // Returns the deviation of the points from a flat (a plane or hyperplane) of this dimension, 2 or 3: their largest
@@ -58,7 +57,7 @@ void checkFlat(const PolygonSoup& soup) {
         points.clear();
         for (const std::uint32_t v : soup.faces[f]) points.push_back(soup.vertices[v]);
         const auto& position = soup.faceSourcePositions[f];
-        if (deviation(points, 2) > kFlat * size)
+        if (deviation(points, 2) > kFlatInFile * size)
             throwFileError(position.line, nameOf("2-face", position) + "is not flat");
     }
     for (std::size_t c = 0; c < soup.cells.size(); ++c) {
@@ -67,7 +66,7 @@ void checkFlat(const PolygonSoup& soup) {
             for (const std::uint32_t v : soup.faces[f]) points.push_back(soup.vertices[v]);
         }
         const auto& position = soup.cellSourcePositions[c];
-        if (deviation(points, 3) > kFlat * size)
+        if (deviation(points, 3) > kFlatInFile * size)
             throwFileError(position.line, nameOf("cell", position) + "does not lie in a hyperplane");
     }
 }

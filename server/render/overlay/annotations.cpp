@@ -26,7 +26,7 @@ int wholePixels(double fraction, const scene::Scene& scene) {
 
 void paintLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView, const Projection& projection,
                 const scene::Scene& scene, Overlay& overlay) {
-    const scene::Style& style = scene::style();
+    const scene::Style& style = scene.style();
     const glm::vec3 at(toView * glm::dvec4(placement.labelAt, 1));
     if (at.z >= 0 || placement.label.empty()) return;
     const glm::vec2 pixel = projection.pixel(at);
@@ -35,8 +35,8 @@ void paintLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView
     const auto width = static_cast<float>(overlay.font().width(size, placement.label));
     const float x = std::round(pixel.x), baseline = std::round(pixel.y - digits);
     // A background plate keeps the label legible over other slices.
-    const float marginX = std::round((placement.focus ? 0.9f : 0.45f) * digits);
-    const float marginY = std::round((placement.focus ? 0.6f : 0.35f) * digits),
+    const float marginX = std::round((placement.focus ? 0.9f : 0.25f) * digits);
+    const float marginY = std::round((placement.focus ? 0.6f : 0.13f) * digits),
                 half = std::round(0.5f * width) + marginX;
     const Box plate{x - half, baseline - marginY, x + half, baseline + digits + marginY};
     const float corner = 0.5f * (plate.top - plate.bottom);
@@ -48,7 +48,7 @@ void paintLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView
 /// Draws the labeled axes of the histogram of a field, the levels, and a mark for the focus slice in the panel of w.
 void paintHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
-    const scene::Style& style = scene::style();
+    const scene::Style& style = scene.style();
     const auto height = static_cast<double>(scene.viewport.height);
     const auto thickness = static_cast<float>(wholePixels(layout.lineWidth, scene));
     const auto bottom = static_cast<float>(std::round((layout.zero - layout.amplitude) * height));
@@ -83,7 +83,7 @@ void paintHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
 /// Draws the labeled axes of the density strip, and a mark for the focus slice on the w axis.
 void paintStripAxes(const scene::Scene& scene, Overlay& overlay) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
-    const scene::Style& style = scene::style();
+    const scene::Style& style = scene.style();
     const auto height = static_cast<double>(scene.viewport.height);
     const auto& colors = style.axes;
     const float thickness = std::max(1.0F, static_cast<float>(std::round(layout.lineWidth * height)));
@@ -114,7 +114,7 @@ void paintAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) 
     // The axes have their own projection. Its view axis meets the axes' origin, and its eye is so far away that the
     // projection is nearly parallel.
     constexpr float kFar = 16, kBar = 0.045f, kBall = 0.10f, kTip = 0.065f, kName = 1.28f;
-    const scene::Style& style = scene::style();
+    const scene::Style& style = scene.style();
     const auto width = static_cast<float>(scene.viewport.width), height = static_cast<float>(scene.viewport.height);
     const float length = static_cast<float>(scene.axes.length) * height;
     if (length < 1) return;
@@ -182,7 +182,7 @@ void paintCoordinates(const scene::Scene& scene, Overlay& overlay) {
         return;
     }
     const scene::CoordinatesLayout& layout = scene.coordinates;
-    const scene::Style& style = scene::style();
+    const scene::Style& style = scene.style();
     const auto height = static_cast<double>(scene.viewport.height);
     const auto& colors = style.axes;
     const auto count = static_cast<int>(scene.slices->rotatedVertices.size());

@@ -58,7 +58,7 @@ void DensityStrip::draw(const scene::Scene& scene) {
     indices_.clear();
     const scene::CoordinatesLayout& layout = scene.coordinates;
     for (int k = 0; k < 4; ++k) {
-        const scene::Color color = scene::style().axes[static_cast<std::size_t>(k)];
+        const scene::Color color = scene.style().axes[static_cast<std::size_t>(k)];
         const double x = layout.left + k * layout.lineStep;
         if (showsHistogram) {
             const int column = k * CoordinateHistograms::kPanel;

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "render/projection.hpp"
+
 namespace oval4d::render {
 
 namespace {
@@ -16,6 +18,9 @@ using slicing::PlanarSection;
 
 constexpr float kPanelOpacity = 0.22F, kFillOpacity = 0.16F, kAxisOpacity = 0.55F;
 constexpr double kNameHeight = 0.3;  // of an axis' name, as a fraction of its panel
+// The lines of the focus point in the focus slice: half their length in circumradii, and their width as a fraction of
+// the picture's height.
+constexpr double kFocusReach = 0.12, kFocusWidth = 0.0028;
 
 // Draws the two panels of one section: one with its first axis to the right, one with its second.
 class SectionPainter {
@@ -32,7 +37,7 @@ class SectionPainter {
         const auto [row, column] =
             transposed ? std::pair(from.axes[0], from.axes[1]) : std::pair(from.axes[1], from.axes[0]);
         center_ = scene_.matrix.center(row, column) * height_;
-        overlay_.box(panel(), scene::style().zeroLine, kPanelOpacity,
+        overlay_.box(panel(), scene_.style().zeroLine, kPanelOpacity,
                      static_cast<float>(0.03 * scene_.matrix.panel * height_));
         points_.clear();
         for (const glm::dvec2& p : from.points) points_.push_back(pixelOf(p));
@@ -56,7 +61,7 @@ class SectionPainter {
         return center_ + pixelsPerUnit_ * (transposed_ ? glm::dvec2(p.y, p.x) : p);
     }
 
-    static Color colorOfAxis(int axis) { return scene::style().axes[static_cast<std::size_t>(axis)]; }
+    Color colorOfAxis(int axis) const { return scene_.style().axes[static_cast<std::size_t>(axis)]; }
 
     Box panel() const {
         const double half = scene_.matrix.panel / 2 * height_;
@@ -79,7 +84,7 @@ class SectionPainter {
     void paintFill(const PlanarSection& from) {
         polygon_.clear();
         for (const std::uint32_t p : from.boundary) polygon_.push_back(points_[p]);
-        if (!scene_.crossing) overlay_.polygon(polygon_, scene::style().ball, kFillOpacity);
+        if (!scene_.crossing) overlay_.polygon(polygon_, scene_.style().ball, kFillOpacity);
     }
 
     void paintEdges(std::size_t section) const {
@@ -97,7 +102,7 @@ class SectionPainter {
     void paintPoints(std::size_t section) const {
         const PlanarSection& from = scene_.sectionMatrix.sections[section];
         const scene::SectionMatrix::SectionStyle& styles = scene_.sectionMatrix.styles[section];
-        const scene::Style& style = scene::style();
+        const scene::Style& style = scene_.style();
         const bool differ = !from.ballScale.empty();
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const double opacity = slicing::opacityOf(styles.points[i]) * (differ ? from.ballOpacity[i] : 1);
@@ -118,10 +123,30 @@ class SectionPainter {
     std::vector<glm::vec2> points_, polygon_;
 };
 
+// Draws the focus point in the focus slice: a line along each of the axes x, y and z through it.
+void paintFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, Overlay& overlay) {
+    const glm::dmat4 toView = scene.camera.view();
+    const Projection projection = Projection::of(scene.camera, scene.viewport);
+    const auto width = static_cast<float>(std::max(1.0, kFocusWidth * scene.viewport.height));
+    for (int axis = 0; axis < 3; ++axis) {
+        std::array<glm::vec3, 2> ends;
+        for (const int side : {0, 1}) {
+            glm::dvec3 point(scene.sectionMatrix.point);
+            point[axis] += (side == 0 ? -1 : 1) * kFocusReach * scene.circumradius;
+            ends.at(side) = glm::vec3(toView * glm::dvec4(placement.position + scene.scale * point, 1));
+        }
+        if (ends[0].z >= 0 || ends[1].z >= 0) continue;
+        overlay.line(projection.pixel(ends[0]), projection.pixel(ends[1]), width,
+                     scene.style().axes[static_cast<std::size_t>(axis)]);
+    }
+}
+
 }  // namespace
 
 void paintMatrix(const scene::Scene& scene, Overlay& overlay) {
     if (!scene.matrix.shown) return;
+    for (const scene::SlicePlacement& placement : scene.placements)
+        if (placement.focus) paintFocusPoint(scene, placement, overlay);
     SectionPainter painter(scene, overlay);
     for (int axis = 0; axis < 4; ++axis) painter.paintName(axis);
     for (std::size_t i = 0; i < scene.sectionMatrix.sections.size(); ++i) {

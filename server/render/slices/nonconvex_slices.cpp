@@ -40,7 +40,7 @@ void NonconvexSlicePainter::paint(const scene::Scene& scene, Layers& out) {
     const Projection projection = Projection::of(scene.camera, scene.viewport);
     const SkeletonStyle skeleton(scene);
     const auto paintAll = [&](const std::vector<Item>& items, ShapeBatch& shapes) {
-        shapes.begin(scene::style());
+        shapes.begin(scene.style());
         shapes.setProjection(projection);
         for (const Item& item : items) paintItem(viewOf(item.slice), item, skeleton, shapes);
     };

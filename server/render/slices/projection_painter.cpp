@@ -36,7 +36,7 @@ void ProjectionPainter::paint(const scene::Scene& scene, Layers& out) {
     };
     for (auto& [items, shapes] : {std::tie(solid_, out.solid), std::tie(translucent_, out.translucent)}) {
         std::sort(items.begin(), items.end(), farther);
-        shapes.begin(scene::style());
+        shapes.begin(scene.style());
         shapes.setProjection(Projection::of(scene.camera, scene.viewport));
         for (const Item& item : items) paintItem(scene, item, shapes);
     }
@@ -59,9 +59,10 @@ void ProjectionPainter::collect(const scene::Scene& scene, std::uint32_t part) {
     if (look.barRadius > 0) {
         for (std::uint32_t e = elements.edgeBegin[part]; e < elements.edgeBegin[part + 1]; ++e) {
             const auto& [a, b] = elements.edges[e];
-            // The depth of the far end, so that a bar is drawn after everything that is farther away than this end.
-            add({-std::min(points_[first + a].z, points_[first + b].z), Kind::bar, part, e},
-                scene.visibilities.edge(elements.edgeSource[e]));
+            // A bar is drawn after everything that is farther away than its far end; that of a section, which shines
+            // through the faces, after everything that is farther away than its near end.
+            const auto [far, near] = std::minmax(points_[first + a].z, points_[first + b].z);
+            add({-(part == 0 ? far : near), Kind::bar, part, e}, scene.visibilities.edge(elements.edgeSource[e]));
         }
     }
     if (look.faceOpacity > 0) {
@@ -85,14 +86,14 @@ void ProjectionPainter::paintItem(const scene::Scene& scene, const Item& item, S
         const float own = elements.ballOpacity.empty() ? 1 : elements.ballOpacity[item.number];
         const bool lit = scene.highlight.hasVertex(elements.vertexSource[item.number]);
         out.addBall(points_[item.number], static_cast<float>(part.ballRadius) * scale,
-                    lit ? scene::style().highlight : part.ballColor,
+                    lit ? scene.style().highlight : part.ballColor,
                     own * opacity(scene.visibilities.vertex(elements.vertexSource[item.number])));
     } else if (item.kind == Kind::bar) {
         const auto& [a, b] = elements.edges[item.number];
         const bool forth = points[a].z < points[b].z;
         const bool lit = scene.highlight.hasEdge(elements.edgeSource[item.number]);
         out.addBar(points[forth ? a : b], points[forth ? b : a], static_cast<float>(part.barRadius),
-                   lit ? scene::style().highlight : part.barColor,
+                   lit ? scene.style().highlight : part.barColor,
                    opacity(scene.visibilities.edge(elements.edgeSource[item.number])));
     } else {
         corners_.clear();

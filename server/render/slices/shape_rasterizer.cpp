@@ -67,6 +67,7 @@ struct Canvas {
     int *left = nullptr, *right = nullptr;
     float ambient = 0, gloss = 0;
     unsigned shininess = 1;
+    bool opaque = true;  ///< whether the background is, and with it every pixel
 };
 
 // Cuts off the part of a convex polygon that is behind the eye or too close to it.
@@ -123,6 +124,23 @@ OVAL4D_AVX2 void fillFace(const Canvas& canvas, const Rows& rows, const Paint& p
     }
 }
 
+// With Depth::written_with_coverage, these bits of a nearness hold the covered part of the pixel, from 0 to 255. They
+// are the lowest bits of a float, so that the nearness is still precise to 1/30,000.
+constexpr int kCoverageBits = 255;
+
+// Returns the covered parts of eight pixels, from 0 to 1.
+OVAL4D_AVX2 inline __m256 coverageIn(__m256 nearness) {
+    const __m256i bits = _mm256_and_si256(_mm256_castps_si256(nearness), _mm256_set1_epi32(kCoverageBits));
+    return _mm256_mul_ps(_mm256_cvtepi32_ps(bits), _mm256_set1_ps(1.0F / kCoverageBits));
+}
+
+// Returns nearnesses that hold covered parts.
+OVAL4D_AVX2 inline __m256 withCoverage(__m256 nearness, __m256 coverage) {
+    const __m256i bits = _mm256_cvtps_epi32(_mm256_mul_ps(coverage, _mm256_set1_ps(kCoverageBits)));
+    const __m256i mask = _mm256_set1_epi32(kCoverageBits);
+    return _mm256_castsi256_ps(_mm256_or_si256(_mm256_andnot_si256(mask, _mm256_castps_si256(nearness)), bits));
+}
+
 // See ShapeProgram for the formulas.
 template <Form form, Depth depth>
 OVAL4D_AVX2 void fillShape(const Canvas& canvas, const Rows& rows, const Paint& paint) {
@@ -172,14 +190,26 @@ OVAL4D_AVX2 void fillShape(const Canvas& canvas, const Rows& rows, const Paint& 
                 const __m256 patch = valueOf(rowNearness, paint.nearness, alongNearness);
                 const __m256 nearness = _mm256_fmadd_ps(_mm256_mul_ps(patch, _mm256_set1_ps(paint.bulge)), n, patch);
                 float* const place = canvas.nearness + row + at;
-                const __m256 old = _mm256_loadu_ps(place);
-                inside = _mm256_and_ps(inside, _mm256_cmp_ps(nearness, old, _CMP_GT_OQ));
+                const __m256 old = _mm256_loadu_ps(place), isNearer = _mm256_cmp_ps(nearness, old, _CMP_GT_OQ);
+                if constexpr (depth == Depth::tested_with_coverage) {
+                    const __m256 rest = _mm256_sub_ps(one, coverageIn(old));
+                    alpha = _mm256_mul_ps(alpha, _mm256_blendv_ps(rest, one, isNearer));
+                    inside = _mm256_and_ps(inside, _mm256_cmp_ps(alpha, zero, _CMP_GT_OQ));
+                } else {
+                    inside = _mm256_and_ps(inside, isNearer);
+                }
                 if (_mm256_testz_ps(inside, inside) != 0) continue;
                 alpha = _mm256_and_ps(alpha, inside);
-                if constexpr (depth == Depth::written) {
+                if constexpr (depth == Depth::written || depth == Depth::written_with_coverage) {
                     const __m256 hides =
                         _mm256_and_ps(inside, _mm256_cmp_ps(alpha, _mm256_mul_ps(alphaScale, half), _CMP_GE_OQ));
-                    _mm256_storeu_ps(place, _mm256_blendv_ps(old, nearness, hides));
+                    __m256 written = nearness;
+                    if constexpr (depth == Depth::written_with_coverage) {
+                        const __m256 rest =
+                            _mm256_mul_ps(_mm256_sub_ps(one, alpha), _mm256_sub_ps(one, coverageIn(old)));
+                        written = withCoverage(nearness, _mm256_sub_ps(one, rest));
+                    }
+                    _mm256_storeu_ps(place, _mm256_blendv_ps(old, written, hides));
                 }
             }
 
@@ -196,16 +226,19 @@ OVAL4D_AVX2 void fillShape(const Canvas& canvas, const Rows& rows, const Paint& 
             const __m256 kept = _mm256_sub_ps(one, alpha);
             auto* const place = reinterpret_cast<__m256i*>(canvas.pixels + row + at);
             const __m256i old = _mm256_loadu_si256(place);
+            const auto over = [&](const __m256& above, const __m256& below) OVAL4D_AVX2 {
+                return _mm256_cvtps_epi32(_mm256_fmadd_ps(above, alpha, _mm256_mul_ps(below, kept)));
+            };
             const auto blend = [&](float channel, const __m256& below) OVAL4D_AVX2 {
-                const __m256 lit = _mm256_min_ps(_mm256_fmadd_ps(_mm256_set1_ps(channel), light, shine), most);
-                return _mm256_cvtps_epi32(_mm256_fmadd_ps(lit, alpha, _mm256_mul_ps(below, kept)));
+                return over(_mm256_min_ps(_mm256_fmadd_ps(_mm256_set1_ps(channel), light, shine), most), below);
             };
             const __m256i red = blend(paint.color.r, channelOf<0>(old)),
                           green = blend(paint.color.g, channelOf<1>(old));
             const __m256i blue = blend(paint.color.b, channelOf<2>(old));
+            const __m256i opacity = canvas.opaque ? _mm256_set1_epi32(255) : over(most, channelOf<3>(old));
             _mm256_storeu_si256(
                 place, _mm256_or_si256(_mm256_or_si256(red, _mm256_slli_epi32(green, 8)),
-                                       _mm256_or_si256(_mm256_slli_epi32(blue, 16), _mm256_set1_epi32(-1 << 24))));
+                                       _mm256_or_si256(_mm256_slli_epi32(blue, 16), _mm256_slli_epi32(opacity, 24))));
         }
     }
 }
@@ -274,7 +307,9 @@ template <Form form>
 OVAL4D_AVX2 void fill(const Canvas& canvas, const Rows& rows, const Paint& paint, Depth depth) {
     if (depth == Depth::unused) return fillShape<form, Depth::unused>(canvas, rows, paint);
     if (depth == Depth::tested) return fillShape<form, Depth::tested>(canvas, rows, paint);
-    fillShape<form, Depth::written>(canvas, rows, paint);
+    if (depth == Depth::written) return fillShape<form, Depth::written>(canvas, rows, paint);
+    if (depth == Depth::tested_with_coverage) return fillShape<form, Depth::tested_with_coverage>(canvas, rows, paint);
+    fillShape<form, Depth::written_with_coverage>(canvas, rows, paint);
 }
 
 OVAL4D_AVX2 Paint paintOf(const ShapeVertex& look, float pixelSize) {
@@ -402,8 +437,9 @@ void ShapeRasterizer::begin(scene::Viewport viewport, const scene::Style& style,
                      .pixels = reinterpret_cast<std::uint32_t*>(pixels.data()),
                      .ambient = static_cast<float>(style.ambient),
                      .gloss = static_cast<float>(255 * style.specular),
-                     .shininess = static_cast<unsigned>(std::lround(style.shininess))};
-    impl_->background = rgba(style.background, 1);
+                     .shininess = static_cast<unsigned>(std::lround(style.shininess)),
+                     .opaque = style.backgroundOpacity == 1};
+    impl_->background = impl_->canvas.opaque ? rgba(style.background, 1) : 0;
     impl_->depthArea = {{0, 0}, {0, 0}};
     impl_->layers.clear();
 }

@@ -32,6 +32,11 @@ class ShapeRasterizer {
         unused,   ///< neither read nor written
         tested,   ///< read: pixels where something nearer has been written do not change
         written,  ///< read, and written where the shape covers at least half of a pixel
+        /// Like `written`; the depth buffer also remembers which part of each pixel is covered.
+        written_with_coverage,
+        /// Like `tested`; where shapes that were drawn with `written_with_coverage` are nearer, but cover only a part
+        /// of a pixel, the rest of the pixel changes. Otherwise, the background would show along their edges.
+        tested_with_coverage,
     };
     /// The minimum width of a picture.
     static constexpr int kMinWidth = 8;
@@ -46,7 +51,8 @@ class ShapeRasterizer {
     ShapeRasterizer& operator=(const ShapeRasterizer&) = delete;
 
     /// Starts a picture with the background of the style. The picture will be drawn to `pixels`, which have the layout
-    /// of image::Image and must remain valid until finish() returns. The viewport must be at least kMinWidth wide.
+    /// of image::Image, premultiplied by alpha, and must remain valid until finish() returns. The viewport must be at
+    /// least kMinWidth wide.
     void begin(scene::Viewport viewport, const scene::Style& style, std::span<std::uint8_t> pixels);
 
     /// Adds the patches `first` … `end` − 1 of `shapes`, which must remain valid until finish() returns. They are drawn

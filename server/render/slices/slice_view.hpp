@@ -38,10 +38,10 @@ struct SliceView {
     /// Returns the color of vertex v or edge e: the highlight color if it belongs to the highlighted element, else
     /// `usual`.
     scene::Color vertexColor(std::size_t v, scene::Color usual) const {
-        return scene.highlight.hasVertex(set.vertexSource[firstVertex() + v]) ? scene::style().highlight : usual;
+        return scene.highlight.hasVertex(set.vertexSource[firstVertex() + v]) ? scene.style().highlight : usual;
     }
     scene::Color edgeColor(std::size_t e, scene::Color usual) const {
-        return scene.highlight.hasEdge(set.edgeSource[firstEdge() + e]) ? scene::style().highlight : usual;
+        return scene.highlight.hasEdge(set.edgeSource[firstEdge() + e]) ? scene.style().highlight : usual;
     }
     float opacity(slicing::Visibility visibility) const { return static_cast<float>(slicing::opacityOf(visibility)); }
     slicing::Visibility vertexVisibility(std::size_t v) const {
@@ -85,8 +85,8 @@ struct SkeletonStyle {
           bars(scene.look.parts.bars),
           ballRadius(static_cast<float>(scene.look.parts.balls ? scene.ballRadius : scene.barRadius)),
           barRadius(static_cast<float>(scene.barRadius)),
-          ballColor(scene.look.parts.balls ? scene::style().ball : scene::style().bar),
-          barColor(scene::style().bar),
+          ballColor(scene.look.parts.balls ? scene.style().ball : scene.style().bar),
+          barColor(scene.style().bar),
           hiddenEndLength(std::sqrt(std::max(ballRadius * ballRadius - barRadius * barRadius, 0.0f))) {}
 
     /// Adds the part of a bar that is outside the balls at its ends, if there is one. `from` must be the end that is

@@ -27,7 +27,7 @@ export async function startBrowser(args = []) {
 }
 
 const kOpening = 1000; // milliseconds after which a page has adapted to its size
-const kContextOptions = { viewport: { width: 1280, height: 720 } };
+const kContextOptions = { viewport: { width: 1280, height: 720 }, colorScheme: "dark" };
 
 // Without a graphics card, pages are composed faster without the emulation of OpenGL, which only WebGL needs then. But 2-D
 // canvases are drawn with other edges, and large WebGL canvases that change all the time are copied.

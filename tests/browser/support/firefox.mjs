@@ -44,6 +44,7 @@ function firefox() {
                 "browser.download.dir": downloads,
                 "browser.download.alwaysOpenPanel": false,
                 "dom.events.testing.asyncClipboard": true, // pages may read the clipboard without asking the user
+                "layout.css.prefers-color-scheme.content-override": 0, // dark
             },
         });
         atEnd(() => browser.close());

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
+#include "export/omissions.hpp"
 #include "fields/formula_field.hpp"
 #include "slicing/slicer.hpp"
 #include "unit/export/support.hpp"
@@ -17,7 +19,8 @@ using namespace oval4d::slicing;
 TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     const Polytope& p = named("120-cell");
     const Rotation none;
-    const ExportRequest skeleton{.format = formatNamed("stl"), .extent = Extent::oval, .body = Body::skeleton};
+    const ExportRequest skeleton{
+        .format = formatNamed("stl"), .contents = ExportContents::oval, .body = Body::skeleton};
     const Hyperplanes oval{-10, 21, 0.5};
     ExportLimits limits = kUnhurried;
     limits.triangles = 1000;
@@ -51,9 +54,9 @@ TEST(File, ofAFieldIsBounded) {
     scene::Scene scene;
     scene::Composer().compose(object, none, slices, 0, {}, {}, scene);
     const auto refusal = [&](const char* format, const ExportLimits& limits, std::stop_token stop = {}) {
-        const auto made = exportScene(scene, object, none, {.format = formatNamed(format), .extent = Extent::oval},
-                                      limits, std::move(stop));
-        return std::holds_alternative<std::string>(made) ? "none" : std::get<ExportError>(made).message;
+        const ExportRequest request{.format = formatNamed(format), .contents = ExportContents::oval};
+        const auto made = exportScene(scene, object, none, request, limits, std::move(stop));
+        return std::holds_alternative<ExportedFile>(made) ? "none" : std::get<ExportError>(made).message;
     };
     std::stop_source stop;
     stop.request_stop();
@@ -69,6 +72,48 @@ TEST(File, ofAFieldIsBounded) {
                 .find("no room"),
             std::string::npos);
     }
+}
+
+TEST(File, tellsWhatItLacks) {
+    const Polytope& p = named("16-cell");
+    const double top = std::sqrt(2);  // w of a vertex, of which the slice is a point
+    const Hyperplanes planes{0, 5, 0.1, 0, {0.5, -2, top, 0, 3}};
+    const auto warnings = [&](const ExportRequest& request) {
+        return std::get<ExportedFile>(exported(p, {}, planes, request)).warnings;
+    };
+    using Warnings = std::vector<std::string>;
+    EXPECT_EQ(warnings({.format = formatNamed("stl"), .contents = ExportContents::oval}),
+              (Warnings{"2 of 5 slices are empty and left out: w = -2, 3",
+                        "1 of 5 slices is flat or too thin and left out: w = 1.41421"}));
+    EXPECT_EQ(warnings({.format = formatNamed("stl"), .contents = ExportContents::oval, .body = Body::skeleton}),
+              Warnings{"2 of 5 slices are empty and left out: w = -2, 3"});
+    EXPECT_EQ(warnings({.format = formatNamed("vtp"), .contents = ExportContents::oval}),
+              Warnings{"3 of 5 slices are without faces and left out: w = -2, 1.41421, 3"});
+    EXPECT_EQ(warnings({.format = formatNamed("csv"), .contents = ExportContents::oval}), Warnings{});
+    // The slice at 1.2 is too small for letters, and the others are large enough.
+    const Hyperplanes labeled{0, 2, 0.1, 0, {0, 1.2}};
+    const auto made = exported(
+        p, {}, labeled, {.format = formatNamed("stl"), .contents = ExportContents::oval, .label = Label::engraved});
+    EXPECT_EQ(std::get<ExportedFile>(made).warnings,
+              Warnings{"only 1 of 2 bodies have a label, because the others have no face that is flat and large "
+                       "enough"});
+}
+
+TEST(File, listsOnlySomeOfManySlices) {
+    std::vector<int> slices;
+    for (int i = 0; i < 30; ++i) slices.push_back(i);
+    EXPECT_EQ(warningOfOmission({-2, 40, 0.5}, slices, "empty"),
+              "30 of 40 slices are empty and left out: w = -1, -0.5, 0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 4.5 and 18 "
+              "more");
+    EXPECT_EQ(warningOfOmission({4, 1, 0.5}, std::vector<int>{0}, "empty"), "the slice is empty and left out: w = 2");
+}
+
+TEST(File, namesBodiesByTheirW) {
+    // There are enough decimals to distinguish the slices.
+    const std::string text = fileOf(named("16-cell"), {}, {0, 3, 0.1, 0, {0.25, -0.5, 0.2504}},
+                                    {.format = formatNamed("obj"), .contents = ExportContents::oval});
+    for (const char* name : {"o 16-cell,_w_=_0.25000\n", "o 16-cell,_w_=_\u22120.50000\n", "o 16-cell,_w_=_0.25040\n"})
+        EXPECT_NE(text.find(name), std::string::npos) << name;
 }
 
 /// Returns the points of each body of an OBJ file.
@@ -92,8 +137,8 @@ TEST(File, ofTheOvalHasBodiesThatDoNotMeet) {
         if (support::kSanitized && count > 21) continue;
         const double spacing = count == 1 ? 1 : 2 * p.circumradius / (count - 1);
         for (const Body body : {Body::solid, Body::skeleton}) {
-            const auto bodies = bodiesIn(fileOf(p, {}, {-(count - 1) / 2, count, spacing},
-                                                {.format = formatNamed("obj"), .extent = Extent::oval, .body = body}));
+            const ExportRequest request{.format = formatNamed("obj"), .contents = ExportContents::oval, .body = body};
+            const auto bodies = bodiesIn(fileOf(p, {}, {-(count - 1) / 2, count, spacing}, request));
             EXPECT_GE(static_cast<int>(bodies.size()), std::max(1, count - 2));
             // The bounding spheres of the bodies must not overlap.
             std::vector<std::pair<glm::dvec3, double>> balls;

@@ -113,7 +113,7 @@ inline scene::Scene composed(const polytopes::Polytope& polytope, const geometry
 }
 
 /// Slices a polytope and exports the slices.
-inline std::variant<std::string, ExportError> exported(
+inline std::variant<ExportedFile, ExportError> exported(
     const polytopes::Polytope& polytope, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
     const ExportRequest& request, const ExportLimits& limits = kUnhurried, std::stop_token stop = {}) {
     slicing::SliceSet slices;
@@ -128,7 +128,7 @@ inline std::string fileOf(const polytopes::Polytope& polytope, const geometry::R
                           const ExportLimits& limits = kUnhurried) {
     auto made = exported(polytope, orientation, planes, request, limits);
     if (auto* refusal = std::get_if<ExportError>(&made)) return "refused: " + refusal->message;
-    return std::get<std::string>(std::move(made));
+    return std::get<ExportedFile>(std::move(made)).bytes;
 }
 
 /// Returns two polytopes as one, with the second translated by `by`.

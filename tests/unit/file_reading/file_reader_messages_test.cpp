@@ -33,6 +33,7 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
     load.variable = "a/b";
     load.values = "x*y";
     load.valuesVariable = "a/c";
+    load.center = {geometry::Centering::Kind::point, {1, 2, 3, 4}};
     for (const bool hasBox : {false, true}) {
         if (hasBox) load.box = fields::Box{{0, 1, 2, 3}, {4, 5, 6, 7}};
         std::string bytes;
@@ -46,6 +47,7 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
         EXPECT_EQ(file.load.variable, load.variable);
         EXPECT_EQ(file.load.values, load.values);
         EXPECT_EQ(file.load.valuesVariable, load.valuesVariable);
+        EXPECT_EQ(file.load.center, load.center);
         EXPECT_EQ(file.load.box, load.box);
         EXPECT_EQ(file.limits.maxVertices, 7U);
         EXPECT_EQ(file.limits.maxHullCells, 8U);

@@ -159,6 +159,38 @@ TEST(Png, LongThinImagesReadBack) {
     }
 }
 
+/// An image with every alpha, whose colors are multiplied by it.
+Image transparentImage(int width, int height, std::mt19937& random) {
+    Image image = makeImage(width, height, Kind::noise, random);
+    for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+        const unsigned alpha = image.pixels[i + 3] = static_cast<std::uint8_t>(i / 4 % 256);
+        for (std::size_t c = 0; c < 3; ++c)
+            image.pixels[i + c] = static_cast<std::uint8_t>((image.pixels[i + c] * alpha + 127) / 255);
+    }
+    return image;
+}
+
+TEST(Png, TransparentImagesReadBack) {
+    std::mt19937 random(10);
+    Bytes file;
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 300}, {300, 1}, {33, 20}, {640, 480}}) {
+        SCOPED_TRACE(testing::Message() << width << " × " << height);
+        const Image image = transparentImage(width, height, random);
+        PngEncoder().encode({image.width, image.height, image.pixels, true}, "{}", file);
+        EXPECT_EQ(chunksOf(file)[0].data[9], 6) << "the color type";
+        const Image read = render::readPng(file);
+        ASSERT_EQ(read.pixels.size(), image.pixels.size());
+        for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+            const int alpha = read.pixels[i | 3U];
+            if (i % 4 == 3) {
+                ASSERT_EQ(alpha, image.pixels[i]);
+            } else {  // colors in the file are not multiplied by alpha
+                ASSERT_NEAR(read.pixels[i] * alpha / 255.0, image.pixels[i], 0.51) << "byte " << i;
+            }
+        }
+    }
+}
+
 TEST(Png, ChunksAreInOrderWithValidChecksums) {
     std::mt19937 random(4);
     Bytes file;

@@ -18,6 +18,7 @@ TEST(RasterizerMessages, OrdersComeAsTheyWere) {
     state.object = slicing::imageOf(state.source, state.referenceFrame);
     state.slices = {31, 0.125, -2};
     state.look.view = scene::View::single;
+    state.look.background = scene::Background::transparent;
     state.look.orbit = {0.5, 0.25, 2};
     state.look.cellTypes = {{1, 3}, {2}};
     state.look.field = {{0.5, 1}, fields::Inside::above, {{-1, 0.5}, {2, 1, 0xff8000}}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <set>
 
@@ -16,14 +17,14 @@ namespace {
 using namespace oval4d;
 using scene::Color;
 using scene::Coloring;
+using scene::Scheme;
 using slicing::Visibility;
 using support::named;
 using support::objectOf;
 
-std::vector<Color> painted(const polytopes::Polytope& polytope, Coloring coloring,
-                           const geometry::Rotation& orientation = {}) {
+std::vector<Color> painted(const polytopes::Polytope& polytope, Coloring coloring, Scheme scheme = Scheme::dark) {
     std::vector<Color> colors;
-    scene::CellPainter().paint(objectOf(polytope), coloring, orientation, colors);
+    scene::CellPainter().paint(objectOf(polytope), coloring, scheme, {}, colors);
     return colors;
 }
 
@@ -32,9 +33,11 @@ int blue(Color color) { return static_cast<int>(color & 255); }
 
 TEST(CellPainter, AreDistinctWhereCellsAreFewAndStable) {
     for (const char* name : {"5-cell", "8-cell", "16-cell", "24-cell"}) {
-        const auto colors = painted(named(name), Coloring::cell);
-        EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), named(name).cells.size());
-        EXPECT_EQ(colors, painted(named(name), Coloring::cell));
+        for (const Scheme scheme : {Scheme::dark, Scheme::light}) {
+            const auto colors = painted(named(name), Coloring::cell, scheme);
+            EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), named(name).cells.size());
+            EXPECT_EQ(colors, painted(named(name), Coloring::cell, scheme));
+        }
     }
     EXPECT_EQ(painted(named("600-cell"), Coloring::cell).size(), 600U);
 }
@@ -61,7 +64,7 @@ TEST(CellPainter, ByWRunFromBlueToAmberAsThePolytopeIsTurned) {
     std::vector<Color> colors;
     for (const double turned : {0.0, std::numbers::pi}) {
         const geometry::Rotation orientation(geometry::Turn{geometry::Plane::xw, turned, {}});
-        cellColors.paint(objectOf(polytope), Coloring::w, orientation, colors);
+        cellColors.paint(objectOf(polytope), Coloring::w, Scheme::dark, orientation, colors);
         for (std::size_t c = 0; c < colors.size(); ++c) {
             double w = 0;
             for (const auto f : polytope.cells[c]) {
@@ -91,7 +94,7 @@ TEST(CellPainter, ByLightDependOnTheNormalAlone) {
     const auto brightness = [](Color color) { return red(color) + blue(color) + int(color >> 8U & 255U); };
     scene::CellPainter cellColors;
     std::vector<Color> colors;
-    cellColors.paint(objectOf(polytope), Coloring::light, {}, colors);
+    cellColors.paint(objectOf(polytope), Coloring::light, Scheme::dark, {}, colors);
     EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), 8U);
     // The light comes from the left, from above, from the front, and from large w.
     std::array<Color, 8> lit{};
@@ -104,21 +107,55 @@ TEST(CellPainter, ByLightDependOnTheNormalAlone) {
     }
     // A quarter turn from y to z gives each cell the color of that whose place it takes.
     const geometry::Rotation quarter(geometry::Turn{geometry::Plane::yz, std::numbers::pi / 2, {}});
-    cellColors.paint(objectOf(polytope), Coloring::light, quarter, colors);
+    cellColors.paint(objectOf(polytope), Coloring::light, Scheme::dark, quarter, colors);
     EXPECT_EQ(colors.at(cellToward({0, 1, 0, 0})), lit[2]);
     EXPECT_EQ(colors.at(cellToward({0, 0, 0, 1})), lit[3]);
 }
 
-TEST(CellPainter, FollowThePolytopeAndTheColoring) {
+constexpr std::array kPolytopeColorings{Coloring::cell, Coloring::w, Coloring::cell_type, Coloring::plain,
+                                        Coloring::light};
+
+TEST(CellPainter, FollowThePolytopeTheColoringAndTheScheme) {
     scene::CellPainter cellColors;
     std::vector<Color> colors;
     for (const char* name : {"16-cell", "5-cell", "16-cell"}) {
-        for (const Coloring coloring :
-             {Coloring::cell, Coloring::w, Coloring::cell_type, Coloring::plain, Coloring::light}) {
-            cellColors.paint(objectOf(named(name)), coloring, {}, colors);
-            EXPECT_EQ(colors, painted(named(name), coloring)) << name;
+        for (const Coloring coloring : kPolytopeColorings) {
+            for (const Scheme scheme : {Scheme::dark, Scheme::light}) {
+                cellColors.paint(objectOf(named(name)), coloring, scheme, {}, colors);
+                EXPECT_EQ(colors, painted(named(name), coloring, scheme)) << name;
+            }
         }
     }
+}
+
+constexpr Color kWhite = 0xffffff, kBlack = 0;
+
+TEST(Contrast, IsThatOfTheGuidelines) {
+    EXPECT_DOUBLE_EQ(scene::contrast(kWhite, kBlack), 21);
+    EXPECT_DOUBLE_EQ(scene::contrast(kBlack, kWhite), 21);
+    EXPECT_DOUBLE_EQ(scene::contrast(0x123456, 0x123456), 1);
+    EXPECT_NEAR(scene::contrast(0x767676, kWhite), 4.54, 0.005);  // the lightest gray of WCAG's examples
+}
+
+TEST(Colors, OfALightGroundHoldOnWhite) {
+    std::vector<Color> all{scene::plainColor(Scheme::light)};
+    for (const char* name : {"5-cell", "24-cell", "600-cell"}) {
+        for (const Coloring coloring : kPolytopeColorings)
+            std::ranges::copy(painted(named(name), coloring, Scheme::light), std::back_inserter(all));
+    }
+    for (std::size_t i = 0; i < 12; ++i) {
+        all.push_back(scene::cellTypeColor(i, 12, Scheme::light));
+        all.push_back(scene::levelColor(i % 4, 4, Scheme::light));
+    }
+    for (int i = -20; i <= 20; ++i) {
+        all.push_back(scene::divergingColor(i / 20.0, Scheme::light));
+        all.push_back(scene::sequentialColor(i / 20.0, Scheme::light));
+    }
+    for (const Color color : all) EXPECT_GE(scene::contrast(color, kWhite), 3.6) << std::hex << color;
+    for (int i = 1; i <= 20; ++i)
+        EXPECT_LT(scene::contrast(scene::sequentialColor(i / 20.0, Scheme::light), kWhite),
+                  scene::contrast(scene::sequentialColor((i - 1) / 20.0, Scheme::light), kWhite))
+            << "the scale becomes lighter";
 }
 
 TEST(Visibilities, FollowTheLook) {

@@ -265,13 +265,17 @@ struct LabelBox {
         }
         const double size = scene::style().textHeight * placement.labelSize * s.viewport.height, digits = 0.729 * size;
         const glm::dvec2 at = project(s, placement.labelAt);
-        const double marginX = (placement.focus ? 0.9 : 0.45) * digits,
-                     marginY = (placement.focus ? 0.6 : 0.35) * digits;
+        const double marginX = (placement.focus ? 0.9 : 0.25) * digits,
+                     marginY = (placement.focus ? 0.6 : 0.13) * digits;
         left = at.x - width * size / 2 - marginX, right = at.x + width * size / 2 + marginX;
         top = at.y - marginY, bottom = at.y + digits + marginY;
     }
     bool overlaps(const LabelBox& b) const {
         return left < b.right && b.left < right && top < b.bottom && b.top < bottom;
+    }
+    bool overlapsDisk(const glm::dvec2& center, double radius) const {
+        const glm::dvec2 nearest = glm::clamp(center, glm::dvec2(left, top), glm::dvec2(right, bottom));
+        return glm::distance(nearest, center) < radius;
     }
     bool isInside(const scene::Viewport& viewport) const {
         return left >= 0 && right <= viewport.width && top >= 0 && bottom <= viewport.height;
@@ -360,14 +364,47 @@ TEST(Matrix, standsBesideTheFocusSlice) {
     }
 }
 
+// Expects the labels of all slices but the focus slice to stand beside the other slices, whose balls may touch them.
+void expectLabelsBesideSlices(const Scene& s) {
+    for (const auto& placement : s.placements) {
+        if (!placement.drawn || placement.focus || placement.label.empty()) continue;
+        LabelBox text(s, placement);
+        const double margin = 0.4 * (text.bottom - text.top);  // of the plate behind the text, and more
+        text.left += margin, text.right -= margin, text.top += 0.5 * margin, text.bottom -= 0.5 * margin;
+        for (const auto& other : s.placements) {
+            const double squared = s.circumradius * s.circumradius - other.w * other.w;
+            if (!other.drawn || other.index == placement.index || squared <= 0) continue;
+            const glm::dvec3 seen(s.camera.view() * glm::dvec4(other.position, 1));
+            if (seen.z > -s.camera.near) continue;
+            const double radius = radiusOnScreen(s, other.position, s.scale * std::sqrt(squared));
+            EXPECT_FALSE(text.overlapsDisk(project(s, other.position), radius)) << placement.label << ", " << other.w;
+        }
+    }
+}
+
+TEST(Labels, standBesideTheSlices) {
+    for (const scene::Viewport viewport : kWindows) {
+        for (const int count : {3, 11, 21, 31, 61, 101}) {
+            SCOPED_TRACE(testing::Message() << viewport.width << " x " << viewport.height << ", " << count);
+            expectLabelsBesideSlices(composed("24-cell", count, viewport));
+        }
+    }
+}
+
 TEST(Labels, areApartFromEverySide) {
     for (const scene::CameraOrbit& orbit : std::vector<scene::CameraOrbit>{
              {0, 0, 3}, {0, 0, 0.3}, {0.8, 0.2, 1}, {1.57, -0.46, 1}, {3.1, 0.5, 2}, {-0.4, 1, 0.5}, {0, -0.46, 1}}) {
         for (const int count : {5, 21, 201}) {
             scene::Look look;
             look.orbit = orbit;
-            const std::vector<LabelBox> boxes = expectLabelsApart(composed("24-cell", count, {1280, 720}, look));
-            for (std::size_t i = 1; i < boxes.size(); ++i) EXPECT_TRUE(boxes[i].isInside({1280, 720}));
+            const Scene s = composed("24-cell", count, {1280, 720}, look);
+            const std::vector<LabelBox> boxes = expectLabelsApart(s);
+            const double strip = (s.coordinates.zero + s.coordinates.amplitude) * 720;
+            for (std::size_t i = 1; i < boxes.size(); ++i) {
+                EXPECT_TRUE(boxes[i].isInside({1280, 720}));
+                EXPECT_LT(boxes[i].bottom, 720 - strip) << "no label covers the coordinates";
+            }
+            expectLabelsBesideSlices(s);
         }
     }
 }

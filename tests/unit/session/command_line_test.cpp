@@ -8,8 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "session/command_line.hpp"
 #include "session/query.hpp"
+#include "session/setting_text.hpp"
+#include "session/settings.hpp"
+#include "text/message_text.hpp"
 #include "unit/session/support.hpp"
 
 namespace oval4d::session {
@@ -85,6 +87,8 @@ std::vector<SettingValue> settingValues() {
         {"elevation", "-0.1", polytope, [](const State& now) { return now.look.orbit.elevation == -0.1; }},
         {"zoom", "2", polytope, [](const State& now) { return now.look.orbit.zoom == 2; }},
         {"color", "w", polytope, [](const State& now) { return now.look.coloring == scene::Coloring::w; }},
+        {"background", "white", polytope,
+         [](const State& now) { return now.look.background == scene::Background::white; }},
         {"projection", "orthogonal", polytope,
          [](const State& now) { return now.look.projection.kind == scene::ProjectionKind::orthogonal; }},
         {"eye", "5", polytope, [](const State& now) { return now.look.projection.eye == 5; }},
@@ -125,6 +129,66 @@ TEST(CommandLine, EverySettingCanBeSet) {
     std::istringstream names(settingNames());
     for (std::string name; std::getline(names >> std::ws, name, ',');) settings.insert(name);
     EXPECT_EQ(tested, settings);
+}
+
+TEST(Query, KeepsEverySetting) {
+    for (const SettingValue& setting : settingValues()) {
+        if (setting.name == "turning") continue;  // a view does not move
+        SCOPED_TRACE(setting.name);
+        Session session;
+        line(session, setting.object);
+        line(session, "rotate xw,yz 0.3 -1.2");
+        line(session, "rotate xy 2");
+        line(session, "set " + setting.name + "=" + setting.value);
+        ObjectLoader loader(Limits{}, support::cache());
+        const auto query = queryFromState(session.current, loader);
+        ASSERT_TRUE(query) << query.error().message;
+        const auto read = parseQuery(queryText(*query));
+        ASSERT_EQ(read, *query) << queryText(*query);
+        const auto back = stateFromQuery(*read);
+        ASSERT_TRUE(back) << queryText(*query) << back.error().message;
+        EXPECT_TRUE(setting.isIn(*back)) << queryText(*query);
+        EXPECT_EQ(settingTexts(settingsOf(*back)), settingTexts(settingsOf(session.current)));
+        EXPECT_LT((back->orientation * session.current.orientation.inverse()).angle(), 1e-7);
+    }
+}
+
+TEST(Query, ContainsOnlyWhatDiffersFromANewObject) {
+    Session session;
+    line(session, "polytope two warm spots");
+    line(session, "set fog=0:0.25:ff8800,1:0 slices=11");
+    ObjectLoader loader(Limits{}, support::cache());
+    const auto query = queryFromState(session.current, loader);
+    ASSERT_TRUE(query);
+    const std::string spacing = text::shortestDecimal(session.current.slices.spacing);
+    EXPECT_EQ(queryText(*query), "polytope=two%20warm%20spots&slices=11&spacing=" + spacing + "&fog=0:0.25:ff8800,1:0");
+}
+
+TEST(Query, CannotContainAnObjectFromAFile) {
+    Session session;
+    must(session, LoadObject{"mine", "points", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n0 0 0 0\n"});
+    ObjectLoader loader(Limits{}, support::cache());
+    const auto query = queryFromState(session.current, loader);
+    ASSERT_FALSE(query);
+    EXPECT_EQ(query.error().code, ErrorCode::unknown_polytope);
+    EXPECT_NE(query.error().message.find("'mine'"), std::string::npos) << query.error().message;
+}
+
+TEST(Query, OpensInASessionAsOneStep) {
+    Session session;
+    line(session, "set slices=11");
+    must(session, OpenAddress{"token=x&polytope=24-cell&rotate=xw:0.1+pi/8&width=7"});
+    EXPECT_EQ(infoOf(session.current).name, "24-cell");
+    EXPECT_EQ(session.current.slices.count, 11) << "what the query does not contain stays";
+    EXPECT_EQ(session.revision, 2);
+    must(session, OpenAddress{"formula=x^2%2By^2<w&values=x"});
+    EXPECT_TRUE(session.loaded.contains("formula")) << "it can be shown again by its name";
+    line(session, "undo");
+    line(session, "undo");
+    EXPECT_EQ(infoOf(session.current).name, "5-cell");
+    expectRefused(session, OpenAddress{"slices=12"}, ErrorCode::out_of_range, "odd");
+    expectRefused(session, OpenAddress{"slices=%1"}, ErrorCode::bad_expression, "hexadecimal");
+    expectRefused(session, OpenAddress{"sices=11"}, ErrorCode::unknown_command, "did you mean 'slices'?");
 }
 
 TEST(CommandLine, SettingsOfOneLineAreCombined) {

@@ -10,6 +10,7 @@
 #include "session/example_fields.hpp"
 #include "session/load.hpp"
 #include "session/object_loader.hpp"
+#include "text/message_text.hpp"
 #include "unit/session/support.hpp"
 #include "unit/slicing/support.hpp"
 
@@ -344,6 +345,84 @@ TEST(Formulas, OfExamplesAreNotLoaded) {
     must(session, set);
     EXPECT_TRUE(session.loaded.empty());
     EXPECT_EQ(slicing::fieldIn(session.current.object), &example);
+}
+
+// The vertices of a 16-cell of circumradius 1.
+std::string crossAt(const glm::dvec4& center) {
+    std::string text;
+    for (int axis = 0; axis < 4; ++axis) {
+        for (const double sign : {-1.0, 1.0}) {
+            glm::dvec4 p = center;
+            p[axis] += sign;
+            for (int i = 0; i < 4; ++i) text += text::shortestDecimal(p[i]) + (i < 3 ? ' ' : '\n');
+        }
+    }
+    return text;
+}
+
+TEST(Load, ObjectsFarFromTheOriginTurnAboutTheirCenter) {
+    for (const char* format : {"points", "cloud"}) {
+        for (const glm::dvec4& center : {glm::dvec4(10, 10, 0, 0), glm::dvec4(5e6, 0, 1, -5e6)}) {
+            const auto far = readObject({"mine", format, crossAt(center)}, Limits{});
+            ASSERT_TRUE(far) << far.error().message;
+            const geometry::ObjectInfo& info = slicing::infoOf(far->object);
+            EXPECT_EQ(info.originInFile, center);
+            EXPECT_EQ(info.circumradius, 1);
+            EXPECT_EQ(slicing::vertexInFile(far->object, 0), center - glm::dvec4(1, 0, 0, 0));
+            ASSERT_EQ(far->warnings.size(), 1U);
+            EXPECT_NE(far->warnings[0].find("far from the origin"), std::string::npos) << far->warnings[0];
+            EXPECT_NE(far->warnings[0].find("center=origin"), std::string::npos) << far->warnings[0];
+        }
+        const auto near = readObject({"mine", format, crossAt({1, 1, 0, 0})}, Limits{});
+        ASSERT_TRUE(near) << near.error().message;
+        EXPECT_EQ(slicing::infoOf(near->object).originInFile, glm::dvec4(0));
+        EXPECT_TRUE(near->warnings.empty());
+    }
+}
+
+TEST(Load, ObjectsTurnAboutThePointThatIsAskedFor) {
+    using Kind = geometry::Centering::Kind;
+    const glm::dvec4 center(10, 10, 0, 0), place(1, 2, 3, 4);
+    for (const auto& [wanted, origin] : {std::pair<geometry::Centering, glm::dvec4>{{Kind::object}, center},
+                                         {{Kind::origin}, glm::dvec4(0)},
+                                         {{Kind::point, place}, place}}) {
+        LoadObject load{"mine", "points", crossAt(center)};
+        load.center = wanted;
+        const auto read = readObject(load, Limits{});
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_EQ(slicing::infoOf(read->object).originInFile, origin);
+        EXPECT_TRUE(read->warnings.empty());
+    }
+    Session session;
+    LoadObject formula{"mine", std::string(kFormula), "x"};
+    formula.center = {Kind::origin};
+    expectRefused(session, formula, ErrorCode::bad_message, "only polytopes and points take a center");
+}
+
+// People set w and the focus point in the coordinates of the file; the slices lie around the center.
+TEST(Load, SettingsAreInTheCoordinatesOfTheFile) {
+    Session session;
+    const glm::dvec4 center(10, -20, 5e6, 5e6);
+    must(session, LoadObject{"mine", "points", crossAt(center)});
+    const State first = session.current;
+    EXPECT_EQ(first.focusW(), 0);
+    EXPECT_NEAR(first.slices.spacing, 0.1, 1e-12);
+    line(session, "set w=5000000.25");
+    EXPECT_EQ(session.current.focusW(), 0.25);
+    line(session, "set point=10.5,-20.5,5000000,4999999.5");
+    EXPECT_EQ(session.current.look.focusPoint, glm::dvec3(0.5, -0.5, 0));
+    EXPECT_EQ(session.current.focusW(), -0.5);
+    expectRefused(session, CommandLine{"set w=0"}, ErrorCode::out_of_range, "w must be from 4999990 to 5000010, not 0");
+    expectRefused(session, CommandLine{"set point=0,0,0,0"}, ErrorCode::out_of_range, "the point's y");
+    line(session, "set offset=0.5");
+    EXPECT_EQ(session.current.slices.offset, 0.5);
+    press(session, "uuu");
+    EXPECT_EQ(session.current, first);
+    // The center moves with the frame of reference.
+    line(session, "set pace=2");
+    EXPECT_EQ(infoOf(session.current).originInFile, glm::dvec4(10, -20, 5e6, 1e7));
+    line(session, "polytope 24-cell");
+    EXPECT_EQ(infoOf(session.current).originInFile, glm::dvec4(0));
 }
 
 TEST(Load, NamesAreTextOf64Characters) {

@@ -48,6 +48,11 @@ const auto kFiles = std::to_array<WildFile>({
     {"wrong-line-number.off", "line 2: 'foo' is not a number of vertices"},
     {"utf16le.off", k5Cell},
     {"toward-cell-duoprism-4-decimals.txt", "9/18/15/6"},
+    {"16-cell-10-from-origin.txt",
+     "8/24/32/16; the object is far from the origin: it turns about its center, (10, 10, 0, 0), where the middle of "
+     "the slices is, too; the option center=origin keeps the origin"},
+    {"nearly-flat-cell.off",
+     "6/13/13/6; 5 vertices were moved by up to 0.00005, so that the vertices of each cell lie in one hyperplane"},
 });
 
 class WildFiles : public testing::TestWithParam<WildFile> {};

@@ -47,8 +47,7 @@ std::vector<double> heightsOf(const Polytope& p, const Element& element, const g
 }
 
 geometry::Rotation turnedTo(const Object& object, const Element& element, const geometry::Rotation& from) {
-    const glm::dvec4 direction = directionOf(object, element, from.inverse()(kW));
-    return geometry::Rotation::between(from(direction), kW) * from;
+    return wayToW(object, element, from) * from;
 }
 
 TEST(Elements, LieInOneHyperplaneOnceTheyPointToW) {

@@ -15,7 +15,7 @@
 namespace oval4d::slicing {
 namespace {
 
-constexpr geometry::Hyperplanes kPlanes{-10, 21, 0.15, 0};
+const geometry::Hyperplanes kPlanes{-10, 21, 0.15, 0};
 
 SliceSet slicesOf(const fields::Field& field, const geometry::Rotation& orientation, const FieldSettings& settings = {},
                   int detail = 64, const geometry::Hyperplanes& planes = kPlanes) {

@@ -14,8 +14,10 @@
 
 #include "fields/array_field.hpp"
 #include "fields/formula_field.hpp"
+#include "geometry/point_cloud.hpp"
 #include "slicing/object_bytes.hpp"
 #include "slicing/slicer.hpp"
+#include "text/message_text.hpp"
 #include "unit/slicing/support.hpp"
 
 namespace oval4d::slicing {
@@ -90,6 +92,19 @@ TEST(Object, IsCutAsItsPolytopeIs) {
     }
 }
 
+std::string partsOf(const Object& object) {
+    std::string bytes;
+    serialization::ByteWriter writer(bytes);
+    MappedFiles files;
+    writeParts(object, writer, files);
+    return bytes;
+}
+
+Object read(std::string_view bytes, std::size_t maxVertices = 100'000) {
+    serialization::ByteReader reader(bytes);
+    return readParts(reader, "mine", maxVertices);
+}
+
 TEST(ObjectBytes, ObjectsComeAsTheyWere) {
     std::string bytes;
     for (const char* name : {"5-cell", "24-cell", "120-cell", "{5/2,3,5}"}) {
@@ -105,25 +120,36 @@ TEST(ObjectBytes, ObjectsComeAsTheyWere) {
     }
 }
 
+TEST(ObjectBytes, ObjectsKeepTheirPlaceInTheFile) {
+    const glm::dvec4 origin(5e6, -1, 0.25, 7);
+    Polytope moved = *shared("5-cell");
+    moved.originInFile = origin;
+    geometry::PointCloud cloud = geometry::makePointCloud("cloud", {{1, 2, 3, 4}, {0, 0, 0, 0}}, {0, 0.5});
+    cloud.originInFile = origin;
+    for (const Object& sent : {Object(std::make_shared<const Polytope>(moved)),
+                               Object(std::make_shared<const geometry::PointCloud>(cloud))}) {
+        std::string bytes;
+        MappedFiles files;
+        encodeObject(sent, bytes, files);
+        EXPECT_EQ(infoOf(decodeObject(bytes)).originInFile, origin);
+        const Object parts = read(partsOf(sent));
+        EXPECT_EQ(infoOf(parts).originInFile, origin);
+        EXPECT_EQ(vertexInFile(parts, 0), vertexInFile(sent, 0));
+    }
+    // A file that is exported has the coordinates of the file that was loaded.
+    const std::string exported = write4Off(std::make_shared<const Polytope>(moved), moved.vertices);
+    std::string expected;
+    for (int axis = 0; axis < 4; ++axis)
+        expected += text::shortestDecimal((moved.vertices[0] + origin)[axis]) + (axis < 3 ? ' ' : '\n');
+    EXPECT_NE(exported.find(expected), std::string::npos) << exported;
+}
+
 TEST(ObjectBytes, BytesCutShortAreRefused) {
     std::string bytes;
     MappedFiles files;
     encodeObject(shared("5-cell"), bytes, files);
     for (std::size_t size = 0; size < bytes.size(); size += 7)
         EXPECT_THROW((void)decodeObject(std::string_view(bytes).substr(0, size)), std::runtime_error);
-}
-
-std::string partsOf(const Object& object) {
-    std::string bytes;
-    serialization::ByteWriter writer(bytes);
-    MappedFiles files;
-    writeParts(object, writer, files);
-    return bytes;
-}
-
-Object read(std::string_view bytes, std::size_t maxVertices = 100'000) {
-    serialization::ByteReader reader(bytes);
-    return readParts(reader, "mine", maxVertices);
 }
 
 TEST(ObjectBytes, DamagedBooleansAreRefused) {

@@ -1,10 +1,12 @@
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <random>
 
 #include <gtest/gtest.h>
 
 #include "polytopes/construction/coxeter.hpp"
+#include "unit/slicing/soundness.hpp"
 #include "unit/slicing/support.hpp"
 
 namespace {
@@ -22,25 +24,6 @@ double areaOf(const Polygon& polygon) {
         sum += (a.x * b.y - a.y * b.x) / 2;
     }
     return sum;
-}
-
-/// Expects that the loops traverse every slice edge as often in one direction as in the other, and are closed.
-void expectClosed(const SliceSet& s) {
-    for (int slice = 0; slice < s.planes.count; ++slice) {
-        std::map<std::uint32_t, int> passes;
-        for (auto f = s.faceBegin[slice]; f < s.faceBegin[slice + 1]; ++f) {
-            const auto begin = s.cornerBegin[f];
-            const auto end = s.cornerBegin[f + 1];
-            for (auto i = begin; i < end; ++i) {
-                const auto next = s.corners[i + 1 == end ? begin : i + 1];
-                const auto& edge = s.edges[s.edgeBegin[slice] + s.cornerEdges[i]];
-                const bool along = edge[0] == s.corners[i] && edge[1] == next;
-                ASSERT_TRUE(along || (edge[1] == s.corners[i] && edge[0] == next));
-                passes[s.cornerEdges[i]] += along ? 1 : -1;
-            }
-        }
-        for (const auto& [edge, sum] : passes) ASSERT_EQ(sum, 0);
-    }
 }
 
 const Polygon kSquare{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
@@ -97,6 +80,25 @@ TEST(NonConvex, sectionNearThePointOfAPentagramIsABox) {
     EXPECT_EQ(s.vertexCount(0), 8U);  // a thin box at the tip
     EXPECT_EQ(s.edgeCount(0), 12U);
     EXPECT_EQ(s.faceCount(0), 6U);
+}
+
+// The vertices of a cell in a hyperplane w = const are moved up and down, so that a hyperplane between them cuts the
+// cell's 2-faces several times.
+TEST(NonConvex, slicesThroughBentCellsAreClosed) {
+    std::mt19937 random(23);
+    std::uniform_real_distribution<double> noise(-1e-6, 1e-6);
+    for (const char* name : {"8-cell", "24-cell", "5,7-duoprism"}) {
+        const polytopes::Polytope& exact = named(name);
+        auto vertices = exact.vertices;
+        for (glm::dvec4& v : vertices) v.w += noise(random);
+        const polytopes::Polytope bent = polytopes::makePolytope(name, vertices, exact.faces, exact.cells);
+        std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.w < b.w; });
+        for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
+            if (vertices[i + 1].w - vertices[i].w < 1e-7) continue;  // the vertices may count as lying in it
+            expectClosed(cutAt(bent, {}, (vertices[i].w + vertices[i + 1].w) / 2));
+            ASSERT_FALSE(HasFatalFailure()) << name << " above " << vertices[i].w;
+        }
+    }
 }
 
 }  // namespace

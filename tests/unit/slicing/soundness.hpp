@@ -27,8 +27,28 @@ inline ElementsOfSlice sliceCounts(const slicing::SliceSet& s, int i = 0) {
     return {s.vertexCount(i), s.edgeCount(i), s.faceCount(i)};
 }
 
-/// Expects that a slice is a closed convex polyhedron with correct incidences. The slice must have a volume.
-inline void expectClosedConvexSolid(const slicing::SliceSet& s, int slice) {
+/// Expects that the loops traverse every slice edge as often in one direction as in the other, and are closed.
+inline void expectClosed(const slicing::SliceSet& s) {
+    for (int slice = 0; slice < s.planes.count; ++slice) {
+        std::map<std::uint32_t, int> passes;
+        for (auto f = s.faceBegin[slice]; f < s.faceBegin[slice + 1]; ++f) {
+            const auto begin = s.cornerBegin[f];
+            const auto end = s.cornerBegin[f + 1];
+            for (auto i = begin; i < end; ++i) {
+                const auto next = s.corners[i + 1 == end ? begin : i + 1];
+                const auto& edge = s.edges[s.edgeBegin[slice] + s.cornerEdges[i]];
+                const bool along = edge[0] == s.corners[i] && edge[1] == next;
+                ASSERT_TRUE(along || (edge[1] == s.corners[i] && edge[0] == next));
+                passes[s.cornerEdges[i]] += along ? 1 : -1;
+            }
+        }
+        for (const auto& [edge, sum] : passes) ASSERT_EQ(sum, 0);
+    }
+}
+
+/// Expects that a slice is a closed convex polyhedron with correct incidences. The slice must have a volume. `slack` is
+/// how far a vertex may lie beyond the plane of a face.
+inline void expectClosedConvexSolid(const slicing::SliceSet& s, int slice, double slack = 1e-8) {
     const ElementsOfSlice c = sliceCounts(s, slice);
     ASSERT_EQ(c.vertices + c.faces, c.edges + 2) << c;
     glm::dvec3 center(0);
@@ -54,7 +74,7 @@ inline void expectClosedConvexSolid(const slicing::SliceSet& s, int slice) {
         if (size < 1e-9) continue;
         ASSERT_GT(glm::dot(normal, corner(s, slice, begin) - center), 0);
         for (auto v = s.vertexBegin[slice]; v < s.vertexBegin[slice + 1]; ++v) {
-            ASSERT_LT(glm::dot(normal / size, s.vertices[v] - corner(s, slice, begin)), 1e-8);
+            ASSERT_LT(glm::dot(normal / size, s.vertices[v] - corner(s, slice, begin)), slack);
         }
     }
     ASSERT_EQ(sides, 2 * c.edges);

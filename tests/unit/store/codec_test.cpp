@@ -164,6 +164,24 @@ TEST(Codec, KeepsTheFogOfAField) {
     EXPECT_TRUE(decoded(encodeCbor(record)).current.look.field.fog.empty()) << "earlier versions knew no fog";
 }
 
+TEST(Codec, KeepsTheBackground) {
+    Session session;
+    session::line(session, "set background=white");
+    session::line(session, "set background=transparent");
+    ObjectTable table;
+    const auto decoded = [&](const std::string& bytes) { return decode(bytes, "", table.objectOf, support::cache()); };
+    const std::string bytes = encodeWhole(session, 10, table.keyOf);
+    EXPECT_EQ(decoded(bytes).current.look.background, scene::Background::transparent);
+    EXPECT_EQ(decoded(bytes).undoSteps.back().look.background, scene::Background::white);
+    auto record = nlohmann::json::from_cbor(bytes);
+    nlohmann::json& look = record.at(3).at(5);
+    look.at(12) = scene::kBackgrounds.size();
+    EXPECT_THROW(decoded(encodeCbor(record)), UnreadableRecord) << "no background has this number";
+    look.erase(12);
+    EXPECT_EQ(decoded(encodeCbor(record)).current.look.background, scene::Background::automatic)
+        << "earlier versions knew only one";
+}
+
 TEST(Codec, LimitsUndoSteps) {
     std::mt19937 random(6);
     Session session;

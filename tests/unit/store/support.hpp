@@ -39,7 +39,8 @@ inline bool same(const session::Session& one, session::Session other) {
     return one == other;
 }
 
-/// Returns a command that loads the convex hull of 12 random points, which depend only on `seed`.
+/// Returns a command that loads the convex hull of 12 random points, which depend only on `seed`. If the seed is odd,
+/// the hull turns about a point other than the origin.
 inline session::LoadObject ownObject(const std::string& name, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> coordinate(-1, 1);
@@ -47,7 +48,9 @@ inline session::LoadObject ownObject(const std::string& name, std::uint32_t seed
     for (int i = 0; i < 12; ++i) {
         for (int j = 0; j < 4; ++j) text += std::to_string(coordinate(random)) + (j < 3 ? " " : "\n");
     }
-    return {name, "points", text};
+    session::LoadObject load{name, "points", text};
+    if (seed % 2 == 1) load.center = {geometry::Centering::Kind::point, {0.5, 0, -0.25, 1}};
+    return load;
 }
 
 /// Applies random commands: keys, settings, loads, undo, redo and rotations.
@@ -66,6 +69,7 @@ inline void wander(session::Session& session, std::mt19937& random, int steps) {
                 set.zoom = 1.5;
                 set.coloring = static_cast<scene::Coloring>(random() % 7);
                 set.caps = static_cast<scene::CapStyle>(random() % 3);
+                set.background = static_cast<scene::Background>(random() % scene::kBackgrounds.size());
                 set.hidden = {{0}};
                 command = set;
                 break;

@@ -81,6 +81,7 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
                                         "cells":false,"back":true,"sections":false})"));
     EXPECT_EQ(message.at("camera"), json::parse(R"({"azimuth":0,"elevation":0,"zoom":1})"));
     EXPECT_EQ(message.at("color"), "cell");
+    EXPECT_EQ(message.at("background"), "auto");
     EXPECT_EQ(message.at("hidden"), json::array());
     EXPECT_EQ(message.at("faded"), json::array());
     EXPECT_EQ(message.at("last").at("planes"), json::parse(R"(["xw","yz"])"));
@@ -90,6 +91,23 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
     EXPECT_FALSE(fitting(wire::stateMessage(session::initialState(), {}, 0)).contains("draft"));
     EXPECT_EQ(fitting(wire::stateMessage(session::initialState(), {}, 0, {}, slicing::Quality::draft)).at("draft"),
               true);
+}
+
+TEST(StateMessage, HasTheColorsThatTheViewerSees) {
+    using scene::Scheme;
+    Session session;
+    const auto colorFor = [&](Scheme viewer) {
+        const json message = fitting(wire::stateMessage(session.current, {}, 0, {}, slicing::Quality::full, viewer));
+        return message.at("polytope").at("kinds").at(0).at("color");
+    };
+    const scene::Color onDark = scene::cellTypeColor(0, 1), onLight = scene::cellTypeColor(0, 1, Scheme::light);
+    EXPECT_EQ(colorFor(Scheme::dark), onDark);
+    EXPECT_EQ(colorFor(Scheme::light), onLight);
+    session.current.look.background = scene::Background::dark;
+    EXPECT_EQ(colorFor(Scheme::light), onDark);
+    session.current.look.background = scene::Background::white;
+    EXPECT_EQ(colorFor(Scheme::dark), onLight);
+    EXPECT_EQ(fitting(wire::stateMessage(session.current, {}, 0)).at("background"), "white");
 }
 
 TEST(StateMessage, SetInANewSessionGivesTheSameState) {

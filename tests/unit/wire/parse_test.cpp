@@ -16,17 +16,20 @@ namespace {
 
 TEST(Parse, Hello) {
     const auto hello = std::get<Hello>(
-        parsed(R"({"type":"hello","id":1,"stream":"frames","encoding":"cbor","width":640,"height":480,"token":"abc"})")
+        parsed(
+            R"({"type":"hello","id":1,"stream":"frames","encoding":"cbor","width":640,"height":480,"token":"abc","scheme":"light"})")
             .body);
     EXPECT_EQ(hello.stream, Stream::frames);
     EXPECT_EQ(hello.encoding, Encoding::cbor);
     EXPECT_EQ(hello.viewport, (scene::Viewport{640, 480}));
     EXPECT_EQ(hello.token, "abc");
+    EXPECT_EQ(hello.scheme, scene::Scheme::light);
     const auto plain = std::get<Hello>(parsed(R"({"type":"hello","stream":"geometry"})").body);
     EXPECT_EQ(plain.stream, Stream::geometry);
     EXPECT_EQ(plain.encoding, Encoding::json);
     EXPECT_EQ(plain.viewport, (scene::Viewport{1280, 720}));
     EXPECT_FALSE(plain.token);
+    EXPECT_EQ(plain.scheme, scene::Scheme::dark);
     EXPECT_EQ(std::get<Hello>(parsed(R"({"type":"hello"})").body).stream, Stream::none);
 }
 
@@ -66,10 +69,22 @@ TEST(Parse, GetAndShown) {
     EXPECT_FALSE(std::get<Get>(parsed(R"({"type":"get","what":"frame"})").body).viewport);
     EXPECT_EQ(std::get<Get>(parsed(R"({"type":"get","what":"frame","width":64,"height":32})").body).viewport,
               (scene::Viewport{64, 32}));
+    EXPECT_FALSE(std::get<Get>(parsed(R"({"type":"get","what":"frame"})").body).background);
+    EXPECT_EQ(std::get<Get>(parsed(R"({"type":"get","what":"frame","background":"white"})").body).background,
+              scene::Background::white);
     for (const std::string name : {"skeleton", "frame"}) {  // "frame" is the former name
         const std::string text = R"({"type":"get","what":"file","format":"stl","body":")" + name + "\"}";
         EXPECT_EQ(std::get<Get>(parsed(text).body).file.body, exports::Body::skeleton);
     }
+    const auto file = [](const std::string& members) {
+        return std::get<Get>(parsed(R"({"type":"get","what":"file","format":"stl",)" + members + "}").body).file;
+    };
+    EXPECT_EQ(file(R"("at":[-1,0.5])").at, (std::vector<double>{-1, 0.5}));
+    EXPECT_EQ(file(R"("at":"-1, 1/2")").at, (std::vector<double>{-1, 0.5}));
+    EXPECT_EQ(file(R"("fit":5)").fit, 5);
+    EXPECT_EQ(file(R"("fit":5)").contents, exports::ExportContents::oval);
+    EXPECT_EQ(file(R"("at":[0],"of":"focus")").contents, exports::ExportContents::focus);
+    EXPECT_EQ(file(R"("body":"solid")").contents, exports::ExportContents::focus);
     EXPECT_EQ(std::get<ShownRevision>(parsed(R"({"type":"shown","revision":7})").body).revision, 7U);
 }
 
@@ -113,6 +128,8 @@ std::vector<SetMember> setMembers() {
         {"/camera/zoom", "3", [](const Set& set) { return set.zoom == 3; }},
         {"/color", R"("w")", [](const Set& set) { return set.coloring == scene::Coloring::w; }},
         {"/caps", R"("open")", [](const Set& set) { return set.caps == scene::CapStyle::open; }},
+        {"/background", R"("transparent")",
+         [](const Set& set) { return set.background == scene::Background::transparent; }},
         {"/projection", R"("orthogonal")",
          [](const Set& set) { return set.projection == scene::ProjectionKind::orthogonal; }},
         {"/eye", "5", [](const Set& set) { return set.eye == 5; }},

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -169,14 +171,45 @@ TEST(Tables, TheChoicesAreThoseOfTheSchemas) {
         EXPECT_EQ(allowedIn(type, "view"), namesIn(scene::kViews)) << type;
         EXPECT_EQ(allowedIn(type, "color"), namesIn(scene::kColorings)) << type;
         EXPECT_EQ(allowedIn(type, "projection"), namesIn(scene::kProjectionKinds)) << type;
+        EXPECT_EQ(allowedIn(type, "background"), namesIn(scene::kBackgrounds)) << type;
     }
+    EXPECT_EQ(allowedIn("get", "background"), namesIn(scene::kBackgrounds));
+    EXPECT_EQ(allowedIn("hello", "scheme"), namesIn(scene::kSchemes));
     EXPECT_EQ(allowedIn("slices", "scene.view"), namesIn(scene::kViews));
     EXPECT_EQ(allowedIn("hello", "stream"), namesIn(kStreams));
     EXPECT_EQ(allowedIn("hello", "encoding"), namesIn(kEncodings));
     EXPECT_EQ(allowedIn("get", "what"), namesIn(kGetTargets));
-    EXPECT_EQ(allowedIn("get", "of"), namesIn(exports::kExtents));
+    EXPECT_EQ(allowedIn("get", "of"), namesIn(exports::kExportContents));
     EXPECT_EQ(allowedIn("get", "body"), namesIn(exports::kBodies));
     EXPECT_EQ(allowedIn("get", "label"), namesIn(exports::kLabels));
+}
+
+TEST(Tables, TheColorsAreThoseOfTheCode) {
+    const json table = json::parse(protocol_data::embeddedFile("colors.json"));
+    const auto hex = [](scene::Color color) {
+        std::ostringstream text;
+        text << '#' << std::hex << std::setfill('0') << std::setw(6) << color;
+        return text.str();
+    };
+    using scene::Background;
+    for (const auto& [name, background] :
+         {std::pair("dark", Background::dark), {"light", Background::light}, {"white", Background::white}})
+        EXPECT_EQ(table.at("grounds").at(name), hex(scene::style(background).background)) << name;
+    for (const auto& [name, scheme] : scene::kSchemes) {
+        const scene::Style& style = scene::style(scheme == scene::Scheme::dark ? Background::dark : Background::white);
+        const json expected{{"text", hex(style.text)},
+                            {"focus", hex(style.focusText)},
+                            {"ball", hex(style.ball)},
+                            {"bar", hex(style.bar)},
+                            {"zero", hex(style.zeroLine)},
+                            {"highlight", hex(style.highlight)},
+                            {"axes", {hex(style.axes[0]), hex(style.axes[1]), hex(style.axes[2]), hex(style.axes[3])}},
+                            {"faces", style.faceOpacity},
+                            {"scale",
+                             {hex(scene::divergingColor(-1, scheme)), hex(scene::divergingColor(0, scheme)),
+                              hex(scene::divergingColor(1, scheme))}}};
+        EXPECT_EQ(table.at("schemes").at(std::string(name)), expected) << name;
+    }
 }
 
 TEST(Tables, ThePartsAreThoseOfTheSchemas) {

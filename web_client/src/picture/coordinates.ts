@@ -5,7 +5,7 @@ import type { Histogram, Slices, Viewport } from "@oval4d/protocol";
 
 import { DensityImage } from "./density_image";
 import type { HighlightedElements } from "./highlighted_elements";
-import { cssColor, kMinTextSize, setFont } from "./pen";
+import { cssColor, setFont } from "./pen";
 
 const kHighlightOpacity = 0.35; // of the bands behind highlighted vertices
 const kLevelOpacity = 0.8; // of the lines of levels in a histogram
@@ -13,15 +13,17 @@ const kFocusMark = 0.009; // half the width of the focus mark, as a fraction of 
 
 const density = new DensityImage();
 
+/** `leastText` is the least size of names, in canvas pixels. */
 export function drawCoordinates(
     pen: CanvasRenderingContext2D,
     picture: Slices,
     viewport: Viewport,
+    leastText: number,
     highlighted: HighlightedElements,
 ): void {
-    if (picture.histogram) drawHistogram(pen, picture, picture.histogram, viewport);
-    else if (picture.scene.coordinates.columns > 0) drawDensityStrip(pen, picture, viewport);
-    else drawLines(pen, picture, viewport, highlighted);
+    if (picture.histogram) drawHistogram(pen, picture, picture.histogram, viewport, leastText);
+    else if (picture.scene.coordinates.columns > 0) drawDensityStrip(pen, picture, viewport, leastText);
+    else drawLines(pen, picture, viewport, leastText, highlighted);
 }
 
 /** The vertex whose column contains this point, in pixels. */
@@ -41,6 +43,7 @@ function drawLines(
     pen: CanvasRenderingContext2D,
     { coordinates: values, scene }: Slices,
     viewport: Viewport,
+    leastText: number,
     highlighted: HighlightedElements,
 ): void {
     const { height } = viewport;
@@ -76,10 +79,11 @@ function drawLines(
         pen.fill();
     }
     if (!named) return;
-    const minSize = columnStep > 3 * kMinTextSize * devicePixelRatio ? kMinTextSize * devicePixelRatio : 0;
-    const digits = setFont(pen, Math.max(0.85 * scene.text * height, minSize));
+    const wanted = 0.85 * scene.text * height;
+    const digits = setFont(pen, Math.max(wanted, leastText));
+    const every = wanted < leastText ? Math.ceil((3 * leastText) / columnStep) : 1; // enlarged names need more room
     pen.fillStyle = cssColor(scene.colors.text);
-    for (let i = 0; i < count; ++i) {
+    for (let i = 0; i < count; i += every) {
         const x = left + (i % perRow) * columnStep + (3 * lineStep + thickness) / 2;
         pen.fillText(
             `P${i}`,
@@ -89,7 +93,12 @@ function drawLines(
     }
 }
 
-function drawDensityStrip(pen: CanvasRenderingContext2D, picture: Slices, { height }: Viewport): void {
+function drawDensityStrip(
+    pen: CanvasRenderingContext2D,
+    picture: Slices,
+    { height }: Viewport,
+    leastText: number,
+): void {
     const { colors, circumradius, coordinates: layout, text } = picture.scene;
     const [zero, amplitude] = [(1 - layout.zero) * height, layout.amplitude * height];
     const centerOf = (k: number): number => (layout.left + k * layout.line_step + layout.line_width / 2) * height;
@@ -97,7 +106,7 @@ function drawDensityStrip(pen: CanvasRenderingContext2D, picture: Slices, { heig
     density.draw(pen, centerOf(0), zero - amplitude, centerOf(3) - centerOf(0), 2 * amplitude);
 
     const thickness = Math.max(1, Math.round(layout.line_width * height));
-    const digits = setFont(pen, Math.max(0.85 * text * height, kMinTextSize * devicePixelRatio));
+    const digits = setFont(pen, Math.max(0.85 * text * height, leastText));
     for (let k = 0; k < 4; ++k) {
         const left = Math.round(centerOf(k) - thickness / 2);
         pen.fillStyle = cssColor(colors.axes[k]!);
@@ -116,6 +125,7 @@ function drawHistogram(
     picture: Slices,
     { reach, range: [least, greatest], levels }: Histogram,
     { height }: Viewport,
+    leastText: number,
 ): void {
     const { colors, coordinates: layout, text } = picture.scene;
     const [zero, amplitude] = [(1 - layout.zero) * height, layout.amplitude * height];
@@ -132,7 +142,7 @@ function drawHistogram(
         const left = Math.round(leftOf(3) + ((focus.w / reach[3] + 1) / 2) * width - thickness / 2);
         pen.fillRect(left, top, thickness, bottom - top);
     }
-    const digits = setFont(pen, Math.max(0.85 * text * height, kMinTextSize * devicePixelRatio));
+    const digits = setFont(pen, Math.max(0.85 * text * height, leastText));
     for (let k = 0; k < 4; ++k) {
         const left = Math.round(leftOf(k));
         pen.globalAlpha = kLevelOpacity;

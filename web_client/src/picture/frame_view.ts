@@ -8,7 +8,7 @@ export class FrameView {
     private bitmap: ImageBitmap | undefined;
 
     constructor(private readonly canvas: HTMLCanvasElement) {
-        this.context = canvas.getContext("bitmaprenderer", { alpha: false })!;
+        this.context = canvas.getContext("bitmaprenderer")!; // with alpha, which a transparent picture has
     }
 
     /** Decodes the frame that draw() shows next, in a worker. Transfers the buffer: the caller can no longer use it. */

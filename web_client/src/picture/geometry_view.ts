@@ -10,6 +10,7 @@ import { FogPainter } from "./fog_painter";
 import { Lens } from "./lens";
 import { type Counts, type HighlightedElements, allHighlighted } from "./highlighted_elements";
 import { Mesh } from "./mesh";
+import { onWhite } from "./on_white";
 import { drawOverlay } from "./overlay";
 import { ProjectionMesh } from "./projection_mesh";
 import { SliceLayout } from "./slice_layout";
@@ -139,8 +140,10 @@ export class GeometryView {
         if (this.sortedOrbit) this.projectionMesh.sortForCamera(this.lens);
     }
 
-    /** Draws the slices as seen from this orbit; `size` is in device pixels. */
-    draw(orbit: Orbit, size: Viewport): void {
+    /**
+     * Draws the slices as seen from this orbit. `size` is in device pixels, and so is `leastText`, the least size of labels.
+     */
+    draw(orbit: Orbit, size: Viewport, leastText: number): void {
         if (!this.picture || !this.pictureOrbit) return;
         const { scene } = this.picture;
         if (this.overlay.width !== size.width || this.overlay.height !== size.height) {
@@ -160,7 +163,19 @@ export class GeometryView {
         this.camera.matrixWorldInverse.copy(this.lens.view);
         this.renderer.setClearColor(this.background.setHex(scene.colors.background));
         this.render();
-        drawOverlay(this.pen, this.picture, this.lens, size, this.highlighted!, this.counts);
+        drawOverlay(this.pen, this.picture, this.lens, size, leastText, this.highlighted!, this.counts);
+    }
+
+    /** Draws the picture on white with `pen`, whose canvas has this size. Then draw() must be called again. */
+    print(pen: CanvasRenderingContext2D, orbit: Orbit, size: Viewport, leastText: number): void {
+        const { picture, pictureOrbit, counts, pointed } = this;
+        if (!picture || !pictureOrbit) return;
+        this.pointed = undefined;
+        this.update(onWhite(picture), pictureOrbit, counts);
+        this.draw(orbit, size, leastText);
+        for (const canvas of [this.renderer.domElement, this.overlay]) pen.drawImage(canvas, 0, 0);
+        this.pointed = pointed;
+        this.update(picture, pictureOrbit, counts);
     }
 
     /**

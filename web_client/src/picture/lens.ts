@@ -16,6 +16,8 @@ export class Lens {
     readonly view = new Matrix4();
     readonly projection = new Matrix4();
     readonly eye = new Vector3();
+    /** Whether the viewer has moved the camera. */
+    isMoved = false;
     private readonly axes = [new Vector3(), new Vector3(), new Vector3()] as const;
     private readonly clip = new Vector4();
     private width = 1;
@@ -25,6 +27,7 @@ export class Lens {
     set(camera: SceneDescription["camera"], viewport: Viewport, from: Orbit, to: Orbit): void {
         this.width = viewport.width;
         this.height = viewport.height;
+        this.isMoved = to.azimuth !== 0 || to.elevation !== 0 || to.zoom !== 1;
         const [right, up, back] = this.axes;
         const target = right.fromArray(camera.target);
         const { x, y, z } = back.fromArray(camera.eye).sub(target);

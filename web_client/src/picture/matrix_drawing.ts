@@ -1,8 +1,9 @@
 // Draws the matrix of planar sections, like server/render/overlay/matrix_panels.cpp.
 
-import type { SceneDescription, SectionMatrix, Slices, Viewport } from "@oval4d/protocol";
+import type { SceneDescription, SectionMatrix, Slices, Vector, Viewport } from "@oval4d/protocol";
 
 import { cellColor, type Counts, type HighlightedElements, isPointLit } from "./highlighted_elements";
+import type { Lens } from "./lens";
 import { type MatrixPanel, nameCenter, panelsOf } from "./matrix_panel";
 import { cssColor, setFont } from "./pen";
 
@@ -12,6 +13,9 @@ const kAxisOpacity = 0.55; // of the lines through the focus point
 const kCorner = 0.03; // the radius of a panel's corners, as a fraction of its side
 const kNameHeight = 0.3; // of an axis' name, as a fraction of a panel's side
 const kFocusLine = 0.0011; // the width of the lines, as a fraction of the viewport's height
+// The lines of the focus point in the focus slice: half their length in circumradii, and their width.
+const kFocusReach = 0.12;
+const kFocusWidth = 0.0028;
 
 /** What all panels of a picture have in common. */
 interface Look {
@@ -26,16 +30,49 @@ interface Look {
 
 export function drawMatrix(
     pen: CanvasRenderingContext2D,
-    { matrix, scene }: Slices,
+    picture: Slices,
+    lens: Lens,
     viewport: Viewport,
     highlighted: HighlightedElements,
     counts: Counts,
 ): void {
+    const { matrix, scene } = picture;
     if (!matrix) return;
+    drawFocusPoint(pen, picture, matrix, lens, viewport);
     const look = { pen, matrix, scene, viewport, highlighted, counts };
     drawNames(look);
     for (const panel of panelsOf(matrix, viewport)) drawPanel(panel, look);
     pen.globalAlpha = 1;
+}
+
+/** Draws the focus point in the focus slice: a line along each of the axes x, y and z through it. */
+function drawFocusPoint(
+    pen: CanvasRenderingContext2D,
+    { scene, slices }: Slices,
+    { point }: SectionMatrix,
+    lens: Lens,
+    viewport: Viewport,
+): void {
+    const slice = slices.find(({ focus }) => focus);
+    if (!slice) return;
+    pen.lineWidth = Math.max(1, kFocusWidth * viewport.height);
+    pen.lineCap = "round";
+    for (const axis of [0, 1, 2] as const) {
+        const [from, to] = [-1, 1].map((side) => {
+            const place = [0, 1, 2].map((k) => {
+                const offset = k === axis ? side * kFocusReach * scene.circumradius : 0;
+                return slice.position[k]! + scene.scale * (point[k]! + offset);
+            });
+            return lens.project(place as Vector);
+        });
+        if (!from || !to) continue;
+        pen.strokeStyle = cssColor(scene.colors.axes[axis]);
+        pen.beginPath();
+        pen.moveTo(from.x, from.y);
+        pen.lineTo(to.x, to.y);
+        pen.stroke();
+    }
+    pen.lineCap = "butt";
 }
 
 function drawNames({ pen, matrix, scene, viewport }: Look): void {

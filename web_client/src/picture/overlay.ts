@@ -7,13 +7,15 @@ import { drawCoordinates } from "./coordinates";
 import type { Lens } from "./lens";
 import type { Counts, HighlightedElements } from "./highlighted_elements";
 import { drawMatrix } from "./matrix_drawing";
-import { cssColor, kMinTextSize, setFont } from "./pen";
+import { cssColor, setFont } from "./pen";
 
+/** `leastText` is the least size of labels, in canvas pixels. */
 export function drawOverlay(
     pen: CanvasRenderingContext2D,
     picture: Slices,
     lens: Lens,
     viewport: Viewport,
+    leastText: number,
     highlighted: HighlightedElements,
     counts: Counts,
 ): void {
@@ -21,10 +23,23 @@ export function drawOverlay(
     pen.clearRect(0, 0, viewport.width, viewport.height);
     pen.textAlign = "center";
     pen.textBaseline = "alphabetic";
-    if (scene.shown.coordinates) drawCoordinates(pen, picture, viewport, highlighted);
-    drawLabels(pen, slices, scene, lens, viewport);
-    drawAxes(pen, scene, lens, viewport);
-    drawMatrix(pen, picture, viewport, highlighted, counts);
+    if (scene.shown.coordinates && lens.isMoved) clearCoordinates(pen, scene, viewport);
+    if (scene.shown.coordinates) drawCoordinates(pen, picture, viewport, leastText, highlighted);
+    drawLabels(pen, slices, scene, lens, viewport, leastText);
+    drawAxes(pen, scene, lens, viewport, leastText);
+    drawMatrix(pen, picture, lens, viewport, highlighted, counts);
+}
+
+/** The height of the upper edge of the parallel coordinates, from the bottom: CoordinatesLayout::top() of the server. */
+function topOfCoordinates({ coordinates: { zero, amplitude } }: SceneDescription, { height }: Viewport): number {
+    return (zero + amplitude + 0.01) * height;
+}
+
+/** Covers the slices that extend into the parallel coordinates, because the viewer has moved the camera. */
+function clearCoordinates(pen: CanvasRenderingContext2D, scene: SceneDescription, viewport: Viewport): void {
+    const top = Math.round(topOfCoordinates(scene, viewport));
+    pen.fillStyle = cssColor(scene.colors.background);
+    pen.fillRect(0, viewport.height - top, viewport.width, top);
 }
 
 interface Label {
@@ -46,26 +61,27 @@ function drawLabels(
     scene: SceneDescription,
     lens: Lens,
     viewport: Viewport,
+    leastText: number,
 ): void {
-    const minSize = kMinTextSize * devicePixelRatio;
     const placed: Label[] = [];
+    const bottom = scene.shown.coordinates && lens.isMoved ? viewport.height - topOfCoordinates(scene, viewport) : viewport.height;
     const labeled = slices.filter((slice) => slice.drawn && slice.label !== "");
     labeled.sort((a, b) => Number(b.focus) - Number(a.focus) || Math.abs(a.position[0]) - Math.abs(b.position[0]));
     for (const slice of labeled) {
         const at = lens.project(slice.label_at);
         if (!at) continue;
         const wanted = scene.text * slice.label_size * viewport.height;
-        const size = Math.max(wanted, minSize);
+        const size = Math.max(wanted, leastText);
         const digits = setFont(pen, size);
         const label = { slice, ...at, size, digits, half: pen.measureText(slice.label).width / 2 };
         const whole =
             label.x >= label.half &&
             label.x <= viewport.width - label.half &&
             label.y >= 0 &&
-            label.y <= viewport.height - digits;
+            label.y <= bottom - digits;
         const apart = (other: Label): boolean =>
             Math.abs(other.x - label.x) > other.half + label.half + digits / 2 ||
-            Math.abs(other.y - label.y) > 1.5 * digits;
+            Math.abs(other.y - label.y) > 1.1 * digits;
         if (slice.focus || (whole && placed.every(apart))) placed.push(label);
     }
     for (const label of placed.reverse()) drawLabel(pen, scene, label); // the focus slice's label last, on top
@@ -78,8 +94,8 @@ function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, 
     const x = Math.round(label.x);
     const baseline = Math.round(label.y + digits);
     // A background behind the label keeps it legible where it covers another slice.
-    const half = Math.round(label.half) + Math.round((focus ? 0.9 : 0.45) * digits);
-    const margin = Math.round((focus ? 0.6 : 0.35) * digits);
+    const half = Math.round(label.half) + Math.round((focus ? 0.9 : 0.25) * digits);
+    const margin = Math.round((focus ? 0.6 : 0.13) * digits);
     const height = digits + 2 * margin;
     pen.beginPath();
     pen.roundRect(x - half, baseline - digits - margin, 2 * half, height, height / 2);
@@ -96,7 +112,13 @@ function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, 
 }
 
 /** Draws the x, y and z axes as seen by the camera, from far to near. */
-function drawAxes(pen: CanvasRenderingContext2D, scene: SceneDescription, lens: Lens, viewport: Viewport): void {
+function drawAxes(
+    pen: CanvasRenderingContext2D,
+    scene: SceneDescription,
+    lens: Lens,
+    viewport: Viewport,
+    leastText: number,
+): void {
     const length = scene.axes.length * viewport.height;
     const [x, y] = [scene.axes.x * viewport.height, scene.axes.y * viewport.height];
     const ball = (atX: number, atY: number, radius: number, color: string): void => {
@@ -109,7 +131,7 @@ function drawAxes(pen: CanvasRenderingContext2D, scene: SceneDescription, lens: 
         return { direction: lens.axis(i), color: cssColor(scene.colors.axes[i]), name: "xyz"[i]! };
     });
     axes.sort((a, b) => a.direction.z - b.direction.z);
-    const digits = setFont(pen, scene.text * viewport.height);
+    const digits = setFont(pen, Math.max(scene.text * viewport.height, leastText));
     const paint = ({ direction, color, name }: (typeof axes)[number]): void => {
         const [tipX, tipY] = [x + direction.x * length, y - direction.y * length];
         pen.strokeStyle = color;

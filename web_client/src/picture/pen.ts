@@ -2,8 +2,6 @@
 
 const kFont = '"DejaVu Sans", Verdana, system-ui, sans-serif';
 
-export const kMinTextSize = 9; // CSS pixels
-
 /** Converts 0xRRGGBB to a CSS color. */
 export function cssColor(color: number): string {
     return `#${color.toString(16).padStart(6, "0")}`;

@@ -14,6 +14,12 @@ import { kBall, kBar, kFace } from "./shaders";
 import { kQuad, ShapeBuffers } from "./shape_buffers";
 import { sortByKey } from "./sort";
 
+/** What determines when a translucent shape is drawn: the middle of a polygon, a ball's center, or an end of a bar. */
+const kMiddle = 0;
+const kCenter = 1;
+const kFarEnd = 2;
+const kNearEnd = 3;
+
 export class ProjectionMesh {
     readonly solid = new BufferGeometry();
     readonly translucent = new BufferGeometry();
@@ -26,10 +32,10 @@ export class ProjectionMesh {
     private readonly solidIndex = new GrowingBuffer(Uint32Array, 1);
     private readonly translucentIndex = new GrowingBuffer(Uint32Array, 1);
     private used = 0; // vertices
-    // The translucent shapes: the first vertex of each, the number of its vertices, and a quad or a fan of triangles.
+    // The translucent shapes: the first vertex of each, the number of its vertices, and what determines its depth.
     private first = new Uint32Array(0);
     private size = new Uint32Array(0);
-    private quad = new Uint8Array(0);
+    private depthOf = new Uint8Array(0);
     private depth = new Float32Array(0);
     private order = new Uint32Array(0);
     private scratch = new Uint32Array(0);
@@ -47,9 +53,9 @@ export class ProjectionMesh {
         let solids = 0;
         const opacities = [0, scene.faded, 1];
         parts.forEach((part, i) => {
-            const addQuad = (opacity: number): void => {
+            const addQuad = (opacity: number, depthOf: number): void => {
                 if (opacity === 0) this.used -= 4;
-                else if (i > 0 || opacity < 1) this.addTranslucent(4, true);
+                else if (i > 0 || opacity < 1) this.addTranslucent(4, depthOf);
                 else for (const corner of kQuad) this.solidIndex.array[solids++] = this.used - 4 + corner;
             };
             const point = (v: number): [number, number, number] => [
@@ -66,7 +72,7 @@ export class ProjectionMesh {
                     this.shapes.setShape(this.used, kBall, corner);
                     this.shapes.setColor(this.used, color, opacity);
                 }
-                addQuad(opacity);
+                addQuad(opacity, kCenter);
             }
             for (let e = 0; part.bar > 0 && e < part.edges.length / 2; ++e) {
                 const opacity = opacities[part.seen?.edges[e] ?? 2]!;
@@ -77,7 +83,7 @@ export class ProjectionMesh {
                     this.shapes.setShape(this.used, kBar, corner, part.bar / this.barRadius);
                     this.shapes.setColor(this.used, color, opacity);
                 }
-                addQuad(opacity);
+                addQuad(opacity, i > 0 ? kNearEnd : kFarEnd); // a section shines through the faces
             }
             const color = (cell: number): number => cellColor(cell, scene.colors, highlighted);
             if (part.opacity > 0) this.addFaces(part, point, color, opacities);
@@ -92,15 +98,20 @@ export class ProjectionMesh {
     /** Orders the translucent shapes for this camera. */
     sortForCamera({ view: { elements: view } }: Lens): void {
         const { array: at } = this.shapes.at;
+        const { array: to } = this.shapes.to;
         const { array: index } = this.translucentIndex;
+        const heightOf = (points: Float32Array, v: number): number =>
+            view[2]! * points[3 * v]! + view[6]! * points[3 * v + 1]! + view[10]! * points[3 * v + 2]!;
         for (let i = 0; i < this.count; ++i) {
-            let nearest = 0;
-            // A bar begins and ends at `at` and `to`; the far end determines when it is drawn.
-            const vertices = this.quad[i] ? 1 : this.size[i]!;
-            for (let v = this.first[i]!; v < this.first[i]! + vertices; ++v) {
-                nearest += view[2]! * at[3 * v]! + view[6]! * at[3 * v + 1]! + view[10]! * at[3 * v + 2]!;
+            const [first, kind] = [this.first[i]!, this.depthOf[i]!];
+            let height = heightOf(at, first); // toward the viewer
+            if (kind === kFarEnd) height = Math.min(height, heightOf(to, first));
+            else if (kind === kNearEnd) height = Math.max(height, heightOf(to, first));
+            else if (kind === kMiddle) {
+                for (let v = first + 1; v < first + this.size[i]!; ++v) height += heightOf(at, v);
+                height /= this.size[i]!;
             }
-            this.depth[i] = nearest / vertices;
+            this.depth[i] = height;
             this.order[i] = i;
         }
         sortByKey(this.order, [0, this.count], this.depth, this.scratch);
@@ -108,7 +119,7 @@ export class ProjectionMesh {
         for (let k = 0; k < this.count; ++k) {
             const i = this.order[k]!;
             const first = this.first[i]!;
-            if (this.quad[i]) for (const corner of kQuad) index[used++] = first + corner;
+            if (this.depthOf[i] !== kMiddle) for (const corner of kQuad) index[used++] = first + corner;
             else {
                 for (let v = 2; v < this.size[i]!; ++v) {
                     index[used++] = first;
@@ -146,15 +157,15 @@ export class ProjectionMesh {
                 this.shapes.setShape(this.used, kFace);
                 this.shapes.setColor(this.used, colorOf(tints[f]!), opacity);
             }
-            this.addTranslucent(begin[f + 1]! - begin[f]!, false);
+            this.addTranslucent(begin[f + 1]! - begin[f]!, kMiddle);
         }
     }
 
     /** Adds a shape that consists of the last vertices. */
-    private addTranslucent(vertices: number, quad: boolean): void {
+    private addTranslucent(vertices: number, depthOf: number): void {
         this.first[this.count] = this.used - vertices;
         this.size[this.count] = vertices;
-        this.quad[this.count++] = quad ? 1 : 0;
+        this.depthOf[this.count++] = depthOf;
     }
 
     private reserve(parts: ObjectProjection["parts"]): void {
@@ -167,7 +178,7 @@ export class ProjectionMesh {
         for (const name of ["first", "size", "order", "scratch"] as const) {
             this[name] = ensureCapacity(this[name], quads + faces);
         }
-        this.quad = ensureCapacity(this.quad, quads + faces);
+        this.depthOf = ensureCapacity(this.depthOf, quads + faces);
         this.depth = ensureCapacity(this.depth, quads + faces);
         const solidGrown = this.solidIndex.reserve(6 * quads);
         const translucentGrown = this.translucentIndex.reserve(6 * quads + 3 * corners);

@@ -1,7 +1,7 @@
 // Shaders that draw balls, bars and faces as flat patches with coordinates (u, v) and axes X, Y, Z. The normal is
 // X·u + Y·v + Z·√(1 − u² − v²). A ball is the unit disk, and Z points to the eye; on a bar, v is 0 and u runs across
 // the bar; on a face, u = v = 0. Directions of light are passed as dot products with X, Y and Z. Edges are
-// antialiased over one pixel. An element that is thinner than kThinnest is drawn with that width and reduced opacity.
+// antialiased over one pixel. The far end of a bar is round, so that v is not 0 there. An element that is thinner than kThinnest is drawn with that width and reduced opacity.
 
 /** Values of the attribute `shape`'s third component. */
 export const kBall = 0;
@@ -20,12 +20,14 @@ in vec4 color;
 out vec3 place;  // u, v, and half the radius in pixels
 flat out vec3 diffuse, specular, tint;
 flat out float alpha;
+flat out float leastV;  // smaller values of v mean this one
 #ifdef SOLID
 out float depth;        // of the patch, along the camera's axis
 flat out float bulge;   // how far the body rises from the patch toward the viewer
 #endif
 
-const float kThinnest = 0.6;  // radius in pixels
+const float kThinnest = 0.6;      // radius in pixels
+const float kMinFootRadius = 1.8;  // in pixels; thinner bars have no foot
 
 // Widens a thin radius; returns the factor, and sets alpha and place.z accordingly.
 float widen(float radius, bool round) {
@@ -65,7 +67,20 @@ void bar(vec3 from, vec3 end, vec3 h) {
     diffuse = shading.y * vec3(dot(x, light), 0.0, dot(z, light));
     specular = vec3(dot(x, h), 0.0, dot(z, h));
     vec3 side = x * (place.x * radius * wide * sqrt(n2 / inside2));
-    gl_Position = projectionMatrix * vec4((shape.y < 0.0 ? from : end) + side, 1.0);
+    vec3 corner = (shape.y < 0.0 ? from : end) + side;
+#ifndef SOLID
+    // A bar is drawn over the ball at its far end, and has a round foot there: the half of the circle at this end that is
+    // turned to the eye. The patch extends to where this half ends in the picture; v rises from 0 at the far end.
+    bool fromIsFar = from.z < end.z;
+    vec3 far = fromIsFar ? from : end, along = (fromIsFar ? axis : -axis) / sqrt(axis2);
+    float rise = radius * reach, extension = dot(far, along) * rise / (dot(far, z) + rise);
+    if (extension > 0.001 * rise && dot(far, z) + rise < 0.0 && 2.0 * place.z >= kMinFootRadius) {
+        bool isFar = (shape.y < 0.0) == fromIsFar;
+        place.y = isFar ? reach : -reach * sqrt(axis2) / extension;
+        if (isFar) corner -= extension * along;
+    }
+#endif
+    gl_Position = projectionMatrix * vec4(corner, 1.0);
 #ifdef SOLID
     depth = (shape.y < 0.0 ? from : end).z;
     bulge = radius * z.z;
@@ -80,6 +95,7 @@ void main() {
     bulge = 0.0;
 #endif
     alpha = 1.0;
+    leastV = shape.z == ${kBall}.0 ? -2.0 : 0.0;
     tint = color.rgb;
     vec3 h = normalize(light + vec3(0.0, 0.0, 1.0));
     vec3 seen = (viewMatrix * vec4(at, 1.0)).xyz;
@@ -105,7 +121,7 @@ precision highp float;
 uniform vec4 shading;
 in vec3 place;
 flat in vec3 diffuse, specular, tint;
-flat in float alpha;
+flat in float alpha, leastV;
 #ifdef SOLID
 uniform mat4 projectionMatrix;
 in float depth;
@@ -113,8 +129,9 @@ flat in float bulge;
 #endif
 out vec4 pixel;
 void main() {
-    float q = 1.0 - dot(place.xy, place.xy);
-    vec3 n = vec3(place.xy, sqrt(max(q, 0.0)));
+    vec2 uv = vec2(place.x, max(place.y, leastV));
+    float q = 1.0 - dot(uv, uv);
+    vec3 n = vec3(uv, sqrt(max(q, 0.0)));
     float shine = shading.z * pow(max(dot(n, specular), 0.0), shading.w);
     vec3 lit = tint * (shading.x + max(dot(n, diffuse), 0.0)) + shine;
     pixel = vec4(lit, alpha * clamp(q * place.z + 0.5, 0.0, 1.0));

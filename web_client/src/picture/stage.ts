@@ -29,6 +29,10 @@ export interface SizeLimits {
 }
 
 const kMaxPixels = 4_000_000; // more pixels take time without a visible benefit
+const kPrintPixels = 6_000_000; // about 300 dots per inch on a sheet of A4
+const kMaxPrintSide = 4096; // larger canvases are not drawn everywhere
+const kLeastText = 9; // CSS pixels
+const kLeastTextInFullScreen = 0.02; // of the screen's height, legible from the back of a room
 
 export class Stage {
     orbit: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
@@ -124,7 +128,36 @@ export class Stage {
 
     /** Draws within the current animation frame. */
     drawNow(): void {
-        if (this.currentMode === "geometry") this.geometry?.draw(this.orbit, this.size);
+        if (this.currentMode === "geometry") this.geometry?.draw(this.orbit, this.size, this.leastText);
+    }
+
+    /** The size of the picture for printing, in pixels; its shape is that of the picture on the page. */
+    get printSize(): Viewport {
+        const { width, height } = this.size;
+        const scale = Math.min(Math.sqrt(kPrintPixels / (width * height)), kMaxPrintSide / Math.max(width, height));
+        return { width: Math.round(width * Math.max(1, scale)), height: Math.round(height * Math.max(1, scale)) };
+    }
+
+    /** Draws the picture for printing to a canvas: on white, or as it is shown if the server has drawn it. */
+    print(canvas: HTMLCanvasElement): void {
+        const { frame } = this.canvases;
+        const { width, height } = this.currentMode === "geometry" ? this.printSize : frame;
+        Object.assign(canvas, { width, height });
+        const pen = canvas.getContext("2d")!;
+        if (this.currentMode === "frames") {
+            if (width > 0 && height > 0) pen.drawImage(frame, 0, 0);
+            return;
+        }
+        this.geometry?.print(pen, this.orbit, { width, height }, (this.leastText * height) / this.size.height);
+        this.drawNow();
+    }
+
+    /** The least height of texts in the picture, in its pixels. */
+    private get leastText(): number {
+        const isFull = document.documentElement.hasAttribute("data-full-screen");
+        const least = isFull ? Math.max(kLeastText, kLeastTextInFullScreen * innerHeight) : kLeastText;
+        const height = this.root.clientHeight || this.size.height / devicePixelRatio; // nothing has a height in print
+        return Math.ceil((least * this.size.height) / height);
     }
 
     private draw(): void {

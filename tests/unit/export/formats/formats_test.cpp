@@ -44,10 +44,11 @@ TEST(Formats, areThoseOfTheTable) {
 TEST(Formats, areAllWritten) {
     for (const Format& format : formats()) {
         if (format.objects == Format::Objects::fields) continue;
-        for (const Extent extent : format.extents) {
-            if (extent == Extent::projection || extent == Extent::matrix) continue;  // these need other scenes
-            const Hyperplanes planes = extent == Extent::oval ? Hyperplanes{-2, 5, 0.5} : Hyperplanes{0, 1, 0.5};
-            const std::string bytes = fileOf(named("24-cell"), {}, planes, {.format = &format, .extent = extent});
+        for (const ExportContents contents : format.contents) {
+            using enum ExportContents;
+            if (contents == projection || contents == matrix || contents == highlight) continue;  // need other scenes
+            const Hyperplanes planes = contents == oval ? Hyperplanes{-2, 5, 0.5} : Hyperplanes{0, 1, 0.5};
+            const std::string bytes = fileOf(named("24-cell"), {}, planes, {.format = &format, .contents = contents});
             EXPECT_GT(bytes.size(), 100U) << format.name;
             EXPECT_FALSE(bytes.starts_with("refused")) << bytes;
         }
@@ -63,7 +64,7 @@ std::vector<double> numbersIn(const std::string& row) {
 
 TEST(Csv, hasARowForEachSlice) {
     const Polytope& p = named("8-cell");
-    std::istringstream in(fileOf(p, {}, {-2, 5, 1}, {.format = formatNamed("csv"), .extent = Extent::oval}));
+    std::istringstream in(fileOf(p, {}, {-2, 5, 1}, {.format = formatNamed("csv"), .contents = ExportContents::oval}));
     std::string line;
     std::getline(in, line);
     EXPECT_EQ(line, "n,w,vertices,edges,faces,volume,area,centroid_x,centroid_y,centroid_z");
@@ -83,7 +84,7 @@ TEST(Csv, hasARowForEachSlice) {
 
 TEST(Csv, hasARowForEachCriticalW) {
     std::istringstream in(
-        fileOf(named("8-cell"), {}, {0, 1, 1}, {.format = formatNamed("csv"), .extent = Extent::critical}));
+        fileOf(named("8-cell"), {}, {0, 1, 1}, {.format = formatNamed("csv"), .contents = ExportContents::critical}));
     std::string line;
     std::getline(in, line);
     EXPECT_EQ(line, "w,vertices");

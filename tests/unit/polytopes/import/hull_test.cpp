@@ -170,15 +170,20 @@ TEST(Hull, OfWholeNumbersIsExact) {
         const Imported imported = sound(importPoints(asPoints(points)));
         const Polytope& hull = imported.polytope;
         EXPECT_EQ(eulerOf(hull), 0);
+        Points corners;  // in the coordinates of the file, which are exact even if the origin was moved to the center
+        for (const auto& v : hull.vertices) {
+            corners.push_back(v + hull.originInFile);
+            ASSERT_NE(std::find(points.begin(), points.end(), corners.back()), points.end()) << "trial " << trial;
+        }
         for (std::size_t c = 0; c < hull.cellCount(); ++c) {
             std::set<std::uint32_t> own;
             for (const auto f : hull.cells[c]) own.insert(hull.faces[f].begin(), hull.faces[f].end());
-            const auto& corners = hull.faces[hull.cells[c][0]];
-            const glm::dvec4& at = hull.vertices[corners[0]];
+            const auto face = hull.faces[hull.cells[c][0]];
+            const glm::dvec4& at = corners[face[0]];
             Exact normal{};
             for (const auto v : own) {
-                normal = normalOf(between(hull.vertices[corners[1]], at), between(hull.vertices[corners[2]], at),
-                                  between(hull.vertices[v], at));
+                normal =
+                    normalOf(between(corners[face[1]], at), between(corners[face[2]], at), between(corners[v], at));
                 if (normal != Exact{}) break;
             }
             ASSERT_NE(normal, Exact{}) << "cell " << c << " is flat";
@@ -188,8 +193,8 @@ TEST(Hull, OfWholeNumbersIsExact) {
                 below = below || dot(normal, between(p, at)) < 0;
             }
             EXPECT_NE(above, below) << "trial " << trial << ", cell " << c;
-            for (std::uint32_t v = 0; v < hull.vertices.size(); ++v) {
-                EXPECT_EQ(dot(normal, between(hull.vertices[v], at)) == 0, own.count(v) == 1)
+            for (std::uint32_t v = 0; v < corners.size(); ++v) {
+                EXPECT_EQ(dot(normal, between(corners[v], at)) == 0, own.count(v) == 1)
                     << "trial " << trial << ", cell " << c << ", vertex " << v;
             }
         }

@@ -1,0 +1,341 @@
+#include "export/drawing/slices_drawing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace oval4d::exports {
+
+namespace {
+
+using slicing::SliceSet;
+
+// Shapes that are closer to the eye than this, in world units, are not drawn.
+constexpr double kNearest = 1e-3;
+constexpr double kDigitHeight = 0.73;            // of the font, as a fraction of its size
+constexpr std::size_t kTypicalShapeBytes = 150;  // of a file
+constexpr double kFocusReach = 0.12;             // half the length of the lines of the focus point, in circumradii
+
+/// Returns the text in ASCII, which is all that the fonts of PDF files have in common.
+std::string asciiOf(const std::string& label) {
+    constexpr std::string_view kMinus = "\u2212";
+    std::string text = label;
+    for (std::size_t at = 0; (at = text.find(kMinus, at)) != std::string::npos; ++at)
+        text.replace(at, kMinus.size(), "-");
+    return text;
+}
+
+/// Maps view space to the paper.
+class Paper {
+  public:
+    explicit Paper(const scene::Scene& scene)
+        : camera_(scene.camera),
+          aspect_(static_cast<double>(scene.viewport.width) / scene.viewport.height),
+          height_(kDrawingWidth / aspect_) {}
+
+    double height() const { return height_; }
+    /// Returns the length on the paper of a length of 1 at the place of this point.
+    double scaleAt(const glm::dvec3& seen) const { return camera_.magnification() * height_ / -seen.z; }
+    glm::dvec2 operator()(const glm::dvec3& seen) const {
+        const glm::dvec2 at = glm::dvec2(seen) * (camera_.magnification() / -seen.z) +
+                              glm::dvec2((0.5 + camera_.shiftX) * aspect_, 0.5 + camera_.shiftY);
+        return {at.x * height_, (1 - at.y) * height_};
+    }
+
+  private:
+    const scene::Camera& camera_;
+    double aspect_, height_;
+};
+
+class SliceDrawer {
+  public:
+    SliceDrawer(const scene::Scene& scene, const Paper& paper)
+        : scene_(scene), set_(*scene.slices), style_(scene.style()), paper_(paper), view_(scene.camera.view()) {
+        const double ball = scene.ballRadius, bar = scene.barRadius;
+        if (scene.look.parts.balls) hiddenEnd_ = std::sqrt(std::max(ball * ball - bar * bar, 0.0));
+    }
+
+    ShapeGroup draw(std::size_t slice) {
+        slice_ = slice;
+        items_.clear();
+        const std::uint32_t v0 = set_.vertexBegin[slice], v1 = set_.vertexBegin[slice + 1];
+        points_.clear();
+        for (std::uint32_t v = v0; v < v1; ++v) points_.push_back(seen(set_.vertices[v]));
+        findSides();
+        if (scene_.look.parts.faces && !scene_.crossing) addFaces();
+        if (scene_.look.parts.faces && scene_.crossing) addPieces();
+        if (scene_.look.parts.balls || !set_.ballScale.empty()) addBalls();  // those of a point cloud always
+        if (scene_.look.parts.bars) addBars();
+        std::ranges::stable_sort(items_, {}, [](const Item& item) { return std::pair(item.layer, item.depth); });
+        ShapeGroup group{"slice_" + std::to_string(scene_.placements[slice].index), {}};
+        for (Item& item : items_) group.shapes.push_back(std::move(item.shape));
+        return group;
+    }
+
+  private:
+    /// The layers of a convex slice. Everything in a crossing slice is in one layer.
+    enum Layer : std::uint8_t { away_faces, away_frame, toward_faces, toward_frame };
+    struct Item {
+        Layer layer;
+        double depth;  ///< increases toward the viewer
+        Shape shape;
+    };
+
+    glm::dvec3 seen(const glm::dvec3& p) const {
+        return glm::dvec3(view_ * glm::dvec4(scene_.placements[slice_].position + scene_.scale * p, 1));
+    }
+    static bool isBehind(const glm::dvec3& p) { return p.z > -kNearest; }
+
+    std::span<const std::uint32_t> loopOf(std::uint32_t face) const {
+        return std::span(set_.corners)
+            .subspan(set_.cornerBegin[face], set_.cornerBegin[face + 1] - set_.cornerBegin[face]);
+    }
+
+    /// Returns twice the area of a polygon times its normal.
+    static glm::dvec3 areaOf(std::span<const glm::dvec3> corners) {
+        glm::dvec3 area(0);
+        for (std::size_t i = 2; i < corners.size(); ++i)
+            area += glm::cross(corners[i - 1] - corners[0], corners[i] - corners[0]);
+        return area;
+    }
+
+    std::vector<glm::dvec3> cornersOf(std::uint32_t face) const {
+        std::vector<glm::dvec3> corners;
+        for (const std::uint32_t v : loopOf(face)) corners.push_back(points_[v]);
+        return corners;
+    }
+
+    /// Finds which edges and vertices belong to a face that is turned toward the eye.
+    void findSides() {
+        towardVertices_.assign(points_.size(), false);
+        towardEdges_.assign(set_.edgeBegin[slice_ + 1] - set_.edgeBegin[slice_], false);
+        if (scene_.crossing) return;
+        for (std::uint32_t f = set_.faceBegin[slice_]; f < set_.faceBegin[slice_ + 1]; ++f) {
+            const auto corners = cornersOf(f);
+            if (corners.empty() || glm::dot(areaOf(corners), corners[0]) >= 0) continue;
+            for (std::uint32_t c = set_.cornerBegin[f]; c < set_.cornerBegin[f + 1]; ++c) {
+                towardVertices_[set_.corners[c]] = true;
+                towardEdges_[set_.cornerEdges[c]] = true;
+            }
+        }
+    }
+
+    /// Returns the color of a face with this normal, as in the picture.
+    scene::Color lit(scene::Color color, const glm::dvec3& area) const {
+        const double length = glm::length(area);
+        const double facing = length > 0 ? std::abs(glm::dot(area / length, style_.light)) : 0;
+        const double light = style_.ambient + style_.diffuse * facing;
+        scene::Color out = 0;
+        for (const int shift : {16, 8, 0}) {
+            const double channel = std::min(light * (color >> shift & 255U), 255.0);
+            out |= static_cast<scene::Color>(std::lround(channel)) << shift;
+        }
+        return out;
+    }
+
+    void addPolygon(Layer layer, std::span<const glm::dvec3> corners, scene::Color color, double opacity) {
+        if (opacity == 0 || corners.size() < 3 || std::ranges::any_of(corners, isBehind)) return;
+        FilledPolygon polygon{{}, color, opacity};
+        double depth = 0;
+        for (const glm::dvec3& p : corners) {
+            polygon.corners.push_back(paper_(p));
+            depth += p.z / static_cast<double>(corners.size());
+        }
+        items_.push_back({layer, depth, std::move(polygon)});
+    }
+
+    void addFaces() {
+        for (std::uint32_t f = set_.faceBegin[slice_]; f < set_.faceBegin[slice_ + 1]; ++f) {
+            const auto corners = cornersOf(f);
+            const glm::dvec3 area = areaOf(corners);
+            const bool toward = !corners.empty() && glm::dot(area, corners[0]) < 0;
+            const double opacity =
+                scene_.faceOpacity * slicing::opacityOf(scene_.visibilities.face(set_.faceSource[f]));
+            addPolygon(toward ? toward_faces : away_faces, corners, lit(scene_.cellColors[scene_.cellOfFace(f)], area),
+                       opacity);
+        }
+    }
+
+    /// Adds the convex pieces of faces that cross each other.
+    void addPieces() {
+        const slicing::Fill& fill = scene_.fill;
+        if (fill.empty()) return;
+        for (std::uint32_t p = fill.patchBegin[slice_]; p < fill.patchBegin[slice_ + 1]; ++p) {
+            const slicing::Fill::Patch& patch = fill.patches[p];
+            const double opacity = scene_.faceOpacity * slicing::opacityOf(scene_.visibilities.face(patch.source));
+            const scene::Color color = lit(scene_.cellColors[scene_.patchCells[p]], glm::dmat3(view_) * patch.normal);
+            for (std::uint32_t k = fill.pieceBegin[p]; k < fill.pieceBegin[p + 1]; ++k) {
+                std::vector<glm::dvec3> corners;
+                for (std::uint32_t c = fill.cornerBegin[k]; c < fill.cornerBegin[k + 1]; ++c)
+                    corners.push_back(seen(fill.corners[c]));
+                addPolygon(away_faces, corners, color, opacity);
+            }
+        }
+    }
+
+    /// Returns the layer of bars and balls.
+    Layer frameLayer(bool toward) const {
+        if (scene_.crossing) return away_faces;
+        return toward ? toward_frame : away_frame;
+    }
+
+    // A bar covers the ball at its far end, and the ball at its near end covers the bar: balls are added before bars.
+    void addBalls() {
+        for (std::uint32_t i = 0; i < points_.size(); ++i) {
+            const std::uint32_t v = set_.vertexBegin[slice_] + i;
+            const double own = set_.ballOpacity.empty() ? 1 : set_.ballOpacity[v];
+            const double opacity = own * slicing::opacityOf(scene_.visibilities.vertex(set_.vertexSource[v]));
+            if (opacity == 0 || isBehind(points_[i])) continue;
+            const double radius = scene_.ballRadius * (set_.ballScale.empty() ? 1 : set_.ballScale[v]);
+            const bool isHighlighted = scene_.highlight.hasVertex(set_.vertexSource[v]);
+            items_.push_back({frameLayer(towardVertices_[i]), points_[i].z,
+                              Disk{paper_(points_[i]), radius * paper_.scaleAt(points_[i]),
+                                   isHighlighted ? style_.highlight : style_.ball, opacity}});
+        }
+    }
+
+    void addBars() {
+        for (std::uint32_t i = 0; i < towardEdges_.size(); ++i) {
+            const std::uint32_t e = set_.edgeBegin[slice_] + i;
+            const glm::dvec3 a = points_[set_.edges[e][0]], b = points_[set_.edges[e][1]];
+            const double opacity = slicing::opacityOf(scene_.visibilities.edge(set_.edgeSource[e]));
+            const double length = glm::distance(a, b);
+            if (opacity == 0 || isBehind(a) || isBehind(b) || length <= 2 * hiddenEnd_) continue;
+            const glm::dvec3 cut = length > 0 ? (b - a) * (hiddenEnd_ / length) : glm::dvec3(0);
+            const double width = 2 * scene_.barRadius * paper_.scaleAt((a + b) / 2.0);
+            items_.push_back(
+                {frameLayer(towardEdges_[i]), std::min(a.z, b.z),
+                 Line{.from = paper_(a + cut),
+                      .to = paper_(b - cut),
+                      .width = width,
+                      .color = scene_.highlight.hasEdge(set_.edgeSource[e]) ? style_.highlight : style_.bar,
+                      .roundEnds = hiddenEnd_ == 0,
+                      .opacity = opacity}});
+        }
+    }
+
+    const scene::Scene& scene_;
+    const SliceSet& set_;
+    const scene::Style& style_;
+    const Paper& paper_;
+    const glm::dmat4 view_;
+    double hiddenEnd_ = 0;  // the length of a bar's end that is inside a ball, in world units
+    std::size_t slice_ = 0;
+    std::vector<glm::dvec3> points_;  // in view space
+    std::vector<bool> towardVertices_, towardEdges_;
+    std::vector<Item> items_;
+};
+
+ShapeGroup drawLabels(const scene::Scene& scene, const Paper& paper) {
+    const scene::Style& style = scene.style();
+    const glm::dmat4 view = scene.camera.view();
+    ShapeGroup labels{"labels", {}};
+    for (const scene::SlicePlacement& placement : scene.placements) {
+        const glm::dvec3 at(view * glm::dvec4(placement.labelAt, 1));
+        if (!placement.drawn || placement.label.empty() || at.z > -kNearest) continue;
+        const double size = style.textHeight * placement.labelSize * paper.height();
+        labels.shapes.emplace_back(TextLine{paper(at) + glm::dvec2(0, kDigitHeight * size), size,
+                                            placement.focus ? style.focusText : style.text, asciiOf(placement.label)});
+    }
+    return labels;
+}
+
+/// Draws the directions of the axes x, y and z, from far to near.
+ShapeGroup drawAxes(const scene::Scene& scene, const Paper& paper) {
+    constexpr double kNameAt = 1.28, kWidth = 0.09, kTip = 0.065;  // in lengths of an axis
+    const scene::Style& style = scene.style();
+    const double length = scene.axes.length * paper.height(), size = style.textHeight * paper.height();
+    const glm::dvec2 center = glm::dvec2(scene.axes.x, scene.axes.y) * paper.height();
+    const glm::dmat3 turn(scene.camera.view());
+    const auto place = [&](const glm::dvec2& direction) {
+        return center + length * glm::dvec2(direction.x, -direction.y);
+    };
+    std::array<int, 3> order{0, 1, 2};
+    std::ranges::sort(order, {}, [&](int axis) { return std::pair(turn[axis].z, axis); });
+    ShapeGroup axes{"axes", {}};
+    for (const int axis : order) {
+        const glm::dvec2 direction(turn[axis]);
+        const scene::Color color = style.axes[static_cast<std::size_t>(axis)];
+        axes.shapes.emplace_back(
+            Line{.from = center, .to = place(direction), .width = kWidth * length, .color = color, .roundEnds = true});
+        axes.shapes.emplace_back(Disk{place(direction), kTip * length, color});
+        // The name of an axis that points at the viewer is beside the axis.
+        glm::dvec2 name = kNameAt * direction;
+        if (glm::length(name) < 0.3) name = {0.3, -0.3};
+        axes.shapes.emplace_back(
+            TextLine{place(name) + glm::dvec2(0, 0.4 * kDigitHeight * size), size, color, std::string(1, "xyz"[axis])});
+    }
+    return axes;
+}
+
+/// Draws the focus point in the focus slice: a line along each axis through it.
+ShapeGroup drawFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, const Paper& paper) {
+    const glm::dmat4 view = scene.camera.view();
+    const double reach = kFocusReach * scene.circumradius;
+    ShapeGroup point{"focus-point", {}};
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 step(0);
+        step[axis] = reach;
+        std::array<glm::dvec3, 2> ends;
+        for (const int side : {0, 1}) {
+            const glm::dvec3 p = scene.look.focusPoint + (side == 0 ? -step : step);
+            ends.at(side) = glm::dvec3(view * glm::dvec4(placement.position + scene.scale * p, 1));
+        }
+        if (ends[0].z > -kNearest || ends[1].z > -kNearest) continue;
+        point.shapes.emplace_back(Line{.from = paper(ends[0]),
+                                       .to = paper(ends[1]),
+                                       .width = 1,
+                                       .color = scene.style().axes[static_cast<std::size_t>(axis)],
+                                       .roundEnds = true});
+    }
+    return point;
+}
+
+}  // namespace
+
+Drawing drawSlices(const scene::Scene& scene, const slicing::Object& object, const Budget& budget) {
+    if (slicing::fieldIn(object) != nullptr) {
+        throw ExportRefused{{ExportError::Cause::no_body,
+                             "the surfaces of a field are too fine for a drawing; save a picture (png) instead"}};
+    }
+    const Paper paper(scene);
+    const bool many = scene.placements.size() > 1;
+    Drawing drawing{(many ? "Slices: " : "Slice: ") + scene.title, kDrawingWidth, paper.height(), {}};
+    std::vector<std::pair<double, std::size_t>> order;  // by distance from the eye, the farthest first
+    for (std::size_t i = 0; i < scene.placements.size(); ++i) {
+        const scene::SlicePlacement& placement = scene.placements[i];
+        if (placement.drawn) order.emplace_back(-glm::distance(placement.position, scene.camera.eye), i);
+    }
+    std::ranges::sort(order);
+    SliceDrawer drawer(scene, paper);
+    std::size_t shapes = 0;
+    for (const auto& [distance, i] : order) {
+        budget.checkTime();
+        drawing.groups.push_back(drawer.draw(i));
+        shapes += drawing.groups.back().shapes.size();
+        budget.checkBytes(kTypicalShapeBytes * shapes);
+    }
+    for (const scene::SlicePlacement& placement : scene.placements) {
+        if (placement.focus && placement.drawn && scene.look.focusPoint != glm::dvec3(0))
+            drawing.groups.push_back(drawFocusPoint(scene, placement, paper));
+    }
+    drawing.groups.push_back(drawLabels(scene, paper));
+    drawing.groups.push_back(drawAxes(scene, paper));
+    return drawing;
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "export/budget.hpp"
+#include "export/drawing/drawing.hpp"
+#include "scene/scene.hpp"
+#include "slicing/object.hpp"
+
+namespace oval4d::exports {
+
+/// Draws the slices of the scene as its picture shows them: from the same camera, with faces, bars, balls and labels as
+/// far as they are shown, and the directions of the axes in the upper left corner. Bars are lines, whose width is that
+/// in their middle. The drawing has the shape of the scene's viewport.
+///
+/// Slices are drawn from far to near. The faces of a convex slice are drawn in two layers, those turned away and those
+/// turned toward the viewer, which is exact. Faces that cross each other are drawn in pieces from far to near, which is
+/// not exact where pieces cross.
+///
+/// Throws ExportRefused if `object` is a field, whose surfaces are too fine for a drawing; if the drawing would be too
+/// large; or if the time is up.
+Drawing drawSlices(const scene::Scene& scene, const slicing::Object& object, const Budget& budget);
+
+}  // namespace oval4d::exports

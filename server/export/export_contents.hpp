@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "text/choice.hpp"
+
+namespace oval4d::exports {
+
+/// What a file contains. protocol/export_formats.json says which of these the files of a format can contain.
+enum class ExportContents : std::uint8_t {
+    focus,        ///< only the focus slice
+    oval,         ///< all slices
+    highlight,    ///< the highlighted element alone
+    critical,     ///< the critical w of a polytope: those at which there are vertices
+    object,       ///< the whole rotated object, in four dimensions
+    coordinates,  ///< the parallel coordinates or, for a field, the histogram
+    projection,   ///< the projection of the whole object
+    matrix        ///< the matrix of planar sections
+};
+
+inline constexpr auto kExportContents =
+    std::to_array<text::Choice<ExportContents>>({{"focus", ExportContents::focus},
+                                                 {"oval", ExportContents::oval},
+                                                 {"highlight", ExportContents::highlight},
+                                                 {"critical", ExportContents::critical},
+                                                 {"object", ExportContents::object},
+                                                 {"coordinates", ExportContents::coordinates},
+                                                 {"projection", ExportContents::projection},
+                                                 {"matrix", ExportContents::matrix}});
+
+}  // namespace oval4d::exports

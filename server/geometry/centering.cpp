@@ -1,0 +1,39 @@
+#include "geometry/centering.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace oval4d::geometry {
+
+namespace {
+
+constexpr double kFar = 3;         // extents from the origin
+constexpr int kBitsOfCenter = 36;  // to which it is rounded, relative to the extent
+
+// Returns the mean of points, computed from their differences, which are exact even if the points are far away.
+glm::dvec4 meanOf(std::span<const glm::dvec4> points) {
+    glm::dvec4 sum(0);
+    for (const glm::dvec4& p : points) sum += p - points.front();
+    return points.front() + sum / static_cast<double>(points.size());
+}
+
+}  // namespace
+
+glm::dvec4 centerFor(const Centering& centering, std::span<const glm::dvec4> points) {
+    if (centering.kind == Centering::Kind::origin || points.empty()) return glm::dvec4(0);
+    if (centering.kind == Centering::Kind::point) return centering.place;
+    glm::dvec4 center = meanOf(points);
+    double extent = 0;
+    for (const glm::dvec4& p : points) extent = std::max(extent, glm::distance(p, center));
+    const bool isFar = extent > 0 && glm::length(center) > kFar * extent;
+    if (centering.kind == Centering::Kind::automatic && !isFar) return glm::dvec4(0);
+    if (!(extent > 0)) return center;
+    // Rounding removes the errors of the mean: a center such as (10, 10, 0, 0) is exact.
+    const double unit = std::ldexp(1.0, std::ilogb(extent) - kBitsOfCenter);
+    return glm::round(center / unit) * unit + 0.0;  // no −0
+}
+
+}  // namespace oval4d::geometry

@@ -1,0 +1,455 @@
+#include "polytopes/import/flatten.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <span>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "geometry/index.hpp"
+
+namespace oval4d::polytopes {
+
+namespace {
+
+using geometry::kNone;
+
+// Relative to the size: the largest distance of a vertex from the hyperplane of its cell, and the distance at which the
+// search for better places ends.
+constexpr double kMaxDeviation = 1e-12, kGoalDeviation = 1e-13;
+// Two hyperplanes with a larger cosine of the angle between them do not determine the plane in which they meet.
+constexpr double kNearlyParallel = 0.995;
+constexpr double kLeastExtent = 1e-9;  // relative to the radius of a flat; it has no extent along an axis below this
+
+constexpr int kMaxNewtonRounds = 16;                // of Newton's method
+constexpr std::size_t kMaxGradientSteps = 300;      // of the conjugate gradients in a round
+constexpr std::size_t kMaxEquations = 100'000'000;  // the sum over all steps of the number of equations
+// The equations of a round are solved until the gradient of the error is smaller than at first by this factor, which
+// suffices for a few digits more. If a round makes less progress than that, some unknowns hardly matter for the
+// equations, and the next round solves them more exactly.
+constexpr double kFirstTolerance = 1e-2, kLeastTolerance = 1e-9, kTighter = 1e-3, kGoodProgress = 10;
+
+// Points that are to lie in one hyperplane: the vertices of a cell. If the hyperplanes of the two cells of a 2-face are
+// nearly parallel, its vertices are also to lie in a hyperplane across these. The hyperplane that fits the points best
+// contains their mean.
+struct FittedFlat {
+    std::uint32_t cell, face;  // `face` is kNone for the flat of a whole cell
+    glm::dvec4 across{0};      // for a 2-face: the normal of its cell's hyperplane, along which its own one extends
+    glm::dvec4 middle{0}, normal{0};
+    double radius = 0;     // the largest distance of a point from the middle
+    double deviation = 0;  // the largest distance of a point from the hyperplane
+};
+
+// What a round changes: the places of all vertices and, for each flat, its normal (times its radius) and its middle
+// (along the normal).
+struct Unknowns {
+    std::vector<glm::dvec4> moves, tilts;
+    std::vector<double> shifts;
+
+    Unknowns(std::size_t vertices, std::size_t flats)
+        : moves(vertices, glm::dvec4(0)), tilts(flats, glm::dvec4(0)), shifts(flats, 0) {}
+    double squaredLength() const {
+        double sum = 0;
+        for (const glm::dvec4& move : moves) sum += glm::dot(move, move);
+        for (const glm::dvec4& tilt : tilts) sum += glm::dot(tilt, tilt);
+        for (const double shift : shifts) sum += shift * shift;
+        return sum;
+    }
+    /// Sets this to `factor` · this + `times` · `other`.
+    void combine(double factor, double times, const Unknowns& other) {
+        for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = factor * moves[i] + times * other.moves[i];
+        for (std::size_t i = 0; i < tilts.size(); ++i) {
+            tilts[i] = factor * tilts[i] + times * other.tilts[i];
+            shifts[i] = factor * shifts[i] + times * other.shifts[i];
+        }
+    }
+};
+
+glm::dvec4 withoutComponents(glm::dvec4 v, std::span<const glm::dvec4> units) {
+    for (int twice = 0; twice < 2; ++twice) {  // once more for the rounding errors of the first time
+        for (const glm::dvec4& unit : units) v -= glm::dot(v, unit) * unit;
+    }
+    return v;
+}
+
+// Returns a unit vector perpendicular to at most three orthonormal ones.
+glm::dvec4 unitPerpendicularTo(std::span<const glm::dvec4> units) {
+    glm::dvec4 best(0);
+    double most = 0;
+    for (int axis = 0; axis < 4; ++axis) {
+        glm::dvec4 unit(0);
+        unit[axis] = 1;
+        const glm::dvec4 rest = withoutComponents(unit, units);
+        if (const double length = glm::length(rest); length > most) {
+            most = length;
+            best = rest / length;
+        }
+    }
+    return best;
+}
+
+// Finds nearby places of the vertices in which all flats are flat, by Newton's method. For each vertex v of a flat with
+// the unit normal n and the middle m, n · (v − m) = 0 is an equation for v, n and m. The conjugate gradient method
+// finds the least change that solves the linearized equations, without storing their matrix (CGLS: Björck, Numerical
+// Methods for Least Squares Problems, 7.4). The equations need not be independent.
+class Flattener {
+  public:
+    explicit Flattener(PolygonSoup& soup, double size) : soup_(soup), size_(size) {
+        collectCells();
+        fitAll();
+        collectFaces();
+        fitAll();
+    }
+
+    double deviation() const { return farthest_ == kNone ? 0 : flats_[farthest_].deviation; }
+    /// The cell of the flat with the largest deviation.
+    std::uint32_t farthestCell() const { return farthest_ == kNone ? 0 : flats_[farthest_].cell; }
+    bool isFlat() const { return deviation() <= kMaxDeviation * size_; }
+
+    /// Marks the 2-faces and the cells whose flats are not flat.
+    void markUneven(std::vector<bool>& faces, std::vector<bool>& cells) const {
+        for (const FittedFlat& flat : flats_) {
+            if (flat.deviation <= kMaxDeviation * size_) continue;
+            if (flat.face == kNone) {
+                cells[flat.cell] = true;
+            } else {
+                faces[flat.face] = true;
+            }
+        }
+    }
+
+    /// Moves the vertices. Returns false if it does not succeed, or not without moving one by more than `maxDistance`.
+    bool run(double maxDistance) {
+        const std::vector<glm::dvec4> before = soup_.vertices;
+        double tolerance = kFirstTolerance, best = std::numeric_limits<double>::infinity();
+        std::size_t work = 0;
+        for (int round = 0; round < kMaxNewtonRounds && work < kMaxEquations; ++round) {
+            if (deviation() <= kGoalDeviation * size_) return true;
+            if (deviation() * kGoodProgress > best) tolerance = std::max(tolerance * kTighter, kLeastTolerance);
+            best = std::min(best, deviation());
+            const Unknowns change = solve(tolerance, work);
+            for (std::size_t v = 0; v < before.size(); ++v) {
+                soup_.vertices[v] += change.moves[v];
+                if (!(glm::distance(soup_.vertices[v], before[v]) <= maxDistance)) return false;
+            }
+            fitAll();
+        }
+        return isFlat();
+    }
+
+  private:
+    void add(const FittedFlat& flat, std::vector<std::uint32_t>& corners) {
+        flats_.push_back(flat);
+        corners_.add(corners);
+    }
+
+    void collectCells() {
+        flatOfCell_.assign(soup_.cells.size(), kNone);
+        std::vector<std::uint32_t> corners;
+        for (std::uint32_t c = 0; c < soup_.cells.size(); ++c) {
+            corners.clear();
+            for (const std::uint32_t f : soup_.cells[c])
+                corners.insert(corners.end(), soup_.faces[f].begin(), soup_.faces[f].end());
+            std::sort(corners.begin(), corners.end());
+            corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+            if (corners.size() <= 4) continue;
+            flatOfCell_[c] = static_cast<std::uint32_t>(flats_.size());
+            add({c, kNone}, corners);
+        }
+    }
+
+    // Adds the flats of the 2-faces between cells whose hyperplanes are nearly parallel.
+    void collectFaces() {
+        std::vector<std::array<std::uint32_t, 2>> cellsOf(soup_.faces.size(), {kNone, kNone});
+        for (std::uint32_t c = 0; c < soup_.cells.size(); ++c) {
+            for (const std::uint32_t f : soup_.cells[c]) cellsOf[f].at(cellsOf[f][0] == kNone ? 0 : 1) = c;
+        }
+        std::vector<std::uint32_t> corners;
+        for (std::uint32_t f = 0; f < soup_.faces.size(); ++f) {
+            const auto [one, other] = cellsOf[f];
+            if (soup_.faces[f].size() <= 3 || one == kNone || other == kNone) continue;
+            if (flatOfCell_[one] == kNone || flatOfCell_[other] == kNone) continue;
+            const glm::dvec4 normal = flats_[flatOfCell_[one]].normal;
+            if (std::abs(glm::dot(normal, flats_[flatOfCell_[other]].normal)) <= kNearlyParallel) continue;
+            corners.assign(soup_.faces[f].begin(), soup_.faces[f].end());
+            add({one, f, normal}, corners);
+        }
+    }
+
+    void fitAll() {
+        offsets_.resize(corners_.items.size());
+        distances_.resize(corners_.items.size());
+        farthest_ = kNone;
+        for (std::uint32_t i = 0; i < flats_.size(); ++i) {
+            fit(i);
+            // A deviation that is not a number counts as the largest.
+            if (farthest_ == kNone || !(flats_[i].deviation <= deviation())) farthest_ = i;
+        }
+    }
+
+    // Fits the hyperplane of a flat to its points: first to points that are far apart, then to all by least squares.
+    // The correction is small, so that its rounding errors are, too.
+    void fit(std::uint32_t i) {
+        FittedFlat& flat = flats_[i];
+        const auto corners = corners_[i];
+        const auto offsets = std::span(offsets_).subspan(corners_.begin[i], corners.size());
+        const auto distances = std::span(distances_).subspan(corners_.begin[i], corners.size());
+        flat.middle = glm::dvec4(0);
+        for (const std::uint32_t v : corners) flat.middle += soup_.vertices[v];
+        flat.middle /= static_cast<double>(corners.size());
+        flat.radius = 0;
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            offsets[k] = soup_.vertices[corners[k]] - flat.middle;
+            flat.radius = std::max(flat.radius, glm::length(offsets[k]));
+        }
+
+        const std::size_t own = flat.face == kNone ? 3 : 2;
+        std::array<glm::dvec4, 3> axes{};
+        glm::dvec3 extents(0);
+        rest_.assign(offsets.begin(), offsets.end());
+        for (std::size_t a = 0; a < 3; ++a) {
+            const auto before = std::span(axes).first(a);
+            const glm::dvec4 far =
+                a < own ? *std::max_element(
+                              rest_.begin(), rest_.end(),
+                              [](const glm::dvec4& p, const glm::dvec4& q) { return glm::dot(p, p) < glm::dot(q, q); })
+                        : flat.across;
+            const glm::dvec4 axis = withoutComponents(far, before);
+            const double length = glm::length(axis);
+            const bool spans = length > kLeastExtent * (a < own ? flat.radius : 1);
+            axes.at(a) = spans ? axis / length : unitPerpendicularTo(before);
+            if (spans && a < own) extents[static_cast<int>(a)] = length;
+            for (glm::dvec4& rest : rest_) rest -= glm::dot(rest, axes.at(a)) * axes.at(a);
+        }
+        flat.normal = unitPerpendicularTo(axes);
+
+        glm::dmat3 gram(0);
+        glm::dvec3 right(0);
+        for (const glm::dvec4& offset : offsets) {
+            glm::dvec3 along(0);  // in units of the extents
+            for (int a = 0; a < 3; ++a) {
+                if (extents[a] > 0) along[a] = glm::dot(offset, axes.at(static_cast<std::size_t>(a))) / extents[a];
+            }
+            gram += glm::outerProduct(along, along);
+            right += glm::dot(offset, flat.normal) * along;
+        }
+        for (int a = 0; a < 3; ++a) gram[a][a] += extents[a] > 0 ? 0 : 1;
+        const glm::dvec3 slope = glm::inverse(gram) * right;
+        for (int a = 0; a < 3; ++a) {
+            if (extents[a] > 0) flat.normal -= slope[a] / extents[a] * axes.at(static_cast<std::size_t>(a));
+        }
+        flat.normal = glm::normalize(flat.normal);
+
+        flat.deviation = 0;
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            distances[k] = glm::dot(offsets[k], flat.normal);
+            if (!(std::abs(distances[k]) <= flat.deviation)) flat.deviation = std::abs(distances[k]);
+            if (flat.radius > 0) offsets[k] /= flat.radius;
+        }
+    }
+
+    // Sets `out` to the change of each distance that results from a change of the unknowns.
+    void apply(const Unknowns& change, std::vector<double>& out) const {
+        for (std::size_t i = 0; i < flats_.size(); ++i) {
+            for (std::uint32_t k = corners_.begin[i]; k < corners_.begin[i + 1]; ++k) {
+                out[k] = glm::dot(flats_[i].normal, change.moves[corners_.items[k]]) +
+                         glm::dot(offsets_[k], change.tilts[i]) + change.shifts[i];
+            }
+        }
+    }
+
+    // Sets `out` to the product of the transposed matrix of apply() and the list.
+    void applyTransposed(const std::vector<double>& list, Unknowns& out) const {
+        std::fill(out.moves.begin(), out.moves.end(), glm::dvec4(0));
+        for (std::size_t i = 0; i < flats_.size(); ++i) {
+            glm::dvec4 tilt(0);
+            double shift = 0;
+            for (std::uint32_t k = corners_.begin[i]; k < corners_.begin[i + 1]; ++k) {
+                out.moves[corners_.items[k]] += list[k] * flats_[i].normal;
+                tilt += list[k] * offsets_[k];
+                shift += list[k];
+            }
+            out.tilts[i] = tilt;
+            out.shifts[i] = shift;
+        }
+    }
+
+    // Returns the least change of the unknowns that makes all distances 0, to the first order. Adds to `work`.
+    Unknowns solve(double tolerance, std::size_t& work) const {
+        Unknowns change(soup_.vertices.size(), flats_.size()), gradient = change;
+        std::vector<double> error(distances_.size()), image(distances_.size());
+        std::transform(distances_.begin(), distances_.end(), error.begin(), std::negate<>());
+        applyTransposed(error, gradient);
+        Unknowns direction = gradient;
+        double square = gradient.squaredLength();
+        const double goal = tolerance * tolerance * square;
+        for (std::size_t step = 0; step < kMaxGradientSteps && square > goal && work < kMaxEquations; ++step) {
+            work += error.size();
+            apply(direction, image);
+            double steepness = 0;
+            for (const double value : image) steepness += value * value;
+            if (!(steepness > 0)) break;
+            const double length = square / steepness;
+            change.combine(1, length, direction);
+            for (std::size_t k = 0; k < error.size(); ++k) error[k] -= length * image[k];
+            applyTransposed(error, gradient);
+            const double next = gradient.squaredLength();
+            direction.combine(next / square, 1, gradient);
+            square = next;
+        }
+        return change;
+    }
+
+    PolygonSoup& soup_;
+    double size_;
+    std::vector<FittedFlat> flats_;
+    std::vector<std::uint32_t> flatOfCell_;  // kNone for a cell of at most four vertices
+    geometry::JaggedArray corners_;          // the vertices of each flat
+    std::vector<glm::dvec4> offsets_;        // per corner: from the middle of the flat, in units of its radius
+    std::vector<double> distances_;          // per corner: from the hyperplane
+    std::vector<glm::dvec4> rest_;
+    std::uint32_t farthest_ = kNone;  // the flat with the largest deviation
+};
+
+using VertexPair = std::pair<std::uint32_t, std::uint32_t>;
+
+VertexPair pairOf(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
+
+// Appends 2-faces and cells to lists, with their positions in the file if these are known.
+class SimplexDivider {
+  public:
+    explicit SimplexDivider(PolygonSoup& soup) : soup_(soup), hasPositions_(!soup.cellSourcePositions.empty()) {}
+
+    void divideFaces(const std::vector<bool>& divided) {
+        becomes_.resize(soup_.faces.size());
+        for (std::uint32_t f = 0; f < soup_.faces.size(); ++f) {
+            const auto loop = soup_.faces[f];
+            if (!divided[f] || loop.size() == 3) {
+                becomes_[f].push_back(addFace(loop, f));
+                continue;
+            }
+            const std::size_t n = loop.size();
+            const auto first = static_cast<std::size_t>(std::min_element(loop.begin(), loop.end()) - loop.begin());
+            for (std::size_t i = 1; i + 1 < n; ++i) {
+                const std::array<std::uint32_t, 3> triangle{loop[first], loop[(first + i) % n],
+                                                            loop[(first + i + 1) % n]};
+                becomes_[f].push_back(addFace(triangle, f));
+            }
+        }
+    }
+
+    void divideCells(const std::vector<bool>& divided) {
+        std::vector<std::uint32_t> pieces;
+        for (std::uint32_t c = 0; c < soup_.cells.size(); ++c) {
+            pieces.clear();
+            for (const std::uint32_t f : soup_.cells[c])
+                pieces.insert(pieces.end(), becomes_[f].begin(), becomes_[f].end());
+            if (divided[c]) {
+                divideCell(c, pieces);
+            } else {
+                addCell(pieces, c);
+            }
+        }
+        soup_.faces = std::move(faces_);
+        soup_.cells = std::move(cells_);
+        soup_.faceSourcePositions = std::move(facePositions_);
+        soup_.cellSourcePositions = std::move(cellPositions_);
+    }
+
+  private:
+    std::uint32_t addFace(std::span<const std::uint32_t> loop, std::uint32_t from) {
+        faces_.add(loop);
+        if (hasPositions_) facePositions_.push_back(soup_.faceSourcePositions[from]);
+        return static_cast<std::uint32_t>(faces_.size() - 1);
+    }
+
+    void addCell(std::span<const std::uint32_t> faces, std::uint32_t from) {
+        cells_.add(faces);
+        if (hasPositions_) cellPositions_.push_back(soup_.cellSourcePositions[from]);
+    }
+
+    // Makes a tetrahedron of each of the triangles that does not contain the first vertex.
+    void divideCell(std::uint32_t cell, std::span<const std::uint32_t> triangles) {
+        std::uint32_t apex = kNone;
+        for (const std::uint32_t t : triangles) {
+            for (const std::uint32_t v : faces_[t]) apex = std::min(apex, v);
+        }
+        // The triangles between the apex and an edge: first those of the cell's surface, then those inside.
+        std::map<VertexPair, std::uint32_t> upright;
+        std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> bases;
+        for (const std::uint32_t t : triangles) {
+            const auto loop = faces_[t];
+            const auto at = static_cast<std::size_t>(std::find(loop.begin(), loop.end(), apex) - loop.begin());
+            if (at < 3) {
+                upright.emplace(pairOf(loop[(at + 1) % 3], loop[(at + 2) % 3]), t);
+            } else {
+                bases.push_back({{loop[0], loop[1], loop[2]}, t});
+            }
+        }
+        for (const auto& [corners, base] : bases) {
+            std::array<std::uint32_t, 4> tetrahedron{base, 0, 0, 0};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const VertexPair edge = pairOf(corners.at(i), corners.at((i + 1) % 3));
+                const auto [known, isNew] = upright.try_emplace(edge, kNone);
+                if (isNew) {
+                    const std::array<std::uint32_t, 3> triangle{apex, edge.first, edge.second};
+                    known->second = addFace(triangle, soup_.cells[cell][0]);
+                }
+                tetrahedron.at(i + 1) = known->second;
+            }
+            addCell(tetrahedron, cell);
+        }
+    }
+
+    PolygonSoup& soup_;
+    bool hasPositions_;
+    std::vector<std::vector<std::uint32_t>> becomes_;  // per 2-face: what it becomes
+    geometry::JaggedArray faces_, cells_;
+    std::vector<PolygonSoup::SourcePosition> facePositions_, cellPositions_;
+};
+
+}  // namespace
+
+void splitIntoSimplices(PolygonSoup& soup, std::vector<bool> faces, const std::vector<bool>& cells) {
+    for (std::size_t c = 0; c < soup.cells.size(); ++c) {
+        if (!cells[c]) continue;
+        for (const std::uint32_t f : soup.cells[c]) faces[f] = true;
+    }
+    SimplexDivider divider(soup);
+    divider.divideFaces(faces);
+    divider.divideCells(cells);
+}
+
+Flattening flatten(PolygonSoup& soup, double size, double maxDistance, double rounding) {
+    Flattening result;
+    Flattener flattener(soup, size);
+    result.deviation = flattener.deviation();
+    const std::uint32_t cell = flattener.farthestCell();
+    result.farthest = cell < soup.cellSourcePositions.size() ? soup.cellSourcePositions[cell].number : cell;
+    if (flattener.isFlat()) return result;
+    std::vector<bool> faces(soup.faces.size(), false), cells(soup.cells.size(), false);
+    flattener.markUneven(faces, cells);
+    const std::vector<glm::dvec4> before = soup.vertices;
+    if (flattener.run(maxDistance)) {
+        for (std::size_t v = 0; v < before.size(); ++v) {
+            const double distance = glm::distance(soup.vertices[v], before[v]);
+            result.moved += distance > rounding ? 1 : 0;
+            result.distance = std::max(result.distance, distance);
+        }
+        return result;
+    }
+    soup.vertices = before;
+    result.split = static_cast<std::size_t>(std::count(cells.begin(), cells.end(), true));
+    splitIntoSimplices(soup, std::move(faces), cells);
+    return result;
+}
+
+}  // namespace oval4d::polytopes

@@ -1,0 +1,110 @@
+#include "session/query_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <nlohmann/json.hpp>
+
+#include "protocol_data/embedded_files.hpp"
+#include "text/ascii.hpp"
+#include "text/percent_encoding.hpp"
+
+namespace oval4d::session {
+
+namespace {
+
+/// Returns a query as it was before a mailer or a forum wrote its "&" as "&amp;", or encoded its percent signs again
+/// (%252C).
+std::string repaired(std::string_view query) {
+    std::string out;
+    out.reserve(query.size());
+    const auto isHexDigit = [&](std::size_t at) {
+        return at < query.size() && std::isxdigit(static_cast<unsigned char>(query[at])) != 0;
+    };
+    for (std::size_t i = 0; i < query.size(); ++i) {
+        out += query[i];
+        if (query.substr(i).starts_with("&amp;")) i += 4;
+        if (query.substr(i).starts_with("%25") && isHexDigit(i + 3) && isHexDigit(i + 4)) i += 2;
+    }
+    return out;
+}
+
+/// The rules of protocol/address.json.
+struct AddressRules {
+    std::vector<std::string> ignored, texts;
+};
+
+const AddressRules& rules() {
+    static const AddressRules read = [] {
+        const auto table = nlohmann::json::parse(protocol_data::embeddedFile("address.json"));
+        return AddressRules{table.at("ignored"), table.at("texts")};
+    }();
+    return read;
+}
+
+/// Returns whether a parameter was appended to the address by another site.
+bool isIgnored(std::string_view name) {
+    return std::ranges::any_of(rules().ignored, [&](std::string_view rule) {
+        return rule.ends_with('*') ? name.starts_with(rule.substr(0, rule.size() - 1)) : name == rule;
+    });
+}
+
+/// Returns whether an operand may end, or begin, with this character.
+bool isOperand(char c, char parenthesis) {
+    const bool isAscii = static_cast<unsigned char>(c) < 0x80;
+    return text::isLetter(c) || text::isDigit(c) || c == '.' || c == parenthesis || !isAscii;
+}
+
+/// Decodes the value of a parameter. As in a form (application/x-www-form-urlencoded), "+" is a blank; but in
+/// arithmetic that a person has typed, such as 0.1+pi/8, it is a plus sign: between two operands, where a blank has no
+/// meaning. Returns nothing if an escape is malformed.
+std::optional<std::string> decodedValue(std::string_view written, const std::string& name) {
+    const bool isArithmetic = std::ranges::find(rules().texts, name) == rules().texts.end();
+    std::string value;
+    for (bool isFirst = true;; isFirst = false) {
+        const std::size_t plus = written.find('+');
+        const auto piece = text::percentDecoded(written.substr(0, plus));
+        if (!piece) return {};
+        if (!isFirst) {
+            const bool adds = isArithmetic && !value.empty() && isOperand(value.back(), ')') && !piece->empty() &&
+                              isOperand(piece->front(), '(');
+            value += adds ? '+' : ' ';
+        }
+        value += *piece;
+        if (plus == std::string_view::npos) return value;
+        written.remove_prefix(plus + 1);
+    }
+}
+
+}  // namespace
+
+std::optional<QueryParameters> parseQuery(std::string_view text) {
+    QueryParameters query;
+    const std::string all = repaired(text);
+    for (std::string_view rest = all; !rest.empty();) {
+        const std::size_t end = std::min(rest.find('&'), rest.size());
+        const std::string_view pair = rest.substr(0, end);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        if (pair.empty()) continue;
+        const std::size_t equals = std::min(pair.find('='), pair.size());
+        const auto name = text::percentDecoded(pair.substr(0, equals));
+        if (!name) return {};
+        auto value = decodedValue(pair.substr(std::min(equals + 1, pair.size())), *name);
+        if (!value) return {};
+        if (!isIgnored(*name)) query.emplace_back(*name, std::move(*value));
+    }
+    return query;
+}
+
+std::string queryText(const QueryParameters& query) {
+    // These characters may stand in a query as they are (RFC 3986, section 3.4), and keep it readable.
+    constexpr std::string_view kPlain = ",:;/=*()";
+    std::string text;
+    for (const auto& [name, value] : query) {
+        if (!text.empty()) text += '&';
+        text += text::percentEncoded(name) + '=' + text::percentEncoded(value, kPlain);
+    }
+    return text;
+}
+
+}  // namespace oval4d::session

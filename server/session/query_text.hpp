@@ -1,0 +1,24 @@
+#pragma once
+// The text of the query of an address, such as "polytope=24-cell&rotate=xw:0.3".
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace oval4d::session {
+
+/// The parameters of a query: pairs of names and values, in the order given. A name may occur more than once.
+using QueryParameters = std::vector<std::pair<std::string, std::string>>;
+
+/// Parses a query, without the question mark. Decodes percent escapes and, in the values, "+" as a blank unless it
+/// stands between two operands of arithmetic. Reads "&amp;" as "&", and escapes that were escaped again, as mailers and
+/// forums do. Leaves out the parameters that protocol/address.json ignores. Returns nothing if an escape is malformed.
+std::optional<QueryParameters> parseQuery(std::string_view text);
+
+/// Returns the text of a query, without the question mark: the inverse of parseQuery() for names and values without
+/// "%", as those of queryFromState() are.
+std::string queryText(const QueryParameters& query);
+
+}  // namespace oval4d::session

@@ -1,0 +1,100 @@
+#include "slicing/element_shape.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "geometry/point_cloud.hpp"
+#include "polytopes/polytope.hpp"
+#include "slicing/visitor.hpp"
+
+namespace oval4d::slicing {
+
+namespace {
+
+using polytopes::Polytope;
+
+// Returns the place of a number in a sorted list that contains it.
+std::uint32_t placeIn(const std::vector<std::uint32_t>& sorted, std::uint32_t number) {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(sorted, number) - sorted.begin());
+}
+
+// Writes the vertices with these numbers, and returns w of the first one.
+double addVertices(const std::vector<glm::dvec4>& vertices, const std::vector<std::uint32_t>& numbers,
+                   std::uint32_t firstSource, const geometry::Rotation& turn, SliceSet& out) {
+    for (const std::uint32_t v : numbers) {
+        out.vertices.emplace_back(turn(vertices[v]));
+        out.vertexSource.push_back(firstSource + v);
+    }
+    return turn(vertices[numbers.front()]).w;
+}
+
+// Writes the 2-faces of a cell. `vertices` and `edges` are the numbers of the cell's vertices and edges.
+void addCellFaces(const Polytope& p, std::size_t cell, const std::vector<std::uint32_t>& vertices,
+                  const std::vector<std::uint32_t>& edges, SliceSet& out) {
+    const auto pointOf = [&](std::uint32_t v) { return out.vertices[placeIn(vertices, v)] - out.vertices.front(); };
+    // The signs of the 2-faces agree with each other. They are right or all wrong, depending on which side of the cell
+    // faces toward +w.
+    double volume = 0;
+    for (std::uint32_t at = p.cells.begin[cell]; at < p.cells.begin[cell + 1]; ++at) {
+        const auto loop = p.faces[p.cells.items[at]];
+        for (std::size_t i = 1; i + 1 < loop.size(); ++i)
+            volume += p.cellSigns[at] * glm::dot(pointOf(loop[0]), glm::cross(pointOf(loop[i]), pointOf(loop[i + 1])));
+    }
+    for (std::uint32_t at = p.cells.begin[cell]; at < p.cells.begin[cell + 1]; ++at) {
+        const std::uint32_t face = p.cells.items[at];
+        const auto loop = p.faces[face];
+        const std::size_t n = loop.size();
+        const bool forward = (p.cellSigns[at] > 0) == (volume >= 0);
+        for (std::size_t i = 0; i < n; ++i) {
+            out.corners.push_back(placeIn(vertices, loop[forward ? i : (n - i) % n]));
+            out.cornerEdges.push_back(placeIn(edges, p.faceEdges[face][forward ? i : n - 1 - i]));
+        }
+        out.faceSource.push_back(static_cast<std::uint32_t>(p.cells.size()) + face);
+        out.cornerBegin.push_back(static_cast<std::uint32_t>(out.corners.size()));
+    }
+}
+
+// Writes the elements of a shape, without their begins, and returns w.
+double addShape(const Polytope& p, const Element& element, const ElementSources& sources,
+                const geometry::Rotation& turn, SliceSet& out) {
+    const std::vector<std::uint32_t>& vertices = sources.ownVertices;
+    const double w = addVertices(p.vertices, vertices, static_cast<std::uint32_t>(p.edges.size()), turn, out);
+    // The sources also name the 2-faces, whose sections are edges.
+    const auto faces = static_cast<std::uint32_t>(p.faces.size());
+    std::vector<std::uint32_t> edges;
+    for (const std::uint32_t source : sources.edges) {
+        if (source < faces) continue;
+        edges.push_back(source - faces);
+        const auto [a, b] = p.edges[edges.back()];
+        out.edges.push_back({placeIn(vertices, a), placeIn(vertices, b)});
+        out.edgeSource.push_back(source);
+    }
+    if (element.kind == ElementKind::cell) addCellFaces(p, element.index, vertices, edges, out);
+    return w;
+}
+
+}  // namespace
+
+void shapeOf(const Object& object, const Element& element, const geometry::Rotation& orientation, SliceSet& out) {
+    const geometry::Rotation turn = wayToW(object, element, orientation) * orientation;
+    ElementSources sources;
+    findSourcesShowing(object, element, sources);
+    out.rotatedVertices.clear();
+    out.surfaces.clear();
+    out.fogs.clear();
+    out.clearElements();
+    const double w = visitElements(
+        Visitor{[&](const PolytopePtr& p) { return addShape(*p, element, sources, turn, out); },
+                [&](const CloudPtr& cloud) { return addVertices(cloud->points, sources.ownVertices, 0, turn, out); }},
+        object);
+    out.planes = {0, 1, 1, w};
+    out.vertexBegin.push_back(static_cast<std::uint32_t>(out.vertices.size()));
+    out.edgeBegin.push_back(static_cast<std::uint32_t>(out.edges.size()));
+    out.faceBegin.push_back(static_cast<std::uint32_t>(out.faceSource.size()));
+}
+
+}  // namespace oval4d::slicing

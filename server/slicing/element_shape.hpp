@@ -1,0 +1,18 @@
+#pragma once
+// The shape of one element of an object, in three dimensions.
+
+#include "geometry/rotation.hpp"
+#include "slicing/element.hpp"
+#include "slicing/object.hpp"
+#include "slicing/slice_set.hpp"
+
+namespace oval4d::slicing {
+
+/// Writes an element to `out` as the only slice: the element's vertices and edges, and for a cell its 2-faces, whose
+/// loops are counterclockwise seen from outside. The element is rotated by `orientation`, and then by the shortest
+/// rotation to the +w axis (see wayToW()), into a hyperplane, so that it has its true shape and size. The source
+/// numbers are those of elements that lie in the hyperplane (see SliceSet). Overwrites `out`; `out.rotatedVertices` is
+/// empty. Requires element.index < elementCount(object, element.kind).
+void shapeOf(const Object& object, const Element& element, const geometry::Rotation& orientation, SliceSet& out);
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,69 @@
+// The color scheme of the page: that of the system, or the one that the user has chosen, which this browser remembers. It
+// is also the scheme of pictures whose background is "auto".
+
+import type { Background, Scheme } from "@oval4d/protocol";
+
+import colors from "../../protocol/colors.json";
+import { readStored, writeStored } from "./storage";
+
+export const kSchemeChoices = ["system", "dark", "light"] as const;
+export type SchemeChoice = (typeof kSchemeChoices)[number];
+
+/** The grounds of pictures, each with a color. */
+export type Ground = keyof typeof colors.grounds;
+
+const kSchemeKey = "oval4d.scheme"; // lasting storage key of the choice
+
+export class ColorScheme {
+    private readonly system = matchMedia("(prefers-color-scheme: light)");
+    private chosen: SchemeChoice;
+    current: Scheme;
+
+    /** `changed` is called when the scheme has changed. */
+    constructor(private readonly changed: () => void) {
+        const stored = readStored<SchemeChoice>(kSchemeKey, true);
+        this.chosen = stored !== undefined && kSchemeChoices.includes(stored) ? stored : "system";
+        this.current = this.wanted;
+        this.show();
+        this.system.addEventListener("change", () => this.update());
+    }
+
+    get choice(): SchemeChoice {
+        return this.chosen;
+    }
+
+    set choice(choice: SchemeChoice) {
+        this.chosen = choice;
+        writeStored(kSchemeKey, choice, true);
+        this.update();
+    }
+
+    private get wanted(): Scheme {
+        if (this.chosen !== "system") return this.chosen;
+        return this.system.matches ? "light" : "dark";
+    }
+
+    private update(): void {
+        if (this.current === this.wanted) return;
+        this.current = this.wanted;
+        this.show();
+        this.changed();
+    }
+
+    private show(): void {
+        document.documentElement.dataset["scheme"] = this.current;
+        document.querySelector('meta[name="theme-color"]')?.setAttribute("content", colors.grounds[this.current]);
+    }
+}
+
+/** The ground on which a viewer with this scheme sees a picture; a transparent one is shown on white. */
+export function groundOf(background: Background, scheme: Scheme): Ground {
+    if (background === "auto") return scheme;
+    return background === "transparent" ? "white" : background;
+}
+
+/** The scheme of the colors in the picture that the page shows. */
+export function schemeOfPicture(): Scheme {
+    const { ground = "dark" } = document.documentElement.dataset;
+    return ground === "dark" ? "dark" : "light";
+}

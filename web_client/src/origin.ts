@@ -1,0 +1,8 @@
+// The coordinates of pictures, whose origin is the center of the object, and those of the file that it was loaded from.
+
+import type { State } from "@oval4d/protocol";
+
+/** What to add to the coordinates in a picture to get those of the object's file. */
+export function originInFile({ polytope: { center } }: State): State["point"] {
+    return center ?? [0, 0, 0, 0];
+}

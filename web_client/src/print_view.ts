@@ -1,0 +1,75 @@
+// What the browser prints: the picture alone, on white, with its title and the values of the header.
+
+import type { Client } from "@oval4d/protocol";
+
+import { byId, element } from "./element";
+import type { Stage } from "./picture/stage";
+
+export class PrintView {
+    private readonly root = byId("print");
+    private frame: ImageBitmap | undefined; // a picture of the server to print
+    private isPrepared = false;
+    private focused: HTMLElement | undefined; // the last one; print hides it, which takes the focus away
+
+    /** `title` returns the title of the picture. */
+    constructor(
+        private readonly client: Client,
+        private readonly stage: Stage,
+        private readonly title: () => string,
+        private readonly failed: (error: Error) => void,
+    ) {
+        window.addEventListener("beforeprint", () => this.prepare());
+        window.addEventListener("afterprint", () => this.clear());
+        matchMedia("print").addEventListener("change", ({ matches }) => (matches ? this.prepare() : this.clear()));
+        document.addEventListener("keydown", (event) => this.keydown(event));
+        document.addEventListener("focusin", ({ target }) => (this.focused = target as HTMLElement));
+    }
+
+    /** When the server draws the pictures, gets one on white before the browser prints. */
+    private keydown(event: KeyboardEvent): void {
+        const isPrinting = event.key.toLowerCase() === "p" && event.ctrlKey !== event.metaKey;
+        if (!isPrinting || event.altKey || event.shiftKey || this.stage.mode !== "frames") return;
+        event.preventDefault();
+        void this.printFrame();
+    }
+
+    private async printFrame(): Promise<void> {
+        try {
+            const request = { what: "frame", background: "white", ...this.stage.printSize } as const;
+            const png = await this.client.request({ type: "get", ...request });
+            this.frame = await createImageBitmap(new Blob([png as Uint8Array<ArrayBuffer>], { type: "image/png" }));
+            window.print();
+        } catch (error) {
+            this.failed(error as Error);
+        }
+    }
+
+    private prepare(): void {
+        if (this.isPrepared) return;
+        this.isPrepared = true;
+        const canvas = element("canvas");
+        if (this.frame) {
+            const { width, height } = this.frame;
+            Object.assign(canvas, { width, height });
+            canvas.getContext("2d")!.drawImage(this.frame, 0, 0);
+        } else {
+            this.stage.print(canvas);
+        }
+        const values = [...document.querySelectorAll("#state-fields .state-field > button")];
+        const section = (byId("focus-section").textContent ?? "").trim();
+        this.root.replaceChildren(
+            element("h1", {}, this.title()),
+            element("p", {}, ...values.map((value) => element("span", {}, (value.textContent ?? "").trim()))),
+            ...(section === "" ? [] : [element("p", {}, section)]),
+            canvas,
+        );
+    }
+
+    private clear(): void {
+        this.isPrepared = false;
+        this.root.replaceChildren();
+        this.frame?.close();
+        this.frame = undefined;
+        if (document.activeElement === document.body) this.focused?.focus({ preventScroll: true });
+    }
+}
